@@ -1,0 +1,38 @@
+#include "bie/physics/bending.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// −κ_B (Δ_γ h + 2h(H² − K)) n, Eqs. (2) and (28a), from the Hessian of h.
+Matrix force_of_curvature(const BendingParameters& bending, const Surface& s, const SphereDerivatives& h) {
+  const Eigen::ArrayXd laplacian = surface_laplacian(s, h).col(0).array();
+  const Eigen::ArrayXd deviator = s.mean_curvature.array().square() - s.gauss_curvature.array();
+  const Vector magnitude = -bending.modulus * (laplacian + 2.0 * h.value.col(0).array() * deviator);
+  return magnitude.asDiagonal() * s.normal;
+}
+
+}  // namespace
+
+Matrix bending_force(const BendingParameters& bending, const Membrane& membrane) {
+  const Matrix curvature = membrane.curvature.analyze(membrane.surface.mean_curvature);
+  SphereDerivatives h = membrane.curvature.synthesize_hessian(curvature);
+  h.value = membrane.surface.mean_curvature;
+  return force_of_curvature(bending, membrane.surface, h);
+}
+
+double bending_energy_scaled(const Surface& surface) {
+  return surface.mean_curvature.array().square().matrix().dot(surface.quadrature);
+}
+
+Vector curvature_increment(const Membrane& membrane, const SphereDerivatives& displacement) {
+  const Matrix laplacian = surface_laplacian(membrane.surface, displacement);
+  const Vector h = 0.5 * laplacian.cwiseProduct(membrane.surface.normal).rowwise().sum();
+  return membrane.fine.analyze(h);
+}
+
+Matrix linearised_bending_force(const BendingParameters& bending, const Membrane& membrane, const Vector& increment) {
+  return force_of_curvature(bending, membrane.surface, membrane.fine.synthesize_hessian(increment));
+}
+
+}  // namespace vehd

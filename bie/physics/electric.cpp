@@ -1,0 +1,108 @@
+#include "bie/physics/electric.hpp"
+
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// J n×∇_γ f = f_1 x_2 − f_2 x_1, [n_points x 3].
+Matrix weighted_rotated_gradient(const Surface& s, const SphereDerivatives& f) {
+  return f.d1.col(0).asDiagonal() * s.tangent_2 - f.d2.col(0).asDiagonal() * s.tangent_1;
+}
+
+/// Divides each degree by the eigenvalue that the operator has on the sphere.
+template <typename Eigenvalue>
+Vector divide_by_degree(const Vector& x, const Eigenvalue& eigenvalue) {
+  const int order = order_of(x.size());
+  Vector result(x.size());
+  for (int n = 0; n <= order; ++n) {
+    const double divisor = eigenvalue(n);
+    for (Index i = coefficient_index(n, -n); i <= coefficient_index(n, n); ++i) result[i] = x[i] / divisor;
+  }
+  return result;
+}
+
+}  // namespace
+
+double conductivity_contrast(const ElectricParameters& electric) {
+  return (electric.conductivity_in - electric.conductivity_out) /
+         (electric.conductivity_in + electric.conductivity_out);
+}
+
+double series_conductivity(const ElectricParameters& electric) {
+  return electric.conductivity_in *
+         (electric.conductivity_out / (electric.conductivity_in + electric.conductivity_out));
+}
+
+Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density) {
+  Vector result = 0.5 * weighted_density + eta * membrane.layers.laplace_adjoint.apply(weighted_density);
+  result[0] = 0.5 * (1.0 - eta) * weighted_density[0];
+  return result;
+}
+
+Vector weighted_hypersingular(const Membrane& membrane, const Vector& potential) {
+  const Surface& s = membrane.surface;
+  const Matrix density =
+      membrane.fine.analyze(weighted_rotated_gradient(s, membrane.fine.synthesize_gradient(potential)));
+  const SphereDerivatives layer = membrane.fine.synthesize_gradient(membrane.layers.laplace_single.apply(density));
+  return (layer.d1.cwiseProduct(s.tangent_2) - layer.d2.cwiseProduct(s.tangent_1)).rowwise().sum();
+}
+
+Vector weighted_field_flux(const Membrane& membrane, const Vector3& field) {
+  return membrane.surface.area_element.cwiseProduct(membrane.surface.normal * field);
+}
+
+SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const Vector& weighted_rhs, double tolerance,
+                                     const Vector& start) {
+  const LinearMap map = [&](const Vector& g) { return second_kind_operator(membrane, eta, g); };
+  // At η = 1 the mean of the density is free and the right-hand side has none: any number but zero will do.
+  const double mean_eigenvalue = eta < 1.0 ? 0.5 * (1.0 - eta) : 1.0;
+  const LinearMap preconditioner = [&](const Vector& r) {
+    return divide_by_degree(r, [&](int n) { return n == 0 ? mean_eigenvalue : 0.5 - eta / (2.0 * (2.0 * n + 1.0)); });
+  };
+  const Vector rhs = membrane.fine.analyze(weighted_rhs);
+  SecondKindSolution solution;
+  solution.weighted = start.size() == rhs.size() ? start : Vector::Zero(rhs.size());
+  solution.report = gmres(map, preconditioner, rhs, solution.weighted, {tolerance, 60});
+  const Vector smoothed = membrane.fine.synthesize(membrane.layers.laplace_adjoint.apply(solution.weighted));
+  solution.values = (2.0 * (weighted_rhs - eta * smoothed)).cwiseQuotient(membrane.surface.area_element);
+  return solution;
+}
+
+ElectricTraces electric_traces(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
+                               const SecondKindSolution& density) {
+  const Surface& s = membrane.surface;
+  const double sum = electric.conductivity_in + electric.conductivity_out;
+  const double eta = conductivity_contrast(electric);
+  ElectricTraces traces;
+  traces.flux_in = -(electric.conductivity_out / sum) * density.values;
+  traces.flux_out = -(electric.conductivity_in / sum) * density.values;
+  traces.charge = eta * density.values;
+  const Vector applied = membrane.fine.analyze(-(s.position * electric.field));
+  const Vector mean = applied + membrane.layers.laplace_single.apply(eta * density.weighted) -
+                      membrane.layers.laplace_double.apply(potential);
+  traces.potential_in = mean + 0.5 * potential;
+  traces.potential_out = mean - 0.5 * potential;
+  return traces;
+}
+
+namespace {
+
+/// n·Σ_el = ε (E_n E − ½|E|² n) for E = −∇_γ φ − ∂φ/∂n n, Eqs. (3) and (15).
+Matrix maxwell_traction(double permittivity, const Membrane& membrane, const Vector& potential, const Vector& flux) {
+  const Surface& s = membrane.surface;
+  const Matrix tangential = -surface_gradient(s, membrane.fine.synthesize_gradient(potential));
+  const Eigen::ArrayXd normal = -flux.array();
+  const Vector pressure = 0.5 * (normal.square() - tangential.rowwise().squaredNorm().array());
+  return permittivity * (Vector(normal).asDiagonal() * tangential + pressure.asDiagonal() * s.normal);
+}
+
+}  // namespace
+
+Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces) {
+  return maxwell_traction(permittivity, membrane, traces.potential_in, traces.flux_in) -
+         maxwell_traction(permittivity, membrane, traces.potential_out, traces.flux_out);
+}
+
+}  // namespace vehd

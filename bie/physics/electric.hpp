@@ -1,0 +1,55 @@
+#pragma once
+
+#include "bie/linear/gmres.hpp"
+#include "bie/physics/membrane.hpp"
+#include "bie/physics/parameters.hpp"
+
+namespace vehd {
+
+/// (σ_i − σ_e)/(σ_i + σ_e), Eq. (11).
+double conductivity_contrast(const ElectricParameters& electric);
+/// σ_i σ_e/(σ_i + σ_e), the prefactor of Eq. (14).
+double series_conductivity(const ElectricParameters& electric);
+
+/// (½ + η S′) on weighted coefficients: J g ↦ J (½ g + η S′[g]); the left side of Eq. (12). Its entry of degree 0 is
+/// ½(1 − η) times that of J g exactly (∫S′[g] = −½∫g), also where the quadrature would only come close.
+Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density);
+
+/// J D′[V] of Eq. (24): J (n×∇_γ)·S[n×∇_γ V], values on the upsampled grid. Both rotated gradients are formed without
+/// dividing by J: J n×∇_γ f = f_1 x_2 − f_2 x_1.
+Vector weighted_hypersingular(const Membrane& membrane, const Vector& potential);
+
+/// J E·n, values on the upsampled grid.
+Vector weighted_field_flux(const Membrane& membrane, const Vector3& field);
+
+/// Solution of (½ + ηS′) g = rhs.
+struct SecondKindSolution {
+  Vector weighted;  ///< coefficients of J g, the unknown of the solve
+  Vector values;    ///< g on the upsampled grid
+  SolveReport report;
+};
+
+/// Solves (½ + ηS′) g = rhs. A right-hand side of zero mean gives a density of zero mean at every contrast, also η = 1.
+/// The values come from g = 2 (rhs − ηS′[g]) with the solved density on the right: S′ smooths, so they are free of the
+/// truncation to degree p that the coefficients of g suffer.
+/// @param weighted_rhs  J rhs on the upsampled grid
+/// @param start         coefficients of J g to start from, or empty
+SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const Vector& weighted_rhs, double tolerance,
+                                     const Vector& start);
+
+/// Traces of the potential and of its normal derivative on both sides, on the upsampled grid.
+struct ElectricTraces {
+  Vector potential_in, potential_out;  ///< coefficients of degree p of φ_i, φ_e, Eq. (11a, b)
+  Vector flux_in, flux_out;            ///< ∂φ_i/∂n, ∂φ_e/∂n, values on the upsampled grid
+  Vector charge;                       ///< q = [[∂φ/∂n]], values on the upsampled grid
+};
+
+/// @param density  g with (½ + ηS′) g = E·n + D′[V]; the fluxes follow as −σ_e g/(σ_i+σ_e) and −σ_i g/(σ_i+σ_e),
+///                 the regular form of Eq. (13)
+ElectricTraces electric_traces(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
+                               const SecondKindSolution& density);
+
+/// f_E = [[n·Σ_el]] (interior minus exterior), Eqs. (3), (15), (32), on the upsampled grid.
+Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces);
+
+}  // namespace vehd

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "bie/geometry/surface.hpp"
+#include "bie/potentials/layer_operators.hpp"
+
+namespace vehd {
+
+/// One frozen membrane as the physics sees it: the surface on the upsampled grid, where all products are formed, and
+/// the layer operators on degree p. "Weighted" coefficients are those of J f (see LayerOperators).
+struct Membrane {
+  const SphereTransform& fine;       ///< degree p ↔ upsampled grid
+  const SphereTransform& curvature;  ///< intermediate degree of H ↔ upsampled grid
+  Surface surface;                   ///< on the upsampled grid
+  LayerOperators layers;
+  double radius;  ///< √(area/4π), of the sphere behind the preconditioners
+
+  /// Coefficients of J f from values on the upsampled grid.
+  [[nodiscard]] Matrix weighted(const Matrix& values) const {
+    return fine.analyze(surface.area_element.asDiagonal() * values);
+  }
+};
+
+}  // namespace vehd

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "bie/linear/gmres.hpp"
+#include "bie/physics/electric.hpp"
+
+namespace vehd {
+
+/// V_m after one backward-Euler step of (4e)/(14), Eq. (30), in one solve at every contrast and time constant:
+/// with a = C_m/dt + G_m, b = (C_m/dt) V_m, κ = σ_i σ_e/(σ_i + σ_e), the unknown V obeys
+///   (½ + ηS′)(a V − b) − κ D′[V] = κ E·n.
+/// @param potential  V_m before the step on input, after it on output
+SolveReport charge_membrane(const ElectricParameters& electric, const ChargingParameters& charging,
+                            const Membrane& membrane, double dt, double tolerance, Vector& potential);
+
+/// Steady V_m: C_m/dt → 0 in charge_membrane.
+/// @throws InputError if nothing determines it (a membrane and a fluid that both insulate)
+SolveReport steady_potential(const ElectricParameters& electric, const ChargingParameters& charging,
+                             const Membrane& membrane, double tolerance, Vector& potential);
+
+}  // namespace vehd

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Bending energy kappa_B ∫ H² dA, force Eq. (2).
+struct BendingParameters {
+  double modulus = 0.0;  ///< kappa_B
+};
+
+/// Leaky-dielectric bulk fluids in a uniform applied field, Eq. (4).
+struct ElectricParameters {
+  Vector3 field = Vector3::Zero();  ///< E_inf
+  double conductivity_in = 1.0;     ///< sigma_i
+  double conductivity_out = 1.0;    ///< sigma_e
+  double permittivity = 1.0;        ///< epsilon, the same on both sides
+};
+
+/// Membrane as a leaky capacitor, Eq. (4e).
+struct ChargingParameters {
+  double capacitance = 1.0;  ///< C_m
+  double conductance = 0.0;  ///< G_m
+};
+
+}  // namespace vehd

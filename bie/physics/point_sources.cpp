@@ -1,0 +1,74 @@
+#include "bie/physics/point_sources.hpp"
+
+#include "bie/kernels/laplace.hpp"
+
+namespace vehd {
+
+PointSourceFields point_source_fields(const std::vector<PointSource>& sources, const Surface& surface) {
+  const Index n = surface.n_points();
+  PointSourceFields fields{Vector::Zero(n), Vector::Zero(n), Matrix::Zero(n, 3), Matrix::Zero(n, 3), {}, {}};
+  for (const PointSource& source : sources) {
+    const Matrix r = surface.position.rowwise() - source.position.transpose();
+    const Vector distance = r.rowwise().norm();
+    const double scale = kLaplacePrefactor * source.strength;
+    (source.inside ? fields.potential_out : fields.potential_in) += scale * distance.cwiseInverse();
+    (source.inside ? fields.gradient_out : fields.gradient_in) -=
+        scale * (distance.array().cube().inverse().matrix().asDiagonal() * r);
+  }
+  fields.flux_in = fields.gradient_in.cwiseProduct(surface.normal).rowwise().sum();
+  fields.flux_out = fields.gradient_out.cwiseProduct(surface.normal).rowwise().sum();
+  return fields;
+}
+
+namespace {
+
+/// n·Σ_el of a field known in full, E = −∇φ.
+Matrix maxwell_traction_of_gradient(double permittivity, const Surface& s, const Matrix& gradient, const Vector& flux) {
+  const Vector pressure = -0.5 * gradient.rowwise().squaredNorm();
+  return permittivity * (flux.asDiagonal() * gradient + pressure.asDiagonal() * s.normal);
+}
+
+double relative_max(const Matrix& difference, const Matrix& reference) {
+  return difference.rowwise().norm().maxCoeff() / reference.rowwise().norm().maxCoeff();
+}
+
+}  // namespace
+
+PointSourceErrors point_source_errors(const ElectricParameters& electric, const std::vector<PointSource>& sources,
+                                      const Membrane& membrane, double tolerance) {
+  const Surface& s = membrane.surface;
+  const SphereTransform& fine = membrane.fine;
+  const PointSourceFields exact = point_source_fields(sources, s);
+  const double sigma_in = electric.conductivity_in;
+  const double sigma_out = electric.conductivity_out;
+  const double eta = conductivity_contrast(electric);
+  const Vector potential = fine.analyze(exact.potential_in - exact.potential_out);
+  const Vector current_jump = (sigma_in * exact.flux_in - sigma_out * exact.flux_out) / (sigma_in + sigma_out);
+
+  const Vector hypersingular = weighted_hypersingular(membrane, potential);
+  const Vector rhs = eta * hypersingular + s.area_element.cwiseProduct(current_jump);
+  const SecondKindSolution density = solve_second_kind(membrane, eta, rhs, tolerance, {});
+
+  ElectricTraces traces;
+  traces.charge = density.values;
+  // Two equations for two fluxes, [[∂φ/∂n]] = q and [[σ ∂φ/∂n]] = J_m, in the form that bears σ_i = σ_e: their mean
+  // is the principal value S′[q] − D′[V].
+  const Vector weighted_mean =
+      fine.synthesize(membrane.layers.laplace_adjoint.apply(density.weighted)).col(0) - hypersingular;
+  const Vector mean = weighted_mean.cwiseQuotient(s.area_element);
+  traces.flux_in = mean + 0.5 * traces.charge;
+  traces.flux_out = mean - 0.5 * traces.charge;
+  const Vector layers =
+      membrane.layers.laplace_single.apply(density.weighted) - membrane.layers.laplace_double.apply(potential);
+  traces.potential_in = layers + 0.5 * potential;
+  traces.potential_out = layers - 0.5 * potential;
+
+  const Matrix force = electric_force(electric.permittivity, membrane, traces);
+  const Matrix exact_force = maxwell_traction_of_gradient(electric.permittivity, s, exact.gradient_in, exact.flux_in) -
+                             maxwell_traction_of_gradient(electric.permittivity, s, exact.gradient_out, exact.flux_out);
+  const Vector exact_charge = exact.flux_in - exact.flux_out;
+  return {relative_max(traces.charge - exact_charge, exact_charge), relative_max(force - exact_force, exact_force),
+          density.report};
+}
+
+}  // namespace vehd

@@ -1,0 +1,16 @@
+#include "bie/physics/tension.hpp"
+
+namespace vehd {
+
+Matrix tension_force(const Membrane& membrane, const Vector& tension) {
+  const Surface& s = membrane.surface;
+  const SphereDerivatives lambda = membrane.fine.synthesize_gradient(tension);
+  const Vector normal_part = 2.0 * s.mean_curvature.cwiseProduct(lambda.value.col(0));
+  return surface_gradient(s, lambda) + normal_part.asDiagonal() * s.normal;
+}
+
+Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& velocity) {
+  return membrane.weighted(surface_divergence(membrane.surface, velocity));
+}
+
+}  // namespace vehd

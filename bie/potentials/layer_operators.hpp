@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+
+#include "bie/potentials/rotated_quadrature.hpp"
+#include "bie/sphere/transform.hpp"
+#include "bie/support/instruments.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Densities of S, S′ and the Stokes single layer enter weighted: as coefficients of J f, J = W/sin θ (the area element
+/// on the unit sphere), so that ∫ K f dA = ∫ K (J f) dω. The weighted density of a tangential derivative or of a force
+/// is smoother than the density itself, truncation to degree p keeps its integral exactly, and the kernel rows need no
+/// area element. The density of D enters plain, because J n(y) belongs to its kernel.
+
+/// Scalar layer operator from coefficients to coefficients of degree p. Stored transposed, so that applying it runs
+/// down contiguous columns.
+class ScalarOperator {
+ public:
+  ScalarOperator() = default;
+  explicit ScalarOperator(Matrix transposed) : transposed_(std::move(transposed)) {}
+
+  [[nodiscard]] bool empty() const { return transposed_.size() == 0; }
+  /// Every column of the density separately. @throws ShapeError
+  [[nodiscard]] Matrix apply(const Matrix& density) const;
+  [[nodiscard]] const Matrix& transposed() const { return transposed_; }
+
+ private:
+  Matrix transposed_;
+};
+
+/// Stokes single layer for viscosity 1 from [n_coefficients x 3] to [n_coefficients x 3].
+class StokesOperator {
+ public:
+  StokesOperator() = default;
+  /// @param transposed  blocks xx, xy, xz, yy, yz, zz
+  explicit StokesOperator(std::array<Matrix, 6> transposed) : transposed_(std::move(transposed)) {}
+
+  [[nodiscard]] bool empty() const { return transposed_[0].size() == 0; }
+  /// @throws ShapeError
+  [[nodiscard]] Matrix apply(const Matrix& density) const;
+  [[nodiscard]] const std::array<Matrix, 6>& transposed() const { return transposed_; }
+
+ private:
+  std::array<Matrix, 6> transposed_;
+};
+
+/// Which operators an assembly makes; whatever is false costs nothing.
+struct LayerSelection {
+  bool laplace_single = false;
+  bool laplace_double = false;
+  bool laplace_adjoint = false;
+  bool stokes_single = false;
+};
+
+/// Layer operators on the membrane. D and S′ are principal values: the side-dependent ±½ density of
+/// Eq. (11) is the caller's, so that the side is written where it is chosen.
+struct LayerOperators {
+  ScalarOperator laplace_single;   ///< J f ↦ S[f], Eq. (8)
+  ScalarOperator laplace_double;   ///< f ↦ D[f], Eq. (8), principal value
+  ScalarOperator laplace_adjoint;  ///< J f ↦ J S′[f], Eq. (10), principal value; J n(x) is smooth where n(x) is not
+  StokesOperator stokes_single;    ///< J f ↦ Stokes single layer, Eq. (6) at μ = 1
+};
+
+/// Assembles the selected operators for one surface at cost O(p^5): each target's kernel row on the rotated
+/// quadrature is taken back to coefficients by the adjoint of "phase shift, Wigner rotation, synthesis", and the rows
+/// of all targets are analysed on the order-p grid.
+/// @param transform  between degree p and the grid of order p, whose nodes are the targets
+LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
+                                        const Matrix& position, const LayerSelection& selection,
+                                        Instruments& instruments);
+
+}  // namespace vehd

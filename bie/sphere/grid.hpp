@@ -1,0 +1,32 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Gauss-Legendre nodes in cos θ (from the north pole down) times equispaced φ, Eq. (18).
+/// A point has index j * n_phi + k (theta-major). Neither pole is a node.
+struct SphereGrid {
+  int order = 0;  ///< p; n_theta = p + 1, n_phi = 2p + 2
+  int n_theta = 0;
+  int n_phi = 0;
+  Vector theta;   ///< [n_theta]
+  Vector phi;     ///< [n_phi]
+  Vector weight;  ///< [n_theta], Gauss weight times 2π/n_phi: integrates over the unit sphere, Eq. (22)
+
+  [[nodiscard]] Index n_points() const { return Index{n_theta} * n_phi; }
+};
+
+/// Grid that integrates products of two harmonics of degree `order` exactly.
+SphereGrid make_grid(int order);
+
+/// Gauss-Legendre rule on [-1, 1], nodes ascending.
+struct GaussLegendre {
+  Vector nodes;
+  Vector weights;
+};
+
+/// Nodes by Newton's method on P_n; error of nodes and weights near machine precision.
+GaussLegendre gauss_legendre(int n);
+
+}  // namespace vehd

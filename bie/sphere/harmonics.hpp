@@ -1,0 +1,25 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+/// Real orthonormal spherical harmonics without the Condon-Shortley sign: with N P the normalised Legendre function,
+///   Y_{n,0} = N P_n^0,  Y_{n,m} = √2 N P_n^m cos mφ,  Y_{n,-m} = √2 N P_n^m sin mφ  (m > 0),  P_n^m ≥ 0 near θ = 0.
+/// The complex harmonic of Eq. (17) has Re = Y_{n,m}/√2, Im = Y_{n,-m}/√2 for m > 0.
+namespace vehd {
+
+constexpr Index n_coefficients(int order) { return Index{order + 1} * (order + 1); }
+
+/// Position of (n, m), −n ≤ m ≤ n, in a coefficient vector: degree-major, so truncation keeps a prefix.
+constexpr Index coefficient_index(int n, int m) { return Index{n} * n + n + m; }
+
+/// Order p of a coefficient array with (p+1)² rows. @throws ShapeError if the count is no square
+int order_of(Index n_coefficients);
+
+/// Coefficients cut or zero-padded to another order.
+Matrix resize_order(const Matrix& coefficients, int order);
+
+/// Values at arbitrary points: [n_points x n_fields] from coefficients [(p+1)² x n_fields].
+/// θ = 0 and π are allowed. Cost O(n_points p²).
+Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi);
+
+}  // namespace vehd

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Rotation about the y axis in harmonic space: coefficients of f(R_y(β) s) from those of f(s), where R_y(β) takes
+/// the north pole to colatitude β, longitude 0. Cosine and sine harmonics do not mix.
+struct RotationY {
+  /// Per degree n: [n+1 x n+1] for m = 0..n, row: m after, column: m before.
+  std::vector<Matrix> cosine;
+  /// Per degree n: [n x n] for m = 1..n.
+  std::vector<Matrix> sine;
+};
+
+/// Real Wigner blocks for all degrees ≤ order by the three-term recurrence in n at fixed (m, m'), stable upwards.
+RotationY rotation_y(int order, double beta);
+
+}  // namespace vehd

@@ -1,0 +1,159 @@
+#include "bie/sphere/transform.hpp"
+
+#include <array>
+#include <vector>
+
+#include "bie/sphere/fourier.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/legendre.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// Which latitude table a derivative needs, and whether ∂/∂φ exchanges cosine and sine.
+constexpr int kKinds = 6;
+constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, true, false};
+
+}  // namespace
+
+struct SphereTransform::Tables {
+  int order;
+  SphereGrid grid;
+  FourierPlan fourier;
+  /// Per m the tables of value, d1, d2, d11, d12, d22 stacked: [6 n_theta x (order + 1 − m)].
+  std::vector<Matrix> synthesis;
+  /// Per m the transposed value table times Gauss weight and φ spacing: [(order + 1 − m) x n_theta].
+  std::vector<Matrix> analysis;
+
+  Tables(int order_, SphereGrid grid_)
+      : order(order_),
+        grid(std::move(grid_)),
+        fourier(grid.n_theta, grid.n_phi),
+        synthesis(order + 1),
+        analysis(order + 1) {
+    const LegendreTables legendre = legendre_tables(order, grid.theta);
+    const Index rows = grid.n_theta;
+    for (int m = 0; m <= order; ++m) {
+      Matrix& stack = synthesis[m];
+      stack.resize(kKinds * rows, order + 1 - m);
+      stack.middleRows(0, rows) = legendre.value[m];
+      stack.middleRows(rows, rows) = legendre.d_theta[m];
+      stack.middleRows(2 * rows, rows) = legendre.m_over_sin[m];
+      stack.middleRows(3 * rows, rows) = legendre.d2_theta[m];
+      stack.middleRows(4 * rows, rows) = legendre.d_m_over_sin[m];
+      for (int n = m; n <= order; ++n) {
+        // The Hessian's trace is the Laplacian, −n(n+1) T.
+        stack.col(n - m).tail(rows) =
+            -(double(n) * (n + 1)) * legendre.value[m].col(n - m) - legendre.d2_theta[m].col(n - m);
+      }
+      // ∫ cos² mφ dφ is half of ∫ 1 dφ; the amplitudes of FourierPlan are those of the function itself.
+      const Vector scaled = grid.weight * (grid.n_phi * (m == 0 ? 1.0 : 0.5));
+      analysis[m] = (scaled.asDiagonal() * legendre.value[m]).transpose();
+    }
+  }
+
+  [[nodiscard]] std::vector<Matrix> run(const Matrix& coefficients, int kinds) const;
+};
+
+std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int kinds) const {
+  require_size("coefficient array", coefficients.rows(), n_coefficients(order));
+  const Index n_fields = coefficients.cols();
+  const Index n_theta = grid.n_theta;
+  const Index n_modes = grid.n_phi / 2 + 1;
+  // Spectrum of kind k, field f: columns (k * n_fields + f) * n_modes + m.
+  Eigen::MatrixXcd spectrum = Eigen::MatrixXcd::Zero(n_theta, kinds * n_fields * n_modes);
+  std::vector<Matrix> values(kinds, Matrix(grid.n_points(), n_fields));
+
+#pragma omp parallel
+  {
+    Matrix gathered;
+    Matrix product;
+#pragma omp for schedule(dynamic, 1)
+    for (int m = 0; m <= order; ++m) {
+      const Index columns = (m == 0 ? 1 : 2) * n_fields;
+      gathered.resize(order + 1 - m, columns);
+      for (Index f = 0; f < n_fields; ++f) {
+        for (int n = m; n <= order; ++n) {
+          gathered(n - m, f) = coefficients(coefficient_index(n, m), f);
+          if (m > 0) gathered(n - m, n_fields + f) = coefficients(coefficient_index(n, -m), f);
+        }
+      }
+      product.noalias() = synthesis[m].topRows(kinds * n_theta) * gathered;
+      for (int kind = 0; kind < kinds; ++kind) {
+        for (Index f = 0; f < n_fields; ++f) {
+          const Index target = (kind * n_fields + f) * n_modes + m;
+          const auto from_cosine = product.col(f).segment(kind * n_theta, n_theta);
+          if (m == 0) {
+            if (!kPhiDerivative[kind]) spectrum.col(target).real() = from_cosine;
+            continue;
+          }
+          const auto from_sine = product.col(n_fields + f).segment(kind * n_theta, n_theta);
+          if (kPhiDerivative[kind]) {
+            spectrum.col(target).real() = from_sine;
+            spectrum.col(target).imag() = from_cosine;
+          } else {
+            spectrum.col(target).real() = from_cosine;
+            spectrum.col(target).imag() = -from_sine;
+          }
+        }
+      }
+    }
+#pragma omp for schedule(static)
+    for (Index i = 0; i < kinds * n_fields; ++i) {
+      fourier.synthesize(spectrum.middleCols(i * n_modes, n_modes), values[i / n_fields].col(i % n_fields).data());
+    }
+  }
+  return values;
+}
+
+SphereTransform::SphereTransform(int order, SphereGrid grid) {
+  if (grid.order < order) {
+    throw ShapeError("a grid of order " + std::to_string(grid.order) + " cannot carry harmonics of order " +
+                     std::to_string(order));
+  }
+  tables_ = std::make_unique<const Tables>(order, std::move(grid));
+}
+
+SphereTransform::~SphereTransform() = default;
+SphereTransform::SphereTransform(SphereTransform&&) noexcept = default;
+SphereTransform& SphereTransform::operator=(SphereTransform&&) noexcept = default;
+
+int SphereTransform::order() const { return tables_->order; }
+const SphereGrid& SphereTransform::grid() const { return tables_->grid; }
+
+Matrix SphereTransform::synthesize(const Matrix& coefficients) const {
+  return std::move(tables_->run(coefficients, 1)[0]);
+}
+
+SphereDerivatives SphereTransform::synthesize_gradient(const Matrix& coefficients) const {
+  std::vector<Matrix> v = tables_->run(coefficients, 3);
+  return {std::move(v[0]), std::move(v[1]), std::move(v[2]), {}, {}, {}};
+}
+
+SphereDerivatives SphereTransform::synthesize_hessian(const Matrix& coefficients) const {
+  std::vector<Matrix> v = tables_->run(coefficients, kKinds);
+  return {std::move(v[0]), std::move(v[1]), std::move(v[2]), std::move(v[3]), std::move(v[4]), std::move(v[5])};
+}
+
+Matrix SphereTransform::analyze(const Matrix& values) const {
+  const Tables& t = *tables_;
+  require_size("field on the grid", values.rows(), t.grid.n_points());
+  const Index n_fields = values.cols();
+  Matrix coefficients(n_coefficients(t.order), n_fields);
+#pragma omp parallel for schedule(static)
+  for (Index f = 0; f < n_fields; ++f) {
+    const Eigen::MatrixXcd spectrum = t.fourier.analyze(values.col(f).data());
+    for (int m = 0; m <= t.order; ++m) {
+      const Vector cosine_part = t.analysis[m] * spectrum.col(m).real();
+      for (int n = m; n <= t.order; ++n) coefficients(coefficient_index(n, m), f) = cosine_part[n - m];
+      if (m == 0) continue;
+      const Vector sine_part = t.analysis[m] * spectrum.col(m).imag();
+      for (int n = m; n <= t.order; ++n) coefficients(coefficient_index(n, -m), f) = -sine_part[n - m];
+    }
+  }
+  return coefficients;
+}
+
+}  // namespace vehd

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+
+#include "bie/sphere/grid.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Fields with covariant derivatives on the unit sphere in the frame (e_θ, e_φ); each [n_points x n_fields].
+/// d22 = f_φφ/sin²θ + cot θ f_θ and so on: every entry is smooth at the poles and found without dividing by sin θ.
+struct SphereDerivatives {
+  Matrix value, d1, d2, d11, d12, d22;
+};
+
+/// Spherical-harmonic transform between coefficients of degree ≤ order and a grid (Legendre sums by Eigen, Fourier
+/// sums by FFTW). Immutable after construction; every call may run concurrently. Cost O(order² n_theta) a field.
+class SphereTransform {
+ public:
+  /// @throws ShapeError if the grid is too coarse for the order
+  SphereTransform(int order, SphereGrid grid);
+  ~SphereTransform();
+  SphereTransform(SphereTransform&&) noexcept;
+  SphereTransform& operator=(SphereTransform&&) noexcept;
+
+  [[nodiscard]] int order() const;
+  [[nodiscard]] const SphereGrid& grid() const;
+
+  /// Values [n_points x F] from coefficients [(order+1)² x F].
+  [[nodiscard]] Matrix synthesize(const Matrix& coefficients) const;
+  /// Value and first derivatives only (d11, d12, d22 stay empty).
+  [[nodiscard]] SphereDerivatives synthesize_gradient(const Matrix& coefficients) const;
+  [[nodiscard]] SphereDerivatives synthesize_hessian(const Matrix& coefficients) const;
+  /// Coefficients of degree ≤ order by Gauss quadrature; exact for fields of degree ≤ 2 grid.order + 1 − order.
+  [[nodiscard]] Matrix analyze(const Matrix& values) const;
+
+ private:
+  struct Tables;
+  std::unique_ptr<const Tables> tables_;
+};
+
+}  // namespace vehd

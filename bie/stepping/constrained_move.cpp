@@ -1,0 +1,113 @@
+#include "bie/stepping/constrained_move.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bie/physics/bending.hpp"
+#include "bie/physics/tension.hpp"
+#include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/flow_solve.hpp"
+
+namespace vehd {
+
+namespace {
+
+constexpr int kMaxCorrections = 12;
+/// A correction needs no more digits than the linearisation it corrects can use.
+constexpr double kCorrectionTolerance = 1e-2;
+/// Largest relative change of an area element that a step may make before corrections.
+constexpr double kLargestStretch = 0.5;
+
+/// Area element, area and volume of a shape whose curvature is not needed.
+struct Measure {
+  Vector area_element;
+  double area;
+  double volume;
+};
+
+Measure measure(const SphereTransform& fine, const Matrix& position) {
+  const SphereDerivatives x = fine.synthesize_gradient(position);
+  Measure result{Vector(x.value.rows()), 0.0, 0.0};
+  const SphereGrid& grid = fine.grid();
+  for (Index i = 0; i < x.value.rows(); ++i) {
+    const Vector3 area_vector = Vector3(x.d1.row(i)).cross(Vector3(x.d2.row(i)));
+    const double weight = grid.weight[i / grid.n_phi];
+    result.area_element[i] = area_vector.norm();
+    result.area += weight * result.area_element[i];
+    result.volume += weight * area_vector.dot(Vector3(x.value.row(i))) / 3.0;
+  }
+  return result;
+}
+
+}  // namespace
+
+ConstrainedMove constrained_move(const Model& model, const Discretisation& discretisation, const State& state,
+                                 const Evaluation::Parts& parts, const Vector& tension, double dt) {
+  const Membrane& membrane = parts.membrane;
+  const NumericalSettings& settings = discretisation.settings();
+  const Vector& area_element = membrane.surface.area_element;
+  const Matrix normal = membrane.fine.analyze(membrane.surface.normal);
+  const double area = surface_area(membrane.surface);
+  const Vector stretch_before = 1.0 + membrane.fine.synthesize(state.area_strain).col(0).array();
+
+  ConstrainedMove move;
+  move.velocity = parts.velocity;
+  move.tension = tension;
+
+  /// What the velocity of this pass still lacks: the implicit response to `drive`, and the divergence asked for.
+  Matrix drive = parts.velocity;
+  Vector divergence = Vector::Zero(normal.rows());
+  if (model.inextensible) divergence = -membrane.weighted(stretch_before.array() - 1.0) / dt;
+  for (int pass = 0; pass <= kMaxCorrections; ++pass) {
+    const VelocityField driven = velocity_field(membrane, drive, model.bending.has_value());
+    FlowRightHandSide rhs;
+    if (model.bending) rhs.curvature = dt * curvature_increment(membrane, driven.derivatives);
+    if (model.inextensible) rhs.divergence = divergence - weighted_divergence(membrane, driven.derivatives);
+    MembraneUnknowns increment;
+    const SolveReport report =
+        solve_flow(model, membrane, dt, rhs, pass == 0 ? settings.flow_tolerance : kCorrectionTolerance, increment);
+    move.iterations += report.iterations;
+    if (!report.converged) {
+      move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations", report.residual,
+                                report.iterations);
+      return move;
+    }
+    const Matrix response = membrane_velocity(model, membrane, increment);
+    move.velocity += response;
+    if (pass > 0) move.velocity += drive;
+    if (model.inextensible) move.tension += increment.tension;
+
+    move.position = state.position + dt * move.velocity;
+    const Measure after = measure(membrane.fine, move.position);
+    const Eigen::ArrayXd stretch = after.area_element.cwiseQuotient(area_element);
+    if (!(stretch.minCoeff() > 1.0 - kLargestStretch && stretch.maxCoeff() < 1.0 + kLargestStretch)) {
+      move.reason = fmt::format("area elements change by factors {:.2g} to {:.2g} in one step", stretch.minCoeff(),
+                                stretch.maxCoeff());
+      return move;
+    }
+    const Vector strain = stretch_before.array() * stretch - 1.0;
+    const double volume_error = after.volume / state.reference_volume - 1.0;
+    const double area_error = model.inextensible ? after.area / state.reference_area - 1.0 : 0.0;
+    Vector weighted_strain = membrane.weighted(strain);
+    // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
+    const double strain_error =
+        model.inextensible ? weighted_strain.tail(weighted_strain.size() - 1).norm() / area : 0.0;
+    if (std::abs(volume_error) <= settings.constraint_tolerance &&
+        std::abs(area_error) <= settings.constraint_tolerance && strain_error <= settings.strain_tolerance) {
+      move.area_strain = membrane.fine.analyze(strain);
+      move.accepted = true;
+      return move;
+    }
+    // The area as a whole answers for itself, free of what truncation does to the strain field.
+    weighted_strain[0] = area_error * state.reference_area / std::sqrt(4.0 * std::numbers::pi);
+    divergence = -weighted_strain / dt;
+    drive = (-volume_error * state.reference_volume / (area * dt)) * normal;
+    move.reason = fmt::format("area error {:.1e}, volume error {:.1e}, strain {:.1e} after {} corrections", area_error,
+                              volume_error, strain_error, pass);
+  }
+  return move;
+}
+
+}  // namespace vehd

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+
+/// Numerical settings of a run; the defaults are the program's defaults.
+struct NumericalSettings {
+  int order = 16;                        ///< p
+  int upsampling = 2;                    ///< nonlinear terms live on the grid of order upsampling * p
+  double quadrature_oversampling = 1.3;  ///< nodes of the singular quadrature in θ per degree
+  double flow_tolerance = 1e-9;          ///< of the tension and velocity solves
+  double electric_tolerance = 1e-10;     ///< of the charge-density and charging solves
+  double constraint_tolerance = 1e-8;    ///< of area and volume, relative, before reparametrisation
+  double strain_tolerance = 1e-6;        ///< of the resolved local strain, before reparametrisation
+};
+
+/// Tables that depend on the settings alone, shared by all steps of a run. Immutable.
+class Discretisation {
+ public:
+  explicit Discretisation(const NumericalSettings& settings);
+  ~Discretisation();
+
+  [[nodiscard]] const NumericalSettings& settings() const;
+  [[nodiscard]] int order() const;
+  /// Transform between degree p and the grid of order p (the grid of the output files).
+  [[nodiscard]] const SphereTransform& transform() const;
+  /// Transform between degree p and the upsampled grid.
+  [[nodiscard]] const SphereTransform& fine_transform() const;
+
+  struct Tables;
+  [[nodiscard]] const Tables& tables() const { return *tables_; }
+
+ private:
+  std::unique_ptr<const Tables> tables_;
+};
+
+/// Area element W/sin θ on the grid of order p, [n_points], from coefficients of x.
+Vector area_element(const Discretisation& discretisation, const Matrix& position);
+
+}  // namespace vehd

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "bie/physics/electric.hpp"
+#include "bie/stepping/stepper.hpp"
+
+namespace vehd {
+
+/// What a step needs of the evaluation that precedes it.
+struct Evaluation::Parts {
+  Membrane membrane;
+  Matrix velocity;  ///< instantaneous, coefficients
+};
+
+}  // namespace vehd

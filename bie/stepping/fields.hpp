@@ -1,0 +1,31 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// The physical fields of one State at its time, instantaneous (no step size enters): coefficients of degree p,
+/// empty where the effect is absent. Forces are per area, acting as in f = f_b + f_λ − f_E.
+struct Fields {
+  Matrix velocity;        ///< membrane velocity, [n_coefficients x 3]
+  Matrix force_bending;   ///< f_b
+  Matrix force_tension;   ///< f_λ
+  Matrix force_electric;  ///< f_E = [[n·Σ_el]]
+  Vector tension;         ///< λ
+  Vector charge;          ///< q = [[∂φ/∂n]]
+};
+
+/// One row of history.csv but for the columns that belong to the step rather than to the state.
+struct Diagnostics {
+  double area = 0, volume = 0, reduced_volume = 0;
+  double bending_energy_scaled = 0;  ///< ∫H² dA
+  double tension_integral = 0;       ///< ∫λ dA, 0 without tension
+  double Vm_north = 0, q_north = 0, Vm_max = 0;
+  double extent_x = 0, extent_y = 0, extent_z = 0;
+  double inclination_deg = 0;
+  double area_drift = 0, volume_drift = 0;  ///< relative, signed
+  double strain_max = 0;                    ///< max |W/W_ref − 1|
+  double spectrum_tail = 0;                 ///< see docs/conventions.md
+};
+
+}  // namespace vehd

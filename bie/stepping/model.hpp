@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "bie/physics/background_flow.hpp"
+#include "bie/physics/parameters.hpp"
+
+namespace vehd {
+
+/// The effects that are present; an empty optional means that nothing of the effect is assembled or evaluated.
+struct Model {
+  double viscosity = 1.0;
+  bool inextensible = true;
+  std::optional<BendingParameters> bending;
+  std::optional<BackgroundFlow> flow;
+  std::optional<ElectricParameters> electric;
+  std::optional<ChargingParameters> charging;  ///< present exactly when `electric` is
+};
+
+}  // namespace vehd

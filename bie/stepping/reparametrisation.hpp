@@ -1,0 +1,21 @@
+#pragma once
+
+#include "bie/geometry/surface.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Moves the grid over the surface without moving the surface: new node s takes what the material point Φ(s) carries,
+/// for every column of `fields` by spectral evaluation. Φ undoes the part of the last displacement that only slides
+/// points along the surface (the divergence-free part of the tangential velocity, which shears a grid without end
+/// in tank-treading while area elements stay), and descends the energy of the high degrees of x (Veerapaneni et al.
+/// 2011) by one step.
+/// @param fine     degree p ↔ upsampled grid
+/// @param surface  on the upsampled grid, at the material nodes
+/// @param position coefficients of x at the material nodes
+/// @param displacement  dt u, coefficients: the last move of the material
+/// @param fields   coefficients of whatever rides on the material, x among them
+Matrix reparametrise(const SphereTransform& fine, const Surface& surface, const Matrix& position,
+                     const Matrix& displacement, const Matrix& fields);
+
+}  // namespace vehd

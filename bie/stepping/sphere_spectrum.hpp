@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace vehd {
+
+/// Physical parameters of the sphere behind the flow preconditioner.
+struct SphereFlow {
+  double radius;
+  double viscosity;
+  double bending_modulus;  ///< 0 without bending
+  double dt;
+};
+
+/// The coupled system of solve_flow on a sphere, degree n: rows curvature and divergence, columns h and λ.
+/// With V = ∇Y − (n+1) Y r̂ and W = ∇Y + n Y r̂ the Stokes single layer has eigenvalues n/((2n+1)(2n+3)) and
+/// (n+1)/((2n+1)(2n−1)); weighted densities carry R².
+Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int n);
+
+}  // namespace vehd

@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bie/physics/membrane_charging.hpp"
+#include "bie/stepping/constrained_move.hpp"
+#include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/reparametrisation.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+StepResult step(const Model& model, const Discretisation& discretisation, const State& state,
+                const Evaluation& evaluation, double dt, Instruments& instruments) {
+  const Discretisation::Tables& tables = discretisation.tables();
+  const Membrane& membrane = evaluation.parts->membrane;
+  StepResult result;
+
+  Vector potential = state.transmembrane_potential;
+  if (model.electric) {
+    const auto timer = instruments.time("electric");
+    const SolveReport report =
+        charge_membrane(*model.electric, *model.charging, membrane, dt, tables.settings.electric_tolerance, potential);
+    result.iterations_electric = report.iterations;
+    if (!report.converged) {
+      result.reason = "membrane charging, Eq. (30), did not converge";
+      return result;
+    }
+  }
+
+  ConstrainedMove move;
+  {
+    const auto timer = instruments.time("velocity solve");
+    move = constrained_move(model, discretisation, state, *evaluation.parts, evaluation.fields.tension, dt);
+  }
+  result.iterations_flow = move.iterations;
+  if (!move.accepted) {
+    result.reason = move.reason;
+    return result;
+  }
+
+  const auto timer = instruments.time("reparametrisation");
+  const Surface moved = make_surface(tables.fine, move.position);
+  // Columns: x, strain, then whatever the model carries.
+  Matrix fields(move.position.rows(), 4 + (model.electric ? 1 : 0) + (model.inextensible ? 1 : 0));
+  fields.leftCols(3) = move.position;
+  fields.col(3) = move.area_strain;
+  Index column = 4;
+  if (model.electric) fields.col(column++) = potential;
+  if (model.inextensible) fields.col(column++) = move.tension;
+  fields = reparametrise(tables.fine, moved, move.position, dt * move.velocity, fields);
+  if (!fields.allFinite()) {
+    result.reason = "the new state is not finite";
+    return result;
+  }
+
+  State& next = result.state;
+  next = state;
+  next.time = state.time + dt;
+  next.step = state.step + 1;
+  next.position = fields.leftCols(3);
+  next.area_strain = fields.col(3);
+  column = 4;
+  if (model.electric) next.transmembrane_potential = fields.col(column++);
+  if (model.inextensible) next.tension = fields.col(column++);
+  result.accepted = true;
+  return result;
+}
+
+Advance advance(const Model& model, const Discretisation& discretisation, const State& state,
+                const Evaluation& evaluation, double dt_nominal, double dt_limit, Instruments& instruments) {
+  constexpr double kSmallestFraction = 1.0 / 1024.0;
+  Advance result;
+  double wanted = std::min(state.dt_next, dt_nominal);
+  while (wanted >= kSmallestFraction * dt_nominal) {
+    const double dt = std::min(wanted, dt_limit);
+    const StepResult attempt = step(model, discretisation, state, evaluation, dt, instruments);
+    result.iterations_flow += attempt.iterations_flow;
+    result.iterations_electric += attempt.iterations_electric;
+    if (attempt.accepted) {
+      result.accepted = true;
+      result.state = attempt.state;
+      result.dt = dt;
+      result.state.dt_next = std::min(dt_nominal, result.rejected == 0 ? 2.0 * wanted : wanted);
+      return result;
+    }
+    result.reason = attempt.reason;
+    ++result.rejected;
+    wanted = 0.5 * dt;
+  }
+  return result;
+}
+
+State initial_state(const Model& model, const Discretisation& discretisation, const Matrix& position, bool steady_start,
+                    double dt, Instruments& instruments) {
+  const Discretisation::Tables& tables = discretisation.tables();
+  State state;
+  state.dt_next = dt;
+  state.position = position;
+  state.area_strain = Vector::Zero(position.rows());
+  Surface surface = make_surface(tables.fine, position);
+  state.reference_area = surface_area(surface);
+  state.reference_volume = enclosed_volume(surface);
+  if (model.inextensible) state.tension = Vector::Zero(position.rows());
+  if (!model.electric) return state;
+  state.transmembrane_potential = Vector::Zero(position.rows());
+  if (steady_start) {
+    const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
+    const LayerSelection selection{true, true, true, false};
+    const Membrane membrane{
+        tables.fine, tables.curvature, std::move(surface),
+        assemble_layer_operators(tables.quadrature, tables.coarse, position, selection, instruments), radius};
+    require_converged(steady_potential(*model.electric, *model.charging, membrane, tables.settings.electric_tolerance,
+                                       state.transmembrane_potential),
+                      "steady membrane potential");
+  }
+  return state;
+}
+
+}  // namespace vehd

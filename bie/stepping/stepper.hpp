@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bie/stepping/fields.hpp"
+#include "bie/stepping/model.hpp"
+#include "bie/stepping/state.hpp"
+#include "bie/support/instruments.hpp"
+
+namespace vehd {
+
+class Discretisation;
+
+/// A state with everything that its shape determines: surface, operators, electric solution, forces, velocity.
+/// Immutable; independent of dt, so a rejected step is retried from it at no further assembly.
+struct Evaluation {
+  Fields fields;
+  Diagnostics diagnostics;
+  int iterations_flow = 0;      ///< GMRES iterations of the tension solve
+  int iterations_electric = 0;  ///< GMRES iterations of Eq. (12)
+  struct Parts;
+  std::shared_ptr<const Parts> parts;  ///< surface and operators, for the step alone
+};
+
+/// Solves everything at a frozen state.
+/// @throws ConvergenceError naming the solve that failed
+Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
+                    Instruments& instruments);
+
+struct StepResult {
+  bool accepted = false;
+  std::string reason;  ///< why a step was rejected; empty when accepted
+  State state;         ///< the new state when accepted, otherwise unspecified
+  int iterations_flow = 0;
+  int iterations_electric = 0;
+};
+
+/// One semi-implicit step of size dt, Eqs. (27)-(31); never throws for a step that merely went wrong.
+StepResult step(const Model& model, const Discretisation& discretisation, const State& state,
+                const Evaluation& evaluation, double dt, Instruments& instruments);
+
+/// One accepted step of size at most dt_limit, or the reason why there is none.
+struct Advance {
+  bool accepted = false;
+  std::string reason;  ///< of the last rejection
+  State state;         ///< with dt_next set
+  double dt = 0.0;     ///< step size that was accepted
+  int rejected = 0;    ///< attempts that were thrown away
+  int iterations_flow = 0;
+  int iterations_electric = 0;
+};
+
+/// Tries min(state.dt_next, dt_limit); halves after every rejection, down to dt_nominal / 1024; doubles dt_next
+/// back towards dt_nominal after every success.
+Advance advance(const Model& model, const Discretisation& discretisation, const State& state,
+                const Evaluation& evaluation, double dt_nominal, double dt_limit, Instruments& instruments);
+
+/// State at time 0 on the given shape: strain zero, V_m zero or steady (needs the electric model).
+State initial_state(const Model& model, const Discretisation& discretisation, const Matrix& position,
+                    bool steady_potential, double dt, Instruments& instruments);
+
+}  // namespace vehd

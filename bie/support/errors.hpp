@@ -1,0 +1,29 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace vehd {
+
+/// What the user gave cannot be used: scene, command line or input file. Exit code 1.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Sizes of arguments that do not belong together: a mistake of the caller, never of the user.
+class ShapeError : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+/// A linear or nonlinear solve ended without reaching its tolerance.
+class ConvergenceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws ShapeError "what has ACTUAL ... but EXPECTED ..." unless both agree.
+void require_size(const char* what, long actual, long expected);
+
+}  // namespace vehd
