@@ -15,10 +15,10 @@ Matrix force_of_curvature(const BendingParameters& bending, const Surface& s, co
 }  // namespace
 
 Matrix bending_force(const BendingParameters& bending, const Membrane& membrane) {
-  const Matrix curvature = membrane.curvature.analyze(membrane.surface.mean_curvature);
-  SphereDerivatives h = membrane.curvature.synthesize_hessian(curvature);
-  h.value = membrane.surface.mean_curvature;
-  return force_of_curvature(bending, membrane.surface, h);
+  // Degrees above p alias under the Laplacian and no implicit term of degree p would damp them: at large κ_B dt the
+  // untruncated curvature makes an equilibrium unstable.
+  const Vector curvature = membrane.fine.analyze(membrane.surface.mean_curvature);
+  return linearised_bending_force(bending, membrane, curvature);
 }
 
 double bending_energy_scaled(const Surface& surface) {

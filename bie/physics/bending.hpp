@@ -5,8 +5,8 @@
 
 namespace vehd {
 
-/// f_b = −κ_B (Δ_γ H + 2H(H² − K)) n on the upsampled grid, [n_points x 3]; Eq. (2). Exactly −δE_b/δx of
-/// E_b = κ_B ∫H² dA.
+/// f_b = −κ_B (Δ_γ H + 2H(H² − K)) n on the upsampled grid, [n_points x 3]; Eq. (2). H enters truncated to degree p;
+/// to that accuracy f_b is −δE_b/δx of E_b = κ_B ∫H² dA.
 Matrix bending_force(const BendingParameters& bending, const Membrane& membrane);
 
 /// ∫H² dA.

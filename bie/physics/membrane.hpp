@@ -8,9 +8,8 @@ namespace vehd {
 /// One frozen membrane as the physics sees it: the surface on the upsampled grid, where all products are formed, and
 /// the layer operators on degree p. "Weighted" coefficients are those of J f (see LayerOperators).
 struct Membrane {
-  const SphereTransform& fine;       ///< degree p ↔ upsampled grid
-  const SphereTransform& curvature;  ///< intermediate degree of H ↔ upsampled grid
-  Surface surface;                   ///< on the upsampled grid
+  const SphereTransform& fine;  ///< degree p ↔ upsampled grid
+  Surface surface;              ///< on the upsampled grid
   LayerOperators layers;
   double radius;  ///< √(area/4π), of the sphere behind the preconditioners
 

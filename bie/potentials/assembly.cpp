@@ -77,7 +77,7 @@ class LatitudeWorker {
         shape_kinds_(kernels.double_layer >= 0 ? kShapeKinds : 1) {}
 
   /// Adds the chunk's rows, multiplied by the trigonometric matrix of the targets' azimuths, to `spectrum`
-  /// ([n_coefficients * kernels x (2p+1)]).
+  /// ([kernels * n_coefficients x (2p+1)]).
   /// @param fresh  only the last `fresh` targets of the chunk contribute
   void run(int latitude, const Vector& phi, Index first, int fresh, const Matrix& target_position,
            const Matrix& target_area_vector, const RowMatrix& trigonometric, RowMatrix& spectrum) {
@@ -175,44 +175,61 @@ class LatitudeWorker {
   void evaluate_kernels(const Matrix& target_position, const Matrix& target_area_vector) {
     const int n_targets = chunk_;
     values_.resize(q_.n_phi, q_.n_theta * row_columns());
-    const Vector xt = target_position.col(0), yt = target_position.col(1), zt = target_position.col(2);
-    const Vector nxt = target_area_vector.col(0), nyt = target_area_vector.col(1), nzt = target_area_vector.col(2);
-    const bool has_single = kernels_.single >= 0;
-    const bool has_double = kernels_.double_layer >= 0;
-    const bool has_adjoint = kernels_.adjoint >= 0;
-    const bool has_stokes = kernels_.stokes >= 0;
+    const double* xt = target_position.col(0).data();
+    const double* yt = target_position.col(1).data();
+    const double* zt = target_position.col(2).data();
+    const double* nxt = target_area_vector.col(0).data();
+    const double* nyt = target_area_vector.col(1).data();
+    const double* nzt = target_area_vector.col(2).data();
+    distance_.resize(n_targets, 4);
+    double* rx = distance_.col(0).data();
+    double* ry = distance_.col(1).data();
+    double* rz = distance_.col(2).data();
+    double* inverse_r = distance_.col(3).data();
     for (int azimuth = 0; azimuth < q_.n_phi; ++azimuth) {
       for (int i = 0; i < q_.n_theta; ++i) {
-        const Index offset = Index{3} * i * n_targets;
-        const double* x = nodes_[0].row(azimuth).data() + offset;
-        const double* x1 = nodes_[has_double ? 1 : 0].row(azimuth).data() + offset;
-        const double* x2 = nodes_[has_double ? 2 : 0].row(azimuth).data() + offset;
+        const double* x = nodes_[0].row(azimuth).data() + Index{3} * i * n_targets;
         double* out = values_.row(azimuth).data() + i * row_columns();
-        double* single = out + std::max(kernels_.single, 0) * n_targets;
-        double* double_layer = out + std::max(kernels_.double_layer, 0) * n_targets;
-        double* adjoint = out + std::max(kernels_.adjoint, 0) * n_targets;
-        double* stokes = out + std::max(kernels_.stokes, 0) * n_targets;
         const double laplace_weight = kLaplacePrefactor * q_.weight[i];
-        const double stokes_weight = stokes_single_layer_prefactor(1.0) * q_.weight[i];
 #pragma omp simd
         for (int t = 0; t < n_targets; ++t) {
-          const double rx = xt[t] - x[t];
-          const double ry = yt[t] - x[n_targets + t];
-          const double rz = zt[t] - x[2 * n_targets + t];
-          const double inverse_r = 1.0 / std::sqrt(rx * rx + ry * ry + rz * rz);
-          if (has_single) single[t] = laplace_weight * laplace_single_kernel(inverse_r);
-          if (has_double) {
-            const double ux = x1[t], uy = x1[n_targets + t], uz = x1[2 * n_targets + t];
-            const double vx = x2[t], vy = x2[n_targets + t], vz = x2[2 * n_targets + t];
-            const double r_dot_area = rx * (uy * vz - uz * vy) + ry * (uz * vx - ux * vz) + rz * (ux * vy - uy * vx);
-            double_layer[t] = laplace_weight * laplace_double_kernel(r_dot_area, inverse_r);
+          rx[t] = xt[t] - x[t];
+          ry[t] = yt[t] - x[n_targets + t];
+          rz[t] = zt[t] - x[2 * n_targets + t];
+          inverse_r[t] = 1.0 / std::sqrt(rx[t] * rx[t] + ry[t] * ry[t] + rz[t] * rz[t]);
+        }
+        if (kernels_.single >= 0) {
+          double* single = out + kernels_.single * n_targets;
+#pragma omp simd
+          for (int t = 0; t < n_targets; ++t) single[t] = laplace_weight * laplace_single_kernel(inverse_r[t]);
+        }
+        if (kernels_.double_layer >= 0) {
+          const double* u = nodes_[1].row(azimuth).data() + Index{3} * i * n_targets;
+          const double* v = nodes_[2].row(azimuth).data() + Index{3} * i * n_targets;
+          double* double_layer = out + kernels_.double_layer * n_targets;
+#pragma omp simd
+          for (int t = 0; t < n_targets; ++t) {
+            const double ux = u[t], uy = u[n_targets + t], uz = u[2 * n_targets + t];
+            const double vx = v[t], vy = v[n_targets + t], vz = v[2 * n_targets + t];
+            const double r_dot_area =
+                rx[t] * (uy * vz - uz * vy) + ry[t] * (uz * vx - ux * vz) + rz[t] * (ux * vy - uy * vx);
+            double_layer[t] = laplace_weight * laplace_double_kernel(r_dot_area, inverse_r[t]);
           }
-          if (has_adjoint) {
-            const double r_dot_n = rx * nxt[t] + ry * nyt[t] + rz * nzt[t];
-            adjoint[t] = laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r);
+        }
+        if (kernels_.adjoint >= 0) {
+          double* adjoint = out + kernels_.adjoint * n_targets;
+#pragma omp simd
+          for (int t = 0; t < n_targets; ++t) {
+            const double r_dot_n = rx[t] * nxt[t] + ry[t] * nyt[t] + rz[t] * nzt[t];
+            adjoint[t] = laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r[t]);
           }
-          if (has_stokes) {
-            const auto g = stokeslet(rx, ry, rz, inverse_r);
+        }
+        if (kernels_.stokes >= 0) {
+          double* stokes = out + kernels_.stokes * n_targets;
+          const double stokes_weight = stokes_single_layer_prefactor(1.0) * q_.weight[i];
+#pragma omp simd
+          for (int t = 0; t < n_targets; ++t) {
+            const auto g = stokeslet(rx[t], ry[t], rz[t], inverse_r[t]);
             for (int c = 0; c < 6; ++c) stokes[c * n_targets + t] = stokes_weight * g[c];
           }
         }
@@ -276,8 +293,10 @@ class LatitudeWorker {
                     bool sine) {
     row_spectrum_.noalias() = rows.rightCols(trigonometric.rows()) * trigonometric;
     for (int n = m; n <= order_; ++n) {
-      const Index target = coefficient_index(n, sine ? -m : m) * kernels_.count;
-      spectrum.middleRows(target, kernels_.count) += row_spectrum_.middleRows((n - m) * kernels_.count, kernels_.count);
+      for (int c = 0; c < kernels_.count; ++c) {
+        spectrum.row(c * n_coefficients(order_) + coefficient_index(n, sine ? -m : m)) +=
+            row_spectrum_.row((n - m) * kernels_.count + c);
+      }
     }
   }
 
@@ -292,6 +311,7 @@ class LatitudeWorker {
   RowMatrix even_cosine_[kShapeKinds], even_sine_[kShapeKinds], odd_cosine_[kShapeKinds], odd_sine_[kShapeKinds];
   RowMatrix nodes_[kShapeKinds];
   Vector cosine_phase_, sine_phase_;
+  Matrix distance_;  ///< r and 1/|r| of the targets at one node
 };
 
 /// Columns: cos mφ_k for m = 0..p, then sin mφ_k for m = 1..p, scaled so that sums over k give Fourier amplitudes.
@@ -310,7 +330,7 @@ RowMatrix trigonometric_matrix(const SphereGrid& grid) {
 
 /// Targets that share the matrix products: enough columns for efficiency, few enough to stay in cache.
 int chunk_size(int n_phi) {
-  constexpr int kLargest = 18;
+  constexpr int kLargest = 12;
   const int n_chunks = (n_phi + kLargest - 1) / kLargest;
   return (n_phi + n_chunks - 1) / n_chunks;
 }
@@ -365,8 +385,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
     for (int degree = m; degree <= order; ++degree) {
       const Index out = coefficient_index(degree, mode <= order ? m : -m);
       for (int c = 0; c < kernels.count; ++c) {
-        operators[c].col(out) = Eigen::Map<const Vector, 0, Eigen::InnerStride<>>(product.col(degree - m).data() + c, n,
-                                                                                  Eigen::InnerStride<>(kernels.count));
+        operators[c].col(out) = product.col(degree - m).segment(c * n, n);
       }
     }
   }

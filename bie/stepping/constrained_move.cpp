@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,7 +45,8 @@ Measure measure(const SphereTransform& fine, const Matrix& position) {
 }  // namespace
 
 ConstrainedMove constrained_move(const Model& model, const Discretisation& discretisation, const State& state,
-                                 const Evaluation::Parts& parts, const Vector& tension, double dt) {
+                                 const Evaluation::Parts& parts, const Vector& tension, double dt,
+                                 const Landing& landing) {
   const Membrane& membrane = parts.membrane;
   const NumericalSettings& settings = discretisation.settings();
   const Vector& area_element = membrane.surface.area_element;
@@ -59,6 +61,9 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
   /// What the velocity of this pass still lacks: the implicit response to `drive`, and the divergence asked for.
   Matrix drive = parts.velocity;
   Vector divergence = Vector::Zero(normal.rows());
+  // What landing adds to area and volume, known from the last landing.
+  double landing_area = 0.0;
+  double landing_volume = 0.0;
   if (model.inextensible) divergence = -membrane.weighted(stretch_before.array() - 1.0) / dt;
   for (int pass = 0; pass <= kMaxCorrections; ++pass) {
     const VelocityField driven = velocity_field(membrane, drive, model.bending.has_value());
@@ -88,17 +93,26 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
       return move;
     }
     const Vector strain = stretch_before.array() * stretch - 1.0;
-    const double volume_error = after.volume / state.reference_volume - 1.0;
-    const double area_error = model.inextensible ? after.area / state.reference_area - 1.0 : 0.0;
+    double volume_error = (after.volume + landing_volume) / state.reference_volume - 1.0;
+    double area_error = model.inextensible ? (after.area + landing_area) / state.reference_area - 1.0 : 0.0;
     Vector weighted_strain = membrane.weighted(strain);
     // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
     const double strain_error =
         model.inextensible ? weighted_strain.tail(weighted_strain.size() - 1).norm() / area : 0.0;
-    if (std::abs(volume_error) <= settings.constraint_tolerance &&
-        std::abs(area_error) <= settings.constraint_tolerance && strain_error <= settings.strain_tolerance) {
+    const double tolerance = settings.constraint_tolerance;
+    if (std::max(std::abs(volume_error), std::abs(area_error)) <= tolerance &&
+        strain_error <= settings.strain_tolerance) {
       move.area_strain = membrane.fine.analyze(strain);
-      move.accepted = true;
-      return move;
+      move.landed = landing(move);
+      const Measure landed = measure(membrane.fine, move.landed.leftCols(3));
+      landing_area = landed.area - after.area;
+      landing_volume = landed.volume - after.volume;
+      volume_error = landed.volume / state.reference_volume - 1.0;
+      area_error = model.inextensible ? landed.area / state.reference_area - 1.0 : 0.0;
+      if (std::max(std::abs(volume_error), std::abs(area_error)) <= tolerance) {
+        move.accepted = true;
+        return move;
+      }
     }
     // The area as a whole answers for itself, free of what truncation does to the strain field.
     weighted_strain[0] = area_error * state.reference_area / std::sqrt(4.0 * std::numbers::pi);

@@ -46,7 +46,9 @@ double inclination(const Surface& s) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
   const Vector3 axis = solver.eigenvectors().col(2);
   const double degrees = std::atan2(axis.z(), axis.x()) * 180.0 / std::numbers::pi;
-  return degrees > 90.0 ? degrees - 180.0 : degrees <= -90.0 ? degrees + 180.0 : degrees;
+  // A vertical axis is +90 on either side of rounding.
+  constexpr double kRounding = 1e-9;
+  return degrees > 90.0 + kRounding ? degrees - 180.0 : degrees <= -90.0 + kRounding ? degrees + 180.0 : degrees;
 }
 
 /// √(energy of x in degrees above 2p/3 over energy in degrees from 1 up).

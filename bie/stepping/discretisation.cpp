@@ -9,7 +9,6 @@ Discretisation::Tables::Tables(const NumericalSettings& settings_)
     : settings(settings_),
       coarse(settings.order, make_grid(settings.order)),
       fine(settings.order, make_grid(settings.upsampling * settings.order)),
-      curvature(settings.upsampling * settings.order, fine.grid()),
       quadrature(make_rotated_quadrature(coarse.grid(), settings.quadrature_oversampling)) {}
 
 Discretisation::Discretisation(const NumericalSettings& settings) : tables_(std::make_unique<const Tables>(settings)) {}

@@ -7,9 +7,8 @@ namespace vehd {
 
 struct Discretisation::Tables {
   NumericalSettings settings;
-  SphereTransform coarse;     ///< degree p ↔ grid of order p
-  SphereTransform fine;       ///< degree p ↔ upsampled grid
-  SphereTransform curvature;  ///< degree of the curvature ↔ upsampled grid
+  SphereTransform coarse;  ///< degree p ↔ grid of order p
+  SphereTransform fine;    ///< degree p ↔ upsampled grid
   RotatedQuadrature quadrature;
 
   explicit Tables(const NumericalSettings& settings);

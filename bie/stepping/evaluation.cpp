@@ -22,7 +22,7 @@ Membrane make_membrane(const Model& model, const Discretisation& discretisation,
   selection.laplace_single = selection.laplace_double = selection.laplace_adjoint = model.electric.has_value();
   const auto timer = instruments.time("operator assembly");
   LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.coarse, position, selection, instruments);
-  return {tables.fine, tables.curvature, std::move(surface), std::move(layers), radius};
+  return {tables.fine, std::move(surface), std::move(layers), radius};
 }
 
 }  // namespace

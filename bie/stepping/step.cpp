@@ -28,27 +28,27 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
     }
   }
 
-  ConstrainedMove move;
-  {
-    const auto timer = instruments.time("velocity solve");
-    move = constrained_move(model, discretisation, state, *evaluation.parts, evaluation.fields.tension, dt);
-  }
+  // Columns: x, strain, then whatever the model carries.
+  const Landing landing = [&](const ConstrainedMove& move) {
+    const auto timer = instruments.time("reparametrisation");
+    Matrix fields(move.position.rows(), 4 + (model.electric ? 1 : 0) + (model.inextensible ? 1 : 0));
+    fields.leftCols(3) = move.position;
+    fields.col(3) = move.area_strain;
+    Index column = 4;
+    if (model.electric) fields.col(column++) = potential;
+    if (model.inextensible) fields.col(column++) = move.tension;
+    return reparametrise(tables.fine, make_surface(tables.fine, move.position), move.position, dt * move.velocity,
+                         fields);
+  };
+  const auto timer = instruments.time("velocity solve");
+  const ConstrainedMove move =
+      constrained_move(model, discretisation, state, *evaluation.parts, evaluation.fields.tension, dt, landing);
   result.iterations_flow = move.iterations;
   if (!move.accepted) {
     result.reason = move.reason;
     return result;
   }
-
-  const auto timer = instruments.time("reparametrisation");
-  const Surface moved = make_surface(tables.fine, move.position);
-  // Columns: x, strain, then whatever the model carries.
-  Matrix fields(move.position.rows(), 4 + (model.electric ? 1 : 0) + (model.inextensible ? 1 : 0));
-  fields.leftCols(3) = move.position;
-  fields.col(3) = move.area_strain;
-  Index column = 4;
-  if (model.electric) fields.col(column++) = potential;
-  if (model.inextensible) fields.col(column++) = move.tension;
-  fields = reparametrise(tables.fine, moved, move.position, dt * move.velocity, fields);
+  const Matrix& fields = move.landed;
   if (!fields.allFinite()) {
     result.reason = "the new state is not finite";
     return result;
@@ -60,7 +60,7 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
   next.step = state.step + 1;
   next.position = fields.leftCols(3);
   next.area_strain = fields.col(3);
-  column = 4;
+  Index column = 4;
   if (model.electric) next.transmembrane_potential = fields.col(column++);
   if (model.inextensible) next.tension = fields.col(column++);
   result.accepted = true;
@@ -108,7 +108,7 @@ State initial_state(const Model& model, const Discretisation& discretisation, co
     const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
     const LayerSelection selection{true, true, true, false};
     const Membrane membrane{
-        tables.fine, tables.curvature, std::move(surface),
+        tables.fine, std::move(surface),
         assemble_layer_operators(tables.quadrature, tables.coarse, position, selection, instruments), radius};
     require_converged(steady_potential(*model.electric, *model.charging, membrane, tables.settings.electric_tolerance,
                                        state.transmembrane_potential),

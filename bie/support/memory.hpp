@@ -1,0 +1,9 @@
+#pragma once
+
+namespace vehd {
+
+/// Lets the process keep freed memory for its next allocation. Every step frees and allocates the same tens of
+/// megabytes; handing them back to the kernel costs a page fault for every 4 KiB, about a third of an assembly.
+void keep_freed_memory();
+
+}  // namespace vehd
