@@ -1,0 +1,81 @@
+#include "bie/app/command_line.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "bie/app/commands.hpp"
+#include "bie/app/file_system.hpp"
+#include "bie/app/versions.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr const char* footer =
+    "Exit codes: 0 done, 1 wrong input or usage, 2 internal error,\n"
+    "            3 the run stopped early and can be continued with --resume.\n"
+    "Scene files to start from: docs/scenes/*.toml";
+
+void send_messages_to_standard_error() {
+  auto logger = spdlog::stderr_color_mt("vehd");
+  logger->set_pattern("%^%l%$: %v");
+  spdlog::set_default_logger(std::move(logger));
+}
+
+std::string version_text() {
+  std::string text = "vehd " + program_version();
+  for (const auto& [library, version] : library_versions()) text += fmt::format("\n{} {}", library, version);
+  return text;
+}
+
+ExitCode fail(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "{}\n", message);
+  return code;
+}
+
+ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_code) {
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      program.exit(error);
+      return ExitCode::done;
+    }
+    const auto commands = program.get_subcommands();
+    const std::string name = commands.empty() ? "vehd" : "vehd " + commands.front()->get_name();
+    return fail(ExitCode::wrong_input, fmt::format("{}: {}; see {} --help", name, error.what(), name));
+  } catch (const InputError& error) {
+    return fail(ExitCode::wrong_input, error.what());
+  } catch (const OutputError& error) {
+    return fail(ExitCode::wrong_input, error.what());
+  } catch (const std::exception& error) {
+    return fail(ExitCode::internal_error, fmt::format("internal error: {}", error.what()));
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--json", options.json_file, "Also write the result to this file as JSON")->type_name("FILE");
+}
+
+void write_json(const CommonOptions& options, const nlohmann::json& result) {
+  if (!options.json_file.empty()) replace_file(options.json_file, result.dump(2) + "\n");
+}
+
+int run_program(int argc, char** argv) {
+  send_messages_to_standard_error();
+  CLI::App program("Simulates a lipid vesicle in viscous flow and electric field by boundary integral equations.",
+                   "vehd");
+  program.set_version_flag("--version", version_text(), "Print the versions of the program and its libraries");
+  program.require_subcommand(1);
+  program.footer(footer);
+  ExitCode exit_code = ExitCode::done;
+  add_run_command(program, exit_code);
+  add_plot_command(program, exit_code);
+  return static_cast<int>(parse_and_run(program, argc, argv, exit_code));
+}
+
+}  // namespace vehd

@@ -1,0 +1,51 @@
+#include "bie/app/file_system.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "bie/app/errors.hpp"
+
+namespace vehd {
+
+std::filesystem::path temporary_of(const std::filesystem::path& path) {
+  return path.parent_path() / fmt::format(".{}.new", path.filename().string());
+}
+
+void replace_file(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path temporary = temporary_of(path);
+  {
+    errno = 0;
+    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    stream << text;
+    stream.close();
+    if (!stream) throw OutputError(write_problem(path));
+  }
+  rename_file(temporary, path);
+}
+
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) throw OutputError(write_problem(to));
+}
+
+void synchronise_file(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool written = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (!written) {
+    const std::string problem = write_problem(path);
+    if (descriptor >= 0) ::close(descriptor);
+    throw OutputError(problem);
+  }
+  ::close(descriptor);
+}
+
+std::string write_problem(const std::filesystem::path& path) {
+  return fmt::format("{}: cannot be written: {}", path.string(),
+                     errno == 0 ? std::string("unknown reason") : std::string(std::strerror(errno)));
+}
+
+}  // namespace vehd

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+/// File operations whose outcome survives a kill at any instant.
+namespace vehd {
+
+/// Path of the temporary file beside `path` that a replacement is written to first.
+std::filesystem::path temporary_of(const std::filesystem::path& path);
+
+/// Replaces the file in one step: a reader sees the old or the new text, never a part. @throws OutputError
+void replace_file(const std::filesystem::path& path, const std::string& text);
+
+/// rename(2). @throws OutputError
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Waits until the file's data are on the disk. @throws OutputError
+void synchronise_file(const std::filesystem::path& path);
+
+/// "path: cannot be written: reason" with the reason of errno.
+std::string write_problem(const std::filesystem::path& path);
+
+}  // namespace vehd

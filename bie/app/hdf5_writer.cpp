@@ -1,0 +1,139 @@
+#include "bie/app/hdf5_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bie/app/errors.hpp"
+
+namespace vehd {
+namespace {
+
+herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
+  static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+  return 0;
+}
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), std::max<std::size_t>(length, 1));
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  return type;
+}
+
+/// Creation properties of datasets and groups without modification times.
+Hdf5Handle untimed(hid_t property_class) {
+  Hdf5Handle properties(H5Pcreate(property_class), H5Pclose);
+  if (property_class == H5P_DATASET_CREATE) H5Pset_obj_track_times(properties.id(), false);
+  return properties;
+}
+
+}  // namespace
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode) : name_(path.string()) {
+  silence_hdf5();
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
+  const hid_t id = mode == Mode::create
+                       ? H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id())
+                       : H5Fopen(name_.c_str(), mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id());
+  file_ = Hdf5Handle(id, H5Fclose);
+  if (!file_.valid()) fail("cannot be opened");
+}
+
+void Hdf5Writer::fail(const std::string& what) const {
+  throw OutputError(fmt::format("{}: {} ({})", name_, what, last_hdf5_error()));
+}
+
+bool Hdf5Writer::has(const std::string& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
+
+void Hdf5Writer::group(const std::string& path) {
+  const Hdf5Handle handle(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  if (!handle.valid()) fail(fmt::format("group {} cannot be written", path));
+}
+
+void Hdf5Writer::numbers(const std::string& path, std::span<const double> values, const std::vector<hsize_t>& extents,
+                         const DatasetLabel& label) {
+  write_dataset(path, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), extents, label);
+}
+
+void Hdf5Writer::integers(const std::string& path, std::span<const std::int64_t> values,
+                          const std::vector<hsize_t>& extents, const DatasetLabel& label) {
+  write_dataset(path, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), extents, label);
+}
+
+void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
+                               const std::vector<hsize_t>& extents, const DatasetLabel& label) {
+  {
+    const Hdf5Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
+    const Hdf5Handle properties = untimed(H5P_DATASET_CREATE);
+    Hdf5Handle dataset(
+        H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
+        H5Dclose);
+    if (!dataset.valid() || H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0 ||
+        !dataset.close()) {
+      fail(fmt::format("dataset {} cannot be written", path));
+    }
+  }
+  attribute(path, "unit", label.unit);
+  attribute(path, "description", label.description);
+}
+
+void Hdf5Writer::text(const std::string& path, const std::string& value) {
+  const Hdf5Handle type = text_type(value.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle properties = untimed(H5P_DATASET_CREATE);
+  const Hdf5Handle dataset(
+      H5Dcreate2(file_.id(), path.c_str(), type.id(), space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Dclose);
+  if (!dataset.valid() || H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()) < 0) {
+    fail(fmt::format("text {} cannot be written", path));
+  }
+}
+
+void Hdf5Writer::remove(const std::string& path) {
+  if (H5Ldelete(file_.id(), path.c_str(), H5P_DEFAULT) < 0) fail(fmt::format("{} cannot be removed", path));
+}
+
+void Hdf5Writer::copy_from(const Hdf5Writer& source, const std::string& path) {
+  if (H5Ocopy(source.file_.id(), path.c_str(), file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+    fail(fmt::format("{} cannot be copied from {}", path, source.name_));
+  }
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
+  write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
+  write_attribute(object, name, H5T_NATIVE_INT64, &value);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  write_attribute(object, name, text_type(value.size()).id(), value.c_str());
+}
+
+void Hdf5Writer::write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle handle(H5Acreate_by_name(file_.id(), object.c_str(), name.c_str(), type, space.id(), H5P_DEFAULT,
+                                            H5P_DEFAULT, H5P_DEFAULT),
+                          H5Aclose);
+  if (!handle.valid() || H5Awrite(handle.id(), type, value) < 0) {
+    fail(fmt::format("attribute {} of {} cannot be written", name, object));
+  }
+}
+
+std::vector<std::string> Hdf5Writer::members(const std::string& group_path) const {
+  std::vector<std::string> names;
+  const Hdf5Handle handle(H5Gopen2(file_.id(), group_path.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!handle.valid() || H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0) {
+    fail(fmt::format("group {} cannot be read", group_path));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void Hdf5Writer::close() {
+  if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0 || !file_.close()) fail("cannot be written completely");
+}
+
+}  // namespace vehd

@@ -1,0 +1,119 @@
+#include "bie/app/history.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+#include "bie/app/errors.hpp"
+#include "bie/app/file_system.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+struct DiagnosticColumn {
+  std::string_view name;
+  double Diagnostics::*member;
+};
+
+constexpr std::array diagnostic_columns = {
+    DiagnosticColumn{"area", &Diagnostics::area},
+    DiagnosticColumn{"volume", &Diagnostics::volume},
+    DiagnosticColumn{"reduced_volume", &Diagnostics::reduced_volume},
+    DiagnosticColumn{"bending_energy_scaled", &Diagnostics::bending_energy_scaled},
+    DiagnosticColumn{"tension_integral", &Diagnostics::tension_integral},
+    DiagnosticColumn{"Vm_north", &Diagnostics::Vm_north},
+    DiagnosticColumn{"q_north", &Diagnostics::q_north},
+    DiagnosticColumn{"Vm_max", &Diagnostics::Vm_max},
+    DiagnosticColumn{"extent_x", &Diagnostics::extent_x},
+    DiagnosticColumn{"extent_y", &Diagnostics::extent_y},
+    DiagnosticColumn{"extent_z", &Diagnostics::extent_z},
+    DiagnosticColumn{"inclination_deg", &Diagnostics::inclination_deg},
+    DiagnosticColumn{"area_drift", &Diagnostics::area_drift},
+    DiagnosticColumn{"volume_drift", &Diagnostics::volume_drift},
+    DiagnosticColumn{"strain_max", &Diagnostics::strain_max},
+    DiagnosticColumn{"spectrum_tail", &Diagnostics::spectrum_tail},
+};
+
+std::string header() {
+  std::string line = "time,dt";
+  for (const DiagnosticColumn& column : diagnostic_columns) line += fmt::format(",{}", column.name);
+  return line + ",iterations_flow,iterations_electric,rejected\n";
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char letter : line) {
+    if (letter == ',') {
+      cells.emplace_back();
+    } else if (letter != '\r') {
+      cells.back() += letter;
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes) : path_(path) {
+  if (kept_bytes == 0) {
+    stream_.open(path, std::ios::binary | std::ios::trunc);
+    write(header());
+    return;
+  }
+  std::error_code error;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+  if (error || size < kept_bytes) {
+    throw InputError(fmt::format("{}: is missing or shorter than the {} bytes that the checkpoint counts",
+                                 path.string(), kept_bytes));
+  }
+  std::string first_line;
+  std::getline(std::ifstream(path), first_line);
+  if (first_line + "\n" != header()) throw InputError(fmt::format("{}:1: has other columns", path.string()));
+  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(kept_bytes), error);
+  if (error) throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
+  stream_.open(path, std::ios::binary | std::ios::app);
+  bytes_ = kept_bytes;
+}
+
+void HistoryFile::append(const HistoryRow& row) {
+  std::string line = fmt::format("{:.17g},{:.17g}", row.time, row.dt);
+  for (const DiagnosticColumn& column : diagnostic_columns) {
+    line += fmt::format(",{:.17g}", row.diagnostics.*column.member);
+  }
+  write(line + fmt::format(",{},{},{}\n", row.iterations_flow, row.iterations_electric, row.rejected));
+}
+
+void HistoryFile::write(const std::string& text) {
+  stream_ << text << std::flush;
+  if (!stream_) throw OutputError(write_problem(path_));
+  bytes_ += static_cast<std::int64_t>(text.size());
+}
+
+HistoryTable::HistoryTable(const std::filesystem::path& path) : file_(path.string()) {
+  std::ifstream stream(path);
+  std::string line;
+  if (!std::getline(stream, line)) throw InputError(fmt::format("{}: no such file or empty", file_));
+  names_ = split(line);
+  columns_.resize(names_.size());
+  while (std::getline(stream, line)) {
+    const std::vector<std::string> cells = split(line);
+    if (cells.size() != names_.size()) {
+      throw InputError(
+          fmt::format("{}:{}: has {} columns; accepted: {}", file_, n_rows_ + 2, cells.size(), names_.size()));
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) columns_[i].push_back(std::strtod(cells[i].c_str(), nullptr));
+    ++n_rows_;
+  }
+}
+
+const std::vector<double>& HistoryTable::column(const std::string& name) const {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (names_[i] == name) return columns_[i];
+  }
+  throw InputError(fmt::format("{}:1: has no column {}", file_, name));
+}
+
+}  // namespace vehd

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <csignal>
+
+namespace vehd {
+
+/// While alive, SIGINT and SIGTERM wait until `requested` looks for them, so that a step is never torn. Threads
+/// started later inherit this; create it before the first parallel region.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  /// Whether one of the signals has arrived since construction.
+  [[nodiscard]] bool requested();
+
+ private:
+  sigset_t signals_{};
+  sigset_t former_mask_{};
+  bool requested_ = false;
+};
+
+}  // namespace vehd

@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bie/app/commands.hpp"
+#include "bie/app/plots.hpp"
+
+namespace vehd {
+namespace {
+
+struct PlotOptions {
+  std::string directory;
+  std::string output;
+  std::vector<double> times;
+  CommonOptions common;
+};
+
+ExitCode plot(const PlotOptions& options) {
+  const RunPaths paths{options.directory};
+  const auto pictures =
+      plot_run({paths, options.times, options.output.empty() ? paths.plots() : std::filesystem::path(options.output)});
+  nlohmann::json result;
+  for (const auto& picture : pictures) {
+    fmt::print("{}\n", picture.string());
+    result["pictures"].push_back(picture.string());
+  }
+  write_json(options.common, result);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_plot_command(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("plot", "Draw pictures (PNG) of a run");
+  const auto options = std::make_shared<PlotOptions>();
+  command->add_option("DIR", options->directory, "Directory of the run")->required();
+  command->add_option("-o,--output", options->output, "Directory for the pictures; DIR/plots if not given")
+      ->type_name("DIR");
+  command->add_option("--times", options->times, "Times of the shapes, at most 6; evenly spread if not given")
+      ->delimiter(',')
+      ->type_name("T,T,...")
+      ->expected(1, 6);
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] { exit_code = plot(*options); });
+}
+
+}  // namespace vehd

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bie/app/run_directory.hpp"
+
+namespace vehd {
+
+struct PlotTask {
+  RunPaths paths;
+  std::vector<double> times;     ///< of the shapes, nearest snapshots are taken; empty: evenly spread
+  std::filesystem::path output;  ///< directory for the pictures
+};
+
+/// Draws all pictures of a run through gnuplot; needs no display.
+/// @return the pictures
+/// @throws InputError if the run cannot be read or gnuplot is missing
+std::vector<std::filesystem::path> plot_run(const PlotTask& task);
+
+/// One row of shapes in perspective, coloured by V_m, or by tension without one.
+void plot_shapes(const PlotTask& task, const std::filesystem::path& picture);
+
+/// Energy and tension, V_m and charge at the north pole (or extents), inclination in flow, against time.
+void plot_history(const PlotTask& task, const std::filesystem::path& picture);
+
+}  // namespace vehd

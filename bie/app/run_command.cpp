@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+#include <omp.h>
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <memory>
+
+#include "bie/app/commands.hpp"
+#include "bie/app/file_system.hpp"
+#include "bie/app/plots.hpp"
+#include "bie/app/run_loop.hpp"
+#include "bie/app/summary.hpp"
+#include "bie/scene/effective_scene.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/scene/schema.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+struct RunOptions {
+  std::string scene_file;
+  std::string directory;
+  bool resume = false;
+  bool no_plot = false;
+  bool quiet = false;
+  CommonOptions common;
+};
+
+/// Where and how often a run ends may change between sessions; anything else would make another run of it.
+void require_same_scene(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
+  const Scene stored = parse_scene(checkpoint.scene, paths.checkpoint().string() + " (scene)", paths.directory);
+  for (const std::string& key : differing_keys(scene, stored)) {
+    if (key == "numerics.end_time" || key == "output.every") continue;
+    throw InputError(fmt::format("{}: holds a run of another scene: \"{}\" differs; choose another -o",
+                                 paths.directory.string(), key));
+  }
+  if (scene.numerics.end_time < checkpoint.state.time) {
+    throw InputError(fmt::format("{}: has already reached time {:g}, past the end_time {:g} of the scene",
+                                 paths.directory.string(), checkpoint.state.time, scene.numerics.end_time));
+  }
+}
+
+/// A complete run of exactly this scene.
+bool is_complete(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
+  if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
+  const nlohmann::json summary = nlohmann::json::parse(std::ifstream(paths.summary()), nullptr, false);
+  return summary.is_object() && summary.value("completed", false) && checkpoint.scene == effective_scene(scene);
+}
+
+void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
+  fmt::print("{} at time {:g}: {} steps ({} rejected) in {}\n",
+             summary["completed"].get<bool>() ? "completed" : "stopped", summary["time"].get<double>(),
+             summary["steps"].get<int>(), summary["rejected_steps"].get<int>(),
+             duration_text(summary["seconds"].get<double>()));
+  fmt::print("bending energy ∫H² dA {:.6g}, area drift {:.1e}, volume drift {:.1e}, local strain {:.1e}\n",
+             summary["bending_energy_scaled"].get<double>(), summary["area_drift"].get<double>(),
+             summary["volume_drift"].get<double>(), summary["strain_max"].get<double>());
+  fmt::print("verdict: {}\n", summary["verdict"].get<std::string>());
+  fmt::print("files: {}\n", paths.directory.string());
+}
+
+/// A missing picture must not spoil a finished run.
+void plot_if_possible(const RunPaths& paths) {
+  try {
+    for (const auto& picture : plot_run({paths, {}, paths.plots()})) fmt::print("picture: {}\n", picture.string());
+  } catch (const std::exception& error) {
+    spdlog::warn("no pictures: {}", error.what());
+  }
+}
+
+nlohmann::json summarise(const RunPaths& paths, const RunOutcome& outcome) {
+  const Checkpoint checkpoint = read_checkpoint(paths.checkpoint());
+  const nlohmann::json summary =
+      summary_of(HistoryTable(paths.history()), checkpoint.totals, outcome.completed, outcome.reason);
+  replace_file(paths.summary(), summary.dump(2) + "\n");
+  return summary;
+}
+
+ExitCode run(const RunOptions& options) {
+  const Scene scene = read_scene(options.scene_file);
+  const RunPaths paths{options.directory};
+  make_run_directory(paths);
+  const DirectoryLock lock(paths.lock());
+  std::optional<Checkpoint> checkpoint;
+  if (admit_run(paths, options.resume)) {
+    checkpoint = read_checkpoint(paths.checkpoint());
+    require_same_scene(scene, *checkpoint, paths);
+    if (is_complete(scene, *checkpoint, paths)) {
+      fmt::print("{}: the run is already complete, nothing to do\n", paths.directory.string());
+      write_json(options.common, nlohmann::json::parse(std::ifstream(paths.summary())));
+      return ExitCode::done;
+    }
+    if (checkpoint->threads != omp_get_max_threads()) {
+      spdlog::warn("the run was started with {} threads and continues with {}: the last digits may differ",
+                   checkpoint->threads, omp_get_max_threads());
+    }
+  }
+  RunOutcome outcome;
+  {
+    Interruption interruption;
+    const Progress::Style style = options.quiet ? Progress::Style::none : Progress::suitable_style();
+    outcome = simulate({scene, paths, checkpoint, style}, interruption);
+  }
+  nlohmann::json summary;
+  try {
+    summary = summarise(paths, outcome);
+  } catch (const OutputError& error) {
+    // With a full disk there is no summary either; what matters is that the run can be continued.
+    if (outcome.completed) throw;
+    fmt::print(stderr, "{}\n{}\n", outcome.reason, error.what());
+    return ExitCode::stopped_early;
+  }
+  print_summary(summary, paths);
+  write_json(options.common, summary);
+  if (!outcome.completed) {
+    fmt::print(stderr, "{}; continue with: vehd run {} -o {} --resume\n", outcome.reason, options.scene_file,
+               options.directory);
+    return ExitCode::stopped_early;
+  }
+  if (!options.no_plot) plot_if_possible(paths);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("run", "Simulate a scene");
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
+  command->add_option("-o,--output", options->directory, "Directory for the files of the run; created if missing")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--resume", options->resume, "Continue the run in DIR; start it if there is none");
+  command->add_flag("--no-plot", options->no_plot, "Draw no pictures at the end");
+  command->add_flag("--quiet", options->quiet, "Show no progress");
+  add_common_options(*command, options->common);
+  command->footer(
+      "Writes history.csv, run.h5, run.xdmf (ParaView), summary.json, scene.toml and plots/.\n"
+      "Ctrl-C finishes the step in hand and leaves a run that --resume continues.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vehd

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+
+namespace vehd {
+
+/// Where the files of one run are.
+struct RunPaths {
+  std::filesystem::path directory;
+
+  [[nodiscard]] std::filesystem::path history() const { return directory / "history.csv"; }
+  [[nodiscard]] std::filesystem::path snapshots() const { return directory / "run.h5"; }
+  [[nodiscard]] std::filesystem::path xdmf() const { return directory / "run.xdmf"; }
+  [[nodiscard]] std::filesystem::path summary() const { return directory / "summary.json"; }
+  [[nodiscard]] std::filesystem::path scene() const { return directory / "scene.toml"; }
+  [[nodiscard]] std::filesystem::path checkpoint() const { return directory / "checkpoint.h5"; }
+  [[nodiscard]] std::filesystem::path lock() const { return directory / ".lock"; }
+  [[nodiscard]] std::filesystem::path plots() const { return directory / "plots"; }
+};
+
+/// Exclusive use of a run directory until destruction; a killed process releases it as well.
+class DirectoryLock {
+ public:
+  /// @throws InputError if another process holds it or the directory cannot be written
+  explicit DirectoryLock(const std::filesystem::path& lock_file);
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// Creates the directory with its parents. @throws InputError
+void make_run_directory(const RunPaths& paths);
+
+/// Nothing of a former run is ever overwritten: refuses a directory that holds files of a run, unless these can be
+/// resumed and `resume` asks for it. @throws InputError
+/// @return whether there is a run to resume
+bool admit_run(const RunPaths& paths, bool resume);
+
+}  // namespace vehd

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "bie/app/hdf5_writer.hpp"
+#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/fields.hpp"
+#include "bie/stepping/state.hpp"
+
+/// Layout of run.h5. Stable: the finite-element side and users' scripts read it.
+namespace vehd {
+
+constexpr std::int64_t run_schema_version = 1;
+
+/// Everything of run.h5 that does not depend on time.
+struct RunHeader {
+  std::string scene;  ///< effective scene
+  int threads = 1;
+};
+
+/// Six digits, so that the order of names is the order of time.
+std::string snapshot_name(std::int64_t number);
+
+/// Writes the header into an empty file.
+void write_run_header(Hdf5Writer& file, const Discretisation& discretisation, const RunHeader& header);
+
+/// Writes /snapshots/<name>: grid fields, coefficients/ and surface/.
+void write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation, const State& state,
+                    const Fields& fields);
+
+}  // namespace vehd

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bie/app/checkpoint.hpp"
+#include "bie/app/interruption.hpp"
+#include "bie/app/progress.hpp"
+#include "bie/app/run_directory.hpp"
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// How a run ended; `reason` says why it did not reach its end.
+struct RunOutcome {
+  bool completed = false;
+  std::string reason;
+};
+
+struct RunTask {
+  const Scene& scene;
+  const RunPaths& paths;
+  const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run
+  Progress::Style progress = Progress::Style::none;
+};
+
+/// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date
+/// after every accepted step. Solver failures and full disks end it early; they are not exceptions.
+/// @throws InputError if the run cannot be started; no file of a run exists then
+RunOutcome simulate(const RunTask& task, Interruption& interruption);
+
+}  // namespace vehd

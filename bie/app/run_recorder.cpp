@@ -1,0 +1,78 @@
+#include "bie/app/run_recorder.hpp"
+
+#include "bie/app/file_system.hpp"
+#include "bie/app/run_file.hpp"
+#include "bie/scene/hdf5_reader.hpp"
+
+namespace vehd {
+namespace {
+
+/// The checkpoint of a new run comes first: whatever a kill leaves behind can then be resumed.
+const Checkpoint& written(const RunPaths& paths, const Checkpoint& start) {
+  write_checkpoint(paths.checkpoint(), start);
+  replace_file(paths.scene(), start.scene);
+  return start;
+}
+
+SnapshotStore::WriteHeader header_writer(const Discretisation& discretisation, const Checkpoint& start) {
+  return [&discretisation, header = RunHeader{start.scene, static_cast<int>(start.threads)}](Hdf5Writer& file) {
+    write_run_header(file, discretisation, header);
+  };
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Checkpoint& start)
+    : paths_(paths),
+      discretisation_(discretisation),
+      last_(written(paths, start)),
+      snapshots_(paths.snapshots(), header_writer(discretisation, start), start.n_snapshots),
+      history_(paths.history(), start.history_bytes) {
+  const SphereGrid& grid = discretisation.transform().grid();
+  xdmf_.n_points = grid.n_points() + 2;
+  xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
+  const Hdf5Reader file(paths.snapshots());
+  for (std::int64_t number = 0; number < start.n_snapshots; ++number) {
+    xdmf_.times.push_back(file.number_attribute("/snapshots/" + snapshot_name(number), "time"));
+  }
+}
+
+void RunRecorder::record(const HistoryRow& row, const State& state, const Evaluation& evaluation, bool with_snapshot,
+                         const RunTotals& totals) {
+  history_.append(row);
+  if (with_snapshot) {
+    snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
+      write_snapshot(file, name, discretisation_, state, evaluation.fields);
+    });
+    write_xdmf(state, evaluation.fields);
+  }
+  last_.state = state;
+  ++last_.n_rows;
+  last_.history_bytes = history_.bytes();
+  last_.n_snapshots = snapshots_.size();
+  update_totals(totals);
+}
+
+void RunRecorder::update_totals(const RunTotals& totals) {
+  last_.totals = totals;
+  write_checkpoint(paths_.checkpoint(), last_);
+}
+
+void RunRecorder::write_xdmf(const State& state, const Fields& fields) {
+  xdmf_.times.push_back(state.time);
+  xdmf_.scalars.clear();
+  xdmf_.vectors.clear();
+  const auto add = [](std::vector<std::string>& names, const char* name, bool present) {
+    if (present) names.emplace_back(name);
+  };
+  add(xdmf_.scalars, "Vm", state.transmembrane_potential.size() > 0);
+  add(xdmf_.scalars, "q", fields.charge.size() > 0);
+  add(xdmf_.scalars, "tension", fields.tension.size() > 0);
+  add(xdmf_.vectors, "velocity", fields.velocity.size() > 0);
+  add(xdmf_.vectors, "force_bending", fields.force_bending.size() > 0);
+  add(xdmf_.vectors, "force_tension", fields.force_tension.size() > 0);
+  add(xdmf_.vectors, "force_electric", fields.force_electric.size() > 0);
+  replace_file(paths_.xdmf(), xdmf_text(xdmf_));
+}
+
+}  // namespace vehd

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "bie/app/checkpoint.hpp"
+#include "bie/app/history.hpp"
+#include "bie/app/run_directory.hpp"
+#include "bie/app/snapshot_store.hpp"
+#include "bie/app/xdmf.hpp"
+#include "bie/stepping/stepper.hpp"
+
+namespace vehd {
+
+/// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
+/// the checkpoint never counts what is not there.
+class RunRecorder {
+ public:
+  /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
+  RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Checkpoint& start);
+
+  /// Records one accepted state.
+  void record(const HistoryRow& row, const State& state, const Evaluation& evaluation, bool with_snapshot,
+              const RunTotals& totals);
+
+  /// Work that a session has done after its last row.
+  void update_totals(const RunTotals& totals);
+
+  [[nodiscard]] std::int64_t n_rows() const { return last_.n_rows; }
+  /// Marks the files as final.
+  void finish() { snapshots_.finish(); }
+
+ private:
+  void write_xdmf(const State& state, const Fields& fields);
+
+  const RunPaths& paths_;
+  const Discretisation& discretisation_;
+  Checkpoint last_;
+  SnapshotStore snapshots_;
+  HistoryFile history_;
+  XdmfSeries xdmf_;
+};
+
+}  // namespace vehd

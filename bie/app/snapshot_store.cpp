@@ -1,0 +1,84 @@
+#include "bie/app/snapshot_store.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bie/app/errors.hpp"
+#include "bie/app/file_system.hpp"
+#include "bie/app/run_file.hpp"
+#include "bie/scene/hdf5_reader.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+std::string group_of(std::int64_t number) { return "/snapshots/" + snapshot_name(number); }
+
+void require_snapshots(const std::filesystem::path& path, std::int64_t count) {
+  const Hdf5Reader file(path);
+  if (file.integer_attribute("/", "schema_version") != run_schema_version) {
+    file.refuse(fmt::format("has schema version {}; accepted: {}", file.integer_attribute("/", "schema_version"),
+                            run_schema_version));
+  }
+  for (std::int64_t number = 0; number < count; ++number) {
+    if (!file.has(group_of(number)))
+      file.refuse(fmt::format("lacks {}, which the checkpoint counts", group_of(number)));
+  }
+}
+
+void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, error);
+  if (error) throw OutputError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+}
+
+}  // namespace
+
+SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept)
+    : path_(std::move(path)),
+      spare_(path_.parent_path() / fmt::format(".{}.spare", path_.filename().string())),
+      old_(path_.parent_path() / fmt::format(".{}.old", path_.filename().string())),
+      size_(n_kept),
+      spare_size_(n_kept) {
+  if (n_kept > 0) require_snapshots(path_, n_kept);
+  // A kill can leave a torn spare or snapshots that the checkpoint does not know yet; both are written anew.
+  std::filesystem::remove(spare_);
+  std::filesystem::remove(old_);
+  const std::filesystem::path fresh = temporary_of(path_);
+  {
+    Hdf5Writer file(fresh, Hdf5Writer::Mode::create);
+    write_header(file);
+    if (n_kept > 0) {
+      Hdf5Writer kept(path_, Hdf5Writer::Mode::read);
+      for (std::int64_t number = 0; number < n_kept; ++number) file.copy_from(kept, group_of(number));
+    }
+    file.close();
+  }
+  synchronise_file(fresh);
+  rename_file(fresh, path_);
+  copy_whole(path_, spare_);
+}
+
+void SnapshotStore::add(const WriteSnapshot& write_snapshot) {
+  {
+    Hdf5Writer spare(spare_, Hdf5Writer::Mode::extend);
+    if (spare_size_ < size_) {
+      Hdf5Writer current(path_, Hdf5Writer::Mode::read);
+      for (; spare_size_ < size_; ++spare_size_) spare.copy_from(current, group_of(spare_size_));
+    }
+    write_snapshot(spare, snapshot_name(size_));
+    spare.close();
+  }
+  synchronise_file(spare_);
+  // The link keeps the present file reachable while its name moves to the new one; file systems without hard links
+  // get a copy.
+  if (::link(path_.c_str(), old_.c_str()) != 0) copy_whole(path_, old_);
+  rename_file(spare_, path_);
+  rename_file(old_, spare_);
+  spare_size_ = size_;
+  ++size_;
+}
+
+void SnapshotStore::finish() { std::filesystem::remove(spare_); }
+
+}  // namespace vehd

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bie/app/hdf5_writer.hpp"
+
+namespace vehd {
+
+/// A growing run.h5 that is a complete, closed HDF5 file at every instant.
+///
+/// A hidden second file lags by one snapshot. A new snapshot is written there, together with the one it lacks, and
+/// then the two names are exchanged by renames: a kill leaves either the old or the new file under the name run.h5.
+/// The cost of a snapshot does not grow with the run.
+class SnapshotStore {
+ public:
+  using WriteHeader = std::function<void(Hdf5Writer&)>;
+  using WriteSnapshot = std::function<void(Hdf5Writer&, const std::string& name)>;
+
+  /// Starts a file without snapshots, or takes over the first `n_kept` snapshots of an existing one.
+  /// @throws InputError if the existing file is damaged or lacks some of these snapshots
+  SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept);
+
+  /// @throws OutputError
+  void add(const WriteSnapshot& write_snapshot);
+
+  /// Number of snapshots in the file.
+  [[nodiscard]] std::int64_t size() const { return size_; }
+
+  /// Removes the hidden second file: the run is complete.
+  void finish();
+
+ private:
+  std::filesystem::path path_, spare_, old_;
+  std::int64_t size_ = 0;
+  std::int64_t spare_size_ = 0;
+};
+
+}  // namespace vehd

@@ -1,0 +1,79 @@
+#include "bie/app/summary.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "bie/app/versions.hpp"
+
+namespace vehd {
+namespace {
+
+/// A run that exceeds one of these is reported as not trustworthy.
+struct Limit {
+  const char* column;
+  double largest;
+};
+constexpr std::array limits = {Limit{"area_drift", 1e-6}, Limit{"volume_drift", 1e-6}, Limit{"strain_max", 0.05},
+                               Limit{"spectrum_tail", 1e-3}};
+
+double largest_magnitude(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) {
+    if (std::isnan(value)) return value;
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
+
+}  // namespace
+
+std::string verdict_of(const HistoryTable& history) {
+  std::string findings;
+  for (const Limit& limit : limits) {
+    const std::vector<double>& values = history.column(limit.column);
+    const auto first =
+        std::find_if(values.begin(), values.end(), [&](double value) { return !(std::abs(value) <= limit.largest); });
+    if (first == values.end()) continue;
+    const double time = history.column("time")[static_cast<std::size_t>(first - values.begin())];
+    findings += fmt::format("{}{} above {:g} since time {:g} (worst {:.3g})", findings.empty() ? "" : "; ",
+                            limit.column, limit.largest, time, largest_magnitude(values));
+  }
+  return findings.empty() ? "trustworthy" : findings;
+}
+
+nlohmann::json summary_of(const HistoryTable& history, const RunTotals& totals, bool completed,
+                          const std::string& reason) {
+  const auto& rejected = history.column("rejected");
+  const std::int64_t steps = std::max<std::int64_t>(0, static_cast<std::int64_t>(history.n_rows()) - 1);
+  nlohmann::json json;
+  json["completed"] = completed;
+  json["verdict"] = verdict_of(history);
+  if (!reason.empty()) json["reason"] = reason;
+  json["time"] = last(history.column("time"));
+  json["steps"] = steps;
+  json["rejected_steps"] = static_cast<std::int64_t>(std::accumulate(rejected.begin(), rejected.end(), 0.0));
+  json["seconds"] = totals.seconds;
+  json["seconds_per_step"] = steps == 0 ? 0.0 : totals.seconds / static_cast<double>(steps);
+  json["seconds_of_parts"] = totals.seconds_of_parts;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  for (const Limit& limit : limits) json[limit.column] = largest_magnitude(history.column(limit.column));
+  json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
+  json["kernel_evaluations"] = totals.kernel_evaluations;
+  json["version"] = program_version();
+  return json;
+}
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+}  // namespace vehd

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bie/app/checkpoint.hpp"
+#include "bie/app/history.hpp"
+
+namespace vehd {
+
+/// Whether the numbers of a run can be relied on, judged from its whole history.
+/// @return "trustworthy", or which number is not and since when
+std::string verdict_of(const HistoryTable& history);
+
+/// Content of summary.json.
+/// @param reason  why the run stopped before its end; empty if it did not
+nlohmann::json summary_of(const HistoryTable& history, const RunTotals& totals, bool completed,
+                          const std::string& reason);
+
+/// Most memory that this process has held.
+std::int64_t peak_memory_bytes();
+
+}  // namespace vehd

@@ -1,0 +1,20 @@
+#include "bie/app/versions.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <Eigen/Core>
+
+namespace vehd {
+
+std::string program_version() { return VEHD_VERSION; }
+
+std::map<std::string, std::string> library_versions() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return {{"compiler", __VERSION__},
+          {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"hdf5", fmt::format("{}.{}.{}", major, minor, release)}};
+}
+
+}  // namespace vehd

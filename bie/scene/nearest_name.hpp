@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vehd {
+
+/// Edits (insert, delete, replace, swap of neighbours) that turn one word into the other.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// What to tell someone who wrote `name`: `did you mean "x"?` when a candidate is close, the whole list otherwise.
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
+
+}  // namespace vehd

@@ -1,0 +1,151 @@
+#include "bie/scene/reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "bie/scene/nearest_name.hpp"
+#include "bie/scene/scene_checks.hpp"
+#include "bie/scene/schema.hpp"
+#include "bie/scene/toml_values.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// No sensible scene comes near this; what does is some other file.
+constexpr std::uintmax_t largest_scene_bytes = 1 << 20;
+
+std::string file_text(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw InputError(fmt::format("{}: not a file; a scene file (TOML) is expected", path.string()));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (size > largest_scene_bytes) {
+    throw InputError(fmt::format("{}: {} bytes are too many for a scene file; accepted: at most {}", path.string(),
+                                 size, largest_scene_bytes));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  return text.str();
+}
+
+toml::table parse_toml(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+}
+
+std::vector<std::string_view> table_names() {
+  std::vector<std::string_view> names;
+  for (const TableDescription& table : scene_tables()) names.push_back(table.name);
+  return names;
+}
+
+std::vector<std::string_view> key_names(std::string_view table) {
+  std::vector<std::string_view> names;
+  for (const KeyDescription& key : scene_keys()) {
+    if (key.table == table && std::find(names.begin(), names.end(), key.name) == names.end()) names.push_back(key.name);
+  }
+  return names;
+}
+
+/// Key of the given kind, or nullptr.
+const KeyDescription* find_key_of_kind(std::string_view table, std::string_view name, std::string_view kind) {
+  for (const KeyDescription& key : scene_keys()) {
+    if (key.table == table && key.name == name && (key.kind.empty() || key.kind == kind)) return &key;
+  }
+  return nullptr;
+}
+
+std::string unknown_key_text(std::string_view table, std::string_view name) {
+  const std::string start = fmt::format("unknown key \"{}\" in [{}]", name, table);
+  for (const TableDescription& other : scene_tables()) {
+    if (find_key(other.name, name) != nullptr) return fmt::format("{}; it belongs to [{}]", start, other.name);
+  }
+  return fmt::format("{}; {}", start, suggestion(name, key_names(table)));
+}
+
+void read_key(Scene& scene, const KeyDescription& key, const toml::node& node, const std::string& file) {
+  key.set(scene, checked_value(key, node, file));
+}
+
+void read_table(Scene& scene, const TableDescription& description, const toml::table& table, const std::string& file) {
+  description.create(scene);
+  // The kind decides which of the other keys are accepted.
+  if (const KeyDescription* kind = find_key(description.name, "kind")) {
+    if (const toml::node* node = table.get("kind"))
+      read_key(scene, *kind, *node, file);
+    else {
+      throw InputError(fmt::format("{}: missing key \"kind\" in [{}]; accepted: {}", place(table, file),
+                                   description.name, fmt::join(kind->words, ", ")));
+    }
+  }
+  const std::string kind = kind_of(scene, description.name);
+  for (const auto& [name, node] : table) {
+    if (name.str() == "kind" && !kind.empty()) continue;
+    if (find_key(description.name, name.str()) == nullptr) {
+      throw InputError(fmt::format("{}: {}", place(node, file), unknown_key_text(description.name, name.str())));
+    }
+    const KeyDescription* key = find_key_of_kind(description.name, name.str(), kind);
+    if (key == nullptr) {
+      throw InputError(fmt::format("{}: key \"{}\" in [{}] belongs to kind \"{}\", not to \"{}\"", place(node, file),
+                                   name.str(), description.name, find_key(description.name, name.str())->kind, kind));
+    }
+    read_key(scene, *key, node, file);
+  }
+  for (const KeyDescription& key : scene_keys()) {
+    if (key.table != description.name || !key.required || table.contains(key.name)) continue;
+    if (!key.kind.empty() && key.kind != kind) continue;
+    throw InputError(fmt::format("{}: missing key \"{}\" in [{}] ({}); accepted: {}", place(table, file), key.name,
+                                 key.table, key.description, accepted_text(key)));
+  }
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path) {
+  return parse_scene(file_text(path), path.string(), path.parent_path());
+}
+
+Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder) {
+  const toml::table file = parse_toml(text, name);
+  for (const auto& [key, node] : file) {
+    const std::vector<std::string_view> known = table_names();
+    if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+      throw InputError(fmt::format("{}: unknown {} \"{}\"; {}", place(node, name), node.is_table() ? "table" : "key",
+                                   key.str(), suggestion(key.str(), known)));
+    }
+    if (!node.is_table()) {
+      throw InputError(fmt::format("{}: \"{}\" is {}; accepted: a table [{}]", place(node, name), key.str(),
+                                   shown(node), key.str()));
+    }
+  }
+  Scene scene;
+  for (const TableDescription& description : scene_tables()) {
+    if (const toml::table* table = file[description.name].as_table()) {
+      read_table(scene, description, *table, name);
+    } else if (description.required) {
+      throw InputError(fmt::format("{}:1: missing table [{}] ({})", name, description.name, description.description));
+    }
+  }
+  check_scene(scene, file, name);
+  if (scene.shape.kind == ShapeKind::file) {
+    scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
+    require_shape_file(scene, file, name);
+  }
+  return scene;
+}
+
+}  // namespace vehd

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// Reads and validates a scene file (TOML, docs/scenes).
+/// @throws InputError "file:line: what is wrong, the value, what is accepted"
+Scene read_scene(const std::filesystem::path& path);
+
+/// The same for text in memory.
+/// @param name    stands for the file in messages
+/// @param folder  where relative paths in the scene start
+Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace vehd

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vehd {
+
+using Triple = std::array<double, 3>;
+using TripleOfTriples = std::array<Triple, 3>;
+
+/// One term amplitude * Re Y_n^m of Eq. (17); m < 0 takes Im Y_n^|m|.
+struct HarmonicMode {
+  int n = 0;
+  int m = 0;
+  double a = 0.0;
+  bool operator==(const HarmonicMode&) const = default;
+};
+
+enum class ShapeKind { ellipsoid, radial, file };
+enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient };
+enum class InitialPotential { zero, steady };
+enum class SymmetryUse { automatic, off };
+
+/// Initial shape; which members count depends on the kind.
+struct ShapeScene {
+  ShapeKind kind = ShapeKind::ellipsoid;
+  Triple axes{1.0, 1.0, 1.0};
+  double base = 1.0;
+  std::optional<double> amplitude;  ///< absent: radius = base + s, otherwise base + amplitude exp(exponent s)
+  double exponent = 1.0;
+  std::vector<HarmonicMode> modes;
+  std::string path;            ///< absolute path of a run.h5
+  std::optional<double> time;  ///< absent: the last snapshot
+  bool operator==(const ShapeScene&) const = default;
+};
+
+struct MembraneScene {
+  std::optional<double> bending_modulus;
+  bool inextensible = true;
+  double capacitance = 1.0;
+  double conductance = 0.0;
+  bool operator==(const MembraneScene&) const = default;
+};
+
+struct FluidScene {
+  double viscosity = 1.0;
+  bool operator==(const FluidScene&) const = default;
+};
+
+struct FlowScene {
+  FlowKind kind = FlowKind::shear;
+  double rate = 1.0;
+  TripleOfTriples gradient{};
+  bool operator==(const FlowScene&) const = default;
+};
+
+struct ElectricScene {
+  Triple field{0.0, 0.0, 0.0};
+  double conductivity_in = 1.0;
+  double conductivity_out = 1.0;
+  double permittivity = 1.0;
+  InitialPotential initial_potential = InitialPotential::zero;
+  bool operator==(const ElectricScene&) const = default;
+};
+
+struct NumericsScene {
+  int order = 16;
+  double dt = 0.0;
+  double end_time = 0.0;
+  SymmetryUse symmetry = SymmetryUse::automatic;
+  bool operator==(const NumericsScene&) const = default;
+};
+
+struct OutputScene {
+  std::optional<double> every;  ///< absent: snapshots at the start and at the end only
+  bool operator==(const OutputScene&) const = default;
+};
+
+/// A validated scene file: every value is finite and within the range that the key table states.
+struct Scene {
+  ShapeScene shape;
+  MembraneScene membrane;
+  FluidScene fluid;
+  std::optional<FlowScene> flow;
+  std::optional<ElectricScene> electric;
+  NumericsScene numerics;
+  OutputScene output;
+  bool operator==(const Scene&) const = default;
+};
+
+}  // namespace vehd

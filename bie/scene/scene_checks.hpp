@@ -1,0 +1,18 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "bie/scene/scene.hpp"
+
+/// Conditions that tie several values of a scene together; single values are checked against the key table.
+namespace vehd {
+
+/// @throws InputError "file:line: ..." at the key to blame
+void check_scene(const Scene& scene, const toml::table& table, const std::string& file);
+
+/// The shape file must exist before a run starts. @throws InputError
+void require_shape_file(const Scene& scene, const toml::table& table, const std::string& file);
+
+}  // namespace vehd

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "bie/scene/scene.hpp"
+
+/// The one table of scene keys. The reader, the writer, the comparison of two scenes and the reference text are all
+/// driven by it, so that a key is described in exactly one place; defaults are those of the structs in scene.hpp.
+namespace vehd {
+
+enum class ValueType { boolean, integer, number, word, text, triple, matrix, modes };
+
+using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, std::vector<HarmonicMode>>;
+
+/// Accepted interval of a number or of every component of an array.
+struct Range {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_excluded = false;
+
+  [[nodiscard]] bool contains(double value) const;
+  /// "> 0", ">= 0", "4 ... 64" or "any finite number"
+  [[nodiscard]] std::string text() const;
+};
+
+struct KeyDescription {
+  std::string_view table;
+  std::string_view name;
+  ValueType type = ValueType::number;
+  std::string_view symbol;  ///< as in the paper; empty if it has none
+  std::string_view unit;    ///< physical dimension; the values themselves are dimensionless
+  Range range;
+  std::vector<std::string_view> words;  ///< accepted values of a word
+  std::string_view kind;                ///< the key belongs to this `kind` of its table only; empty: to all
+  bool required = false;
+  std::string_view description;
+  std::function<std::optional<Value>(const Scene&)> get;  ///< nullopt: the optional value is absent
+  std::function<void(Scene&, const Value&)> set;
+};
+
+struct TableDescription {
+  std::string_view name;
+  std::string_view description;
+  bool required = false;
+  std::function<bool(const Scene&)> present;
+  std::function<void(Scene&)> create;
+};
+
+/// In the order in which tables and keys are written.
+const std::vector<TableDescription>& scene_tables();
+const std::vector<KeyDescription>& scene_keys();
+
+/// nullptr if there is no such key.
+const KeyDescription* find_key(std::string_view table, std::string_view name);
+
+/// Value of `kind` in a table; empty for tables without kinds.
+std::string kind_of(const Scene& scene, std::string_view table);
+
+/// Whether the key counts for this scene: its table is present and of the key's kind.
+bool applies(const KeyDescription& key, const Scene& scene);
+
+/// A value as TOML, numbers with as many digits as reading back exactly needs.
+std::string to_toml(const Value& value);
+
+/// "table.key" of every value in which the scenes differ.
+std::vector<std::string> differing_keys(const Scene& a, const Scene& b);
+
+}  // namespace vehd

@@ -1,0 +1,177 @@
+#include "bie/scene/toml_values.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "bie/scene/nearest_name.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr std::size_t longest_shown = 60;
+
+/// One key of one file: everything that a message about it needs.
+struct Context {
+  const KeyDescription& key;
+  const std::string& file;
+
+  [[noreturn]] void refuse(const toml::node& node, const std::string& problem) const {
+    throw InputError(fmt::format("{}: \"{}\" in [{}] {}; accepted: {}", place(node, file), key.name, key.table, problem,
+                                 accepted_text(key)));
+  }
+};
+
+double number(const Context& context, const toml::node& node) {
+  if (!node.is_number()) context.refuse(node, fmt::format("is {}", shown(node)));
+  const double value = *node.value<double>();
+  if (!std::isfinite(value)) context.refuse(node, fmt::format("is {}, not a finite number", value));
+  if (!context.key.range.contains(value)) context.refuse(node, fmt::format("is {}", shown(node)));
+  return value;
+}
+
+std::int64_t integer(const Context& context, const toml::node& node) {
+  if (!node.is_integer()) context.refuse(node, fmt::format("is {}", shown(node)));
+  number(context, node);
+  return *node.value<std::int64_t>();
+}
+
+const toml::array& array_of_three(const Context& context, const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  if (array->size() != 3) context.refuse(node, fmt::format("has {} components", array->size()));
+  return *array;
+}
+
+Triple triple(const Context& context, const toml::node& node) {
+  const toml::array& array = array_of_three(context, node);
+  return {number(context, array[0]), number(context, array[1]), number(context, array[2])};
+}
+
+TripleOfTriples matrix(const Context& context, const toml::node& node) {
+  const toml::array& rows = array_of_three(context, node);
+  return {triple(context, rows[0]), triple(context, rows[1]), triple(context, rows[2])};
+}
+
+std::string text(const Context& context, const toml::node& node) {
+  if (!node.is_string()) context.refuse(node, fmt::format("is {}", shown(node)));
+  return *node.value<std::string>();
+}
+
+std::string word(const Context& context, const toml::node& node) {
+  const std::string value = text(context, node);
+  const auto& words = context.key.words;
+  if (std::find(words.begin(), words.end(), value) == words.end()) {
+    throw InputError(fmt::format("{}: \"{}\" in [{}] is {}; {}", place(node, context.file), context.key.name,
+                                 context.key.table, shown(node), suggestion(value, words)));
+  }
+  return value;
+}
+
+HarmonicMode mode(const Context& context, const toml::node& node) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) context.refuse(node, fmt::format("has the entry {}", shown(node)));
+  const std::vector<std::string_view> names = {"n", "m", "a"};
+  for (const auto& [name, value] : *table) {
+    if (std::find(names.begin(), names.end(), name.str()) == names.end()) {
+      throw InputError(fmt::format("{}: unknown key \"{}\" in an entry of \"{}\" in [{}]; accepted: n, m, a",
+                                   place(value, context.file), name.str(), context.key.name, context.key.table));
+    }
+  }
+  for (const std::string_view name : names) {
+    if (!table->contains(name)) context.refuse(node, fmt::format("has an entry without \"{}\"", name));
+  }
+  const std::int64_t n = integer(context, *table->get("n"));
+  const std::int64_t m = integer(context, *table->get("m"));
+  // Bounded here so that neither can overflow; the order of the scene bounds n further.
+  if (n < 0 || n > 1000) context.refuse(*table->get("n"), fmt::format("has the degree n = {}", n));
+  if (m < -n || m > n) context.refuse(*table->get("m"), fmt::format("has the mode n = {}, m = {}", n, m));
+  return {static_cast<int>(n), static_cast<int>(m), number(context, *table->get("a"))};
+}
+
+std::vector<HarmonicMode> modes(const Context& context, const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  std::vector<HarmonicMode> result;
+  for (const toml::node& entry : *array) result.push_back(mode(context, entry));
+  return result;
+}
+
+}  // namespace
+
+std::string place(const toml::node& node, const std::string& file) {
+  return fmt::format("{}:{}", file, node.source().begin.line);
+}
+
+std::string shown(const toml::node& node) {
+  std::ostringstream stream;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_table<decltype(value)>) {
+      stream << "a table";
+    } else if constexpr (toml::is_array<decltype(value)>) {
+      stream << "the array " << value;
+    } else if constexpr (toml::is_string<decltype(value)>) {
+      stream << "the text " << value;
+    } else if constexpr (toml::is_floating_point<decltype(value)>) {
+      stream << to_toml(Value(value.get()));
+    } else {
+      stream << value;
+    }
+  });
+  std::string text = stream.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.size() > longest_shown) text = text.substr(0, longest_shown) + " ...";
+  return text;
+}
+
+std::string accepted_text(const KeyDescription& key) {
+  switch (key.type) {
+    case ValueType::boolean:
+      return "true or false";
+    case ValueType::integer:
+      return fmt::format("an integer, {}", key.range.text());
+    case ValueType::number:
+      return key.range.text() == Range{}.text() ? Range{}.text() : fmt::format("a number {}", key.range.text());
+    case ValueType::word:
+      return fmt::format("{}", fmt::join(key.words, ", "));
+    case ValueType::text:
+      return "a text in quotes";
+    case ValueType::triple:
+      return fmt::format("3 numbers [x, y, z], each {}", key.range.text());
+    case ValueType::matrix:
+      return "3 rows of 3 finite numbers";
+    case ValueType::modes:
+      return "entries {n = degree, m = -n ... n, a = finite number}";
+  }
+  return {};
+}
+
+Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file) {
+  const Context context{key, file};
+  switch (key.type) {
+    case ValueType::boolean:
+      if (!node.is_boolean()) context.refuse(node, fmt::format("is {}", shown(node)));
+      return *node.value<bool>();
+    case ValueType::integer:
+      return integer(context, node);
+    case ValueType::number:
+      return number(context, node);
+    case ValueType::word:
+      return word(context, node);
+    case ValueType::text:
+      return text(context, node);
+    case ValueType::triple:
+      return triple(context, node);
+    case ValueType::matrix:
+      return matrix(context, node);
+    case ValueType::modes:
+      break;
+  }
+  return modes(context, node);
+}
+
+}  // namespace vehd

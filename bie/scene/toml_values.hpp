@@ -1,0 +1,25 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "bie/scene/schema.hpp"
+
+/// From TOML nodes to values of the key table.
+namespace vehd {
+
+/// "file:line" of a node.
+std::string place(const toml::node& node, const std::string& file);
+
+/// The value as written, cut to a readable length, with its type where that is not plain to see.
+std::string shown(const toml::node& node);
+
+/// What a key accepts, in words.
+std::string accepted_text(const KeyDescription& key);
+
+/// Value of the key's type within its range.
+/// @throws InputError naming place, value and what is accepted
+Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file);
+
+}  // namespace vehd

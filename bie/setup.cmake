@@ -1,0 +1,85 @@
+# From a fresh Debian 12 with git, cmake and g++ to a result; run it from anywhere:
+#   cmake -P bie/setup.cmake               installs what is missing, builds, simulates Example 2 of the paper
+#   cmake -DSTEP=test -P bie/setup.cmake   installs what is missing, builds, runs the tests
+#   cmake -DSTEP=build -P bie/setup.cmake  installs what is missing, builds
+cmake_minimum_required(VERSION 3.25)
+
+get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
+set(build "${source}/build")
+if(NOT DEFINED STEP)
+  set(STEP run)
+endif()
+if(NOT STEP MATCHES "^(run|test|build)$")
+  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build")
+endif()
+
+set(packages ninja-build pkg-config libeigen3-dev libfftw3-dev libhdf5-dev libboost-test-dev libtomlplusplus-dev
+             libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev gnuplot-nox fonts-dejavu-core)
+if(STEP STREQUAL "test")
+  # The tests open run.xdmf as ParaView does and render it on a virtual display.
+  list(APPEND packages python3-paraview xvfb xauth)
+endif()
+
+function(run_or_stop)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${source}" RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${status}): ${command}")
+  endif()
+endfunction()
+
+function(find_missing_packages result)
+  set(missing)
+  foreach(package IN LISTS packages)
+    execute_process(COMMAND dpkg-query -W "-f=\${Status}" ${package} OUTPUT_VARIABLE status ERROR_QUIET
+                    RESULT_VARIABLE unknown)
+    if(NOT unknown EQUAL 0 OR NOT status STREQUAL "install ok installed")
+      list(APPEND missing ${package})
+    endif()
+  endforeach()
+  set(${result} ${missing} PARENT_SCOPE)
+endfunction()
+
+find_missing_packages(missing)
+if(missing)
+  list(JOIN missing " " names)
+  message(STATUS "Installing ${names}")
+  execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(apt env DEBIAN_FRONTEND=noninteractive apt-get)
+  if(NOT user EQUAL 0)
+    find_program(sudo sudo)
+    if(NOT sudo)
+      message(FATAL_ERROR "missing packages: ${names}; install them as root, or install sudo")
+    endif()
+    list(PREPEND apt ${sudo})
+  endif()
+  run_or_stop(${apt} update -q)
+  run_or_stop(${apt} install -q -y --no-install-recommends ${missing})
+endif()
+
+# One compiler needs up to 2 GB of memory.
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
+math(EXPR jobs "${memory} / 2000")
+if(jobs GREATER cores)
+  set(jobs ${cores})
+elseif(jobs LESS 1)
+  set(jobs 1)
+endif()
+
+set(generator)
+if(NOT EXISTS "${build}/CMakeCache.txt")
+  set(generator -G Ninja)
+endif()
+run_or_stop("${CMAKE_COMMAND}" ${generator} -S "${source}" -B "${build}" -DCMAKE_BUILD_TYPE=Release)
+if(STEP STREQUAL "test")
+  run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs})
+  run_or_stop("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" --output-on-failure)
+else()
+  run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs} --target vehd)
+endif()
+if(STEP STREQUAL "run")
+  # --resume: a second call continues an interrupted run and leaves a complete one alone.
+  run_or_stop("${build}/vehd" run docs/scenes/figure2.toml -o out/figure2 --resume)
+  message(STATUS "Pictures of the run: out/figure2/plots/shapes.png and history.png")
+endif()

@@ -1,0 +1,213 @@
+#include <unistd.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include "bie/scene/hdf5_reader.hpp"
+#include "tests/app/program.hpp"
+
+namespace {
+
+/// Every case of wrong input: exit code 1, exactly one line on standard error, nothing on standard output.
+void check_refused(const std::vector<std::string>& arguments, const std::string& message) {
+  const ProgramResult result = run_vehd(arguments);
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(result.errors == message + "\n");
+  BOOST_TEST(result.output.empty());
+}
+
+struct SceneCase {
+  TemporaryDirectory directory;
+  std::string file = directory / "scene.toml";
+  std::string output = directory / "out";
+
+  void check(const std::string& text, const std::string& message) {
+    write_text(file, text);
+    check_refused({"run", file, "-o", output}, file + message);
+    BOOST_TEST(!std::filesystem::exists(output));
+  }
+};
+
+/// A complete short run to damage.
+struct FinishedRun {
+  TemporaryDirectory directory;
+  std::string scene = directory / "scene.toml";
+  std::string output = directory / "out";
+
+  FinishedRun() {
+    write_text(scene, quick_scene("0.5"));
+    const ProgramResult result = run_vehd({"run", scene, "-o", output, "--no-plot"});
+    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(bad_input)
+
+BOOST_FIXTURE_TEST_CASE(unknown_key, SceneCase) {
+  check(quick_scene() + "[fluid]\nviscocity = 1.0\n",
+        ":18: unknown key \"viscocity\" in [fluid]; did you mean \"viscosity\"?");
+}
+
+BOOST_FIXTURE_TEST_CASE(wrong_type, SceneCase) {
+  check(quick_scene() + "[fluid]\nviscosity = \"high\"\n",
+        ":18: \"viscosity\" in [fluid] is the text 'high'; accepted: a number > 0");
+}
+
+BOOST_FIXTURE_TEST_CASE(negative_viscosity, SceneCase) {
+  check(quick_scene() + "[fluid]\nviscosity = -2.5\n", ":18: \"viscosity\" in [fluid] is -2.5; accepted: a number > 0");
+}
+
+BOOST_FIXTURE_TEST_CASE(not_a_number, SceneCase) {
+  check(quick_scene() + "[fluid]\nviscosity = nan\n",
+        ":18: \"viscosity\" in [fluid] is nan, not a finite number; accepted: a number > 0");
+}
+
+BOOST_FIXTURE_TEST_CASE(order_out_of_range, SceneCase) {
+  check("[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1]\n[numerics]\ndt = 1\nend_time = 1\norder = 1000000000\n",
+        ":7: \"order\" in [numerics] is 1000000000; accepted: an integer, 4 ... 64");
+}
+
+BOOST_AUTO_TEST_CASE(missing_scene_file) {
+  const TemporaryDirectory directory;
+  check_refused({"run", directory / "absent.toml", "-o", directory / "out"},
+                directory / "absent.toml" + ": no such file");
+  BOOST_TEST(!std::filesystem::exists(directory / "out"));
+}
+
+BOOST_AUTO_TEST_CASE(wrong_usage) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"run"}, {"run", "a.toml"}, {"fly"}, {"plot", "--times", "x", "."}}) {
+    const ProgramResult result = run_vehd(arguments);
+    BOOST_TEST(result.exit_code == 1);
+    BOOST_TEST(result.errors.find("--help") != std::string::npos, result.errors);
+    BOOST_TEST(std::count(result.errors.begin(), result.errors.end(), '\n') == 1, result.errors);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(help_and_version_succeed) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"--version"}, {"run", "--help"}, {"plot", "--help"}}) {
+    const ProgramResult result = run_vehd(arguments);
+    BOOST_TEST(result.exit_code == 0);
+    BOOST_TEST(result.output.find("vehd") != std::string::npos);
+    BOOST_TEST(result.errors.empty());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(unwritable_directory) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", quick_scene());
+  write_text(directory / "file", "");
+  // A file in the way is refused for every user; permissions do not bind root.
+  check_refused({"run", directory / "scene.toml", "-o", directory / "file"},
+                directory / "file" + ": cannot be used as output directory: Not a directory");
+  check_refused({"run", directory / "scene.toml", "-o", directory / "file/out"},
+                directory / "file/out" + ": cannot be used as output directory: Not a directory");
+  if (geteuid() == 0) return;
+  std::filesystem::create_directory(directory / "closed");
+  std::filesystem::permissions(directory / "closed",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  check_refused({"run", directory / "scene.toml", "-o", directory / "closed"},
+                directory / "closed" + ": cannot be written: Permission denied");
+}
+
+BOOST_FIXTURE_TEST_CASE(directory_that_holds_a_run, FinishedRun) {
+  const std::string history = file_text(output + "/history.csv");
+  const std::string snapshots = file_text(output + "/run.h5");
+  check_refused({"run", scene, "-o", output},
+                output + ": already holds a run (checkpoint.h5); continue it with --resume or choose another -o");
+  BOOST_TEST((file_text(output + "/history.csv") == history));
+  BOOST_TEST((file_text(output + "/run.h5") == snapshots));
+}
+
+BOOST_FIXTURE_TEST_CASE(foreign_history_is_not_overwritten, SceneCase) {
+  write_text(file, quick_scene());
+  std::filesystem::create_directory(output);
+  write_text(output + "/history.csv", "mine");
+  check_refused({"run", file, "-o", output}, output +
+                                                 ": already holds a run (history.csv); continue it with "
+                                                 "--resume or choose another -o");
+  check_refused(
+      {"run", file, "-o", output, "--resume"},
+      output + ": holds a run (history.csv) without checkpoint.h5, which cannot be resumed; choose another -o");
+  BOOST_TEST(file_text(output + "/history.csv") == "mine");
+}
+
+BOOST_FIXTURE_TEST_CASE(resume_with_another_scene_names_the_key, FinishedRun) {
+  std::string other = quick_scene("0.5");
+  other.replace(other.find("bending_modulus = 0.1"), 21, "bending_modulus = 0.2");
+  write_text(scene, other);
+  check_refused({"run", scene, "-o", output, "--resume"},
+                output + ": holds a run of another scene: \"membrane.bending_modulus\" differs; choose another -o");
+}
+
+BOOST_FIXTURE_TEST_CASE(resume_with_an_earlier_end, FinishedRun) {
+  write_text(scene, quick_scene("0.25"));
+  check_refused({"run", scene, "-o", output, "--resume"},
+                output + ": has already reached time 0.5, past the end_time 0.25 of the scene");
+}
+
+BOOST_FIXTURE_TEST_CASE(truncated_checkpoint, FinishedRun) {
+  write_text(scene, quick_scene("1.0"));
+  const std::string checkpoint = output + "/checkpoint.h5";
+  const std::string history = file_text(output + "/history.csv");
+  for (const std::uintmax_t size : {std::filesystem::file_size(checkpoint) / 2, std::uintmax_t{0}}) {
+    std::filesystem::resize_file(checkpoint, size);
+    const ProgramResult result = run_vehd({"run", scene, "-o", output, "--resume"});
+    BOOST_TEST(result.exit_code == 1);
+    BOOST_TEST(result.errors.find(checkpoint + ": no readable HDF5 file, it is truncated") == 0, result.errors);
+    BOOST_TEST((file_text(output + "/history.csv") == history));
+  }
+}
+
+BOOST_FIXTURE_TEST_CASE(altered_checkpoint, FinishedRun) {
+  write_text(scene, quick_scene("1.0"));
+  const std::string checkpoint = output + "/checkpoint.h5";
+  const std::string original = file_text(checkpoint);
+  // One bit of one coefficient of the position.
+  const vehd::Matrix position = vehd::Hdf5Reader(checkpoint).matrix("/state/position");
+  std::string altered = original;
+  const std::size_t place = altered.find(std::string(reinterpret_cast<const char*>(&position(2, 2)), sizeof(double)));
+  BOOST_TEST_REQUIRE(place != std::string::npos);
+  altered[place] = static_cast<char>(altered[place] ^ 1);
+  write_text(checkpoint, altered);
+  const ProgramResult result = run_vehd({"run", scene, "-o", output, "--resume"});
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(result.errors == checkpoint + ": is damaged: its values do not match their checksum\n");
+}
+
+BOOST_FIXTURE_TEST_CASE(truncated_run_file, FinishedRun) {
+  const std::string file = output + "/run.h5";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  const ProgramResult plot = run_vehd({"plot", output});
+  BOOST_TEST(plot.exit_code == 1);
+  BOOST_TEST(plot.errors.find(file + ": no readable HDF5 file, it is truncated") == 0, plot.errors);
+
+  write_text(directory / "next.toml",
+             "[shape]\nkind = \"file\"\npath = \"out/run.h5\"\n"
+             "[numerics]\norder = 6\ndt = 1\nend_time = 0\n");
+  const ProgramResult run = run_vehd({"run", directory / "next.toml", "-o", directory / "next"});
+  BOOST_TEST(run.exit_code == 1);
+  BOOST_TEST(run.errors.find("run.h5: no readable HDF5 file, it is truncated") != std::string::npos, run.errors);
+
+  write_text(scene, quick_scene("1.0"));
+  const ProgramResult resumed = run_vehd({"run", scene, "-o", output, "--resume"});
+  BOOST_TEST(resumed.exit_code == 1);
+  BOOST_TEST(resumed.errors.find(file + ": no readable HDF5 file") == 0, resumed.errors);
+}
+
+BOOST_FIXTURE_TEST_CASE(shape_file_without_that_time, FinishedRun) {
+  write_text(directory / "next.toml",
+             "[shape]\nkind = \"file\"\npath = \"out/run.h5\"\ntime = 0.3\n"
+             "[numerics]\norder = 6\ndt = 1\nend_time = 0\n");
+  check_refused({"run", directory / "next.toml", "-o", directory / "next"},
+                output + "/run.h5: no snapshot at time 0.3; the nearest is at 0.5");
+}
+
+BOOST_AUTO_TEST_CASE(plot_of_no_run) {
+  const TemporaryDirectory directory;
+  check_refused({"plot", directory / "absent"}, directory / "absent" + ": holds no run (no run.h5)");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

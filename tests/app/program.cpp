@@ -1,0 +1,103 @@
+#include "tests/app/program.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace {
+
+std::filesystem::path unique_path(const std::string& stem) {
+  std::string pattern = (std::filesystem::temp_directory_path() / (stem + ".XXXXXX")).string();
+  const int descriptor = ::mkstemp(pattern.data());
+  if (descriptor < 0) throw std::runtime_error("no temporary file");
+  ::close(descriptor);
+  return pattern;
+}
+
+}  // namespace
+
+RunningProgram::RunningProgram(const std::vector<std::string>& command)
+    : output_(unique_path("vehd-output")), errors_(unique_path("vehd-errors")) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output_.c_str(), O_WRONLY | O_TRUNC, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors_.c_str(), O_WRONLY | O_TRUNC, 0);
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  const int problem = posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (problem != 0) throw std::runtime_error("cannot start " + command.front());
+}
+
+RunningProgram::~RunningProgram() {
+  if (!ended()) {
+    send(SIGKILL);
+    wait();
+  }
+  std::filesystem::remove(output_);
+  std::filesystem::remove(errors_);
+}
+
+void RunningProgram::send(int signal) const { ::kill(process_, signal); }
+
+bool RunningProgram::ended() {
+  collect(WNOHANG);
+  return ended_;
+}
+
+ProgramResult RunningProgram::wait() {
+  collect(0);
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, file_text(output_), file_text(errors_)};
+}
+
+void RunningProgram::collect(int options) {
+  if (!ended_) ended_ = ::waitpid(process_, &status_, options) == process_;
+}
+
+std::vector<std::string> vehd_command(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {VEHD_PROGRAM};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+ProgramResult run_command(const std::vector<std::string>& command) { return RunningProgram(command).wait(); }
+
+ProgramResult run_vehd(const std::vector<std::string>& arguments) { return run_command(vehd_command(arguments)); }
+
+TemporaryDirectory::TemporaryDirectory() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "vehd-test.XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
+  path_ = pattern;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string file_text(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string quick_scene(const std::string& end_time) {
+  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n"
+         "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
+         "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+         "[numerics]\norder = 6\ndt = 0.25\nend_time = " +
+         end_time + "\n[output]\nevery = 0.5\n";
+}

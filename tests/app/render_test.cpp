@@ -1,0 +1,46 @@
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.hpp"
+
+namespace {
+
+/// The set-up for tests installs all of this; who builds by hand may not have it.
+bool can_render() {
+  const bool available = run_command({"sh", "-c", "command -v xvfb-run && command -v pvpython"}).exit_code == 0;
+  if (!available)
+    BOOST_TEST_MESSAGE("skipped: xvfb-run or pvpython (Debian packages xvfb, python3-paraview) is missing");
+  return available;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(xdmf)
+
+BOOST_AUTO_TEST_CASE(viewer_sees_a_closed_surface_with_its_fields) {
+  if (!can_render()) return;
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", quick_scene("1.0"));
+  const ProgramResult run = run_vehd({"run", directory / "scene.toml", "-o", directory / "out", "--no-plot"});
+  BOOST_TEST_REQUIRE(run.exit_code == 0, run.errors);
+  const ProgramResult render =
+      run_command({"xvfb-run", "-a", "pvpython", std::string(VEHD_SOURCE_DIR) + "/tests/app/render_xdmf.py",
+                   directory / "out", directory / "picture.png"});
+  BOOST_TEST_REQUIRE(render.exit_code == 0, render.output + render.errors);
+  const auto result = nlohmann::json::parse(render.output);
+  BOOST_TEST(result.at("times").get<std::vector<double>>() == (std::vector<double>{0.0, 0.5, 1.0}),
+             boost::test_tools::per_element());
+  BOOST_TEST(result.at("boundary_edges").get<int>() == 0);
+  BOOST_TEST(result.at("points").get<int>() == 7 * 14 + 2);
+  // Flat triangles inside a smooth surface: a few per cent too small at order 6.
+  const double ratio = result.at("area_ratio").get<double>();
+  BOOST_TEST((ratio > 0.93 && ratio < 1.0), ratio);
+  BOOST_TEST(result.at("foreground_fraction").get<double>() > 0.05);
+  BOOST_TEST(result.at("colours").get<int>() > 20);
+  const auto fields = result.at("fields").get<std::vector<std::string>>();
+  for (const char* field : {"Vm", "q", "tension", "velocity", "force_bending", "force_tension", "force_electric"}) {
+    BOOST_TEST((std::find(fields.begin(), fields.end(), field) != fields.end()), field);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,100 @@
+"""Reads run.xdmf of a run directory with ParaView's VTK and renders its last snapshot; prints what was found as JSON.
+
+Usage: pvpython render_xdmf.py DIR PICTURE.png
+"""
+
+import csv
+import json
+import sys
+
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the renderer
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkMassProperties
+from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkGeometryFilter
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+
+
+def read_surface(path):
+    reader = vtkXdmfReader()
+    reader.SetFileName(path)
+    reader.UpdateInformation()
+    times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+    reader.UpdateTimeStep(times[-1])
+    data = reader.GetOutputDataObject(0)
+    surface = vtkCompositeDataGeometryFilter() if data.IsA("vtkCompositeDataSet") else vtkGeometryFilter()
+    surface.SetInputDataObject(data)
+    surface.Update()
+    return times, surface.GetOutput()
+
+
+def boundary_edges(surface):
+    edges = vtkFeatureEdges()
+    edges.SetInputData(surface)
+    edges.BoundaryEdgesOn()
+    edges.NonManifoldEdgesOn()
+    edges.FeatureEdgesOff()
+    edges.ManifoldEdgesOff()
+    edges.Update()
+    return edges.GetOutput().GetNumberOfCells()
+
+
+def triangulated_area(surface):
+    properties = vtkMassProperties()
+    properties.SetInputData(surface)
+    properties.Update()
+    return properties.GetSurfaceArea()
+
+
+def render(surface, field, picture):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray(field)
+    mapper.SetScalarRange(surface.GetPointData().GetArray(field).GetRange())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    renderer = vtkRenderer()
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    renderer.AddActor(actor)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetSize(300, 300)
+    window.AddRenderer(renderer)
+    camera = renderer.GetActiveCamera()
+    camera.SetPosition(0.0, -10.0, 2.0)
+    camera.SetViewUp(0.0, 0.0, 1.0)
+    renderer.ResetCamera()
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.Update()
+    writer = vtkPNGWriter()
+    writer.SetFileName(picture)
+    writer.SetInputConnection(grab.GetOutputPort())
+    writer.Write()
+    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
+
+
+def main():
+    directory, picture = sys.argv[1:3]
+    times, surface = read_surface(directory + "/run.xdmf")
+    with open(directory + "/history.csv", newline="") as stream:
+        area = float(list(csv.DictReader(stream))[-1]["area"])
+    point_data = surface.GetPointData()
+    pixels = render(surface, "Vm", picture)
+    print(json.dumps({
+        "times": list(times),
+        "points": surface.GetNumberOfPoints(),
+        "boundary_edges": boundary_edges(surface),
+        "area_ratio": triangulated_area(surface) / area,
+        "fields": [point_data.GetArrayName(i) for i in range(point_data.GetNumberOfArrays())],
+        "foreground_fraction": float((pixels.min(axis=1) < 250).mean()),
+        "colours": len({tuple(pixel) for pixel in pixels.tolist()}),
+    }))
+
+
+if __name__ == "__main__":
+    main()

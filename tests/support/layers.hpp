@@ -1,0 +1,36 @@
+#pragma once
+
+#include "bie/geometry/surface.hpp"
+#include "bie/potentials/layer_operators.hpp"
+#include "bie/stepping/discretisation.hpp"
+
+namespace vehd::testing {
+
+/// Tables of one order with the program's default settings unless told otherwise.
+struct Space {
+  SphereTransform coarse;
+  SphereTransform fine;
+  RotatedQuadrature quadrature;
+
+  explicit Space(int order, int upsampling = NumericalSettings{}.upsampling,
+                 double oversampling = NumericalSettings{}.quadrature_oversampling)
+      : coarse(order, make_grid(order)),
+        fine(order, make_grid(upsampling * order)),
+        quadrature(make_rotated_quadrature(coarse.grid(), oversampling)) {}
+};
+
+constexpr LayerSelection kLaplaceLayers{true, true, true, false};
+constexpr LayerSelection kStokesLayer{false, false, false, true};
+constexpr LayerSelection kAllLayers{true, true, true, true};
+
+inline LayerOperators assemble(const Space& space, const Matrix& position, const LayerSelection& selection) {
+  Instruments instruments;
+  return assemble_layer_operators(space.quadrature, space.coarse, position, selection, instruments);
+}
+
+/// Coefficients of J f, from values of f on the fine grid.
+inline Matrix weighted(const Space& space, const Surface& surface, const Matrix& values) {
+  return space.fine.analyze(surface.area_element.asDiagonal() * values);
+}
+
+}  // namespace vehd::testing
