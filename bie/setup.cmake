@@ -2,6 +2,7 @@
 #   cmake -P bie/setup.cmake               installs what is missing, builds, simulates Example 2 of the paper
 #   cmake -DSTEP=test -P bie/setup.cmake   installs what is missing, builds, runs the tests
 #   cmake -DSTEP=build -P bie/setup.cmake  installs what is missing, builds
+#   cmake -DSTEP=docs -P bie/setup.cmake   the same, then runs every scene of docs/scenes for the pictures in docs/images
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
@@ -9,8 +10,8 @@ set(build "${source}/build")
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
-if(NOT STEP MATCHES "^(run|test|build)$")
-  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build")
+if(NOT STEP MATCHES "^(run|test|build|docs)$")
+  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build, docs")
 endif()
 
 set(packages ninja-build pkg-config libeigen3-dev libfftw3-dev libhdf5-dev libboost-test-dev libtomlplusplus-dev
@@ -82,4 +83,14 @@ if(STEP STREQUAL "run")
   # --resume: a second call continues an interrupted run and leaves a complete one alone.
   run_or_stop("${build}/vehd" run docs/scenes/figure2.toml -o out/figure2 --resume)
   message(STATUS "Pictures of the run: out/figure2/plots/shapes.png and history.png")
+endif()
+if(STEP STREQUAL "docs")
+  file(GLOB scenes "${source}/docs/scenes/*.toml")
+  foreach(scene IN LISTS scenes)
+    get_filename_component(name "${scene}" NAME_WE)
+    run_or_stop("${build}/vehd" run "${scene}" -o out/${name} --resume)
+    foreach(picture shapes history)
+      configure_file("${source}/out/${name}/plots/${picture}.png" "${source}/docs/images/${name}_${picture}.png" COPYONLY)
+    endforeach()
+  endforeach()
 endif()

@@ -8,6 +8,7 @@
 #include "bie/app/file_system.hpp"
 #include "bie/app/versions.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/memory.hpp"
 
 namespace vehd {
 namespace {
@@ -66,6 +67,7 @@ void write_json(const CommonOptions& options, const nlohmann::json& result) {
 }
 
 int run_program(int argc, char** argv) {
+  keep_freed_memory();
   send_messages_to_standard_error();
   CLI::App program("Simulates a lipid vesicle in viscous flow and electric field by boundary integral equations.",
                    "vehd");
@@ -75,6 +77,8 @@ int run_program(int argc, char** argv) {
   ExitCode exit_code = ExitCode::done;
   add_run_command(program, exit_code);
   add_plot_command(program, exit_code);
+  add_verify_command(program, exit_code);
+  add_bench_command(program, exit_code);
   return static_cast<int>(parse_and_run(program, argc, argv, exit_code));
 }
 

@@ -19,7 +19,7 @@ struct Limit {
   double largest;
 };
 constexpr std::array limits = {Limit{"area_drift", 1e-6}, Limit{"volume_drift", 1e-6}, Limit{"strain_max", 0.05},
-                               Limit{"spectrum_tail", 1e-3}};
+                               Limit{"spectrum_tail", 5e-3}};
 
 double largest_magnitude(const std::vector<double>& values) {
   double largest = 0.0;

@@ -4,10 +4,17 @@
 
 namespace vehd {
 
+namespace {
+
+/// Matrix entries below which waking a second thread costs more than it saves.
+constexpr Index kParallelEntries = 250000;
+
+}  // namespace
+
 Matrix ScalarOperator::apply(const Matrix& density) const {
   require_size("density", density.rows(), transposed_.rows());
   Matrix result(transposed_.cols(), density.cols());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (transposed_.size() > kParallelEntries)
   for (Index out = 0; out < transposed_.cols(); ++out) {
     for (Index f = 0; f < density.cols(); ++f) result(out, f) = transposed_.col(out).dot(density.col(f));
   }
@@ -21,7 +28,7 @@ Matrix StokesOperator::apply(const Matrix& density) const {
   const auto x = density.col(0);
   const auto y = density.col(1);
   const auto z = density.col(2);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (6 * transposed_[0].size() > kParallelEntries)
   for (Index out = 0; out < transposed_[0].cols(); ++out) {
     const auto xx = transposed_[0].col(out);
     const auto xy = transposed_[1].col(out);

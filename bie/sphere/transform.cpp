@@ -16,6 +16,9 @@ namespace {
 constexpr int kKinds = 6;
 constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, true, false};
 
+/// Grid values below which waking a second thread costs more than it saves.
+constexpr Index kParallelValues = 60000;
+
 }  // namespace
 
 struct SphereTransform::Tables {
@@ -66,7 +69,7 @@ std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int
   Eigen::MatrixXcd spectrum = Eigen::MatrixXcd::Zero(n_theta, kinds * n_fields * n_modes);
   std::vector<Matrix> values(kinds, Matrix(grid.n_points(), n_fields));
 
-#pragma omp parallel
+#pragma omp parallel if (kinds * n_fields * grid.n_points() > kParallelValues)
   {
     Matrix gathered;
     Matrix product;
@@ -142,7 +145,7 @@ Matrix SphereTransform::analyze(const Matrix& values) const {
   require_size("field on the grid", values.rows(), t.grid.n_points());
   const Index n_fields = values.cols();
   Matrix coefficients(n_coefficients(t.order), n_fields);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (values.size() > kParallelValues)
   for (Index f = 0; f < n_fields; ++f) {
     const Eigen::MatrixXcd spectrum = t.fourier.analyze(values.col(f).data());
     for (int m = 0; m <= t.order; ++m) {

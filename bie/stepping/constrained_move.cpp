@@ -15,9 +15,9 @@ namespace vehd {
 
 namespace {
 
-constexpr int kMaxCorrections = 12;
-/// A correction needs no more digits than the linearisation it corrects can use.
-constexpr double kCorrectionTolerance = 1e-2;
+constexpr int kMaxPasses = 16;
+/// Every pass starts from the full residual, so it needs no more digits than its linearisation is worth.
+constexpr double kPassTolerance = 1e-2;
 /// Largest relative change of an area element that a step may make before corrections.
 constexpr double kLargestStretch = 0.5;
 
@@ -49,41 +49,26 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
                                  const Landing& landing) {
   const Membrane& membrane = parts.membrane;
   const NumericalSettings& settings = discretisation.settings();
+  const bool bending = model.bending.has_value();
   const Vector& area_element = membrane.surface.area_element;
-  const Matrix normal = membrane.fine.analyze(membrane.surface.normal);
   const double area = surface_area(membrane.surface);
   const Vector stretch_before = 1.0 + membrane.fine.synthesize(state.area_strain).col(0).array();
+  // Velocity of the volume correction, for unit amplitude.
+  const Matrix normal = membrane.fine.analyze(membrane.surface.normal);
+  Vector normal_divergence;
+  if (model.inextensible) {
+    normal_divergence = weighted_divergence(membrane, membrane.fine.synthesize_gradient(normal));
+  }
 
   ConstrainedMove move;
   move.velocity = parts.velocity;
   move.tension = tension;
-
-  /// What the velocity of this pass still lacks: the implicit response to `drive`, and the divergence asked for.
-  Matrix drive = parts.velocity;
-  Vector divergence = Vector::Zero(normal.rows());
+  Vector curvature = Vector::Zero(normal.rows());  // h of Eq. (28), accumulated
+  double curvature_scale = 0.0;
   // What landing adds to area and volume, known from the last landing.
   double landing_area = 0.0;
   double landing_volume = 0.0;
-  if (model.inextensible) divergence = -membrane.weighted(stretch_before.array() - 1.0) / dt;
-  for (int pass = 0; pass <= kMaxCorrections; ++pass) {
-    const VelocityField driven = velocity_field(membrane, drive, model.bending.has_value());
-    FlowRightHandSide rhs;
-    if (model.bending) rhs.curvature = dt * curvature_increment(membrane, driven.derivatives);
-    if (model.inextensible) rhs.divergence = divergence - weighted_divergence(membrane, driven.derivatives);
-    MembraneUnknowns increment;
-    const SolveReport report =
-        solve_flow(model, membrane, dt, rhs, pass == 0 ? settings.flow_tolerance : kCorrectionTolerance, increment);
-    move.iterations += report.iterations;
-    if (!report.converged) {
-      move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations", report.residual,
-                                report.iterations);
-      return move;
-    }
-    const Matrix response = membrane_velocity(model, membrane, increment);
-    move.velocity += response;
-    if (pass > 0) move.velocity += drive;
-    if (model.inextensible) move.tension += increment.tension;
-
+  for (int pass = 0; pass <= kMaxPasses; ++pass) {
     move.position = state.position + dt * move.velocity;
     const Measure after = measure(membrane.fine, move.position);
     const Eigen::ArrayXd stretch = after.area_element.cwiseQuotient(area_element);
@@ -93,15 +78,24 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
       return move;
     }
     const Vector strain = stretch_before.array() * stretch - 1.0;
+    Vector weighted_strain = membrane.weighted(strain);
     double volume_error = (after.volume + landing_volume) / state.reference_volume - 1.0;
     double area_error = model.inextensible ? (after.area + landing_area) / state.reference_area - 1.0 : 0.0;
-    Vector weighted_strain = membrane.weighted(strain);
     // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
     const double strain_error =
         model.inextensible ? weighted_strain.tail(weighted_strain.size() - 1).norm() / area : 0.0;
+    FlowRightHandSide rhs;
+    double curvature_error = 0.0;
+    if (bending) {
+      rhs.curvature = dt * curvature_increment(membrane, membrane.fine.synthesize_hessian(move.velocity)) - curvature;
+      if (pass == 0) curvature_scale = rhs.curvature.norm();
+      curvature_error = curvature_scale > 0.0 ? rhs.curvature.norm() / curvature_scale : 0.0;
+    }
     const double tolerance = settings.constraint_tolerance;
-    if (std::max(std::abs(volume_error), std::abs(area_error)) <= tolerance &&
-        strain_error <= settings.strain_tolerance) {
+    const auto holds = [&] { return std::max(std::abs(volume_error), std::abs(area_error)) <= tolerance; };
+    // The first pass is the step itself, however small its residual.
+    if (pass > 0 && holds() && strain_error <= settings.strain_tolerance &&
+        curvature_error <= settings.curvature_tolerance) {
       move.area_strain = membrane.fine.analyze(strain);
       move.landed = landing(move);
       const Measure landed = measure(membrane.fine, move.landed.leftCols(3));
@@ -109,17 +103,31 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
       landing_volume = landed.volume - after.volume;
       volume_error = landed.volume / state.reference_volume - 1.0;
       area_error = model.inextensible ? landed.area / state.reference_area - 1.0 : 0.0;
-      if (std::max(std::abs(volume_error), std::abs(area_error)) <= tolerance) {
+      if (holds()) {
         move.accepted = true;
         return move;
       }
     }
-    // The area as a whole answers for itself, free of what truncation does to the strain field.
-    weighted_strain[0] = area_error * state.reference_area / std::sqrt(4.0 * std::numbers::pi);
-    divergence = -weighted_strain / dt;
-    drive = (-volume_error * state.reference_volume / (area * dt)) * normal;
-    move.reason = fmt::format("area error {:.1e}, volume error {:.1e}, strain {:.1e} after {} corrections", area_error,
-                              volume_error, strain_error, pass);
+    move.reason = fmt::format("area error {:.1e}, volume error {:.1e}, strain {:.1e}, curvature {:.1e} after {} passes",
+                              area_error, volume_error, strain_error, curvature_error, pass);
+
+    const double push = -volume_error * state.reference_volume / (area * dt);
+    if (model.inextensible) {
+      // The area as a whole answers for itself, free of what truncation does to the strain field.
+      weighted_strain[0] = area_error * state.reference_area / std::sqrt(4.0 * std::numbers::pi);
+      rhs.divergence = -weighted_strain / dt - push * normal_divergence;
+    }
+    MembraneUnknowns increment;
+    const SolveReport report = solve_flow(model, membrane, dt, rhs, kPassTolerance, increment);
+    move.iterations += report.iterations;
+    if (!report.converged) {
+      move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations", report.residual,
+                                report.iterations);
+      return move;
+    }
+    move.velocity += push * normal + membrane_velocity(model, membrane, increment);
+    if (bending) curvature += increment.curvature;
+    if (model.inextensible) move.tension += increment.tension;
   }
   return move;
 }

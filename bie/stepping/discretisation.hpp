@@ -14,6 +14,7 @@ struct NumericalSettings {
   double flow_tolerance = 1e-9;          ///< of the tension and velocity solves
   double electric_tolerance = 1e-10;     ///< of the charge-density and charging solves
   double constraint_tolerance = 1e-8;    ///< of area and volume, relative, at the end of a step
+  double curvature_tolerance = 1e-5;     ///< of Eq. (28), relative to the step's own curvature change
   double strain_tolerance = 1e-6;        ///< of the resolved local strain
 };
 

@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(adjoint_layer_halves_the_total_charge) {
   const Layered g(24, asymmetric_shape(24));
   const Matrix density = smooth_coefficients(24, 8, 3, 31);
   const Matrix result = g.layers.laplace_adjoint.apply(density);
-  BOOST_TEST(max_difference(result.row(0), -0.5 * density.row(0)) < 1e-7);
+  BOOST_TEST(max_difference(result.row(0), -0.5 * density.row(0)) < 1e-10);
 }
 
 BOOST_AUTO_TEST_CASE(single_layer_is_symmetric_and_adjoint_layer_is_the_transpose_of_double_layer) {
@@ -66,10 +66,10 @@ BOOST_AUTO_TEST_CASE(single_layer_is_symmetric_and_adjoint_layer_is_the_transpos
   const Matrix h = smooth_coefficients(24, 8, 4, 33);
   const Matrix single = f.transpose() * g.layers.laplace_single.apply(h);
   const Matrix swapped = g.layers.laplace_single.apply(f).transpose() * h;
-  BOOST_TEST(relative_difference(single, swapped) < 1e-7);
+  BOOST_TEST(relative_difference(single, swapped) < 1e-9);
   const Matrix adjoint = f.transpose() * g.layers.laplace_adjoint.apply(h);
   const Matrix transposed = g.layers.laplace_double.apply(f).transpose() * h;
-  BOOST_TEST(relative_difference(adjoint, transposed) < 1e-6);
+  BOOST_TEST(relative_difference(adjoint, transposed) < 1e-8);
 }
 
 BOOST_AUTO_TEST_CASE(single_layer_is_positive) {
@@ -94,8 +94,8 @@ BOOST_AUTO_TEST_CASE(green_representation_converges_spectrally_without_symmetry)
   for (const auto& [source, side] : {std::pair{kOutside, kInterior}, std::pair{kInside, kExterior}}) {
     BOOST_TEST(green_error(fine, source, side) < 1e-3 * green_error(coarse, source, side));
   }
-  BOOST_TEST(green_error(fine, kOutside, kInterior) < 1e-6);
-  BOOST_TEST(green_error(fine, kInside, kExterior) < 1e-6);
+  BOOST_TEST(green_error(fine, kOutside, kInterior) < 1e-9);
+  BOOST_TEST(green_error(fine, kInside, kExterior) < 1e-9);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -23,13 +23,13 @@ BOOST_FIXTURE_TEST_SUITE(stokes_identities, StokesLayer)
 
 BOOST_AUTO_TEST_CASE(pressure_density_moves_nothing) {
   const Matrix velocity = layer.apply(weighted(space, surface, surface.normal));
-  BOOST_TEST(velocity.cwiseAbs().maxCoeff() < 1e-7);
+  BOOST_TEST(velocity.cwiseAbs().maxCoeff() < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(velocity_of_any_density_has_no_flux) {
   const Matrix velocity = space.fine.synthesize(layer.apply(smooth_coefficients(kOrder, 8, 3, 41)));
   const double flux = row_dot(velocity, surface.normal).dot(surface.quadrature);
-  BOOST_TEST(std::abs(flux) < 1e-7 * velocity.rowwise().norm().dot(surface.quadrature));
+  BOOST_TEST(std::abs(flux) < 1e-11 * velocity.rowwise().norm().dot(surface.quadrature));
 }
 
 BOOST_AUTO_TEST_CASE(operator_is_symmetric_and_dissipates) {
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(operator_is_symmetric_and_dissipates) {
   const double f_on_g = work(f, layer.apply(g));
   const double power = work(f, layer.apply(f));
   BOOST_TEST(power > 0.0);
-  BOOST_TEST(std::abs(f_on_g - work(g, layer.apply(f))) < 1e-7 * power);
+  BOOST_TEST(std::abs(f_on_g - work(g, layer.apply(f))) < 1e-9 * power);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -30,8 +30,7 @@ VectorHarmonics vector_harmonics(const SphereTransform& fine, const Surface& uni
 /// Largest ‖S u − eigenvalue u‖/‖u‖ (norms over the unit sphere) per family over 1 ≤ n ≤ p/2 and all m.
 std::array<double, 3> stokes_spectrum_errors(int order, double radius, const Vector3& centre) {
   const Space space(order);
-  const StokesOperator layer =
-      assemble(space, translated(sphere(order, radius), centre), kStokesLayer).stokes_single;
+  const StokesOperator layer = assemble(space, translated(sphere(order, radius), centre), kStokesLayer).stokes_single;
   const Surface unit_sphere = make_surface(space.fine, sphere(order));
   std::array<double, 3> errors{};
   for (int n = 1; n <= order / 2; ++n) {

@@ -3,37 +3,12 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
-#include <random>
 
-#include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/rotation.hpp"
+#include "tests/support/fields.hpp"
 
 using namespace vehd;
-
-namespace {
-
-Matrix random_coefficients(int order, int n_fields, unsigned seed) {
-  std::mt19937 engine(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Matrix c(n_coefficients(order), n_fields);
-  for (Index i = 0; i < c.size(); ++i) c.data()[i] = uniform(engine);
-  return c;
-}
-
-void grid_points(const SphereGrid& grid, Vector& theta, Vector& phi) {
-  theta.resize(grid.n_points());
-  phi.resize(grid.n_points());
-  for (int j = 0; j < grid.n_theta; ++j) {
-    for (int k = 0; k < grid.n_phi; ++k) {
-      theta[j * grid.n_phi + k] = grid.theta[j];
-      phi[j * grid.n_phi + k] = grid.phi[k];
-    }
-  }
-}
-
-double max_difference(const Matrix& a, const Matrix& b) { return (a - b).cwiseAbs().maxCoeff(); }
-
-}  // namespace
+using namespace vehd::testing;
 
 BOOST_AUTO_TEST_SUITE(transform)
 
@@ -76,8 +51,7 @@ BOOST_AUTO_TEST_CASE(derivatives_agree_with_central_differences_and_laplacian) {
   const SphereTransform transform(order, make_grid(order));
   const Matrix c = random_coefficients(order, 1, 3);
   const SphereDerivatives d = transform.synthesize_hessian(c);
-  Vector theta, phi;
-  grid_points(transform.grid(), theta, phi);
+  const auto [theta, phi] = grid_angles(transform.grid());
   const double h = 1e-4;
   const auto at = [&](double dt, double dp) -> Eigen::ArrayXd {
     return evaluate_harmonics(c, theta.array() + dt, phi.array() + dp).col(0).array();
@@ -125,8 +99,7 @@ BOOST_AUTO_TEST_CASE(rotation_of_coefficients_is_rotation_of_points) {
         }
       }
     }
-    Vector theta, phi;
-    grid_points(make_grid(7), theta, phi);
+    const auto [theta, phi] = grid_angles(make_grid(7));
     const Eigen::ArrayXd x = theta.array().sin() * phi.array().cos();
     const Eigen::ArrayXd y = theta.array().sin() * phi.array().sin();
     const Eigen::ArrayXd z = theta.array().cos();

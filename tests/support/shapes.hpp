@@ -47,8 +47,7 @@ inline Matrix asymmetric_shape(int order) {
   rho[coefficient_index(3, -1)] = -0.12;
   rho[coefficient_index(4, -3)] = 0.11;
   rho[coefficient_index(4, 1)] = 0.08;
-  const Matrix points =
-      transform.synthesize(rho).col(0).asDiagonal() * grid_directions(transform.grid());
+  const Matrix points = transform.synthesize(rho).col(0).asDiagonal() * grid_directions(transform.grid());
   const Matrix3 map = general_rotation() * Vector3(1.0, 0.9, 1.25).asDiagonal();
   const Matrix position = transform.analyze(points * map.transpose());
   return translated(resize_order(position, order), {0.3, -0.2, 0.5});

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bie/app/bench_parts.hpp"
+#include "bie/app/bench_time.hpp"
+#include "bie/app/commands.hpp"
+#include "bie/scene/reader.hpp"
+
+namespace vehd {
+namespace {
+
+struct PartsOptions {
+  std::string scene_file;
+  std::vector<int> orders{8, 12, 16, 24, 32};
+  int repeats = 5;
+  CommonOptions common;
+};
+
+struct TimeOptions {
+  std::string scene_file;
+  std::vector<double> steps;
+  double at = 0.0;
+  CommonOptions common;
+};
+
+void add_parts(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command = bench.add_subcommand("parts", "Seconds and memory of each part of a step against the order");
+  const auto options = std::make_shared<PartsOptions>();
+  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
+  command->add_option("--orders", options->orders, "Orders, ascending")
+      ->delimiter(',')
+      ->check(CLI::Range(4, 64))
+      ->capture_default_str();
+  command->add_option("--repeats", options->repeats, "Timed steps; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    write_json(options->common, bench_parts(read_scene(options->scene_file), options->orders, options->repeats));
+    exit_code = ExitCode::done;
+  });
+}
+
+void add_time(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command = bench.add_subcommand("time", "Values, seconds and observed order against the step size");
+  const auto options = std::make_shared<TimeOptions>();
+  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
+  command->add_option("--dt", options->steps, "Step sizes, each half of the one before")
+      ->delimiter(',')
+      ->required()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--at", options->at, "Time at which the values are taken")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    write_json(options->common, bench_time(read_scene(options->scene_file), options->steps, options->at));
+    exit_code = ExitCode::done;
+  });
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("bench", "What accuracy costs: tables of error and seconds");
+  command->require_subcommand(1);
+  add_parts(*command, exit_code);
+  add_time(*command, exit_code);
+}
+
+}  // namespace vehd

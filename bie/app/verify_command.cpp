@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bie/app/commands.hpp"
+#include "bie/app/example1.hpp"
+
+namespace vehd {
+namespace {
+
+struct VerifyOptions {
+  int order = 16;
+  CommonOptions common;
+};
+
+ExitCode verify(const VerifyOptions& options) {
+  const Example1Result result = solve_example1(options.order);
+  fmt::print("Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources\n");
+  fmt::print("{:>6} {:>10} {:>10} {:>11} {:>9}\n", "order", "error_q", "error_f_E", "iterations", "seconds");
+  fmt::print("{:>6} {:>10.2e} {:>10.2e} {:>11} {:>9.3f}\n", result.order, result.error_q, result.error_force,
+             result.iterations, result.seconds);
+  write_json(options.common, {{"order", result.order},
+                              {"error_q", result.error_q},
+                              {"error_force", result.error_force},
+                              {"iterations", result.iterations},
+                              {"seconds", result.seconds}});
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("verify", "Solve Example 1 of the paper and print its errors");
+  const auto options = std::make_shared<VerifyOptions>();
+  command->add_option("--order", options->order, "Degree p of the harmonics")
+      ->check(CLI::Range(4, 64))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->footer("Errors are relative maxima over the 2(p+1)^2 nodes against the exact solution.");
+  command->callback([options, &exit_code] { exit_code = verify(*options); });
+}
+
+}  // namespace vehd

@@ -1,0 +1,111 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr int kOrder = 12;
+
+Diagnostics diagnostics_of(const Model& model, const State& state) {
+  return evaluated(model, discretisation_of(kOrder), state).diagnostics;
+}
+
+Diagnostics diagnostics_of_shape(const Matrix& position) {
+  const Model model = relaxation_model(0.1);
+  return diagnostics_of(model, start(model, discretisation_of(kOrder), position, 0.1));
+}
+
+Matrix turned_about_y(const Matrix& position, double degrees) {
+  // Towards +z from +x, hence against the right-handed turn about +y.
+  return position *
+         Eigen::AngleAxisd(-degrees * std::numbers::pi / 180.0, Vector3::UnitY()).toRotationMatrix().transpose();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(diagnostics)
+
+BOOST_AUTO_TEST_CASE(extents_are_those_of_the_surface_and_not_of_its_nodes) {
+  const Diagnostics d = diagnostics_of_shape(translated(ellipsoid(kOrder, {1.0, 1.3, 2.0}), {5.0, -3.0, 1.0}));
+  BOOST_TEST(std::abs(d.extent_x - 2.0) < 1e-5);
+  BOOST_TEST(std::abs(d.extent_y - 2.6) < 1e-5);
+  BOOST_TEST(std::abs(d.extent_z - 4.0) < 1e-5);
+  // A tilted ellipsoid is as long along an axis as its support function says.
+  const Diagnostics tilted = diagnostics_of_shape(turned_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.0}), 30.0));
+  BOOST_TEST(std::abs(tilted.extent_x - 2.0 * std::sqrt(4.0 * 0.75 + 0.25)) < 1e-4);
+  BOOST_TEST(std::abs(tilted.extent_z - 2.0 * std::sqrt(4.0 * 0.25 + 0.75)) < 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(inclination_is_the_angle_of_the_long_axis_from_x_towards_z) {
+  for (const double degrees : {-80.0, -30.0, 0.0, 10.0, 45.0, 89.0}) {
+    const Matrix position = translated(turned_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.2}), degrees), {1.0, 2.0, 3.0});
+    BOOST_TEST(std::abs(diagnostics_of_shape(position).inclination_deg - degrees) < 1e-8);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(reduced_volume_is_one_on_the_sphere_and_ignores_size) {
+  BOOST_TEST(std::abs(diagnostics_of_shape(sphere(kOrder, 2.7)).reduced_volume - 1.0) < 1e-12);
+  const double prolate_value = diagnostics_of_shape(prolate(kOrder)).reduced_volume;
+  BOOST_TEST(std::abs(diagnostics_of_shape(3.0 * prolate(kOrder)).reduced_volume - prolate_value) < 1e-12);
+  BOOST_TEST(prolate_value < 0.95);
+}
+
+BOOST_AUTO_TEST_CASE(spectrum_tail_is_the_share_of_degrees_above_two_thirds) {
+  // p = 12: degrees 9 to 12 are the tail, degree 0 (the place) does not count.
+  Matrix position = translated(sphere(kOrder), {4.0, 0.0, 0.0});
+  BOOST_TEST(diagnostics_of_shape(position).spectrum_tail < 1e-15);
+  position(coefficient_index(8, 3), 1) = 1e-3;
+  BOOST_TEST(diagnostics_of_shape(position).spectrum_tail < 1e-15);
+  position(coefficient_index(9, 3), 1) = 1e-3;
+  position(coefficient_index(12, 0), 2) = 2e-3;
+  const double size = std::sqrt(4.0 * std::numbers::pi);  // √ of three components, 4π/3 each
+  BOOST_TEST(std::abs(diagnostics_of_shape(position).spectrum_tail * size / std::sqrt(5e-6) - 1.0) < 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(drift_is_relative_to_the_reference_with_its_sign) {
+  const Model model = relaxation_model(0.1);
+  State state = start(model, discretisation_of(kOrder), prolate(kOrder), 0.1);
+  BOOST_TEST(diagnostics_of(model, state).area_drift == 0.0);
+  state.reference_area /= 1.001;
+  state.reference_volume /= 0.998;
+  const Diagnostics d = diagnostics_of(model, state);
+  BOOST_TEST(std::abs(d.area_drift - 0.001) < 1e-12);
+  BOOST_TEST(std::abs(d.volume_drift + 0.002) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(strain_is_the_largest_magnitude_on_the_surface) {
+  const Model model = relaxation_model(0.1);
+  State state = start(model, discretisation_of(kOrder), sphere(kOrder), 0.1);
+  BOOST_TEST(diagnostics_of(model, state).strain_max == 0.0);
+  state.area_strain = -3e-3 * std::sqrt(4.0 * std::numbers::pi) * harmonic(kOrder, 0, 0);
+  BOOST_TEST(std::abs(diagnostics_of(model, state).strain_max - 3e-3) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(potential_and_charge_are_read_at_the_north_pole) {
+  // V_m = V cos θ on the unit sphere: see electric_sphere for q.
+  const Model model = field_model();
+  State state = start(model, discretisation_of(kOrder), sphere(kOrder), 0.1);
+  const double v = 0.4;
+  state.transmembrane_potential = v * sphere(kOrder).col(2);
+  const Diagnostics d = diagnostics_of(model, state);
+  const double interior = 2.0 * (3.0 - 2.0 * v) / 5.0;
+  BOOST_TEST(std::abs(d.Vm_north - v) < 1e-12);
+  BOOST_TEST(std::abs(d.Vm_max - v) < 1e-12);
+  BOOST_TEST(std::abs(d.q_north + 0.5 * interior) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(integrals_are_taken_over_the_surface) {
+  const Model model = shear_model();
+  const Diagnostics d = diagnostics_of(model, start(model, discretisation_of(kOrder), sphere(kOrder, 2.0), 0.1));
+  BOOST_TEST(std::abs(d.area / (16.0 * std::numbers::pi) - 1.0) < 1e-12);
+  BOOST_TEST(std::abs(d.volume / (32.0 / 3.0 * std::numbers::pi) - 1.0) < 1e-12);
+  BOOST_TEST(std::abs(d.bending_energy_scaled / (4.0 * std::numbers::pi) - 1.0) < 1e-11);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,100 @@
+#include "bie/stepping/flow_solve.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "bie/physics/bending.hpp"
+#include "bie/physics/tension.hpp"
+#include "bie/stepping/sphere_spectrum.hpp"
+#include "tests/support/membrane.hpp"
+#include "tests/support/runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr int kOrder = 12;
+constexpr double kDt = 0.3;
+
+Model stiff_model() {
+  Model model = relaxation_model(0.7);
+  model.viscosity = 1.9;
+  return model;
+}
+
+/// The left side of the coupled system, from its parts.
+MembraneUnknowns left_side(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns) {
+  const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, unknowns), true);
+  Vector curvature = -kDt * curvature_increment(membrane, u.derivatives);
+  if (unknowns.curvature.size() > 0) curvature += unknowns.curvature;
+  return {curvature, weighted_divergence(membrane, u.derivatives)};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(flow_solve)
+
+BOOST_AUTO_TEST_CASE(sphere_flow_block_is_the_assembled_operator_on_a_sphere) {
+  const double radius = 1.6;
+  const Model model = stiff_model();
+  const Space space(kOrder);
+  const Membrane membrane = make_membrane(space, sphere(kOrder, radius), kStokesLayer);
+  const SphereFlow parameters{radius, model.viscosity, model.bending->modulus, kDt};
+  for (int n = 0; n <= kOrder / 2; ++n) {
+    const Eigen::Matrix2d block = sphere_flow_block(parameters, n);
+    for (const int m : {-n, 0, n}) {
+      const Vector y = harmonic(kOrder, n, m);
+      const MembraneUnknowns of_curvature = left_side(model, membrane, {y, {}});
+      const MembraneUnknowns of_tension = left_side(model, membrane, {{}, y});
+      const double scale = block.cwiseAbs().maxCoeff();
+      BOOST_TEST_CONTEXT("degree " << n << ", order " << m) {
+        BOOST_TEST(max_difference(of_curvature.curvature, block(0, 0) * y) < 1e-10 * scale);
+        BOOST_TEST(max_difference(of_curvature.tension, block(1, 0) * y) < 1e-10 * scale);
+        BOOST_TEST(max_difference(of_tension.curvature, block(0, 1) * y) < 1e-10 * scale);
+        BOOST_TEST(max_difference(of_tension.tension, block(1, 1) * y) < 1e-10 * scale);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(solution_satisfies_the_coupled_system) {
+  const Model model = stiff_model();
+  const Space space(kOrder);
+  const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
+  const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 101), smooth_coefficients(kOrder, 6, 1, 102)};
+  MembraneUnknowns unknowns;
+  const SolveReport report = solve_flow(model, membrane, kDt, rhs, 1e-11, unknowns);
+  const MembraneUnknowns reached = left_side(model, membrane, unknowns);
+  BOOST_TEST(report.converged);
+  BOOST_TEST(max_difference(reached.curvature, rhs.curvature) < 1e-8);
+  BOOST_TEST(max_difference(reached.tension, rhs.divergence) < 1e-8);
+}
+
+BOOST_AUTO_TEST_CASE(preconditioner_is_the_inverse_on_a_sphere) {
+  const Model model = stiff_model();
+  const Space space(kOrder);
+  const Membrane membrane = make_membrane(space, sphere(kOrder), kStokesLayer);
+  FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 103), smooth_coefficients(kOrder, 6, 1, 104)};
+  rhs.divergence[0] = 0.0;
+  MembraneUnknowns unknowns;
+  const SolveReport report = solve_flow(model, membrane, kDt, rhs, 1e-8, unknowns);
+  BOOST_TEST(report.converged);
+  BOOST_TEST(report.iterations <= 2);
+}
+
+BOOST_AUTO_TEST_CASE(iterations_are_bounded_from_soft_to_stiff_steps) {
+  const Space space(kOrder);
+  const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
+  const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 105), smooth_coefficients(kOrder, 6, 1, 106)};
+  for (const double modulus : {1e-3, 1.0, 10.0}) {
+    MembraneUnknowns unknowns;
+    const SolveReport report = solve_flow(relaxation_model(modulus), membrane, kDt, rhs, 1e-9, unknowns);
+    BOOST_TEST_CONTEXT("bending modulus " << modulus) {
+      BOOST_TEST(report.converged);
+      BOOST_TEST(report.iterations <= 100);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

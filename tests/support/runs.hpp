@@ -1,0 +1,70 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/model.hpp"
+#include "bie/stepping/stepper.hpp"
+
+/// Models of the tests and short runs of them.
+namespace vehd::testing {
+
+inline Model relaxation_model(double modulus) {
+  Model model;
+  model.bending = BendingParameters{modulus};
+  return model;
+}
+
+inline Model shear_model() {
+  Model model = relaxation_model(0.1);
+  model.flow = shear_flow(1.0);
+  return model;
+}
+
+/// Example 2 of the paper.
+inline Model field_model() {
+  Model model = relaxation_model(0.1);
+  model.electric = ElectricParameters{{0.0, 0.0, 1.0}, 1.0, 2.0, 1.0};
+  model.charging = ChargingParameters{1.0, 5.0};
+  return model;
+}
+
+inline Discretisation discretisation_of(int order) {
+  NumericalSettings settings;
+  settings.order = order;
+  return Discretisation(settings);
+}
+
+inline State start(const Model& model, const Discretisation& discretisation, const Matrix& position, double dt) {
+  Instruments instruments;
+  return initial_state(model, discretisation, position, false, dt, instruments);
+}
+
+inline Evaluation evaluated(const Model& model, const Discretisation& discretisation, const State& state) {
+  Instruments instruments;
+  return evaluate(model, discretisation, state, instruments);
+}
+
+inline StepResult stepped(const Model& model, const Discretisation& discretisation, const State& state, double dt) {
+  Instruments instruments;
+  return step(model, discretisation, state, evaluate(model, discretisation, state, instruments), dt, instruments);
+}
+
+/// n_steps steps of size dt, calling `watch` with each new state.
+template <typename Watch>
+State run(const Model& model, const Discretisation& discretisation, State state, double dt, int n_steps,
+          const Watch& watch) {
+  for (int i = 0; i < n_steps; ++i) {
+    const StepResult result = stepped(model, discretisation, state, dt);
+    if (!result.accepted) throw std::runtime_error(result.reason);
+    state = result.state;
+    watch(state);
+  }
+  return state;
+}
+
+inline State run(const Model& model, const Discretisation& discretisation, State state, double dt, int n_steps) {
+  return run(model, discretisation, std::move(state), dt, n_steps, [](const State&) {});
+}
+
+}  // namespace vehd::testing
