@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <memory>
+#include <optional>
 
 #include "bie/app/commands.hpp"
 #include "bie/app/file_system.hpp"
@@ -78,6 +79,8 @@ nlohmann::json summarise(const RunPaths& paths, const RunOutcome& outcome) {
 }
 
 ExitCode run(const RunOptions& options) {
+  // Before anything runs in parallel: threads inherit which signals they leave alone.
+  std::optional<Interruption> interruption(std::in_place);
   const Scene scene = read_scene(options.scene_file);
   const RunPaths paths{options.directory};
   make_run_directory(paths);
@@ -96,12 +99,9 @@ ExitCode run(const RunOptions& options) {
                    checkpoint->threads, omp_get_max_threads());
     }
   }
-  RunOutcome outcome;
-  {
-    Interruption interruption;
-    const Progress::Style style = options.quiet ? Progress::Style::none : Progress::suitable_style();
-    outcome = simulate({scene, paths, checkpoint, style}, interruption);
-  }
+  const Progress::Style style = options.quiet ? Progress::Style::none : Progress::suitable_style();
+  const RunOutcome outcome = simulate({scene, paths, checkpoint, style}, *interruption);
+  interruption.reset();
   nlohmann::json summary;
   try {
     summary = summarise(paths, outcome);

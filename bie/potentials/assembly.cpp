@@ -47,6 +47,9 @@ class CoefficientBlock {
         sine_(width_ * width_ * columns, 0.0) {}
 
   double* row(bool sine, int n, int m) { return (sine ? sine_ : cosine_).data() + (m * width_ + n) * columns_; }
+  const double* row(bool sine, int n, int m) const {
+    return (sine ? sine_ : cosine_).data() + (m * width_ + n) * columns_;
+  }
   /// Degrees m..p of order m.
   Block order_block(bool sine, int m) { return {row(sine, m, m), width_ - m, columns_, Stride(columns_)}; }
   /// Orders first..n of degree n.
@@ -76,18 +79,16 @@ class LatitudeWorker {
         rotated_rows_(order_, kernels.count * chunk),
         shape_kinds_(kernels.double_layer >= 0 ? kShapeKinds : 1) {}
 
-  /// Adds the chunk's rows, multiplied by the trigonometric matrix of the targets' azimuths, to `spectrum`
-  /// ([kernels * n_coefficients x (2p+1)]).
-  /// @param fresh  only the last `fresh` targets of the chunk contribute
-  void run(int latitude, const Vector& phi, Index first, int fresh, const Matrix& target_position,
-           const Matrix& target_area_vector, const RowMatrix& trigonometric, RowMatrix& spectrum) {
+  /// Fills the chunk's rows of `rows`, [n_phi x kernels * n_coefficients], coefficients in order-major order.
+  void run(int latitude, const Vector& phi, Index first, const Matrix& target_position,
+           const Matrix& target_area_vector, RowMatrix& rows) {
     load_shape(phi, first);
     rotate(latitude, shape_, rotated_shape_, false);
     synthesize_shape();
     evaluate_kernels(target_position, target_area_vector);
     collect_rows();
     rotate(latitude, rotated_rows_, rows_, true);
-    store_rows(phi, first, trigonometric.middleRows(first + chunk_ - fresh, fresh), spectrum);
+    store_rows(phi, first, rows);
   }
 
  private:
@@ -263,40 +264,31 @@ class LatitudeWorker {
     }
   }
 
-  /// Undoes the phase shift and adds the chunk's share of the Fourier analysis over the target azimuths.
-  void store_rows(const Vector& phi, Index first, const RowMatrix& trigonometric, RowMatrix& spectrum) {
-    cosine_phase_.resize(chunk_);
-    sine_phase_.resize(chunk_);
+  /// Undoes the phase shift.
+  void store_rows(const Vector& phi, Index first, RowMatrix& rows) const {
+    const Index n_kernels = kernels_.count;
+    const Index block = n_coefficients(order_);
+    const Index stride = row_columns();
+    Index offset = 0;
     for (int m = 0; m <= order_; ++m) {
-      for (int t = 0; t < chunk_; ++t) {
-        cosine_phase_[t] = std::cos(m * phi[first + t]);
-        sine_phase_[t] = std::sin(m * phi[first + t]);
-      }
       const Index n_degrees = order_ + 1 - m;
-      const Index n_rows = n_degrees * kernels_.count;
-      const Eigen::Map<RowMatrix> cosine(rows_.row(false, m, m), n_rows, chunk_);
-      const Eigen::Map<RowMatrix> sine(rows_.row(true, m, m), n_rows, chunk_);
-      if (m == 0) {
-        add_spectrum(cosine, trigonometric, spectrum, m, false);
-        continue;
+      for (int t = 0; t < chunk_; ++t) {
+        const double cosine_phase = std::cos(m * phi[first + t]);
+        const double sine_phase = std::sin(m * phi[first + t]);
+        double* row = rows.row(first + t).data() + offset;
+        for (Index c = 0; c < n_kernels; ++c, row += block) {
+          const double* cosine = rows_.row(false, m, m) + c * chunk_ + t;
+          const double* sine = rows_.row(true, m, m) + c * chunk_ + t;
+          for (Index i = 0; i < n_degrees; ++i) {
+            row[i] = cosine[i * stride] * cosine_phase - sine[i * stride] * sine_phase;
+          }
+          if (m == 0) continue;
+          for (Index i = 0; i < n_degrees; ++i) {
+            row[n_degrees + i] = cosine[i * stride] * sine_phase + sine[i * stride] * cosine_phase;
+          }
+        }
       }
-      shifted_ = cosine * cosine_phase_.asDiagonal();
-      shifted_.noalias() -= sine * sine_phase_.asDiagonal();
-      add_spectrum(shifted_, trigonometric, spectrum, m, false);
-      shifted_ = cosine * sine_phase_.asDiagonal();
-      shifted_.noalias() += sine * cosine_phase_.asDiagonal();
-      add_spectrum(shifted_, trigonometric, spectrum, m, true);
-    }
-  }
-
-  void add_spectrum(const Eigen::Ref<const RowMatrix>& rows, const RowMatrix& trigonometric, RowMatrix& spectrum, int m,
-                    bool sine) {
-    row_spectrum_.noalias() = rows.rightCols(trigonometric.rows()) * trigonometric;
-    for (int n = m; n <= order_; ++n) {
-      for (int c = 0; c < kernels_.count; ++c) {
-        spectrum.row(c * n_coefficients(order_) + coefficient_index(n, sine ? -m : m)) +=
-            row_spectrum_.row((n - m) * kernels_.count + c);
-      }
+      offset += (m == 0 ? 1 : 2) * n_degrees;
     }
   }
 
@@ -307,25 +299,34 @@ class LatitudeWorker {
   int order_;
   CoefficientBlock shape_, rotated_shape_, rows_, rotated_rows_;
   int shape_kinds_;
-  RowMatrix product_, product_sine_, ce_, se_, co_, so_, values_, shifted_, row_spectrum_;
+  RowMatrix product_, product_sine_, ce_, se_, co_, so_, values_;
   RowMatrix even_cosine_[kShapeKinds], even_sine_[kShapeKinds], odd_cosine_[kShapeKinds], odd_sine_[kShapeKinds];
   RowMatrix nodes_[kShapeKinds];
-  Vector cosine_phase_, sine_phase_;
   Matrix distance_;  ///< r and 1/|r| of the targets at one node
 };
 
-/// Columns: cos mφ_k for m = 0..p, then sin mφ_k for m = 1..p, scaled so that sums over k give Fourier amplitudes.
-RowMatrix trigonometric_matrix(const SphereGrid& grid) {
+/// Rows: cos mφ_k for m = 0..p, then sin mφ_k for m = 1..p, scaled so that sums over k give Fourier amplitudes.
+RowMatrix fourier_matrix(const SphereGrid& grid) {
   const int order = grid.order;
-  RowMatrix trigonometric(grid.n_phi, 2 * order + 1);
+  RowMatrix fourier(2 * order + 1, grid.n_phi);
   for (int k = 0; k < grid.n_phi; ++k) {
     for (int m = 0; m <= order; ++m) {
       const double scale = (m == 0 ? 1.0 : 2.0) / grid.n_phi;
-      trigonometric(k, m) = scale * std::cos(m * grid.phi[k]);
-      if (m > 0) trigonometric(k, order + m) = scale * std::sin(m * grid.phi[k]);
+      fourier(m, k) = scale * std::cos(m * grid.phi[k]);
+      if (m > 0) fourier(order + m, k) = scale * std::sin(m * grid.phi[k]);
     }
   }
-  return trigonometric;
+  return fourier;
+}
+
+/// coefficient_index of each entry in order-major order: m = 0, then cosines and sines of m = 1, 2, ...
+std::vector<Index> order_major_indices(int order) {
+  std::vector<Index> indices;
+  for (int m = 0; m <= order; ++m) {
+    for (int n = m; n <= order; ++n) indices.push_back(coefficient_index(n, m));
+    for (int n = m; n <= order && m > 0; ++n) indices.push_back(coefficient_index(n, -m));
+  }
+  return indices;
 }
 
 /// Targets that share the matrix products: enough columns for efficiency, few enough to stay in cache.
@@ -355,29 +356,30 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
 
   const Index n = n_coefficients(order);
   const Index n_modes = 2 * order + 1;
-  const RowMatrix trigonometric = trigonometric_matrix(grid);
+  const RowMatrix fourier = fourier_matrix(grid);
   const int chunk = chunk_size(grid.n_phi);
-  // Per Fourier mode of the target azimuth: [n_coefficients * kernels x latitudes].
-  std::vector<Matrix> modes(n_modes, Matrix(n * kernels.count, grid.n_theta));
+  // Per Fourier mode of the target azimuth: [kernels * n_coefficients x latitudes].
+  std::vector<Matrix> modes(n_modes, Matrix(kernels.count * n, grid.n_theta));
 #pragma omp parallel
   {
     LatitudeWorker worker(quadrature, kernels, position, chunk);
-    RowMatrix spectrum(n * kernels.count, n_modes);
+    RowMatrix rows(grid.n_phi, kernels.count * n);
+    RowMatrix spectrum;
 #pragma omp for schedule(dynamic, 1)
     for (int j = 0; j < grid.n_theta; ++j) {
-      spectrum.setZero();
       for (int done = 0; done < grid.n_phi; done += chunk) {
-        // The last chunk reaches back over targets that are done already, and leaves their rows out.
+        // The last chunk reaches back over targets that are done already.
         const int first = std::min(done, grid.n_phi - chunk);
         const Index start = Index{j} * grid.n_phi + first;
-        worker.run(j, grid.phi, first, first + chunk - done, x.value.middleRows(start, chunk),
-                   area_vector.middleRows(start, chunk), trigonometric, spectrum);
+        worker.run(j, grid.phi, first, x.value.middleRows(start, chunk), area_vector.middleRows(start, chunk), rows);
       }
-      for (Index mode = 0; mode < n_modes; ++mode) modes[mode].col(j) = spectrum.col(mode);
+      spectrum.noalias() = fourier * rows;
+      for (Index mode = 0; mode < n_modes; ++mode) modes[mode].col(j) = spectrum.row(mode);
     }
   }
 
   std::vector<Matrix> operators(kernels.count, Matrix(n, n));
+  const std::vector<Index> indices = order_major_indices(order);
 #pragma omp parallel for schedule(dynamic, 1)
   for (Index mode = 0; mode < n_modes; ++mode) {
     const int m = static_cast<int>(mode <= order ? mode : mode - order);
@@ -385,7 +387,9 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
     for (int degree = m; degree <= order; ++degree) {
       const Index out = coefficient_index(degree, mode <= order ? m : -m);
       for (int c = 0; c < kernels.count; ++c) {
-        operators[c].col(out) = product.col(degree - m).segment(c * n, n);
+        const double* from = product.col(degree - m).data() + c * n;
+        double* to = operators[c].col(out).data();
+        for (Index i = 0; i < n; ++i) to[indices[i]] = from[i];
       }
     }
   }

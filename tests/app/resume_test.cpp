@@ -125,6 +125,18 @@ BOOST_FIXTURE_TEST_CASE(interrupt_leaves_a_resumable_run, ReferenceRun) {
   }
 }
 
+// Checking a radial scene starts threads; these must not take the signal either.
+BOOST_FIXTURE_TEST_CASE(interrupt_of_a_radial_scene_is_orderly, ReferenceRun) {
+  std::string text = quick_scene("100.0");
+  const std::string shape = "kind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]";
+  text.replace(text.find(shape), shape.size(), "kind = \"radial\"\nmodes = [{n = 2, m = 0, a = 0.3}]");
+  write_text(scene, text);
+  RunningProgram program(command);
+  wait_for_rows(program);
+  program.send(SIGINT);
+  BOOST_TEST(program.wait().exit_code == 3);
+}
+
 BOOST_FIXTURE_TEST_CASE(two_runs_in_one_directory_are_refused, ReferenceRun) {
   RunningProgram first(command);
   wait_for_rows(first);
