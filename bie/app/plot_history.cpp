@@ -80,8 +80,8 @@ void plot_history(const PlotTask& task, const std::filesystem::path& picture) {
       width, panel_height, gnuplot_quoted(picture.string()));
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double cell = 1.0 / static_cast<double>(panels.size());
-    script += panel_script(panels[i], task.paths.history().string(), (static_cast<double>(i) + 0.14) * cell,
-                           (static_cast<double>(i) + 0.835) * cell);
+    script += panel_script(panels[i], task.paths.history().string(), (static_cast<double>(i) + 0.165) * cell,
+                           (static_cast<double>(i) + 0.83) * cell);
   }
   run_gnuplot(script + "unset multiplot\n", task.output);
 }

@@ -192,6 +192,16 @@ Row render_row(const std::vector<Shape>& shapes, const ColourMap& colours) {
   return row;
 }
 
+/// The round number (1, 2 or 5 times a power of ten) that puts at most `most` labels on a scale of this length.
+double tick_spacing(double length, double most) {
+  const double least = length / std::max(most, 2.0);
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least) return factor * power;
+  }
+  return 10.0 * power;
+}
+
 }  // namespace
 
 void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
@@ -239,13 +249,15 @@ void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
         "set lmargin at screen {}; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen {}\n",
         across(row.image.width + 24), across(row.image.width + 24 + bar_width), upward(middle - bar_height / 2.0),
         upward(middle + bar_height / 2.0));
+    // About one label for every 30 pixels of the bar.
+    const double tick = tick_spacing(range.upper - range.lower, bar_height / 30.0);
     script += fmt::format(
-        "set border lw 1; set y2tics out nomirror scale 0.6 font ',17'; set format y2 '%.3g'\n"
+        "set border lw 1; set y2tics {6} out nomirror scale 0.6 font ',17'; set format y2 '%.3g'\n"
         "set title {0} offset 0,-0.3\n"
         "set xrange [0:{1}]; set yrange [0:{2}]; set y2range [{3}:{4}]\n"
         "plot {5} binary array=({1},{2}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
         gnuplot_quoted(field.label), bar_width, bar_height, range.lower, range.upper,
-        gnuplot_quoted(bar_file.path().string()));
+        gnuplot_quoted(bar_file.path().string()), tick);
   }
   script += "unset multiplot\n";
   run_gnuplot(script, task.output);

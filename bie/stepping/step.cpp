@@ -70,10 +70,12 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
 Advance advance(const Model& model, const Discretisation& discretisation, const State& state,
                 const Evaluation& evaluation, double dt_nominal, double dt_limit, Instruments& instruments) {
   constexpr double kSmallestFraction = 1.0 / 1024.0;
+  constexpr double kRounding = 1e-9;
   Advance result;
   double wanted = std::min(state.dt_next, dt_nominal);
   while (wanted >= kSmallestFraction * dt_nominal) {
-    const double dt = std::min(wanted, dt_limit);
+    // A limit that is the wanted step up to rounding is taken exactly: the caller has an appointment there.
+    const double dt = dt_limit <= wanted * (1.0 + kRounding) ? dt_limit : wanted;
     const StepResult attempt = step(model, discretisation, state, evaluation, dt, instruments);
     result.iterations_flow += attempt.iterations_flow;
     result.iterations_electric += attempt.iterations_electric;

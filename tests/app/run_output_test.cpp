@@ -44,6 +44,19 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
   BOOST_TEST(std::abs(time - 3.0) < 1e-12);
 }
 
+BOOST_FIXTURE_TEST_CASE(snapshots_come_on_time_though_decimal_steps_do_not_add_up, Run) {
+  // Ten times 0.1 is not 1.0 in binary: the last step before a snapshot has to stretch by a rounding error.
+  run("[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
+      "[flow]\nkind = \"shear\"\nrate = 0.1\n[numerics]\norder = 4\ndt = 0.1\nend_time = 5.0\n"
+      "[output]\nevery = 1.0\n");
+  const vehd::Hdf5Reader file(output + "/run.h5");
+  BOOST_TEST(file.members("/snapshots").size() == 6);
+  for (int number = 0; number < 6; ++number) {
+    BOOST_TEST(file.number_attribute("/snapshots/" + vehd::snapshot_name(number), "time") == 1.0 * number);
+  }
+  BOOST_TEST(vehd::HistoryTable(output + "/history.csv").n_rows() == 51);
+}
+
 BOOST_FIXTURE_TEST_CASE(run_file_keeps_its_layout, Run) {
   run(quick_scene());
   const vehd::Hdf5Reader file(output + "/run.h5");
