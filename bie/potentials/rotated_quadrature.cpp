@@ -12,7 +12,7 @@ RotatedQuadrature make_rotated_quadrature(const SphereGrid& targets, double over
   q.order = targets.order;
   const int order = q.order;
   // The added nodes serve low orders, where the surface and not the density sets the resolution.
-  q.n_theta = static_cast<int>(std::ceil(oversampling * order)) + 2;
+  q.n_theta = static_cast<int>(std::ceil(oversampling * order)) + 4;
   q.n_phi = 4 * ((2 * q.n_theta + 3) / 4);
   const GaussLegendre rule = gauss_legendre(q.n_theta);
   const Vector theta = (rule.nodes.array() + 1.0) * (std::numbers::pi / 2);

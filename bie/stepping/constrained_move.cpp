@@ -18,6 +18,8 @@ namespace {
 constexpr int kMaxPasses = 16;
 /// Every pass starts from the full residual, so it needs no more digits than its linearisation is worth.
 constexpr double kPassTolerance = 1e-2;
+/// Smaller changes of H, relative to H, are those of a shape at rest.
+constexpr double kCurvatureFloor = 1e-6;
 /// Largest relative change of an area element that a step may make before corrections.
 constexpr double kLargestStretch = 0.5;
 
@@ -64,6 +66,7 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
   move.velocity = parts.velocity;
   move.tension = tension;
   Vector curvature = Vector::Zero(normal.rows());  // h of Eq. (28), accumulated
+  const double mean_curvature = bending ? membrane.fine.analyze(membrane.surface.mean_curvature).norm() : 0.0;
   double curvature_scale = 0.0;
   // What landing adds to area and volume, known from the last landing.
   double landing_area = 0.0;
@@ -88,8 +91,8 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
     double curvature_error = 0.0;
     if (bending) {
       rhs.curvature = dt * curvature_increment(membrane, membrane.fine.synthesize_hessian(move.velocity)) - curvature;
-      if (pass == 0) curvature_scale = rhs.curvature.norm();
-      curvature_error = curvature_scale > 0.0 ? rhs.curvature.norm() / curvature_scale : 0.0;
+      if (pass == 0) curvature_scale = std::max(rhs.curvature.norm(), kCurvatureFloor * mean_curvature);
+      curvature_error = rhs.curvature.norm() / curvature_scale;
     }
     const double tolerance = settings.constraint_tolerance;
     const auto holds = [&] { return std::max(std::abs(volume_error), std::abs(area_error)) <= tolerance; };
