@@ -86,8 +86,11 @@ nlohmann::json bench_time(const Scene& scene, const std::vector<double>& steps, 
       const double middle = runs[i - 1].diagnostics.*quantity.member;
       const double fine = runs[i].diagnostics.*quantity.member;
       const double ratio = (coarse - middle) / (middle - fine);
-      orders += fmt::format(" {:>22.2f}", std::log2(ratio));
-      limits += fmt::format(" {:>22.6f}", fine + (fine - middle) / (ratio - 1.0));
+      // Values that do not move monotonically, or not at all, have no order.
+      const bool converging = std::isfinite(ratio) && ratio > 1.0 && std::abs(middle - fine) > 1e-9 * std::abs(fine);
+      orders += converging ? fmt::format(" {:>22.2f}", std::log2(ratio)) : fmt::format(" {:>22}", "-");
+      limits +=
+          converging ? fmt::format(" {:>22.6f}", fine + (fine - middle) / (ratio - 1.0)) : fmt::format(" {:>22}", "-");
     }
     fmt::print("{}\n{}\n", orders, limits);
   }
