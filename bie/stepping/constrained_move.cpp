@@ -121,7 +121,7 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
       rhs.divergence = -weighted_strain / dt - push * normal_divergence;
     }
     MembraneUnknowns increment;
-    const SolveReport report = solve_flow(model, membrane, dt, rhs, kPassTolerance, increment);
+    const SolveReport report = solve_flow(model, membrane, dt, rhs, {kPassTolerance, false}, increment);
     move.iterations += report.iterations;
     if (!report.converged) {
       move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations", report.residual,

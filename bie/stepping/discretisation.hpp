@@ -8,14 +8,14 @@ namespace vehd {
 
 /// Numerical settings of a run; the defaults are the program's defaults.
 struct NumericalSettings {
-  int order = 16;                        ///< p
-  int upsampling = 2;                    ///< nonlinear terms live on the grid of order upsampling * p
+  int order = 16;                         ///< p
+  int upsampling = 2;                     ///< nonlinear terms live on the grid of order upsampling * p
   double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
-  double flow_tolerance = 1e-9;          ///< of the tension and velocity solves
-  double electric_tolerance = 1e-10;     ///< of the charge-density and charging solves
-  double constraint_tolerance = 1e-8;    ///< of area and volume, relative, at the end of a step
-  double curvature_tolerance = 1e-5;     ///< of Eq. (28), relative to the step's own curvature change
-  double strain_tolerance = 1e-6;        ///< of the resolved local strain
+  double flow_tolerance = 1e-9;           ///< of the tension and velocity solves
+  double electric_tolerance = 1e-10;      ///< of the charge-density and charging solves
+  double constraint_tolerance = 1e-8;     ///< of area and volume, relative, at the end of a step
+  double curvature_tolerance = 1e-5;      ///< of Eq. (28), relative to the step's own curvature change
+  double strain_tolerance = 1e-6;         ///< of the resolved local strain
 };
 
 /// Tables that depend on the settings alone, shared by all steps of a run. Immutable.

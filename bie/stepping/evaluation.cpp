@@ -32,7 +32,7 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
   const NumericalSettings& settings = discretisation.settings();
   Evaluation evaluation;
   auto parts = std::make_shared<Evaluation::Parts>(
-      Evaluation::Parts{make_membrane(model, discretisation, state.position, instruments), {}});
+      Evaluation::Parts{make_membrane(model, discretisation, state.position, instruments), {}, false});
   const Membrane& membrane = parts->membrane;
   Fields& fields = evaluation.fields;
 
@@ -66,7 +66,9 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
       MembraneUnknowns unknowns;
       unknowns.tension = state.tension;
       const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
-      const SolveReport report = solve_flow(model, membrane, 0.0, rhs, settings.flow_tolerance, unknowns);
+      parts->is_sphere = uniform_tension_is_free(model, membrane);
+      const FlowOptions options{settings.flow_tolerance, parts->is_sphere};
+      const SolveReport report = solve_flow(model, membrane, 0.0, rhs, options, unknowns);
       require_converged(report, "tension, Eq. (27b)");
       evaluation.iterations_flow = report.iterations;
       velocity += membrane_velocity(model, membrane, unknowns);

@@ -8,7 +8,8 @@ namespace vehd {
 /// What a step needs of the evaluation that precedes it.
 struct Evaluation::Parts {
   Membrane membrane;
-  Matrix velocity;  ///< instantaneous, coefficients
+  Matrix velocity;         ///< instantaneous, coefficients
+  bool is_sphere = false;  ///< see uniform_tension_is_free
 };
 
 }  // namespace vehd

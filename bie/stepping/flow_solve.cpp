@@ -1,5 +1,6 @@
 #include "bie/stepping/flow_solve.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "bie/physics/bending.hpp"
@@ -21,8 +22,20 @@ Matrix membrane_velocity(const Model& model, const Membrane& membrane, const Mem
   return membrane.layers.stokes_single.apply(membrane.weighted(force)) / model.viscosity;
 }
 
+bool uniform_tension_is_free(const Model& model, const Membrane& membrane) {
+  if (!model.inextensible) return false;
+  MembraneUnknowns uniform;
+  uniform.tension = Vector::Unit(n_coefficients(membrane.fine.order()), 0);
+  const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, uniform), false);
+  const double response = weighted_divergence(membrane, u.derivatives)[0];
+  const double typical = sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0}, 2)(1, 1);
+  // The response grows with the square of the distance from a sphere: this is a distance of 1e-5 radii.
+  constexpr double kNoResponse = 1e-10;
+  return std::abs(response) < kNoResponse * std::abs(typical);
+}
+
 SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, const FlowRightHandSide& rhs,
-                       double tolerance, MembraneUnknowns& unknowns) {
+                       const FlowOptions& options, MembraneUnknowns& unknowns) {
   const Index n = n_coefficients(membrane.fine.order());
   const bool bending = dt > 0.0 && model.bending.has_value();
   const Index n_curvature = bending ? n : 0;
@@ -31,11 +44,15 @@ SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, 
   if (size == 0) return {true, 0, 0.0};
 
   const auto unpack = [&](const Vector& v) { return MembraneUnknowns{v.head(n_curvature), v.tail(n_tension)}; };
+  // Stand-in for the response of the area to a uniform tension, which vanishes on a sphere.
+  const double mean_response = 0.1 * sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0}, 2)(1, 1);
+  const bool pinned = n_tension > 0 && options.pin_uniform_tension;
   const LinearMap map = [&](const Vector& v) {
     const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, unpack(v)), bending);
     Vector result(size);
     if (bending) result.head(n) = v.head(n) - dt * curvature_increment(membrane, u.derivatives);
     if (n_tension > 0) result.tail(n) = weighted_divergence(membrane, u.derivatives);
+    if (pinned) result[n_curvature] = mean_response * v[n_curvature];
     return result;
   };
 
@@ -44,7 +61,7 @@ SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, 
   for (int degree = 0; degree <= membrane.fine.order(); ++degree) {
     Eigen::Matrix2d block = sphere_flow_block(sphere, degree);
     // A uniform tension exerts no force on a sphere; away from it the response is weak but not zero.
-    if (degree == 0) block(1, 1) = 0.1 * sphere_flow_block(sphere, 2)(1, 1);
+    if (degree == 0) block(1, 1) = mean_response;
     if (n_tension == 0) block(1, 1) = 1.0;
     inverse.push_back(block.inverse());
   }
@@ -66,9 +83,10 @@ SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, 
   Vector x = Vector::Zero(size);
   if (bending) b.head(n) = rhs.curvature;
   if (n_tension > 0) b.tail(n) = rhs.divergence;
+  if (pinned) b[n_curvature] = 0.0;
   if (bending && unknowns.curvature.size() == n) x.head(n) = unknowns.curvature;
   if (n_tension > 0 && unknowns.tension.size() == n) x.tail(n) = unknowns.tension;
-  const SolveReport report = gmres(map, preconditioner, b, x, {tolerance, 120});
+  const SolveReport report = gmres(map, preconditioner, b, x, {options.tolerance, 120});
   unknowns = unpack(x);
   return report;
 }

@@ -31,9 +31,19 @@ struct FlowRightHandSide {
   Vector divergence;  ///< weighted
 };
 
+struct FlowOptions {
+  double tolerance = 1e-9;
+  /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
+  bool pin_uniform_tension = false;
+};
+
+/// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and
+/// the area cannot change at constant volume.
+bool uniform_tension_is_free(const Model& model, const Membrane& membrane);
+
 /// Solves the semi-implicit system (27) with (28) for the increments (h, λ), preconditioned with its exact inverse
 /// on the sphere of the same area for the actual κ_B, μ and dt. dt = 0 leaves the tension problem alone.
 SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, const FlowRightHandSide& rhs,
-                       double tolerance, MembraneUnknowns& unknowns);
+                       const FlowOptions& options, MembraneUnknowns& unknowns);
 
 }  // namespace vehd

@@ -6,15 +6,6 @@
 
 namespace vehd {
 
-namespace {
-
-/// Tangent vector on the unit sphere at every grid point, components along e_θ and e_φ.
-struct SphereVectors {
-  Vector d1, d2;
-};
-
-/// Parameter displacement of the divergence-free part of the tangential displacement u: with a the contravariant
-/// components, J a = ∇Ψ + r̂×∇X on the unit sphere, and the first part alone changes area elements.
 SphereVectors sliding_part(const SphereTransform& fine, const Surface& s, const Matrix& displacement) {
   const SphereDerivatives u = fine.synthesize_gradient(displacement);
   const Vector normal = u.value.cwiseProduct(s.normal).rowwise().sum();
@@ -29,6 +20,8 @@ SphereVectors sliding_part(const SphereTransform& fine, const Surface& s, const 
   return {u.value.cwiseProduct(s.dual_1).rowwise().sum() - psi.d1.col(0).cwiseQuotient(s.area_element),
           u.value.cwiseProduct(s.dual_2).rowwise().sum() - psi.d2.col(0).cwiseQuotient(s.area_element)};
 }
+
+namespace {
 
 /// Parameter displacement along ∇E, E = ½ Σ a_n |x_nm|² with a_n rising from 0 at n = 1 to 1 at n = p.
 SphereVectors smoothing_gradient(const SphereTransform& fine, const Surface& s, const Matrix& position) {

@@ -5,6 +5,15 @@
 
 namespace vehd {
 
+/// Tangent vector at every grid point: contravariant components along the covariant basis x_1, x_2.
+struct SphereVectors {
+  Vector d1, d2;
+};
+
+/// Divergence-free part of the tangential part of `displacement`: with a its contravariant components, J a = ∇Ψ + r̂×∇X
+/// on the unit sphere, and the first part alone changes area elements.
+SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, const Matrix& displacement);
+
 /// Moves the grid over the surface without moving the surface: new node s takes what the material point Φ(s) carries,
 /// for every column of `fields` by spectral evaluation. Φ undoes the part of the last displacement that only slides
 /// points along the surface (the divergence-free part of the tangential velocity, which shears a grid without end

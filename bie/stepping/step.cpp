@@ -6,6 +6,7 @@
 #include "bie/stepping/constrained_move.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/reparametrisation.hpp"
+#include "bie/stepping/rigid_sphere.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -41,8 +42,11 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
                          fields);
   };
   const auto timer = instruments.time("velocity solve");
-  const ConstrainedMove move =
-      constrained_move(model, discretisation, state, *evaluation.parts, evaluation.fields.tension, dt, landing);
+  const Evaluation::Parts& parts = *evaluation.parts;
+  const Vector& tension = evaluation.fields.tension;
+  const ConstrainedMove move = parts.is_sphere
+                                   ? rigid_sphere_move(state, parts, tension, dt, landing)
+                                   : constrained_move(model, discretisation, state, parts, tension, dt, landing);
   result.iterations_flow = move.iterations;
   if (!move.accepted) {
     result.reason = move.reason;

@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(solution_satisfies_the_coupled_system) {
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 101), smooth_coefficients(kOrder, 6, 1, 102)};
   MembraneUnknowns unknowns;
-  const SolveReport report = solve_flow(model, membrane, kDt, rhs, 1e-11, unknowns);
+  const SolveReport report = solve_flow(model, membrane, kDt, rhs, {1e-11}, unknowns);
   const MembraneUnknowns reached = left_side(model, membrane, unknowns);
   BOOST_TEST(report.converged);
   BOOST_TEST(max_difference(reached.curvature, rhs.curvature) < 1e-8);
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(preconditioner_is_the_inverse_on_a_sphere) {
   FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 103), smooth_coefficients(kOrder, 6, 1, 104)};
   rhs.divergence[0] = 0.0;
   MembraneUnknowns unknowns;
-  const SolveReport report = solve_flow(model, membrane, kDt, rhs, 1e-8, unknowns);
+  const SolveReport report = solve_flow(model, membrane, kDt, rhs, {1e-8}, unknowns);
   BOOST_TEST(report.converged);
   BOOST_TEST(report.iterations <= 2);
 }
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(iterations_are_bounded_from_soft_to_stiff_steps) {
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 105), smooth_coefficients(kOrder, 6, 1, 106)};
   for (const double modulus : {1e-3, 1.0, 10.0}) {
     MembraneUnknowns unknowns;
-    const SolveReport report = solve_flow(relaxation_model(modulus), membrane, kDt, rhs, 1e-9, unknowns);
+    const SolveReport report = solve_flow(relaxation_model(modulus), membrane, kDt, rhs, {1e-9}, unknowns);
     BOOST_TEST_CONTEXT("bending modulus " << modulus) {
       BOOST_TEST(report.converged);
       BOOST_TEST(report.iterations <= 100);
