@@ -31,7 +31,7 @@ struct StepCost {
 
 StepCost time_steps(const Scene& scene, int repeats) {
   const Model model = model_of(scene);
-  const Discretisation discretisation(settings_of(scene));
+  const Discretisation discretisation = discretisation_of(scene, model);
   const double dt = scene.numerics.dt;
   Instruments warm_up;
   State state = initial_state(model, discretisation, initial_position(scene), false, dt, warm_up);

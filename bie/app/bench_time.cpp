@@ -35,7 +35,7 @@ struct TimedRun {
 
 TimedRun run_to(const Scene& scene, double dt, double end_time) {
   const Model model = model_of(scene);
-  const Discretisation discretisation(settings_of(scene));
+  const Discretisation discretisation = discretisation_of(scene, model);
   const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;

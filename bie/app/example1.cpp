@@ -53,7 +53,7 @@ Example1Result solve_example1(int order) {
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   const LayerSelection selection{true, true, true, false};
   const Membrane membrane{tables.fine, std::move(surface),
-                          assemble_layer_operators(tables.quadrature, tables.coarse, position, selection, instruments),
+                          assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments),
                           radius};
   const PointSourceErrors errors = point_source_errors(electric, example1_sources(), membrane, 1e-10);
   require_converged(errors.report, "charge density, Eq. (35)");

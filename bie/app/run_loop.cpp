@@ -52,7 +52,7 @@ class Simulation {
   explicit Simulation(const RunTask& task)
       : scene_(task.scene),
         model_(model_of(task.scene)),
-        discretisation_(settings_of(task.scene)),
+        discretisation_(discretisation_of(task.scene, model_)),
         start_(task.checkpoint ? *task.checkpoint : first_checkpoint()),
         meter_(start_.totals, instruments_),
         state_(start_.state),

@@ -9,10 +9,29 @@ namespace {
 /// Matrix entries below which waking a second thread costs more than it saves.
 constexpr Index kParallelEntries = 250000;
 
+void require_density(const Matrix& density, Index size, const std::vector<Index>& active) {
+  if (active.empty()) {
+    require_size("density", density.rows(), size);
+  } else if (density.rows() <= active.back()) {
+    throw ShapeError("density has " + std::to_string(density.rows()) + " coefficients, too few for the operator");
+  }
+}
+
+Matrix gathered(const Matrix& density, const std::vector<Index>& active) { return density(active, Eigen::all); }
+
+Matrix scattered(const Matrix& values, const std::vector<Index>& active, Index size) {
+  Matrix result = Matrix::Zero(size, values.cols());
+  result(active, Eigen::all) = values;
+  return result;
+}
+
 }  // namespace
 
 Matrix ScalarOperator::apply(const Matrix& density) const {
-  require_size("density", density.rows(), transposed_.rows());
+  require_density(density, transposed_.rows(), active_);
+  if (!active_.empty()) {
+    return scattered(transposed_.transpose() * gathered(density, active_), active_, density.rows());
+  }
   Matrix result(transposed_.cols(), density.cols());
 #pragma omp parallel for schedule(static) if (transposed_.size() > kParallelEntries)
   for (Index out = 0; out < transposed_.cols(); ++out) {
@@ -22,8 +41,13 @@ Matrix ScalarOperator::apply(const Matrix& density) const {
 }
 
 Matrix StokesOperator::apply(const Matrix& density) const {
-  require_size("density", density.rows(), transposed_[0].rows());
+  require_density(density, transposed_[0].rows(), active_);
   require_size("density (Cartesian components)", density.cols(), 3);
+  if (!active_.empty()) return scattered(apply_blocks(gathered(density, active_)), active_, density.rows());
+  return apply_blocks(density);
+}
+
+Matrix StokesOperator::apply_blocks(const Matrix& density) const {
   Matrix result(transposed_[0].cols(), 3);
   const auto x = density.col(0);
   const auto y = density.col(1);

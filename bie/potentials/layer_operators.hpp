@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "bie/potentials/rotated_quadrature.hpp"
+#include "bie/sphere/reflection.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/instruments.hpp"
 #include "bie/support/types.hpp"
@@ -15,11 +17,14 @@ namespace vehd {
 /// area element. The density of D enters plain, because J n(y) belongs to its kernel.
 
 /// Scalar layer operator from coefficients to coefficients of degree p. Stored transposed, so that applying it runs
-/// down contiguous columns.
+/// down contiguous columns. Where only some coefficients are active the matrix holds those alone, and all others are
+/// neither read nor found (they come out zero).
 class ScalarOperator {
  public:
   ScalarOperator() = default;
-  explicit ScalarOperator(Matrix transposed) : transposed_(std::move(transposed)) {}
+  /// @param active  coefficient_index of each row, or empty if all coefficients are there
+  explicit ScalarOperator(Matrix transposed, std::vector<Index> active = {})
+      : transposed_(std::move(transposed)), active_(std::move(active)) {}
 
   [[nodiscard]] bool empty() const { return transposed_.size() == 0; }
   /// Every column of the density separately. @throws ShapeError
@@ -28,6 +33,7 @@ class ScalarOperator {
 
  private:
   Matrix transposed_;
+  std::vector<Index> active_;
 };
 
 /// Stokes single layer for viscosity 1 from [n_coefficients x 3] to [n_coefficients x 3].
@@ -35,7 +41,9 @@ class StokesOperator {
  public:
   StokesOperator() = default;
   /// @param transposed  blocks xx, xy, xz, yy, yz, zz
-  explicit StokesOperator(std::array<Matrix, 6> transposed) : transposed_(std::move(transposed)) {}
+  /// @param active      as for ScalarOperator
+  explicit StokesOperator(std::array<Matrix, 6> transposed, std::vector<Index> active = {})
+      : transposed_(std::move(transposed)), active_(std::move(active)) {}
 
   [[nodiscard]] bool empty() const { return transposed_[0].size() == 0; }
   /// @throws ShapeError
@@ -43,7 +51,10 @@ class StokesOperator {
   [[nodiscard]] const std::array<Matrix, 6>& transposed() const { return transposed_; }
 
  private:
+  [[nodiscard]] Matrix apply_blocks(const Matrix& density) const;
+
   std::array<Matrix, 6> transposed_;
+  std::vector<Index> active_;
 };
 
 /// Which operators an assembly makes; whatever is false costs nothing.
@@ -66,9 +77,12 @@ struct LayerOperators {
 /// Assembles the selected operators for one surface at cost O(p^5): each target's kernel row on the rotated
 /// quadrature is taken back to coefficients by the adjoint of "phase shift, Wigner rotation, synthesis", and the rows
 /// of all targets are analysed on the order-p grid.
-/// @param transform  between degree p and the grid of order p, whose nodes are the targets
+/// @param transform    between degree p and the grid of order p, whose nodes are the targets; coefficients beyond its
+///                     azimuthal order take no part
+/// @param reflections  maps g with x(g s) = g x(s), closed under composition: targets that are images of one another
+///                     share one row
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                         const Matrix& position, const LayerSelection& selection,
-                                        Instruments& instruments);
+                                        Instruments& instruments, const std::vector<Reflection>& reflections = {});
 
 }  // namespace vehd

@@ -52,11 +52,13 @@ GaussLegendre gauss_legendre(int n) {
   return rule;
 }
 
-SphereGrid make_grid(int order) {
+SphereGrid make_grid(int order) { return make_grid(order, 2 * order + 2); }
+
+SphereGrid make_grid(int order, int n_phi) {
   SphereGrid grid;
   grid.order = order;
   grid.n_theta = order + 1;
-  grid.n_phi = 2 * order + 2;
+  grid.n_phi = n_phi;
   const GaussLegendre rule = gauss_legendre(grid.n_theta);
   grid.theta.resize(grid.n_theta);
   grid.weight.resize(grid.n_theta);

@@ -7,7 +7,7 @@ namespace vehd {
 /// Gauss-Legendre nodes in cos θ (from the north pole down) times equispaced φ, Eq. (18).
 /// A point has index j * n_phi + k (theta-major). Neither pole is a node.
 struct SphereGrid {
-  int order = 0;  ///< p; n_theta = p + 1, n_phi = 2p + 2
+  int order = 0;  ///< p; n_theta = p + 1, n_phi = 2p + 2 unless said otherwise
   int n_theta = 0;
   int n_phi = 0;
   Vector theta;   ///< [n_theta]
@@ -19,6 +19,9 @@ struct SphereGrid {
 
 /// Grid that integrates products of two harmonics of degree `order` exactly.
 SphereGrid make_grid(int order);
+
+/// The latitudes of make_grid(order) with n_phi longitudes, for fields of few Fourier modes in φ.
+SphereGrid make_grid(int order, int n_phi);
 
 /// Gauss-Legendre rule on [-1, 1], nodes ascending.
 struct GaussLegendre {

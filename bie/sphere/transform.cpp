@@ -23,6 +23,7 @@ constexpr Index kParallelValues = 60000;
 
 struct SphereTransform::Tables {
   int order;
+  int azimuthal_order;
   SphereGrid grid;
   FourierPlan fourier;
   /// Per m the tables of value, d1, d2, d11, d12, d22 stacked: [6 n_theta x (order + 1 − m)].
@@ -30,15 +31,16 @@ struct SphereTransform::Tables {
   /// Per m the transposed value table times Gauss weight and φ spacing: [(order + 1 − m) x n_theta].
   std::vector<Matrix> analysis;
 
-  Tables(int order_, SphereGrid grid_)
+  Tables(int order_, SphereGrid grid_, int azimuthal_order_)
       : order(order_),
+        azimuthal_order(azimuthal_order_),
         grid(std::move(grid_)),
         fourier(grid.n_theta, grid.n_phi),
-        synthesis(order + 1),
-        analysis(order + 1) {
+        synthesis(azimuthal_order + 1),
+        analysis(azimuthal_order + 1) {
     const LegendreTables legendre = legendre_tables(order, grid.theta);
     const Index rows = grid.n_theta;
-    for (int m = 0; m <= order; ++m) {
+    for (int m = 0; m <= azimuthal_order; ++m) {
       Matrix& stack = synthesis[m];
       stack.resize(kKinds * rows, order + 1 - m);
       stack.middleRows(0, rows) = legendre.value[m];
@@ -74,7 +76,7 @@ std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int
     Matrix gathered;
     Matrix product;
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= order; ++m) {
+    for (int m = 0; m <= azimuthal_order; ++m) {
       const Index columns = (m == 0 ? 1 : 2) * n_fields;
       gathered.resize(order + 1 - m, columns);
       for (Index f = 0; f < n_fields; ++f) {
@@ -111,12 +113,14 @@ std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int
   return values;
 }
 
-SphereTransform::SphereTransform(int order, SphereGrid grid) {
-  if (grid.order < order) {
+SphereTransform::SphereTransform(int order, SphereGrid grid) : SphereTransform(order, std::move(grid), order) {}
+
+SphereTransform::SphereTransform(int order, SphereGrid grid, int azimuthal_order) {
+  if (grid.order < order || grid.n_phi < 2 * azimuthal_order + 2) {
     throw ShapeError("a grid of order " + std::to_string(grid.order) + " cannot carry harmonics of order " +
                      std::to_string(order));
   }
-  tables_ = std::make_unique<const Tables>(order, std::move(grid));
+  tables_ = std::make_unique<const Tables>(order, std::move(grid), azimuthal_order);
 }
 
 SphereTransform::~SphereTransform() = default;
@@ -124,6 +128,7 @@ SphereTransform::SphereTransform(SphereTransform&&) noexcept = default;
 SphereTransform& SphereTransform::operator=(SphereTransform&&) noexcept = default;
 
 int SphereTransform::order() const { return tables_->order; }
+int SphereTransform::azimuthal_order() const { return tables_->azimuthal_order; }
 const SphereGrid& SphereTransform::grid() const { return tables_->grid; }
 
 Matrix SphereTransform::synthesize(const Matrix& coefficients) const {
@@ -145,10 +150,11 @@ Matrix SphereTransform::analyze(const Matrix& values) const {
   require_size("field on the grid", values.rows(), t.grid.n_points());
   const Index n_fields = values.cols();
   Matrix coefficients(n_coefficients(t.order), n_fields);
+  if (t.azimuthal_order < t.order) coefficients.setZero();
 #pragma omp parallel for schedule(static) if (values.size() > kParallelValues)
   for (Index f = 0; f < n_fields; ++f) {
     const Eigen::MatrixXcd spectrum = t.fourier.analyze(values.col(f).data());
-    for (int m = 0; m <= t.order; ++m) {
+    for (int m = 0; m <= t.azimuthal_order; ++m) {
       const Vector cosine_part = t.analysis[m] * spectrum.col(m).real();
       for (int n = m; n <= t.order; ++n) coefficients(coefficient_index(n, m), f) = cosine_part[n - m];
       if (m == 0) continue;

@@ -19,11 +19,15 @@ class SphereTransform {
  public:
   /// @throws ShapeError if the grid is too coarse for the order
   SphereTransform(int order, SphereGrid grid);
+  /// For fields whose Fourier modes in φ end at |m| = azimuthal_order: coefficients of larger |m| are neither read nor
+  /// found (they come out zero), and the grid needs only n_phi > 2 azimuthal_order + 1.
+  SphereTransform(int order, SphereGrid grid, int azimuthal_order);
   ~SphereTransform();
   SphereTransform(SphereTransform&&) noexcept;
   SphereTransform& operator=(SphereTransform&&) noexcept;
 
   [[nodiscard]] int order() const;
+  [[nodiscard]] int azimuthal_order() const;
   [[nodiscard]] const SphereGrid& grid() const;
 
   /// Values [n_points x F] from coefficients [(order+1)² x F].

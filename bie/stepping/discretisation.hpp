@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bie/sphere/transform.hpp"
+#include "bie/stepping/symmetry.hpp"
 
 namespace vehd {
 
@@ -13,22 +14,24 @@ struct NumericalSettings {
   double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
   double flow_tolerance = 1e-9;           ///< of the tension and velocity solves
   double electric_tolerance = 1e-10;      ///< of the charge-density and charging solves
-  double constraint_tolerance = 1e-8;     ///< of area and volume, relative, at the end of a step
+  double constraint_tolerance = 1e-9;     ///< of area and volume, relative, at the end of a step
   double curvature_tolerance = 1e-5;      ///< of Eq. (28), relative to the step's own curvature change
   double strain_tolerance = 1e-6;         ///< of the resolved local strain
 };
 
-/// Tables that depend on the settings alone, shared by all steps of a run. Immutable.
+/// Tables that depend on the settings and the symmetry alone, shared by all steps of a run. Immutable.
 class Discretisation {
  public:
-  explicit Discretisation(const NumericalSettings& settings);
+  /// @param symmetry  of every state that will be stepped: only what it leaves independent is computed
+  explicit Discretisation(const NumericalSettings& settings, const Symmetry& symmetry = {});
   ~Discretisation();
 
   [[nodiscard]] const NumericalSettings& settings() const;
+  [[nodiscard]] const Symmetry& symmetry() const;
   [[nodiscard]] int order() const;
   /// Transform between degree p and the grid of order p (the grid of the output files).
   [[nodiscard]] const SphereTransform& transform() const;
-  /// Transform between degree p and the upsampled grid.
+  /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
   [[nodiscard]] const SphereTransform& fine_transform() const;
 
   struct Tables;

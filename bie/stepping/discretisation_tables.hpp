@@ -7,11 +7,13 @@ namespace vehd {
 
 struct Discretisation::Tables {
   NumericalSettings settings;
-  SphereTransform coarse;  ///< degree p ↔ grid of order p
-  SphereTransform fine;    ///< degree p ↔ upsampled grid
+  Symmetry symmetry;
+  SphereTransform output;   ///< degree p ↔ grid of order p
+  SphereTransform targets;  ///< the same on the longitudes that the symmetry leaves
+  SphereTransform fine;     ///< degree p ↔ upsampled grid, likewise
   RotatedQuadrature quadrature;
 
-  explicit Tables(const NumericalSettings& settings);
+  Tables(const NumericalSettings& settings, const Symmetry& symmetry);
 };
 
 }  // namespace vehd

@@ -21,7 +21,8 @@ Membrane make_membrane(const Model& model, const Discretisation& discretisation,
   selection.stokes_single = true;
   selection.laplace_single = selection.laplace_double = selection.laplace_adjoint = model.electric.has_value();
   const auto timer = instruments.time("operator assembly");
-  LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.coarse, position, selection, instruments);
+  LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments,
+                                                   tables.symmetry.reflections);
   return {tables.fine, std::move(surface), std::move(layers), radius};
 }
 

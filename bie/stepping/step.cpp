@@ -67,6 +67,7 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
   Index column = 4;
   if (model.electric) next.transmembrane_potential = fields.col(column++);
   if (model.inextensible) next.tension = fields.col(column++);
+  next = symmetric_part(tables.symmetry, std::move(next));
   result.accepted = true;
   return result;
 }
@@ -104,6 +105,7 @@ State initial_state(const Model& model, const Discretisation& discretisation, co
   state.dt_next = dt;
   state.position = position;
   state.area_strain = Vector::Zero(position.rows());
+  state = symmetric_part(tables.symmetry, std::move(state));
   Surface surface = make_surface(tables.fine, position);
   state.reference_area = surface_area(surface);
   state.reference_volume = enclosed_volume(surface);
@@ -113,9 +115,10 @@ State initial_state(const Model& model, const Discretisation& discretisation, co
   if (steady_start) {
     const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
     const LayerSelection selection{true, true, true, false};
-    const Membrane membrane{
-        tables.fine, std::move(surface),
-        assemble_layer_operators(tables.quadrature, tables.coarse, position, selection, instruments), radius};
+    const Membrane membrane{tables.fine, std::move(surface),
+                            assemble_layer_operators(tables.quadrature, tables.targets, position, selection,
+                                                     instruments, tables.symmetry.reflections),
+                            radius};
     require_converged(steady_potential(*model.electric, *model.charging, membrane, tables.settings.electric_tolerance,
                                        state.transmembrane_potential),
                       "steady membrane potential");

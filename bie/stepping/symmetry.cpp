@@ -1,0 +1,147 @@
+#include "bie/stepping/symmetry.hpp"
+
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+/// Mean of a scalar field and its images, sign · f(g s).
+Vector symmetric_scalar(const Symmetry& symmetry, const std::vector<int>& signs, const Vector& field) {
+  Vector result = Vector::Zero(field.size());
+  const int order = order_of(field.size());
+  const double share = 1.0 / double(symmetry.reflections.size());
+  for (std::size_t g = 0; g < symmetry.reflections.size(); ++g) {
+    for (int n = 0; n <= order; ++n) {
+      for (int m = -n; m <= n; ++m) {
+        if (symmetry.axisymmetric && m != 0) continue;
+        const Index i = coefficient_index(n, m);
+        result[i] += share * signs[g] * symmetry.reflections[g].parity(n, m) * field[i];
+      }
+    }
+  }
+  return result;
+}
+
+/// Mean of a vector field and its images, g⁻¹ v(g s).
+Matrix symmetric_vector(const Symmetry& symmetry, const Matrix& field) {
+  Matrix result(field.rows(), 3);
+  Symmetry images = symmetry;
+  images.axisymmetric = false;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<int> signs;
+    for (const Reflection& g : symmetry.reflections) signs.push_back(g.sign(i));
+    result.col(i) = symmetric_scalar(images, signs, field.col(i));
+  }
+  if (!symmetry.axisymmetric) return result;
+  // x = R(θ) cos φ, y = R(θ) sin φ, z = Z(θ).
+  Matrix axisymmetric = Matrix::Zero(field.rows(), 3);
+  for (int n = 0; n <= order_of(field.rows()); ++n) {
+    axisymmetric(coefficient_index(n, 0), 2) = result(coefficient_index(n, 0), 2);
+    if (n == 0) continue;
+    const double radial = 0.5 * (result(coefficient_index(n, 1), 0) + result(coefficient_index(n, -1), 1));
+    axisymmetric(coefficient_index(n, 1), 0) = radial;
+    axisymmetric(coefficient_index(n, -1), 1) = radial;
+  }
+  return axisymmetric;
+}
+
+template <typename Difference, typename Field>
+bool is_small(const Eigen::MatrixBase<Difference>& difference, const Eigen::MatrixBase<Field>& field) {
+  return difference.cwiseAbs().maxCoeff() <= kRounding * field.cwiseAbs().maxCoeff();
+}
+
+/// Does the state equal its symmetric part?
+bool has(const Symmetry& symmetry, const State& state) {
+  const State part = symmetric_part(symmetry, state);
+  const Matrix shape = state.position.bottomRows(state.position.rows() - 1);
+  if (!is_small(part.position - state.position, shape)) return false;
+  if ((part.area_strain - state.area_strain).cwiseAbs().maxCoeff() > kRounding) return false;
+  const Vector& potential = state.transmembrane_potential;
+  return potential.size() == 0 || is_small(part.transmembrane_potential - potential, potential);
+}
+
+bool flow_allows_axis(const Model& model) {
+  if (!model.flow) return true;
+  const Matrix3& a = model.flow->gradient;
+  Matrix3 symmetric = Matrix3::Zero();
+  symmetric.diagonal() << a(0, 0), a(0, 0), a(2, 2);
+  return is_small(a - symmetric, a);
+}
+
+/// Sign of g E = ± E, or 0 where neither holds.
+int field_sign(const Model& model, const Reflection& g) {
+  if (!model.electric) return 1;
+  const Vector3& field = model.electric->field;
+  const Vector3 image(g.x * field.x(), g.y * field.y(), g.z * field.z());
+  if (is_small(image - field, field)) return 1;
+  return is_small(image + field, field) ? -1 : 0;
+}
+
+bool flow_allows(const Model& model, const Reflection& g) {
+  if (!model.flow) return true;
+  const Vector3 signs(g.x, g.y, g.z);
+  const Matrix3& a = model.flow->gradient;
+  return is_small(signs.asDiagonal() * a * signs.asDiagonal() - a, a);
+}
+
+}  // namespace
+
+State symmetric_part(const Symmetry& symmetry, State state) {
+  if (!symmetry.any()) return state;
+  const std::vector<int> even(symmetry.reflections.size(), 1);
+  state.position = symmetric_vector(symmetry, state.position);
+  state.area_strain = symmetric_scalar(symmetry, even, state.area_strain);
+  if (state.tension.size() > 0) state.tension = symmetric_scalar(symmetry, even, state.tension);
+  if (state.transmembrane_potential.size() > 0) {
+    state.transmembrane_potential = symmetric_scalar(symmetry, symmetry.potential_signs, state.transmembrane_potential);
+  }
+  return state;
+}
+
+Symmetry find_symmetry(const Model& model, const State& state) {
+  Symmetry result;
+  for (int bits = 1; bits < 8; ++bits) {
+    const Reflection g{bits & 1 ? -1 : 1, bits & 2 ? -1 : 1, bits & 4 ? -1 : 1};
+    const int sign = field_sign(model, g);
+    const Symmetry single{false, {Reflection{}, g}, {1, sign}};
+    if (sign == 0 || !flow_allows(model, g) || !has(single, state)) continue;
+    result.reflections.push_back(g);
+    result.potential_signs.push_back(sign);
+  }
+  Symmetry axis;
+  axis.axisymmetric = true;
+  const bool field_allows = !model.electric || (model.electric->field.x() == 0.0 && model.electric->field.y() == 0.0);
+  result.axisymmetric = field_allows && flow_allows_axis(model) && has(axis, state);
+  return result;
+}
+
+std::string symmetry_text(const Symmetry& symmetry) {
+  std::vector<std::string> names;
+  if (symmetry.axisymmetric) names.emplace_back("axisymmetric about z");
+  for (const Reflection& g : symmetry.reflections) {
+    const bool about_z = symmetry.axisymmetric && g.z > 0;
+    if (g == Reflection{} || about_z) continue;
+    std::vector<std::string> turned;
+    for (int i = 0; i < 3; ++i) {
+      if (g.sign(i) < 0) turned.emplace_back(1, "xyz"[i]);
+    }
+    if (symmetry.axisymmetric && turned.size() > 1) continue;
+    if (turned.size() == 3) {
+      names.emplace_back("inversion");
+    } else if (turned.size() == 2) {
+      names.push_back(std::string("half turn about ") + (g.x > 0 ? "x" : g.y > 0 ? "y" : "z"));
+    } else {
+      names.push_back("mirror " + turned[0]);
+    }
+  }
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace vehd

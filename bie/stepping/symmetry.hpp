@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bie/sphere/reflection.hpp"
+#include "bie/stepping/model.hpp"
+#include "bie/stepping/state.hpp"
+
+namespace vehd {
+
+/// Symmetries about the coordinate axes that a scene has at its start and keeps: of the shape with its
+/// parametrisation, x(g s) = g x(s), of the flow, and of the field, which may also change its sign (V_m does then,
+/// forces do not).
+struct Symmetry {
+  bool axisymmetric = false;  ///< about z, without swirl
+  /// Products of mirrors x, y, z → −x, −y, −z under which the scene is its own image, the identity among them.
+  std::vector<Reflection> reflections{Reflection{}};
+  /// Sign of V_m under each reflection.
+  std::vector<int> potential_signs{1};
+
+  [[nodiscard]] bool any() const { return axisymmetric || reflections.size() > 1; }
+};
+
+/// What `auto` finds. Deviations within 1e-12 of the size count as rounding.
+Symmetry find_symmetry(const Model& model, const State& state);
+
+/// In words: "axisymmetric about z, mirror z", "mirror y, turn about y, inversion", "none".
+std::string symmetry_text(const Symmetry& symmetry);
+
+/// The symmetric part of a state. Rounding breaks a symmetry and an instability would feed on that.
+State symmetric_part(const Symmetry& symmetry, State state);
+
+}  // namespace vehd
