@@ -45,7 +45,7 @@ StepCost time_steps(const Scene& scene, int repeats) {
     if (!advanced.accepted)
       throw ConvergenceError("order " + std::to_string(scene.numerics.order) + ": " + advanced.reason);
     state = std::move(advanced.state);
-    evaluation = evaluate(model, discretisation, state, instruments);
+    evaluation = evaluate(model, discretisation, state, instruments, &evaluation);
     if (i >= kWarmUp) {
       cost.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }

@@ -9,6 +9,7 @@
 #include "bie/app/step_plan.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/stepping/composition.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 
@@ -42,13 +43,14 @@ TimedRun run_to(const Scene& scene, double dt, double end_time) {
   State state = initial_state(model, discretisation, initial_position(scene), steady, dt, instruments);
   Evaluation evaluation = evaluate(model, discretisation, state, instruments);
   while (state.time < end_time) {
-    const StepPlan plan = plan_step(state.time, state.dt_next, {std::nullopt, end_time});
+    const StepPlan plan =
+        plan_step(state.time, state.dt_next, {std::nullopt, end_time, next_corner(model, state.time)});
     Advance advanced = advance(model, discretisation, state, evaluation, dt, plan.dt_limit, instruments);
     if (!advanced.accepted)
       throw ConvergenceError(fmt::format("dt = {}, time {}: {}", dt, state.time, advanced.reason));
     state = std::move(advanced.state);
     if (plan.reaches_event && advanced.dt == plan.dt_limit) state.time = plan.event_time;
-    evaluation = evaluate(model, discretisation, state, instruments);
+    evaluation = evaluate(model, discretisation, state, instruments, &evaluation);
   }
   return {evaluation.diagnostics, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }

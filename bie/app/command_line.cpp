@@ -16,7 +16,7 @@ namespace {
 constexpr const char* footer =
     "Exit codes: 0 done, 1 wrong input or usage, 2 internal error,\n"
     "            3 the run stopped early and can be continued with --resume.\n"
-    "Scene files to start from: docs/scenes/*.toml";
+    "Scene files to start from: docs/scenes/*.toml; their keys: vehd help scene";
 
 void send_messages_to_standard_error() {
   auto logger = spdlog::stderr_color_mt("vehd");
@@ -79,6 +79,7 @@ int run_program(int argc, char** argv) {
   add_plot_command(program, exit_code);
   add_verify_command(program, exit_code);
   add_bench_command(program, exit_code);
+  add_help_command(program, exit_code);
   return static_cast<int>(parse_and_run(program, argc, argv, exit_code));
 }
 

@@ -13,6 +13,7 @@ void add_run_command(CLI::App& program, ExitCode& exit_code);
 void add_plot_command(CLI::App& program, ExitCode& exit_code);
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
+void add_help_command(CLI::App& program, ExitCode& exit_code);
 
 /// Options that every command has.
 struct CommonOptions {

@@ -13,6 +13,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/stepping/composition.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 
@@ -110,12 +111,13 @@ class Simulation {
   }
 
   void take_step() {
-    StepPlan plan = plan_step(state_.time, state_.dt_next, {scene_.output.every, scene_.numerics.end_time});
+    StepPlan plan = plan_step(state_.time, state_.dt_next,
+                              {scene_.output.every, scene_.numerics.end_time, next_corner(model_, state_.time)});
     HistoryRow row;
     for (;;) {
       Advance advanced = try_step(plan, row);
       try {
-        Evaluation evaluation = evaluate(model_, discretisation_, advanced.state, instruments_);
+        Evaluation evaluation = evaluate(model_, discretisation_, advanced.state, instruments_, &evaluation_);
         row.dt = advanced.dt;
         row.iterations_flow += evaluation.iterations_flow;
         row.iterations_electric += evaluation.iterations_electric;
@@ -123,7 +125,7 @@ class Simulation {
         if (at_event) advanced.state.time = plan.event_time;
         state_ = std::move(advanced.state);
         evaluation_ = std::move(evaluation);
-        record(row, at_event);
+        record(row, at_event && plan.is_snapshot);
         return;
       } catch (const ConvergenceError& error) {
         // The new state cannot be solved for, so the step that led there is rejected as well.

@@ -17,6 +17,11 @@ StepPlan plan_step(double time, double dt, const EventTimes& events) {
     const double snapshot = (std::floor(time / *events.every + rounding) + 1.0) * *events.every;
     if (snapshot < events.end_time - rounding * *events.every) plan.event_time = snapshot;
   }
+  // A corner within rounding of a snapshot is that snapshot.
+  if (events.corner && *events.corner < plan.event_time - rounding * dt) {
+    plan.event_time = *events.corner;
+    plan.is_snapshot = false;
+  }
   const double distance = plan.event_time - time;
   const double n_steps = std::fmax(1.0, std::ceil(distance / dt - rounding));
   plan.dt_limit = distance / n_steps;

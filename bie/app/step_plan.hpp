@@ -8,13 +8,15 @@ namespace vehd {
 struct EventTimes {
   std::optional<double> every;  ///< snapshots at k * every
   double end_time = 0.0;
+  std::optional<double> corner;  ///< where the forcing changes abruptly; no snapshot is due there
 };
 
 /// How far the next step may go.
 struct StepPlan {
-  double event_time = 0.0;  ///< next snapshot or the end
+  double event_time = 0.0;  ///< next snapshot, corner or the end
   double dt_limit = 0.0;
   bool reaches_event = false;  ///< a step of size dt_limit ends at event_time
+  bool is_snapshot = true;     ///< a snapshot is due at event_time
 };
 
 /// The way to the next event in equal steps no longer than dt, so that no sliver is left before it. A remainder

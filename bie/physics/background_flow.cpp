@@ -21,4 +21,30 @@ BackgroundFlow axisymmetric_extension(double rate) {
   return flow;
 }
 
+EffectDescription LinearFlowEffect::description() const {
+  return {"background flow", "v_inf = gradient x on the right of Eq. (5)", {}, "", {}};
+}
+
+void LinearFlowEffect::add(const Situation& situation, Forcing& forcing) const {
+  forcing.velocity += flow_.waveform.at(situation.time) * situation.position * flow_.gradient.transpose();
+}
+
+bool LinearFlowEffect::allows(const Reflection& g) const {
+  const Matrix3& a = flow_.gradient;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (a(i, j) != 0.0 && g.sign(i) * g.sign(j) < 0) return false;
+    }
+  }
+  return true;
+}
+
+bool LinearFlowEffect::allows_axis() const {
+  Matrix3 axisymmetric = Matrix3::Zero();
+  axisymmetric.diagonal() << flow_.gradient(0, 0), flow_.gradient(0, 0), flow_.gradient(2, 2);
+  return flow_.gradient == axisymmetric;
+}
+
+std::optional<double> LinearFlowEffect::next_corner(double time) const { return flow_.waveform.next_corner(time); }
+
 }  // namespace vehd

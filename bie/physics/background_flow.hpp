@@ -1,12 +1,15 @@
 #pragma once
 
+#include "bie/physics/effect.hpp"
+#include "bie/physics/waveform.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
 
-/// Linear background flow v_inf(x) = gradient * x, gradient(i, j) = dv_i/dx_j, trace zero.
+/// Linear background flow v_inf(x, t) = waveform(t) gradient x, gradient(i, j) = dv_i/dx_j, trace zero.
 struct BackgroundFlow {
   Matrix3 gradient = Matrix3::Zero();
+  Waveform waveform{};
 };
 
 /// v = rate (z, 0, 0): flow along x, gradient along z.
@@ -15,5 +18,19 @@ BackgroundFlow shear_flow(double rate);
 BackgroundFlow planar_extension(double rate);
 /// v = rate (-x/2, -y/2, z).
 BackgroundFlow axisymmetric_extension(double rate);
+
+class LinearFlowEffect : public ExplicitEffect {
+ public:
+  explicit LinearFlowEffect(BackgroundFlow flow) : flow_(std::move(flow)) {}
+
+  [[nodiscard]] EffectDescription description() const override;
+  void add(const Situation& situation, Forcing& forcing) const override;
+  [[nodiscard]] bool allows(const Reflection& g) const override;
+  [[nodiscard]] bool allows_axis() const override;
+  [[nodiscard]] std::optional<double> next_corner(double time) const override;
+
+ private:
+  BackgroundFlow flow_;
+};
 
 }  // namespace vehd

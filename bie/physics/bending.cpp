@@ -35,4 +35,12 @@ Matrix linearised_bending_force(const BendingParameters& bending, const Membrane
   return force_of_curvature(bending, membrane.surface, membrane.fine.synthesize_hessian(increment));
 }
 
+EffectDescription bending_description() {
+  return {"bending",
+          "f_b, Eq. (2), implicit through (28)",
+          {.stokes_single = true},
+          "velocity of the force, Eq. (5)",
+          {"change of H"}};
+}
+
 }  // namespace vehd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bie/physics/effect.hpp"
 #include "bie/physics/membrane.hpp"
 #include "bie/physics/parameters.hpp"
 
@@ -18,5 +19,7 @@ Vector curvature_increment(const Membrane& membrane, const SphereDerivatives& di
 
 /// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), for coefficients h of degree p; values on the upsampled grid.
 Matrix linearised_bending_force(const BendingParameters& bending, const Membrane& membrane, const Vector& increment);
+
+EffectDescription bending_description();
 
 }  // namespace vehd

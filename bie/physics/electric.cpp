@@ -38,7 +38,8 @@ double series_conductivity(const ElectricParameters& electric) {
 }
 
 Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density) {
-  Vector result = 0.5 * weighted_density + eta * membrane.layers.laplace_adjoint.apply(weighted_density);
+  Vector result = 0.5 * weighted_density;
+  if (eta != 0.0) result += eta * membrane.layers.laplace_adjoint.apply(weighted_density);
   result[0] = 0.5 * (1.0 - eta) * weighted_density[0];
   return result;
 }
@@ -57,6 +58,11 @@ Vector weighted_field_flux(const Membrane& membrane, const Vector3& field) {
 
 SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const Vector& weighted_rhs, double tolerance,
                                      const Vector& start) {
+  // Equal conductivities: the membrane carries no charge layer that S′ could act on.
+  if (eta == 0.0) {
+    const Vector weighted = 2.0 * weighted_rhs;
+    return {membrane.fine.analyze(weighted), weighted.cwiseQuotient(membrane.surface.area_element), {true, 0, 0.0}};
+  }
   const LinearMap map = [&](const Vector& g) { return second_kind_operator(membrane, eta, g); };
   // At η = 1 the mean of the density is free and the right-hand side has none: any number but zero will do.
   const double mean_eigenvalue = eta < 1.0 ? 0.5 * (1.0 - eta) : 1.0;
@@ -85,8 +91,8 @@ ElectricTraces electric_traces(const ElectricParameters& electric, const Membran
   traces.flux_out = -(electric.conductivity_in / sum) * density.values;
   traces.charge = eta * density.values;
   const Vector applied = membrane.fine.analyze(-(s.position * electric.field));
-  const Vector mean = applied + membrane.layers.laplace_single.apply(eta * density.weighted) -
-                      membrane.layers.laplace_double.apply(potential);
+  Vector mean = applied - membrane.layers.laplace_double.apply(potential);
+  if (eta != 0.0) mean += membrane.layers.laplace_single.apply(eta * density.weighted);
   traces.potential_in = mean + 0.5 * potential;
   traces.potential_out = mean - 0.5 * potential;
   return traces;
@@ -105,9 +111,24 @@ Matrix maxwell_traction(double permittivity, const Membrane& membrane, const Vec
 
 }  // namespace
 
-Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces) {
-  return maxwell_traction(permittivity, membrane, traces.potential_in, traces.flux_in) -
+Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces,
+                      double permittivity_ratio) {
+  return maxwell_traction(permittivity_ratio * permittivity, membrane, traces.potential_in, traces.flux_in) -
          maxwell_traction(permittivity, membrane, traces.potential_out, traces.flux_out);
+}
+
+EffectDescription electric_description(const ElectricParameters& electric) {
+  EffectDescription d;
+  d.name = "electric field";
+  d.adds = "f_E = [[n.Sigma_el]], Eqs. (3), (11)-(15); C_m dV/dt + G_m V = -sigma_i dphi_i/dn, Eq. (30)";
+  d.layers.laplace_single = d.layers.laplace_double = true;
+  d.layers.laplace_adjoint = conductivity_contrast(electric) != 0.0;
+  d.layers.stokes_single = true;
+  d.why = "S in D' of V_m, Eq. (24), and D in the potentials, Eq. (11)";
+  if (d.layers.laplace_adjoint) d.why += "; S' in the charge density, Eq. (12)";
+  d.unknowns = {"V_m"};
+  if (d.layers.laplace_adjoint) d.unknowns.emplace_back("g");
+  return d;
 }
 
 }  // namespace vehd

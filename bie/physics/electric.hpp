@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bie/linear/gmres.hpp"
+#include "bie/physics/effect.hpp"
 #include "bie/physics/membrane.hpp"
 #include "bie/physics/parameters.hpp"
 
@@ -50,6 +51,12 @@ ElectricTraces electric_traces(const ElectricParameters& electric, const Membran
                                const SecondKindSolution& density);
 
 /// f_E = [[n·Σ_el]] (interior minus exterior), Eqs. (3), (15), (32), on the upsampled grid.
-Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces);
+/// @param permittivity        outside
+/// @param permittivity_ratio  inside over outside
+Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces,
+                      double permittivity_ratio = 1.0);
+
+/// What the electric problem asks of a step, charging included.
+EffectDescription electric_description(const ElectricParameters& electric);
 
 }  // namespace vehd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bie/physics/waveform.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -11,10 +12,20 @@ struct BendingParameters {
 
 /// Leaky-dielectric bulk fluids in a uniform applied field, Eq. (4).
 struct ElectricParameters {
-  Vector3 field = Vector3::Zero();  ///< E_inf
+  Vector3 field = Vector3::Zero();  ///< E_inf where the waveform is 1
   double conductivity_in = 1.0;     ///< sigma_i
   double conductivity_out = 1.0;    ///< sigma_e
-  double permittivity = 1.0;        ///< epsilon, the same on both sides
+  double permittivity = 1.0;        ///< epsilon outside
+  double permittivity_ratio = 1.0;  ///< epsilon inside over outside
+  Waveform waveform{};              ///< of the field
+
+  /// The same problem with the field of one time and no waveform.
+  [[nodiscard]] ElectricParameters at(double time, Limit limit) const {
+    ElectricParameters now = *this;
+    now.field *= waveform.at(time, limit);
+    now.waveform = {};
+    return now;
+  }
 };
 
 /// Membrane as a leaky capacitor, Eq. (4e).

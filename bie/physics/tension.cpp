@@ -13,4 +13,12 @@ Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& ve
   return membrane.weighted(surface_divergence(membrane.surface, velocity));
 }
 
+EffectDescription tension_description() {
+  return {"inextensibility",
+          "f_lambda, Eq. (2), from div_gamma v = 0, Eq. (27b)",
+          {.stokes_single = true},
+          "velocity of the force, Eq. (5)",
+          {"tension"}};
+}
+
 }  // namespace vehd

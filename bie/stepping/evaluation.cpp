@@ -2,7 +2,9 @@
 #include <numbers>
 
 #include "bie/physics/bending.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/physics/tension.hpp"
+#include "bie/stepping/composition.hpp"
 #include "bie/stepping/diagnostics.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/evaluation_parts.hpp"
@@ -12,75 +14,92 @@ namespace vehd {
 
 namespace {
 
-Membrane make_membrane(const Model& model, const Discretisation& discretisation, const Matrix& position,
+Membrane make_membrane(const Discretisation& discretisation, const Matrix& position, const LayerSelection& selection,
                        Instruments& instruments) {
   const Discretisation::Tables& tables = discretisation.tables();
   Surface surface = make_surface(tables.fine, position);
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
-  LayerSelection selection;
-  selection.stokes_single = true;
-  selection.laplace_single = selection.laplace_double = selection.laplace_adjoint = model.electric.has_value();
   const auto timer = instruments.time("operator assembly");
   LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments,
                                                    tables.symmetry.reflections);
   return {tables.fine, std::move(surface), std::move(layers), radius};
 }
 
+/// f_E with q as a by-product, Eqs. (12), (15), (32).
+Matrix solve_electric(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
+                      double tolerance, Evaluation& evaluation) {
+  const Vector rhs = weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential);
+  const SecondKindSolution density = solve_second_kind(membrane, conductivity_contrast(electric), rhs, tolerance, {});
+  require_converged(density.report, "charge density, Eq. (12)");
+  evaluation.iterations_electric = density.report.iterations;
+  const ElectricTraces traces = electric_traces(electric, membrane, potential, density);
+  evaluation.fields.charge = membrane.fine.analyze(traces.charge);
+  return electric_force(electric.permittivity, membrane, traces, electric.permittivity_ratio);
+}
+
+/// Velocity of the membrane under the forcing, with the tension that keeps it inextensible, Eq. (27b).
+Matrix solve_velocity(const Model& model, const NumericalSettings& settings, const Membrane& membrane,
+                      const Forcing& forcing, const Vector& tension, Evaluation& evaluation, bool& is_sphere) {
+  Matrix velocity = forcing.velocity;
+  if (!membrane.layers.stokes_single.empty()) {
+    velocity += membrane.layers.stokes_single.apply(membrane.weighted(forcing.force)) / model.viscosity;
+  }
+  if (!model.inextensible) return velocity;
+  const VelocityField driven = velocity_field(membrane, velocity, false);
+  MembraneUnknowns unknowns;
+  unknowns.tension = tension;
+  const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
+  is_sphere = uniform_tension_is_free(model, membrane);
+  const SolveReport report = solve_flow(model, membrane, 0.0, rhs, {settings.flow_tolerance, is_sphere}, unknowns);
+  require_converged(report, "tension, Eq. (27b)");
+  evaluation.iterations_flow = report.iterations;
+  velocity += membrane_velocity(model, membrane, unknowns);
+  evaluation.fields.tension = unknowns.tension;
+  evaluation.fields.force_tension = membrane.fine.analyze(tension_force(membrane, unknowns.tension));
+  return velocity;
+}
+
 }  // namespace
 
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
-                    Instruments& instruments) {
+                    Instruments& instruments, const Evaluation* previous) {
   const NumericalSettings& settings = discretisation.settings();
+  const bool asleep = electric_sleeps(model, state);
+  const bool reuse = !model.mobile && previous != nullptr && (asleep || !previous->electric_asleep);
   Evaluation evaluation;
-  auto parts = std::make_shared<Evaluation::Parts>(
-      Evaluation::Parts{make_membrane(model, discretisation, state.position, instruments), {}, false});
-  const Membrane& membrane = parts->membrane;
+  evaluation.electric_asleep = asleep;
+  std::shared_ptr<Evaluation::Parts> made;
+  if (!reuse) {
+    made = std::make_shared<Evaluation::Parts>(Evaluation::Parts{
+        make_membrane(discretisation, state.position, needed_layers(model, !asleep), instruments), {}, false});
+  }
+  const Membrane& membrane = reuse ? previous->parts->membrane : made->membrane;
   Fields& fields = evaluation.fields;
 
-  Matrix force = Matrix::Zero(membrane.surface.n_points(), 3);
-  if (model.bending) {
-    const Matrix bending = bending_force(*model.bending, membrane);
-    fields.force_bending = membrane.fine.analyze(bending);
-    force += bending;
-  }
-  if (model.electric) {
+  Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(state.position.rows(), 3)};
+  if (model.electric && asleep) {
+    fields.charge = Vector::Zero(state.position.rows());
+    fields.force_electric = Matrix::Zero(state.position.rows(), 3);
+  } else if (model.electric) {
     const auto timer = instruments.time("electric");
-    const Vector rhs = weighted_field_flux(membrane, model.electric->field) +
-                       weighted_hypersingular(membrane, state.transmembrane_potential);
-    const SecondKindSolution density =
-        solve_second_kind(membrane, conductivity_contrast(*model.electric), rhs, settings.electric_tolerance, {});
-    require_converged(density.report, "charge density, Eq. (12)");
-    evaluation.iterations_electric = density.report.iterations;
-    const ElectricTraces traces = electric_traces(*model.electric, membrane, state.transmembrane_potential, density);
-    const Matrix electric = electric_force(model.electric->permittivity, membrane, traces);
+    const Matrix electric = solve_electric(model.electric->at(state.time, Limit::after), membrane,
+                                           state.transmembrane_potential, settings.electric_tolerance, evaluation);
     fields.force_electric = membrane.fine.analyze(electric);
-    fields.charge = membrane.fine.analyze(traces.charge);
-    force -= electric;
+    forcing.force -= electric;
   }
-
-  {
+  if (model.mobile) {
     const auto timer = instruments.time("tension solve");
-    Matrix velocity = membrane.layers.stokes_single.apply(membrane.weighted(force)) / model.viscosity;
-    if (model.flow) velocity += state.position * model.flow->gradient.transpose();
-    if (model.inextensible) {
-      const VelocityField driven = velocity_field(membrane, velocity, false);
-      MembraneUnknowns unknowns;
-      unknowns.tension = state.tension;
-      const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
-      parts->is_sphere = uniform_tension_is_free(model, membrane);
-      const FlowOptions options{settings.flow_tolerance, parts->is_sphere};
-      const SolveReport report = solve_flow(model, membrane, 0.0, rhs, options, unknowns);
-      require_converged(report, "tension, Eq. (27b)");
-      evaluation.iterations_flow = report.iterations;
-      velocity += membrane_velocity(model, membrane, unknowns);
-      fields.tension = unknowns.tension;
-      fields.force_tension = membrane.fine.analyze(tension_force(membrane, unknowns.tension));
+    for (const auto& effect : explicit_effects(model)) effect->add({membrane, state.position, state.time}, forcing);
+    if (model.bending) {
+      const Matrix bending = bending_force(*model.bending, membrane);
+      fields.force_bending = membrane.fine.analyze(bending);
+      forcing.force += bending;
     }
-    parts->velocity = velocity;
-    fields.velocity = std::move(velocity);
+    fields.velocity = solve_velocity(model, settings, membrane, forcing, state.tension, evaluation, made->is_sphere);
+    made->velocity = fields.velocity;
   }
   evaluation.diagnostics = diagnose(state, membrane, fields);
-  evaluation.parts = std::move(parts);
+  evaluation.parts = reuse ? previous->parts : std::move(made);
   return evaluation;
 }
 

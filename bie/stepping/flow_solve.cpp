@@ -16,6 +16,9 @@ VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficient
 }
 
 Matrix membrane_velocity(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns) {
+  if (unknowns.curvature.size() == 0 && unknowns.tension.size() == 0) {
+    return Matrix::Zero(n_coefficients(membrane.fine.order()), 3);
+  }
   Matrix force = Matrix::Zero(membrane.surface.n_points(), 3);
   if (unknowns.curvature.size() > 0) force += linearised_bending_force(*model.bending, membrane, unknowns.curvature);
   if (unknowns.tension.size() > 0) force += tension_force(membrane, unknowns.tension);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "bie/physics/background_flow.hpp"
 #include "bie/physics/parameters.hpp"
@@ -15,6 +17,9 @@ struct Model {
   std::optional<BackgroundFlow> flow;
   std::optional<ElectricParameters> electric;
   std::optional<ChargingParameters> charging;  ///< present exactly when `electric` is
+  /// Whatever else acts explicitly: gravity, Poiseuille flow, spontaneous curvature, …
+  std::vector<std::shared_ptr<const ExplicitEffect>> effects;
+  bool mobile = true;  ///< false: the shape is frozen and only the membrane charges
 };
 
 }  // namespace vehd

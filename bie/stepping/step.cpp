@@ -11,22 +11,46 @@
 
 namespace vehd {
 
+namespace {
+
+/// V_m after the step, Eq. (30). @returns false where the solve fails
+bool charge(const Model& model, const Discretisation::Tables& tables, const Membrane& membrane, double time, double dt,
+            Vector& potential, int& iterations) {
+  const double end = time + dt;
+  const SolveReport report = charge_membrane(model.electric->at(end, Limit::before), *model.charging, membrane, dt,
+                                             tables.settings.electric_tolerance, potential);
+  iterations = report.iterations;
+  // A potential this small does nothing any more, and without it the electric part can sleep.
+  constexpr double kDecayed = 1e-10;
+  const double scale = model.electric->field.norm() * membrane.radius;
+  if (model.electric->waveform.is_quiet(end) && potential.norm() < kDecayed * scale) potential.setZero();
+  return report.converged;
+}
+
+}  // namespace
+
 StepResult step(const Model& model, const Discretisation& discretisation, const State& state,
                 const Evaluation& evaluation, double dt, Instruments& instruments) {
   const Discretisation::Tables& tables = discretisation.tables();
-  const Membrane& membrane = evaluation.parts->membrane;
+  const Evaluation::Parts& parts = *evaluation.parts;
   StepResult result;
-
-  Vector potential = state.transmembrane_potential;
-  if (model.electric) {
+  State& next = result.state;
+  next = state;
+  next.time = state.time + dt;
+  next.step = state.step + 1;
+  if (model.electric && !evaluation.electric_asleep) {
     const auto timer = instruments.time("electric");
-    const SolveReport report =
-        charge_membrane(*model.electric, *model.charging, membrane, dt, tables.settings.electric_tolerance, potential);
-    result.iterations_electric = report.iterations;
-    if (!report.converged) {
+    if (!charge(model, tables, parts.membrane, state.time, dt, next.transmembrane_potential,
+                result.iterations_electric)) {
       result.reason = "membrane charging, Eq. (30), did not converge";
       return result;
     }
+  }
+  if (!model.mobile) {
+    next = symmetric_part(tables.symmetry, std::move(next));
+    result.accepted = next.transmembrane_potential.allFinite();
+    if (!result.accepted) result.reason = "the new state is not finite";
+    return result;
   }
 
   // Columns: x, strain, then whatever the model carries.
@@ -36,13 +60,12 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
     fields.leftCols(3) = move.position;
     fields.col(3) = move.area_strain;
     Index column = 4;
-    if (model.electric) fields.col(column++) = potential;
+    if (model.electric) fields.col(column++) = next.transmembrane_potential;
     if (model.inextensible) fields.col(column++) = move.tension;
     return reparametrise(tables.fine, make_surface(tables.fine, move.position), move.position, dt * move.velocity,
                          fields);
   };
   const auto timer = instruments.time("velocity solve");
-  const Evaluation::Parts& parts = *evaluation.parts;
   const Vector& tension = evaluation.fields.tension;
   const ConstrainedMove move = parts.is_sphere
                                    ? rigid_sphere_move(state, parts, tension, dt, landing)
@@ -57,11 +80,6 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
     result.reason = "the new state is not finite";
     return result;
   }
-
-  State& next = result.state;
-  next = state;
-  next.time = state.time + dt;
-  next.step = state.step + 1;
   next.position = fields.leftCols(3);
   next.area_strain = fields.col(3);
   Index column = 4;

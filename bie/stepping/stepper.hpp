@@ -17,16 +17,18 @@ class Discretisation;
 struct Evaluation {
   Fields fields;
   Diagnostics diagnostics;
-  int iterations_flow = 0;      ///< GMRES iterations of the tension solve
-  int iterations_electric = 0;  ///< GMRES iterations of Eq. (12)
+  int iterations_flow = 0;       ///< GMRES iterations of the tension solve
+  int iterations_electric = 0;   ///< GMRES iterations of Eq. (12)
+  bool electric_asleep = false;  ///< see electric_sleeps
   struct Parts;
   std::shared_ptr<const Parts> parts;  ///< surface and operators, for the step alone
 };
 
 /// Solves everything at a frozen state.
+/// @param previous  of the same run, if there is one: where the shape is frozen its operators serve again
 /// @throws ConvergenceError naming the solve that failed
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
-                    Instruments& instruments);
+                    Instruments& instruments, const Evaluation* previous = nullptr);
 
 struct StepResult {
   bool accepted = false;

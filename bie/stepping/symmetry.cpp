@@ -2,9 +2,11 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/composition.hpp"
 
 namespace vehd {
 
@@ -67,14 +69,6 @@ bool has(const Symmetry& symmetry, const State& state) {
   return potential.size() == 0 || is_small(part.transmembrane_potential - potential, potential);
 }
 
-bool flow_allows_axis(const Model& model) {
-  if (!model.flow) return true;
-  const Matrix3& a = model.flow->gradient;
-  Matrix3 symmetric = Matrix3::Zero();
-  symmetric.diagonal() << a(0, 0), a(0, 0), a(2, 2);
-  return is_small(a - symmetric, a);
-}
-
 /// Sign of g E = ± E, or 0 where neither holds.
 int field_sign(const Model& model, const Reflection& g) {
   if (!model.electric) return 1;
@@ -82,13 +76,6 @@ int field_sign(const Model& model, const Reflection& g) {
   const Vector3 image(g.x * field.x(), g.y * field.y(), g.z * field.z());
   if (is_small(image - field, field)) return 1;
   return is_small(image + field, field) ? -1 : 0;
-}
-
-bool flow_allows(const Model& model, const Reflection& g) {
-  if (!model.flow) return true;
-  const Vector3 signs(g.x, g.y, g.z);
-  const Matrix3& a = model.flow->gradient;
-  return is_small(signs.asDiagonal() * a * signs.asDiagonal() - a, a);
 }
 
 }  // namespace
@@ -107,18 +94,21 @@ State symmetric_part(const Symmetry& symmetry, State state) {
 
 Symmetry find_symmetry(const Model& model, const State& state) {
   Symmetry result;
+  const auto effects = explicit_effects(model);
   for (int bits = 1; bits < 8; ++bits) {
     const Reflection g{bits & 1 ? -1 : 1, bits & 2 ? -1 : 1, bits & 4 ? -1 : 1};
     const int sign = field_sign(model, g);
     const Symmetry single{false, {Reflection{}, g}, {1, sign}};
-    if (sign == 0 || !flow_allows(model, g) || !has(single, state)) continue;
+    const auto allows = [&](const auto& effect) { return effect->allows(g); };
+    if (sign == 0 || !std::all_of(effects.begin(), effects.end(), allows) || !has(single, state)) continue;
     result.reflections.push_back(g);
     result.potential_signs.push_back(sign);
   }
   Symmetry axis;
   axis.axisymmetric = true;
   const bool field_allows = !model.electric || (model.electric->field.x() == 0.0 && model.electric->field.y() == 0.0);
-  result.axisymmetric = field_allows && flow_allows_axis(model) && has(axis, state);
+  const auto allows_axis = [](const auto& effect) { return effect->allows_axis(); };
+  result.axisymmetric = field_allows && std::all_of(effects.begin(), effects.end(), allows_axis) && has(axis, state);
   return result;
 }
 

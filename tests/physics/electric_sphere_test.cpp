@@ -88,6 +88,17 @@ BOOST_AUTO_TEST_CASE(maxwell_stress_is_the_one_worked_out_by_hand) {
   BOOST_TEST(max_difference(force, normal_part.asDiagonal() * r + tangential_part.asDiagonal() * e_theta) < 1e-11);
 }
 
+BOOST_AUTO_TEST_CASE(permittivity_ratio_scales_the_stress_inside_alone) {
+  // Inside the field is E = 6/5 ẑ: each unit of ε_i adds E_n E − ½ E² n.
+  const ElectricParameters electric{{0.0, 0.0, 1.0}, 1.0, 2.0, 1.0};
+  const ElectricTraces traces = solve_traces(electric, membrane, dipole(0.0));
+  const Matrix added = electric_force(1.0, membrane, traces, 3.0) - electric_force(1.0, membrane, traces);
+  const Matrix& n = membrane.surface.normal;
+  Matrix stress = -0.5 * 1.44 * n;
+  stress.col(2) += 1.44 * n.col(2);
+  BOOST_TEST(max_difference(added, 2.0 * stress) < 1e-11);
+}
+
 BOOST_AUTO_TEST_CASE(poorly_conducting_interior_is_compressed_along_the_field) {
   // The force on the fluid is −f_E: inwards at the poles, as in the prolate-to-oblate Example 2.
   const ElectricParameters electric{{0.0, 0.0, 1.0}, 1.0, 2.0, 1.0};

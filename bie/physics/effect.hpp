@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bie/physics/membrane.hpp"
+#include "bie/sphere/reflection.hpp"
+
+namespace vehd {
+
+/// What one effect asks of a step, in words for `vehd plan` and in flags for the assembly.
+struct EffectDescription {
+  std::string name;
+  std::string adds;  ///< the term of the model
+  LayerSelection layers;
+  std::string why;                    ///< why it needs those operators
+  std::vector<std::string> unknowns;  ///< scalar fields of degree p that it adds to the unknowns of a step
+};
+
+/// What an effect sees: a frozen membrane at one time.
+struct Situation {
+  const Membrane& membrane;
+  const Matrix& position;  ///< coefficients of x
+  double time;
+};
+
+/// What effects add up to.
+struct Forcing {
+  Matrix force;     ///< on the fluid per area, values on the upsampled grid, [n_points x 3]
+  Matrix velocity;  ///< of the undisturbed fluid at the membrane, coefficients, [n_coefficients x 3]
+};
+
+/// An effect that is known once the shape and the time are: it enters a step explicitly and brings no unknowns.
+class ExplicitEffect {
+ public:
+  virtual ~ExplicitEffect() = default;
+
+  [[nodiscard]] virtual EffectDescription description() const = 0;
+  virtual void add(const Situation& situation, Forcing& forcing) const = 0;
+  /// Is the effect its own image under the reflection g?
+  [[nodiscard]] virtual bool allows(const Reflection& g) const = 0;
+  /// Is it axisymmetric about z, without swirl?
+  [[nodiscard]] virtual bool allows_axis() const = 0;
+  /// The next time after `time` at which a step should end because the effect changes abruptly.
+  [[nodiscard]] virtual std::optional<double> next_corner(double) const { return std::nullopt; }
+};
+
+}  // namespace vehd

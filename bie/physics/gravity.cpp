@@ -1,0 +1,28 @@
+#include "bie/physics/gravity.hpp"
+
+namespace vehd {
+
+EffectDescription GravityEffect::description() const {
+  return {"gravity", "f_g = (rho_i - rho_e)(g.x) n", {.stokes_single = true}, "velocity of the force, Eq. (5)", {}};
+}
+
+void GravityEffect::add(const Situation& situation, Forcing& forcing) const {
+  const Surface& s = situation.membrane.surface;
+  // Any constant may be added to g·x: about the centre the numbers stay small.
+  const Vector3 centre = s.position.transpose() * s.quadrature / s.quadrature.sum();
+  const Vector height = (s.position.rowwise() - centre.transpose()) * parameters_.acceleration;
+  forcing.force += (parameters_.density_difference * height).asDiagonal() * s.normal;
+}
+
+bool GravityEffect::allows(const Reflection& g) const {
+  for (int i = 0; i < 3; ++i) {
+    if (g.sign(i) < 0 && parameters_.acceleration[i] != 0.0) return false;
+  }
+  return true;
+}
+
+bool GravityEffect::allows_axis() const {
+  return parameters_.acceleration.x() == 0.0 && parameters_.acceleration.y() == 0.0;
+}
+
+}  // namespace vehd

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "bie/physics/effect.hpp"
+#include "bie/physics/waveform.hpp"
+
+namespace vehd {
+
+/// Unbounded Poiseuille flow along x, v = waveform(t) centre_velocity (1 − (y² + z²)/radius²) e_x: no wall stands at
+/// `radius`, it only sets the curvature of the profile.
+struct PoiseuilleParameters {
+  double centre_velocity = 1.0;
+  double radius = 1.0;
+  Waveform waveform{};
+};
+
+class PoiseuilleFlowEffect : public ExplicitEffect {
+ public:
+  explicit PoiseuilleFlowEffect(PoiseuilleParameters parameters) : parameters_(std::move(parameters)) {}
+
+  [[nodiscard]] EffectDescription description() const override;
+  void add(const Situation& situation, Forcing& forcing) const override;
+  [[nodiscard]] bool allows(const Reflection& g) const override;
+  [[nodiscard]] bool allows_axis() const override;
+  [[nodiscard]] std::optional<double> next_corner(double time) const override;
+
+ private:
+  PoiseuilleParameters parameters_;
+};
+
+}  // namespace vehd

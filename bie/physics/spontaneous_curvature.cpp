@@ -1,0 +1,20 @@
+#include "bie/physics/spontaneous_curvature.hpp"
+
+namespace vehd {
+
+EffectDescription SpontaneousCurvatureEffect::description() const {
+  return {"spontaneous curvature",
+          "f_c = -2 kappa_B c (K - c H) n",
+          {.stokes_single = true},
+          "velocity of the force, Eq. (5)",
+          {}};
+}
+
+void SpontaneousCurvatureEffect::add(const Situation& situation, Forcing& forcing) const {
+  const Surface& s = situation.membrane.surface;
+  const double c = parameters_.curvature;
+  const Vector magnitude = -2.0 * parameters_.bending_modulus * c * (s.gauss_curvature - c * s.mean_curvature);
+  forcing.force += magnitude.asDiagonal() * s.normal;
+}
+
+}  // namespace vehd

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "bie/physics/effect.hpp"
+
+namespace vehd {
+
+/// Bending energy κ_B ∫ (H − c)² dA with a preferred mean curvature c (H = −1 on the unit sphere). On top of the
+/// bending force of c = 0 it exerts f_c = −2 κ_B c (K − c H) n.
+struct SpontaneousCurvatureParameters {
+  double bending_modulus = 0.0;  ///< κ_B
+  double curvature = 0.0;        ///< c
+};
+
+class SpontaneousCurvatureEffect : public ExplicitEffect {
+ public:
+  explicit SpontaneousCurvatureEffect(SpontaneousCurvatureParameters parameters) : parameters_(parameters) {}
+
+  [[nodiscard]] EffectDescription description() const override;
+  void add(const Situation& situation, Forcing& forcing) const override;
+  [[nodiscard]] bool allows(const Reflection&) const override { return true; }
+  [[nodiscard]] bool allows_axis() const override { return true; }
+
+ private:
+  SpontaneousCurvatureParameters parameters_;
+};
+
+}  // namespace vehd

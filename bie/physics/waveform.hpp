@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace vehd {
+
+/// Which value a jump has: the one before it or the one after it.
+enum class Limit { before, after };
+
+/// Factor that a field or a flow is multiplied with in the course of time.
+class Waveform {
+ public:
+  /// 1 at all times.
+  Waveform() = default;
+  /// amplitude · cos(2π frequency t + phase), phase in radians.
+  static Waveform alternating(double amplitude, double frequency, double phase);
+  /// amplitude during [start, start + duration), 0 otherwise.
+  static Waveform pulse(double amplitude, double start, double duration);
+  /// A pulse at start, start + period, …
+  static Waveform pulse_train(double amplitude, double start, double duration, double period);
+  /// Linear between (times, values), constant beyond its ends; equal times make a jump.
+  /// @throws InputError unless there are at least two entries in ascending order
+  static Waveform table(std::vector<double> times, std::vector<double> values);
+
+  [[nodiscard]] double at(double time, Limit limit = Limit::after) const;
+  /// The first time after `time` at which the factor or its slope jumps: a step should end there.
+  [[nodiscard]] std::optional<double> next_corner(double time) const;
+  /// Is the factor zero from `time` up to the next corner?
+  [[nodiscard]] bool is_quiet(double time) const;
+
+ private:
+  enum class Kind { constant, alternating, pulse, pulse_train, table };
+
+  Kind kind_ = Kind::constant;
+  double amplitude_ = 1.0, frequency_ = 0.0, phase_ = 0.0;
+  double start_ = 0.0, duration_ = 0.0, period_ = 0.0;
+  std::vector<double> times_, values_;
+};
+
+}  // namespace vehd

@@ -1,0 +1,70 @@
+#include "bie/physics/waveform.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "bie/support/errors.hpp"
+
+using namespace vehd;
+
+BOOST_AUTO_TEST_SUITE(waveform)
+
+BOOST_AUTO_TEST_CASE(default_is_one_for_ever) {
+  BOOST_TEST(Waveform().at(7.0) == 1.0);
+  BOOST_TEST(!Waveform().next_corner(0.0).has_value());
+  BOOST_TEST(!Waveform().is_quiet(0.0));
+}
+
+BOOST_AUTO_TEST_CASE(alternating_is_a_cosine_with_phase) {
+  const Waveform w = Waveform::alternating(2.0, 0.5, -std::numbers::pi / 2.0);
+  BOOST_TEST(std::abs(w.at(0.0)) < 1e-15);
+  BOOST_TEST(std::abs(w.at(0.5) - 2.0) < 1e-15);
+  BOOST_TEST(std::abs(w.at(1.5) + 2.0) < 1e-14);
+  BOOST_TEST(!w.is_quiet(0.0));
+}
+
+BOOST_AUTO_TEST_CASE(pulse_jumps_where_it_says) {
+  const Waveform w = Waveform::pulse(3.0, 1.0, 0.5);
+  BOOST_TEST(w.at(0.0) == 0.0);
+  BOOST_TEST(w.at(1.0, Limit::before) == 0.0);
+  BOOST_TEST(w.at(1.0, Limit::after) == 3.0);
+  BOOST_TEST(w.at(1.5, Limit::before) == 3.0);
+  BOOST_TEST(w.at(1.5, Limit::after) == 0.0);
+  BOOST_TEST(w.next_corner(0.0).value() == 1.0);
+  BOOST_TEST(w.next_corner(1.0).value() == 1.5);
+  BOOST_TEST(!w.next_corner(1.5).has_value());
+  BOOST_TEST(w.is_quiet(0.0));
+  BOOST_TEST(!w.is_quiet(1.0));
+  BOOST_TEST(w.is_quiet(1.5));
+}
+
+BOOST_AUTO_TEST_CASE(train_repeats_the_pulse) {
+  const Waveform w = Waveform::pulse_train(1.0, 0.2, 0.1, 0.3);
+  for (int k = 0; k < 50; ++k) {
+    const double start = 0.2 + 0.3 * k;
+    BOOST_TEST(w.at(start, Limit::before) == 0.0);
+    BOOST_TEST(w.at(start, Limit::after) == 1.0);
+    BOOST_TEST(w.at(start + 0.1, Limit::before) == 1.0);
+    BOOST_TEST(w.at(start + 0.1, Limit::after) == 0.0);
+    BOOST_TEST(std::abs(w.next_corner(start).value() - (start + 0.1)) < 1e-12);
+    BOOST_TEST(std::abs(w.next_corner(start + 0.1).value() - (start + 0.3)) < 1e-12);
+  }
+  BOOST_CHECK_THROW(Waveform::pulse_train(1.0, 0.0, 0.5, 0.4), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(table_is_linear_with_jumps_at_double_times) {
+  const Waveform w = Waveform::table({0.0, 1.0, 1.0, 2.0, 3.0}, {0.0, 2.0, -1.0, 0.0, 0.0});
+  BOOST_TEST(w.at(-1.0) == 0.0);
+  BOOST_TEST(std::abs(w.at(0.25) - 0.5) < 1e-15);
+  BOOST_TEST(w.at(1.0, Limit::before) == 2.0);
+  BOOST_TEST(w.at(1.0, Limit::after) == -1.0);
+  BOOST_TEST(w.at(9.0) == 0.0);
+  BOOST_TEST(w.next_corner(0.0).value() == 1.0);
+  BOOST_TEST(!w.is_quiet(1.5));
+  BOOST_TEST(w.is_quiet(2.0));
+  BOOST_CHECK_THROW(Waveform::table({0.0}, {1.0}), InputError);
+  BOOST_CHECK_THROW(Waveform::table({1.0, 0.0}, {1.0, 1.0}), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
