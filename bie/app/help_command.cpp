@@ -79,8 +79,8 @@ void add_help_command(CLI::App& program, ExitCode& exit_code) {
   command->require_subcommand(0, 1);
   add_scene_topic(*command, exit_code);
   add_groups_topic(*command, exit_code);
-  command->callback([command, &program, &exit_code] {
-    if (command->get_subcommands().empty()) fmt::print("{}", program.help("", CLI::AppFormatMode::Normal));
+  command->callback([command, &exit_code] {
+    if (command->get_subcommands().empty()) fmt::print("{}", command->help("vehd"));
     exit_code = ExitCode::done;
   });
 }

@@ -8,7 +8,7 @@ namespace vehd {
 struct EventTimes {
   std::optional<double> every;  ///< snapshots at k * every
   double end_time = 0.0;
-  std::optional<double> corner;  ///< where the forcing changes abruptly; no snapshot is due there
+  std::optional<double> corner = std::nullopt;  ///< where the forcing changes abruptly; no snapshot is due there
 };
 
 /// How far the next step may go.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bie/scene/schema.hpp"
+#include "bie/scene/toml_text.hpp"
 
 namespace vehd {
 
@@ -13,7 +14,7 @@ std::string effective_scene(const Scene& scene) {
     text += fmt::format("{}[{}]  # {}\n", text.empty() ? "" : "\n", table.name, table.description);
     for (const KeyDescription& key : scene_keys()) {
       if (key.table != table.name || !applies(key, scene)) continue;
-      if (const auto value = key.get(scene)) text += fmt::format("{} = {}\n", key.name, to_toml(*value));
+      if (const auto value = key.get(scene)) text += fmt::format("{} = {}\n", key.name, to_toml(key, *value));
     }
   }
   return text;

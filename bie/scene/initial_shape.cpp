@@ -5,7 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "bie/scene/biconcave.hpp"
+#include "bie/scene/placement.hpp"
 #include "bie/scene/shape_file.hpp"
+#include "bie/scene/spheroid.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
 
@@ -50,21 +53,48 @@ Matrix radial_position(const Scene& scene) {
       points(i, 2) = radius(i) * std::cos(grid.theta(j));
     }
   }
-  return transform.analyze(points);
+  return without_rounding(transform.analyze(points));
 }
 
-}  // namespace
-
-Matrix initial_position(const Scene& scene) {
-  switch (scene.shape.kind) {
+Matrix unplaced_position(const Scene& scene) {
+  const ShapeScene& shape = scene.shape;
+  const int order = scene.numerics.order;
+  switch (shape.kind) {
     case ShapeKind::ellipsoid:
-      return ellipsoid_position(scene.shape.axes, scene.numerics.order);
+      return ellipsoid_position(shape.axes, order);
+    case ShapeKind::prolate:
+      return ellipsoid_position(prolate_axes(shape.reduced_volume), order);
+    case ShapeKind::oblate:
+      return ellipsoid_position(oblate_axes(shape.reduced_volume), order);
+    case ShapeKind::biconcave:
+      return biconcave_position(shape.reduced_volume, order);
     case ShapeKind::radial:
       return radial_position(scene);
     case ShapeKind::file:
       break;
   }
-  return resize_order(read_shape_file(scene.shape.path, scene.shape.time), scene.numerics.order);
+  return resize_order(read_shape_file(shape.path, shape.time), order);
+}
+
+bool is_of_unit_size(ShapeKind kind) {
+  return kind == ShapeKind::prolate || kind == ShapeKind::oblate || kind == ShapeKind::biconcave;
+}
+
+double size_factor(const ShapeScene& shape, const Matrix& position) {
+  if (shape.scale) return *shape.scale;
+  if (!shape.area) return 1.0;
+  const double area = is_of_unit_size(shape.kind) ? 4.0 * std::numbers::pi : size_of(position).area;
+  return std::sqrt(*shape.area / area);
+}
+
+}  // namespace
+
+Matrix initial_position(const Scene& scene) {
+  const ShapeScene& shape = scene.shape;
+  Matrix position = unplaced_position(scene);
+  position *= size_factor(shape, position);
+  if (shape.rotation) position = rotated(position, rotation_matrix(*shape.rotation));
+  return shifted(std::move(position), shape.centre);
 }
 
 double smallest_radius(const Scene& scene) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "bie/scene/nearest_name.hpp"
+#include "bie/scene/reference_scales.hpp"
 #include "bie/scene/scene_checks.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/toml_values.hpp"
@@ -61,24 +62,28 @@ std::vector<std::string_view> key_names(std::string_view table) {
   return names;
 }
 
-/// Key of the given kind, or nullptr.
-const KeyDescription* find_key_of_kind(std::string_view table, std::string_view name, std::string_view kind) {
-  for (const KeyDescription& key : scene_keys()) {
-    if (key.table == table && key.name == name && (key.kind.empty() || key.kind == kind)) return &key;
-  }
-  return nullptr;
-}
-
 std::string unknown_key_text(std::string_view table, std::string_view name) {
   const std::string start = fmt::format("unknown key \"{}\" in [{}]", name, table);
+  std::vector<std::string> owners;
   for (const TableDescription& other : scene_tables()) {
-    if (find_key(other.name, name) != nullptr) return fmt::format("{}; it belongs to [{}]", start, other.name);
+    if (find_key(other.name, name) != nullptr) owners.push_back(fmt::format("[{}]", other.name));
   }
+  if (!owners.empty()) return fmt::format("{}; it belongs to {}", start, fmt::join(owners, " or "));
   return fmt::format("{}; {}", start, suggestion(name, key_names(table)));
 }
 
+/// "kind "shear"", or "kinds "shear", "gradient"": all for which a key of that name exists.
+std::string kinds_text(std::string_view table, std::string_view name) {
+  std::vector<std::string> kinds;
+  for (const KeyDescription& key : scene_keys()) {
+    if (key.table != table || key.name != name) continue;
+    for (const std::string_view kind : key.kinds) kinds.push_back(fmt::format("\"{}\"", kind));
+  }
+  return fmt::format("kind{} {}", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "));
+}
+
 void read_key(Scene& scene, const KeyDescription& key, const toml::node& node, const std::string& file) {
-  key.set(scene, checked_value(key, node, file));
+  key.set(scene, checked_value(key, node, file, scene.units));
 }
 
 void read_table(Scene& scene, const TableDescription& description, const toml::table& table, const std::string& file) {
@@ -100,14 +105,14 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
     }
     const KeyDescription* key = find_key_of_kind(description.name, name.str(), kind);
     if (key == nullptr) {
-      throw InputError(fmt::format("{}: key \"{}\" in [{}] belongs to kind \"{}\", not to \"{}\"", place(node, file),
-                                   name.str(), description.name, find_key(description.name, name.str())->kind, kind));
+      throw InputError(fmt::format("{}: key \"{}\" in [{}] belongs to {}, not to \"{}\"", place(node, file), name.str(),
+                                   description.name, kinds_text(description.name, name.str()), kind));
     }
     read_key(scene, *key, node, file);
   }
   for (const KeyDescription& key : scene_keys()) {
     if (key.table != description.name || !key.required || table.contains(key.name)) continue;
-    if (!key.kind.empty() && key.kind != kind) continue;
+    if (!key.is_for(kind)) continue;
     throw InputError(fmt::format("{}: missing key \"{}\" in [{}] ({}); accepted: {}", place(table, file), key.name,
                                  key.table, key.description, accepted_text(key)));
   }
@@ -136,6 +141,8 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   for (const TableDescription& description : scene_tables()) {
     if (const toml::table* table = file[description.name].as_table()) {
       read_table(scene, description, *table, name);
+      // [units] comes first: the values of every later table may need its scales.
+      if (description.name == "units") derive_reference_scales(*scene.units, file);
     } else if (description.required) {
       throw InputError(fmt::format("{}:1: missing table [{}] ({})", name, description.name, description.description));
     }

@@ -10,6 +10,8 @@ namespace vehd {
 
 using Triple = std::array<double, 3>;
 using TripleOfTriples = std::array<Triple, 3>;
+/// Axis of any length and angle in degrees, right-handed.
+using AxisAngle = std::array<double, 4>;
 
 /// One term amplitude * Re Y_n^m of Eq. (17); m < 0 takes Im Y_n^|m|.
 struct HarmonicMode {
@@ -19,21 +21,35 @@ struct HarmonicMode {
   bool operator==(const HarmonicMode&) const = default;
 };
 
-enum class ShapeKind { ellipsoid, radial, file };
+enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, radial, file };
 enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient };
 enum class InitialPotential { zero, steady };
 enum class SymmetryUse { automatic, off };
+
+/// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
+struct UnitsScene {
+  std::optional<double> length;     ///< m
+  std::optional<double> time;       ///< s
+  std::optional<double> viscosity;  ///< Pa s
+  std::optional<double> potential;  ///< V
+  bool operator==(const UnitsScene&) const = default;
+};
 
 /// Initial shape; which members count depends on the kind.
 struct ShapeScene {
   ShapeKind kind = ShapeKind::ellipsoid;
   Triple axes{1.0, 1.0, 1.0};
+  double reduced_volume = 0.65;
   double base = 1.0;
   std::optional<double> amplitude;  ///< absent: radius = base + s, otherwise base + amplitude exp(exponent s)
   double exponent = 1.0;
   std::vector<HarmonicMode> modes;
   std::string path;            ///< absolute path of a run.h5
   std::optional<double> time;  ///< absent: the last snapshot
+  std::optional<double> area;  ///< at most one of area and scale is present
+  std::optional<double> scale;
+  std::optional<AxisAngle> rotation;
+  Triple centre{0.0, 0.0, 0.0};
   bool operator==(const ShapeScene&) const = default;
 };
 
@@ -81,6 +97,7 @@ struct OutputScene {
 
 /// A validated scene file: every value is finite and within the range that the key table states.
 struct Scene {
+  std::optional<UnitsScene> units;  ///< absent: no value may have a unit
   ShapeScene shape;
   MembraneScene membrane;
   FluidScene fluid;

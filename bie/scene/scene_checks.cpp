@@ -25,6 +25,7 @@ class Checks {
       : scene_(scene), table_(table), file_(file) {}
 
   void run() const {
+    check_placement();
     if (scene_.shape.kind == ShapeKind::radial) check_radial_shape();
     if (scene_.flow && scene_.flow->kind == FlowKind::gradient) check_gradient();
     if (scene_.electric) check_conductivities();
@@ -35,6 +36,16 @@ class Checks {
   [[noreturn]] void refuse(std::string_view table, std::string_view key, const std::string& problem) const {
     const auto node = table_[table][key];
     throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *table_[table].node(), file_), problem));
+  }
+
+  void check_placement() const {
+    const ShapeScene& shape = scene_.shape;
+    if (shape.area && shape.scale) {
+      refuse("shape", "scale", "\"scale\" in [shape] together with \"area\"; accepted: one of them");
+    }
+    if (shape.rotation && (*shape.rotation)[0] == 0.0 && (*shape.rotation)[1] == 0.0 && (*shape.rotation)[2] == 0.0) {
+      refuse("shape", "rotation", "\"rotation\" in [shape] has the axis 0, 0, 0; accepted: an axis that is not zero");
+    }
   }
 
   void check_radial_shape() const {

@@ -14,9 +14,11 @@
 /// driven by it, so that a key is described in exactly one place; defaults are those of the structs in scene.hpp.
 namespace vehd {
 
-enum class ValueType { boolean, integer, number, word, text, triple, matrix, modes };
+/// `quantity` is a number that always has a unit, kept in SI; every other value is dimensionless once read.
+enum class ValueType { boolean, integer, number, word, text, triple, matrix, axis_angle, modes, quantity };
 
-using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, std::vector<HarmonicMode>>;
+using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, AxisAngle,
+                           std::vector<HarmonicMode>>;
 
 /// Accepted interval of a number or of every component of an array.
 struct Range {
@@ -34,14 +36,16 @@ struct KeyDescription {
   std::string_view name;
   ValueType type = ValueType::number;
   std::string_view symbol;  ///< as in the paper; empty if it has none
-  std::string_view unit;    ///< physical dimension; the values themselves are dimensionless
+  std::string_view unit;    ///< name of a dimension (units.hpp), "1", or empty where the value is no number
   Range range;
   std::vector<std::string_view> words;  ///< accepted values of a word
-  std::string_view kind;                ///< the key belongs to this `kind` of its table only; empty: to all
+  std::vector<std::string_view> kinds;  ///< the key belongs to these kinds of its table only; empty: to all
   bool required = false;
   std::string_view description;
   std::function<std::optional<Value>(const Scene&)> get;  ///< nullopt: the optional value is absent
   std::function<void(Scene&, const Value&)> set;
+
+  [[nodiscard]] bool is_for(std::string_view kind) const;
 };
 
 struct TableDescription {
@@ -52,21 +56,21 @@ struct TableDescription {
   std::function<void(Scene&)> create;
 };
 
-/// In the order in which tables and keys are written.
+/// In the order in which tables and keys are read and written.
 const std::vector<TableDescription>& scene_tables();
 const std::vector<KeyDescription>& scene_keys();
 
-/// nullptr if there is no such key.
+/// The first such key, or nullptr. A table may have rows of one name for different kinds.
 const KeyDescription* find_key(std::string_view table, std::string_view name);
+
+/// The key of that name that counts for the kind, or nullptr.
+const KeyDescription* find_key_of_kind(std::string_view table, std::string_view name, std::string_view kind);
 
 /// Value of `kind` in a table; empty for tables without kinds.
 std::string kind_of(const Scene& scene, std::string_view table);
 
 /// Whether the key counts for this scene: its table is present and of the key's kind.
 bool applies(const KeyDescription& key, const Scene& scene);
-
-/// A value as TOML, numbers with as many digits as reading back exactly needs.
-std::string to_toml(const Value& value);
 
 /// "table.key" of every value in which the scenes differ.
 std::vector<std::string> differing_keys(const Scene& a, const Scene& b);

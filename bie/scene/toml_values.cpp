@@ -8,6 +8,9 @@
 #include <sstream>
 
 #include "bie/scene/nearest_name.hpp"
+#include "bie/scene/reference_scales.hpp"
+#include "bie/scene/toml_text.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -19,16 +22,61 @@ constexpr std::size_t longest_shown = 60;
 struct Context {
   const KeyDescription& key;
   const std::string& file;
+  const std::optional<UnitsScene>& units;
 
   [[noreturn]] void refuse(const toml::node& node, const std::string& problem) const {
-    throw InputError(fmt::format("{}: \"{}\" in [{}] {}; accepted: {}", place(node, file), key.name, key.table, problem,
-                                 accepted_text(key)));
+    refuse(node, problem, accepted_text(key));
+  }
+  [[noreturn]] void refuse(const toml::node& node, const std::string& problem, const std::string& accepted) const {
+    throw InputError(
+        fmt::format("{}: \"{}\" in [{}] {}; accepted: {}", place(node, file), key.name, key.table, problem, accepted));
   }
 };
 
+/// SI value of a text such as "1 kV/cm".
+double si_value(const Context& context, const Dimension& dimension, const toml::node& node) {
+  const auto quantity = parse_quantity(*node.value<std::string_view>());
+  if (!quantity) context.refuse(node, fmt::format("is {}", shown(node)));
+  if (quantity->unit.empty()) {
+    context.refuse(node, fmt::format("is {}, without a unit", shown(node)), dimension.accepted());
+  }
+  const Unit* unit = dimension.find(quantity->unit);
+  if (unit == nullptr) {
+    context.refuse(node, fmt::format("is {}, whose unit is none of {}", shown(node), dimension.name),
+                   dimension.accepted());
+  }
+  return quantity->in_si(*unit);
+}
+
+/// Dimensionless value of a text such as "1 kV/cm".
+double value_with_unit(const Context& context, const toml::node& node) {
+  const Dimension* dimension = find_dimension(context.key.unit);
+  if (dimension == nullptr || !parse_quantity(*node.value<std::string_view>())) {
+    context.refuse(node, fmt::format("is {}", shown(node)));
+  }
+  if (!context.units) {
+    context.refuse(node, fmt::format("is {}, but the scene has no table [units]", shown(node)));
+  }
+  const double value = si_value(context, *dimension, node);
+  const auto scale = reference_scale(*context.units, *dimension);
+  if (!scale) {
+    const std::string_view missing = missing_scale(*context.units, *dimension);
+    context.refuse(node, fmt::format("is {}, but the scene has no reference {}", shown(node), missing),
+                   fmt::format("\"{}\" in [units], or a unit for {}", missing, source_of_scale(missing)));
+  }
+  return value / *scale;
+}
+
+double quantity(const Context& context, const toml::node& node) {
+  if (!node.is_string()) context.refuse(node, fmt::format("is {}", shown(node)));
+  const double value = si_value(context, *find_dimension(context.key.unit), node);
+  if (!context.key.range.contains(value)) context.refuse(node, fmt::format("is {}", shown(node)));
+  return value;
+}
+
 double number(const Context& context, const toml::node& node) {
-  if (!node.is_number()) context.refuse(node, fmt::format("is {}", shown(node)));
-  const double value = *node.value<double>();
+  if (!node.is_number() && !node.is_string()) context.refuse(node, fmt::format("is {}", shown(node)));
+  const double value = node.is_string() ? value_with_unit(context, node) : *node.value<double>();
   if (!std::isfinite(value)) context.refuse(node, fmt::format("is {}, not a finite number", value));
   if (!context.key.range.contains(value)) context.refuse(node, fmt::format("is {}", shown(node)));
   return value;
@@ -40,21 +88,26 @@ std::int64_t integer(const Context& context, const toml::node& node) {
   return *node.value<std::int64_t>();
 }
 
-const toml::array& array_of_three(const Context& context, const toml::node& node) {
+const toml::array& array_of(std::size_t size, const Context& context, const toml::node& node) {
   const toml::array* array = node.as_array();
   if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  if (array->size() != 3) context.refuse(node, fmt::format("has {} components", array->size()));
+  if (array->size() != size) context.refuse(node, fmt::format("has {} components", array->size()));
   return *array;
 }
 
 Triple triple(const Context& context, const toml::node& node) {
-  const toml::array& array = array_of_three(context, node);
+  const toml::array& array = array_of(3, context, node);
   return {number(context, array[0]), number(context, array[1]), number(context, array[2])};
 }
 
 TripleOfTriples matrix(const Context& context, const toml::node& node) {
-  const toml::array& rows = array_of_three(context, node);
+  const toml::array& rows = array_of(3, context, node);
   return {triple(context, rows[0]), triple(context, rows[1]), triple(context, rows[2])};
+}
+
+AxisAngle axis_angle(const Context& context, const toml::node& node) {
+  const toml::array& array = array_of(4, context, node);
+  return {number(context, array[0]), number(context, array[1]), number(context, array[2]), number(context, array[3])};
 }
 
 std::string text(const Context& context, const toml::node& node) {
@@ -144,14 +197,19 @@ std::string accepted_text(const KeyDescription& key) {
       return fmt::format("3 numbers [x, y, z], each {}", key.range.text());
     case ValueType::matrix:
       return "3 rows of 3 finite numbers";
+    case ValueType::axis_angle:
+      return "4 finite numbers [axis_x, axis_y, axis_z, degrees]";
     case ValueType::modes:
       return "entries {n = degree, m = -n ... n, a = finite number}";
+    case ValueType::quantity:
+      return fmt::format("a positive number with its unit in quotes, {}", find_dimension(key.unit)->accepted());
   }
   return {};
 }
 
-Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file) {
-  const Context context{key, file};
+Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file,
+                    const std::optional<UnitsScene>& units) {
+  const Context context{key, file, units};
   switch (key.type) {
     case ValueType::boolean:
       if (!node.is_boolean()) context.refuse(node, fmt::format("is {}", shown(node)));
@@ -168,6 +226,10 @@ Value checked_value(const KeyDescription& key, const toml::node& node, const std
       return triple(context, node);
     case ValueType::matrix:
       return matrix(context, node);
+    case ValueType::axis_angle:
+      return axis_angle(context, node);
+    case ValueType::quantity:
+      return quantity(context, node);
     case ValueType::modes:
       break;
   }

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <optional>
 #include <string>
 
 #include "bie/scene/schema.hpp"
@@ -18,8 +19,10 @@ std::string shown(const toml::node& node);
 /// What a key accepts, in words.
 std::string accepted_text(const KeyDescription& key);
 
-/// Value of the key's type within its range.
+/// Value of the key's type within its range, dimensionless unless it is a quantity.
+/// @param units  reference scales, with which a number may also be a text with an SI unit
 /// @throws InputError naming place, value and what is accepted
-Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file);
+Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file,
+                    const std::optional<UnitsScene>& units);
 
 }  // namespace vehd

@@ -14,18 +14,15 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-/// Mean of a scalar field and its images, sign · f(g s).
+/// Mean of a scalar field and its images, sign · f(g s): an image changes coefficients in sign only, and those that
+/// change under one image of the group change under half of them.
 Vector symmetric_scalar(const Symmetry& symmetry, const std::vector<int>& signs, const Vector& field) {
   Vector result = Vector::Zero(field.size());
-  const int order = order_of(field.size());
-  const double share = 1.0 / double(symmetry.reflections.size());
-  for (std::size_t g = 0; g < symmetry.reflections.size(); ++g) {
-    for (int n = 0; n <= order; ++n) {
-      for (int m = -n; m <= n; ++m) {
-        if (symmetry.axisymmetric && m != 0) continue;
-        const Index i = coefficient_index(n, m);
-        result[i] += share * signs[g] * symmetry.reflections[g].parity(n, m) * field[i];
-      }
+  for (int n = 0; n <= order_of(field.size()); ++n) {
+    for (int m = -n; m <= n; ++m) {
+      bool kept = !symmetry.axisymmetric || m == 0;
+      for (std::size_t g = 0; g < signs.size(); ++g) kept = kept && signs[g] * symmetry.reflections[g].parity(n, m) > 0;
+      if (kept) result[coefficient_index(n, m)] = field[coefficient_index(n, m)];
     }
   }
   return result;

@@ -1,8 +1,11 @@
 #include "bie/scene/effective_scene.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <regex>
 
 #include "bie/scene/schema.hpp"
+#include "bie/scene/toml_text.hpp"
+#include "bie/scene/units.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace {
@@ -21,7 +24,10 @@ BOOST_AUTO_TEST_CASE(reads_back_to_the_same_scene) {
   const std::string radial =
       "[shape]\nkind='radial'\nbase=1\namplitude=0.2\nexponent=-3\nmodes=[{n=3,m=2,a=1},{n=2,m=-1,a=0.1}]\n"
       "[flow]\nkind='planar_extension'\nrate=0.1\n[numerics]\nsymmetry='off'\ndt=0.1\nend_time=1\n";
-  for (const std::string& text : {with_appended(""), every_table, radial}) {
+  const std::string placed =
+      "[shape]\nkind='biconcave'\nreduced_volume=0.6\narea=2\nrotation=[0,1,0.5,30]\ncentre=[0.1,0,-1]\n"
+      "[numerics]\ndt=0.1\nend_time=1\n";
+  for (const std::string& text : {with_appended(""), every_table, radial, placed, si_scene()}) {
     const vehd::Scene scene = parsed(text);
     const std::string written = vehd::effective_scene(scene);
     BOOST_TEST((parsed(written) == scene), written);
@@ -35,6 +41,15 @@ BOOST_AUTO_TEST_CASE(spells_out_every_default) {
     BOOST_TEST(text.find(line) != std::string::npos, line);
   }
   BOOST_TEST(text.find("[electric]") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(is_dimensionless_plus_the_units) {
+  const std::string text = vehd::effective_scene(parsed(si_scene()));
+  BOOST_TEST(text.find("length = \"1e-05 m\"\n") != std::string::npos, text);
+  BOOST_TEST(text.find("time = \"0.5 s\"\n") != std::string::npos, text);
+  const std::string values = text.substr(text.find("[shape]"));
+  BOOST_TEST(!std::regex_search(values, std::regex("\"[0-9]")), values);
+  BOOST_TEST(values.find("dt = 0.02\n") != std::string::npos, values);
 }
 
 BOOST_AUTO_TEST_CASE(differences_are_named) {
@@ -63,6 +78,11 @@ BOOST_AUTO_TEST_CASE(every_key_is_described) {
     BOOST_TEST(!key.description.empty(), key.name);
     BOOST_TEST((key.type != vehd::ValueType::word || !key.words.empty()), key.name);
     BOOST_TEST((key.type != vehd::ValueType::number || !key.unit.empty()), key.name);
+    BOOST_TEST((key.unit.empty() || key.unit == "1" || vehd::find_dimension(key.unit) != nullptr), key.name);
+    for (const std::string_view kind : key.kinds) {
+      const auto& words = vehd::find_key(key.table, "kind")->words;
+      BOOST_TEST((std::find(words.begin(), words.end(), kind) != words.end()), key.name);
+    }
   }
 }
 

@@ -1,10 +1,16 @@
 #include "bie/scene/initial_shape.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "bie/geometry/surface.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/placement.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/transform.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace {
@@ -18,6 +24,27 @@ const Vector phi{{0.0, 0.7, 2.0, 5.5, 0.0}};
 
 Vector3 direction(vehd::Index i) {
   return {std::sin(theta(i)) * std::cos(phi(i)), std::sin(theta(i)) * std::sin(phi(i)), std::cos(theta(i))};
+}
+
+vehd::Scene scene_of(const std::string& shape, int order = 16) {
+  return parsed("[shape]\n" + shape + "\n[numerics]\ndt=1\nend_time=1\norder=" + std::to_string(order) + "\n");
+}
+
+Matrix position_of(const std::string& shape, int order = 16) { return vehd::initial_position(scene_of(shape, order)); }
+
+double reduced_volume_of(const vehd::ShapeSize& size) {
+  return 6.0 * std::sqrt(std::numbers::pi) * size.volume / std::pow(size.area, 1.5);
+}
+
+vehd::Symmetry symmetry_of(const std::string& shape) {
+  const vehd::Scene scene = scene_of(shape);
+  return vehd::symmetry_of(scene, vehd::model_of(scene));
+}
+
+double bending_energy(const Matrix& position, int grid_order) {
+  const vehd::SphereTransform transform(vehd::order_of(position.rows()), vehd::make_grid(grid_order));
+  const vehd::Surface surface = vehd::make_surface(transform, position);
+  return surface.quadrature.dot(surface.mean_curvature.cwiseAbs2());
 }
 
 /// Largest distance between the shape and radius(i) times the direction at the test points.
@@ -73,6 +100,126 @@ BOOST_AUTO_TEST_CASE(shape_33_converges_with_the_order) {
   };
   BOOST_TEST(error(16) < error(8) / 10.0);
   BOOST_TEST(error(48) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(families_have_the_reduced_volume_and_the_area_of_the_unit_sphere) {
+  for (const auto& [kind, volume] : {std::pair{"prolate", 0.4},
+                                     {"prolate", 0.95},
+                                     {"oblate", 0.3},
+                                     {"oblate", 0.95},
+                                     {"prolate", 0.999999},
+                                     {"oblate", 0.999999},
+                                     {"biconcave", 0.5},
+                                     {"biconcave", 0.65},
+                                     {"biconcave", 0.75}}) {
+    const vehd::ShapeSize size =
+        vehd::size_of(position_of(fmt::format("kind='{}'\nreduced_volume={}", kind, volume), 4));
+    BOOST_TEST(size.area == 4.0 * std::numbers::pi, boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(reduced_volume_of(size) == volume, boost::test_tools::tolerance(1e-10));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(prolate_of_reduced_volume_0_9_has_the_known_aspect) {
+  const Matrix position = position_of("kind='prolate'\nreduced_volume=0.9");
+  const double aspect = position(vehd::coefficient_index(1, 0), 2) / position(vehd::coefficient_index(1, 1), 0);
+  BOOST_TEST(aspect == 1.9621762549176331, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(reduced_volume_one_is_the_sphere_itself) {
+  const Matrix sphere = position_of("kind='ellipsoid'\naxes=[1,1,1]");
+  BOOST_TEST((position_of("kind='prolate'\nreduced_volume=1") == sphere));
+  BOOST_TEST((position_of("kind='oblate'\nreduced_volume=1") == sphere));
+}
+
+BOOST_AUTO_TEST_CASE(biconcave_is_thinner_in_the_middle_and_resolved) {
+  for (const double volume : {0.5, 0.65, 0.75}) {
+    const Matrix position = position_of(fmt::format("kind='biconcave'\nreduced_volume={}", volume));
+    const Matrix points = vehd::evaluate_harmonics(position, Vector{{0.0, 0.25}}, Vector{{0.0, 0.0}});
+    BOOST_TEST(points(0, 2) > 0.0);
+    BOOST_TEST(points(0, 2) < points(1, 2));
+    BOOST_TEST(bending_energy(position, 32) == bending_energy(position, 128), boost::test_tools::tolerance(1e-5));
+  }
+  BOOST_TEST(bending_energy(position_of("kind='biconcave'"), 128) == 4.0 * std::numbers::pi * 1.881,
+             boost::test_tools::tolerance(5e-4));
+}
+
+BOOST_AUTO_TEST_CASE(families_are_exactly_symmetric) {
+  for (const char* shape :
+       {"kind='prolate'\nreduced_volume=0.8", "kind='oblate'\nreduced_volume=0.8", "kind='biconcave'"}) {
+    const vehd::Symmetry symmetry = symmetry_of(shape);
+    BOOST_TEST(symmetry.axisymmetric);
+    BOOST_TEST(symmetry.reflections.size() == 8U);
+    BOOST_TEST((position_of(shape).array() != 0.0).count() <= 4);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(radial_shape_has_no_rounding_in_coefficients_that_are_zero) {
+  const Matrix position = position_of("kind='radial'\nmodes=[{n=2,m=0,a=0.3}]");
+  for (int n = 0; n <= 16; ++n) {
+    for (int m = -n; m <= n; ++m) {
+      BOOST_TEST((m == 0 || position(vehd::coefficient_index(n, m), 2) == 0.0));
+      BOOST_TEST((m == 1 || position(vehd::coefficient_index(n, m), 0) == 0.0));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(quarter_turns_keep_coefficients_exactly_symmetric) {
+  const std::string prolate = "kind='prolate'\nreduced_volume=0.8\n";
+  const Matrix upright = position_of(prolate);
+  const double a = upright(vehd::coefficient_index(1, 1), 0), c = upright(vehd::coefficient_index(1, 0), 2);
+  const Matrix lying = position_of(prolate + "rotation=[0,1,0,90]");
+  Matrix expected = Matrix::Zero(upright.rows(), 3);
+  expected(vehd::coefficient_index(1, 1), 0) = c;
+  expected(vehd::coefficient_index(1, -1), 1) = a;
+  expected(vehd::coefficient_index(1, 0), 2) = a;
+  BOOST_TEST((lying - expected).cwiseAbs().maxCoeff() < 1e-13);
+  BOOST_TEST((lying.array() != 0.0).count() == 3);
+  const vehd::Symmetry symmetry = symmetry_of("kind='biconcave'\nrotation=[0,2,0,-90]");
+  BOOST_TEST(!symmetry.axisymmetric);
+  BOOST_TEST(symmetry.reflections.size() == 8U);
+  BOOST_TEST(symmetry_of("kind='biconcave'\nrotation=[0,0,1,33]").axisymmetric);
+  BOOST_TEST(symmetry_of("kind='biconcave'\nrotation=[1,0,0,180]").axisymmetric);
+}
+
+BOOST_AUTO_TEST_CASE(rotation_is_right_handed_and_keeps_size) {
+  const std::string radial = "kind='radial'\nmodes=[{n=3,m=2,a=0.2},{n=2,m=-1,a=0.1}]\n";
+  const Matrix start = position_of(radial);
+  const Matrix turned = position_of(radial + "rotation=[1,2,-0.5,40]");
+  const vehd::Matrix3 rotation =
+      Eigen::AngleAxisd(40.0 * std::numbers::pi / 180.0, Vector3(1, 2, -0.5).normalized()).toRotationMatrix();
+  const Matrix before = vehd::evaluate_harmonics(start, theta, phi);
+  Vector theta_after = theta, phi_after = phi;
+  for (vehd::Index i = 0; i < theta.size(); ++i) {
+    const Vector3 d = rotation * direction(i);
+    theta_after(i) = std::atan2(std::hypot(d.x(), d.y()), d.z());
+    phi_after(i) = std::atan2(d.y(), d.x());
+  }
+  const Matrix after = vehd::evaluate_harmonics(turned, theta_after, phi_after);
+  for (vehd::Index i = 0; i < theta.size(); ++i) {
+    const Vector3 expected = rotation * before.row(i).transpose();
+    BOOST_TEST((after.row(i).transpose() - expected).norm() < 1e-12);
+  }
+  BOOST_TEST(vehd::size_of(turned).area == vehd::size_of(start).area, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(area_scale_and_centre_are_as_wanted) {
+  const std::string ellipsoid = "kind='ellipsoid'\naxes=[1,1.5,2]\n";
+  const Matrix start = position_of(ellipsoid);
+  BOOST_TEST((position_of(ellipsoid + "scale=2") - 2.0 * start).cwiseAbs().maxCoeff() < 1e-14);
+  for (const std::string& shape :
+       {ellipsoid, std::string("kind='biconcave'\n"), std::string("kind='prolate'\nreduced_volume=0.6\n"),
+        std::string("kind='radial'\nmodes=[{n=3,m=2,a=0.2}]\n")}) {
+    const vehd::ShapeSize size = vehd::size_of(position_of(shape + "area=10\nrotation=[1,0,0,20]\ncentre=[1,2,3]"));
+    BOOST_TEST(size.area == 10.0, boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(reduced_volume_of(size) == reduced_volume_of(vehd::size_of(position_of(shape))),
+               boost::test_tools::tolerance(1e-10));
+  }
+  const Matrix moved = position_of(ellipsoid + "rotation=[0,0,1,90]\ncentre=[1,-2,3]");
+  const Matrix turned = position_of(ellipsoid + "rotation=[0,0,1,90]");
+  const Matrix shift = vehd::evaluate_harmonics(moved, theta, phi) - vehd::evaluate_harmonics(turned, theta, phi);
+  for (vehd::Index i = 0; i < theta.size(); ++i) {
+    BOOST_TEST((shift.row(i).transpose() - Vector3(1, -2, 3)).norm() < 1e-13);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -42,7 +42,8 @@ BOOST_AUTO_TEST_CASE(unknown_table_names_the_nearest) {
 
 BOOST_AUTO_TEST_CASE(unknown_key_outside_of_tables) {
   BOOST_TEST(message_of("axis = 1\n") ==
-             "scene.toml:1: unknown key \"axis\"; accepted: shape, membrane, fluid, flow, electric, numerics, output");
+             "scene.toml:1: unknown key \"axis\"; accepted: units, shape, membrane, fluid, flow, electric, "
+             "numerics, output");
 }
 
 BOOST_AUTO_TEST_CASE(table_given_as_value) {
@@ -60,7 +61,7 @@ BOOST_AUTO_TEST_CASE(wrong_types) {
       message_of("[shape]\nkind='ellipsoid'\naxes=[1,2]\n") ==
       "scene.toml:3: \"axes\" in [shape] has 2 components; accepted: 3 numbers [x, y, z], each 1e-06 ... 1000000");
   BOOST_TEST(message_of("[shape]\nkind=3\n") ==
-             "scene.toml:2: \"kind\" in [shape] is 3; accepted: ellipsoid, radial, file");
+             "scene.toml:2: \"kind\" in [shape] is 3; accepted: ellipsoid, prolate, oblate, biconcave, radial, file");
 }
 
 BOOST_AUTO_TEST_CASE(non_physical_values) {
@@ -101,8 +102,9 @@ BOOST_AUTO_TEST_CASE(time_step_and_counts) {
 
 BOOST_AUTO_TEST_CASE(missing_parts) {
   BOOST_TEST(message_of("[numerics]\ndt=1\nend_time=1\n") == "scene.toml:1: missing table [shape] (initial shape)");
-  BOOST_TEST(message_of("[shape]\naxes=[1,1,1]\n") ==
-             "scene.toml:1: missing key \"kind\" in [shape]; accepted: ellipsoid, radial, file");
+  BOOST_TEST(
+      message_of("[shape]\naxes=[1,1,1]\n") ==
+      "scene.toml:1: missing key \"kind\" in [shape]; accepted: ellipsoid, prolate, oblate, biconcave, radial, file");
   BOOST_TEST(message_with("[electric]\nfield=[0,0,1]\nconductivity_in=1\n")
                  .find("scene.toml:8: missing key \"conductivity_out\" in [electric]") == 0);
 }
@@ -110,6 +112,47 @@ BOOST_AUTO_TEST_CASE(missing_parts) {
 BOOST_AUTO_TEST_CASE(key_of_another_kind) {
   BOOST_TEST(message_with("[flow]\nkind='shear'\nrate=1\ngradient=[[0,0,1],[0,0,0],[0,0,0]]\n") ==
              "scene.toml:11: key \"gradient\" in [flow] belongs to kind \"gradient\", not to \"shear\"");
+  BOOST_TEST(message_of("[shape]\nkind='ellipsoid'\naxes=[1,1,2]\nreduced_volume=0.9\n") ==
+             "scene.toml:4: key \"reduced_volume\" in [shape] belongs to kinds \"prolate\", \"oblate\", \"biconcave\", "
+             "not to \"ellipsoid\"");
+}
+
+BOOST_AUTO_TEST_CASE(unknown_key_names_all_tables_that_have_it) {
+  BOOST_TEST(message_with("[membrane]\nviscosity = 1.0\n") ==
+             "scene.toml:9: unknown key \"viscosity\" in [membrane]; it belongs to [units] or [fluid]");
+}
+
+BOOST_AUTO_TEST_CASE(reduced_volume_out_of_range) {
+  const auto message = [](const std::string& kind, const std::string& value) {
+    return message_of("[shape]\nkind='" + kind + "'\nreduced_volume=" + value + "\n[numerics]\ndt=1\nend_time=1\n");
+  };
+  const std::string start = "scene.toml:3: \"reduced_volume\" in [shape] is ";
+  BOOST_TEST(message("prolate", "1.1") == start + "1.1; accepted: a number 0.2 ... 1");
+  BOOST_TEST(message("prolate", "0") == start + "0; accepted: a number 0.2 ... 1");
+  BOOST_TEST(message("oblate", "-0.5") == start + "-0.5; accepted: a number 0.1 ... 1");
+  BOOST_TEST(message("biconcave", "0.8") == start + "0.8; accepted: a number 0.5 ... 0.75");
+  BOOST_TEST(message("biconcave", "0.4") == start + "0.4; accepted: a number 0.5 ... 0.75");
+  BOOST_TEST(message("prolate", "1.0") == "");
+  BOOST_TEST(message_of("[shape]\nkind='prolate'\n[numerics]\ndt=1\nend_time=1\n")
+                 .find("scene.toml:1: missing key \"reduced_volume\" in [shape]") == 0);
+  BOOST_TEST(message_of("[shape]\nkind='biconcave'\n[numerics]\ndt=1\nend_time=1\n") == "");
+}
+
+BOOST_AUTO_TEST_CASE(placement_of_a_shape) {
+  const auto message = [](const std::string& more) {
+    return message_of("[shape]\nkind='biconcave'\n" + more + "\n[numerics]\ndt=1\nend_time=1\n");
+  };
+  BOOST_TEST(message("area=10\nscale=2") ==
+             "scene.toml:4: \"scale\" in [shape] together with \"area\"; accepted: one of them");
+  BOOST_TEST(message("area=0") == "scene.toml:3: \"area\" in [shape] is 0; accepted: a number > 0");
+  BOOST_TEST(message("scale=-1") == "scene.toml:3: \"scale\" in [shape] is -1; accepted: a number 1e-06 ... 1000000");
+  BOOST_TEST(message("rotation=[0,0,0,90]") ==
+             "scene.toml:3: \"rotation\" in [shape] has the axis 0, 0, 0; accepted: an axis that is not zero");
+  BOOST_TEST(message("rotation=[0,0,1]") ==
+             "scene.toml:3: \"rotation\" in [shape] has 3 components; accepted: 4 finite numbers "
+             "[axis_x, axis_y, axis_z, degrees]");
+  BOOST_TEST(message("centre=[0,nan,0]").find("scene.toml:3: \"centre\" in [shape] is nan, not a finite") == 0);
+  BOOST_TEST(message("area=10\nrotation=[0,1,0,30]\ncentre=[1,2,3]") == "");
 }
 
 BOOST_AUTO_TEST_CASE(unknown_word_names_the_nearest) {

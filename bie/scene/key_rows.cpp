@@ -1,0 +1,194 @@
+#include "bie/scene/key_rows.hpp"
+
+#include "bie/scene/key_table.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Range any_number{};
+constexpr Range positive{0.0, infinity, true};
+constexpr Range not_negative{0.0, infinity, false};
+constexpr Range size_range{1e-6, 1e6, false};
+
+const auto units = [](auto& scene) -> auto& { return *scene.units; };
+const auto shape = [](auto& scene) -> auto& { return scene.shape; };
+const auto membrane = [](auto& scene) -> auto& { return scene.membrane; };
+const auto fluid = [](auto& scene) -> auto& { return scene.fluid; };
+const auto flow = [](auto& scene) -> auto& { return *scene.flow; };
+const auto electric = [](auto& scene) -> auto& { return *scene.electric; };
+const auto numerics = [](auto& scene) -> auto& { return scene.numerics; };
+const auto output = [](auto& scene) -> auto& { return scene.output; };
+
+void add_units_keys(KeyTable& table) {
+  table.begin("units");
+  const auto add_scale = [&](std::string_view name, KeyTable::Text text, std::optional<double> UnitsScene::*member) {
+    table.add(name, positive, text, units, member).type = ValueType::quantity;
+  };
+  add_scale("length", {"L", "length", "reference length; absent: √(area/4π) of an area in SI units"},
+            &UnitsScene::length);
+  add_scale("time", {"T", "time", "reference time; absent: μL³/κ_B of a bending modulus in SI units"},
+            &UnitsScene::time);
+  add_scale("viscosity", {"M", "viscosity", "reference viscosity; absent: that of the fluid in SI units"},
+            &UnitsScene::viscosity);
+  add_scale("potential", {"Φ", "potential", "reference potential; absent: √(ML/(T C_m)) of a capacitance in SI units"},
+            &UnitsScene::potential);
+}
+
+void add_shape_keys(KeyTable& table) {
+  table.begin("shape");
+  table
+      .add_word("kind", {"ellipsoid", "prolate", "oblate", "biconcave", "radial", "file"},
+                "how the initial shape is given; prolate, oblate and biconcave have the axis z", shape,
+                &ShapeScene::kind)
+      .required = true;
+  table.begin("shape", {"ellipsoid"});
+  table.add("axes", size_range, {"", "length", "semi-axes along x, y, z"}, shape, &ShapeScene::axes).required = true;
+  table.begin("shape", {"prolate"});
+  table
+      .add("reduced_volume", {0.2, 1.0}, {"v", "1", "6√π V/A^{3/2}; size: area 4π"}, shape, &ShapeScene::reduced_volume)
+      .required = true;
+  table.begin("shape", {"oblate"});
+  table
+      .add("reduced_volume", {0.1, 1.0}, {"v", "1", "6√π V/A^{3/2}; size: area 4π"}, shape, &ShapeScene::reduced_volume)
+      .required = true;
+  table.begin("shape", {"biconcave"});
+  table.add("reduced_volume", {0.5, 0.75}, {"v", "1", "6√π V/A^{3/2}; size: area 4π"}, shape,
+            &ShapeScene::reduced_volume);
+  table.begin("shape", {"radial"});
+  table.add("base", any_number, {"", "length", "constant part of the radius"}, shape, &ShapeScene::base);
+  table.add("amplitude", any_number, {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"},
+            shape, &ShapeScene::amplitude);
+  table.add("exponent", any_number, {"", "1", "factor of s in the exponential"}, shape, &ShapeScene::exponent);
+  table
+      .add("modes", any_number,
+           {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|"}, shape,
+           &ShapeScene::modes)
+      .required = true;
+  table.begin("shape", {"file"});
+  table
+      .add("path", any_number, {"", "", "run.h5 that holds the shape, relative to the scene file; any order"}, shape,
+           &ShapeScene::path)
+      .required = true;
+  table.add("time", not_negative, {"t", "time", "time of the snapshot; absent: the last one"}, shape,
+            &ShapeScene::time);
+  table.begin("shape");
+  table.add("area", positive, {"A", "area", "the shape is scaled to this area; not with scale"}, shape,
+            &ShapeScene::area);
+  table.add("scale", size_range, {"", "1", "the shape is scaled by this factor; not with area"}, shape,
+            &ShapeScene::scale);
+  table.add("rotation", any_number,
+            {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"}, shape,
+            &ShapeScene::rotation);
+  table.add("centre", any_number, {"", "length", "where the shape's origin is placed, after rotation"}, shape,
+            &ShapeScene::centre);
+}
+
+void add_membrane_keys(KeyTable& table) {
+  table.begin("membrane");
+  table.add("bending_modulus", not_negative,
+            {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus; absent or 0: no bending"}, membrane,
+            &MembraneScene::bending_modulus);
+  table.add("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"}, membrane,
+            &MembraneScene::inextensible);
+  table.add("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"}, membrane,
+            &MembraneScene::capacitance);
+  table.add("conductance", not_negative, {"G_m", "conductance/area", "used with [electric] only"}, membrane,
+            &MembraneScene::conductance);
+}
+
+void add_fluid_keys(KeyTable& table) {
+  table.begin("fluid");
+  table.add("viscosity", positive, {"μ", "viscosity", "inside and outside"}, fluid, &FluidScene::viscosity);
+}
+
+void add_flow_keys(KeyTable& table) {
+  table.begin("flow");
+  table
+      .add_word("kind", {"shear", "planar_extension", "axisymmetric_extension", "gradient"},
+                "rate (z, 0, 0), rate (x, 0, -z), rate (-x/2, -y/2, z), or any gradient", flow, &FlowScene::kind)
+      .required = true;
+  table.begin("flow", {"shear", "planar_extension", "axisymmetric_extension"});
+  table.add("rate", any_number, {"γ̇", "1/time", "velocity gradient"}, flow, &FlowScene::rate).required = true;
+  table.begin("flow", {"gradient"});
+  table.add("gradient", any_number, {"∇v", "1/time", "rows dv_i/dx_j of trace zero"}, flow, &FlowScene::gradient)
+      .required = true;
+}
+
+void add_electric_keys(KeyTable& table) {
+  table.begin("electric");
+  table.add("field", any_number, {"E_∞", "field", "applied uniform field"}, electric, &ElectricScene::field).required =
+      true;
+  table
+      .add("conductivity_in", not_negative, {"σ_i", "conductivity", "of the fluid inside"}, electric,
+           &ElectricScene::conductivity_in)
+      .required = true;
+  table
+      .add("conductivity_out", not_negative, {"σ_e", "conductivity", "of the fluid outside"}, electric,
+           &ElectricScene::conductivity_out)
+      .required = true;
+  table.add("permittivity", positive, {"ε", "permittivity", "inside and outside"}, electric,
+            &ElectricScene::permittivity);
+  table.add_word("initial_Vm", {"zero", "steady"}, "transmembrane potential at time 0", electric,
+                 &ElectricScene::initial_potential);
+}
+
+void add_numerics_keys(KeyTable& table) {
+  table.begin("numerics");
+  table.add("order", {4, 64}, {"p", "1", "degree of the spherical harmonics"}, numerics, &NumericsScene::order);
+  table.add("dt", positive, {"Δt", "time", "largest time step"}, numerics, &NumericsScene::dt).required = true;
+  table
+      .add("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone"}, numerics,
+           &NumericsScene::end_time)
+      .required = true;
+  table.add_word("symmetry", {"auto", "off"}, "whether symmetries of the scene may be used", numerics,
+                 &NumericsScene::symmetry);
+}
+
+void add_output_keys(KeyTable& table) {
+  table.begin("output");
+  table.add("every", positive, {"", "time", "time between snapshots; absent: the start and the end only"}, output,
+            &OutputScene::every);
+}
+
+TableDescription always_present(std::string_view name, std::string_view description, bool required = false) {
+  return {name, description, required, [](const Scene&) { return true; }, [](Scene&) {}};
+}
+
+/// An effect that the scene has exactly if it has the table.
+template <typename Member>
+TableDescription optional_table(std::string_view name, std::string_view description,
+                                std::optional<Member> Scene::*member) {
+  return {name, description, false, [member](const Scene& scene) { return (scene.*member).has_value(); },
+          [member](Scene& scene) { (scene.*member).emplace(); }};
+}
+
+}  // namespace
+
+std::vector<TableDescription> table_rows() {
+  return {
+      optional_table("units", "what 1 means; absent: values are dimensionless", &Scene::units),
+      always_present("shape", "initial shape", true),
+      always_present("membrane", "mechanical and electric properties of the membrane"),
+      always_present("fluid", "the fluids inside and outside"),
+      optional_table("flow", "background flow; absent: quiescent", &Scene::flow),
+      optional_table("electric", "applied field; absent: nothing electric is assembled", &Scene::electric),
+      always_present("numerics", "resolution in space and time", true),
+      always_present("output", "what is written"),
+  };
+}
+
+std::vector<KeyDescription> key_rows() {
+  KeyTable table;
+  add_units_keys(table);
+  add_shape_keys(table);
+  add_membrane_keys(table);
+  add_fluid_keys(table);
+  add_flow_keys(table);
+  add_electric_keys(table);
+  add_numerics_keys(table);
+  add_output_keys(table);
+  return table.take();
+}
+
+}  // namespace vehd

@@ -1,0 +1,76 @@
+#include "bie/scene/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bie/geometry/surface.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+namespace {
+
+/// Share of the largest coefficient below which a coefficient is rounding.
+constexpr double rounding = 1e-14;
+/// Area elements are no polynomials.
+int fine_order(int order) { return std::max(4 * order, 128); }
+
+/// Cosine and sine of an angle in degrees.
+struct Turn {
+  double cosine, sine;
+};
+
+Turn turn_of(double degrees) {
+  int quarters = 0;
+  const double rest = std::remquo(degrees, 90.0, &quarters) * std::numbers::pi / 180.0;
+  Turn turn{std::cos(rest), std::sin(rest)};
+  for (int i = 0; i < (quarters & 3); ++i) turn = {-turn.sine, turn.cosine};
+  return turn;
+}
+
+}  // namespace
+
+Matrix3 rotation_matrix(const AxisAngle& rotation) {
+  const Vector3 axis = Vector3(rotation[0], rotation[1], rotation[2]).stableNormalized();
+  const Turn turn = turn_of(rotation[3]);
+  Matrix3 cross;
+  cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
+  return turn.cosine * Matrix3::Identity() + turn.sine * cross + (1.0 - turn.cosine) * axis * axis.transpose();
+}
+
+Matrix rotated(const Matrix& position, const Matrix3& rotation) {
+  const int order = order_of(position.rows());
+  const SphereTransform transform(order, make_grid(order));
+  const SphereGrid& grid = transform.grid();
+  Vector theta(grid.n_points()), phi(grid.n_points());
+  for (Index j = 0; j < grid.n_theta; ++j) {
+    for (Index k = 0; k < grid.n_phi; ++k) {
+      const Vector3 direction(std::sin(grid.theta(j)) * std::cos(grid.phi(k)),
+                              std::sin(grid.theta(j)) * std::sin(grid.phi(k)), std::cos(grid.theta(j)));
+      const Vector3 before = rotation.transpose() * direction;
+      theta(j * grid.n_phi + k) = std::atan2(std::hypot(before.x(), before.y()), before.z());
+      phi(j * grid.n_phi + k) = std::atan2(before.y(), before.x());
+    }
+  }
+  const Matrix points = evaluate_harmonics(position, theta, phi);
+  return without_rounding(transform.analyze(points * rotation.transpose()));
+}
+
+Matrix shifted(Matrix position, const Triple& by) {
+  for (int i = 0; i < 3; ++i) position(0, i) += by[static_cast<std::size_t>(i)] * std::sqrt(4.0 * std::numbers::pi);
+  return position;
+}
+
+Matrix without_rounding(const Matrix& position) {
+  const double smallest = rounding * position.cwiseAbs().maxCoeff();
+  return position.unaryExpr([=](double value) { return std::abs(value) <= smallest ? 0.0 : value; });
+}
+
+ShapeSize size_of(const Matrix& position) {
+  const int order = order_of(position.rows());
+  const Surface surface = make_surface(SphereTransform(order, make_grid(fine_order(order))), position);
+  return {surface_area(surface), enclosed_volume(surface)};
+}
+
+}  // namespace vehd

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "bie/scene/scene.hpp"
+#include "bie/support/types.hpp"
+
+/// Size, direction and place of a shape, all on position coefficients [n_coefficients x 3].
+namespace vehd {
+
+/// Right-handed; exact for quarter turns about the coordinate axes. The axis must not be zero.
+Matrix3 rotation_matrix(const AxisAngle& rotation);
+
+/// The body turned together with its parametrisation, R x(R⁻¹ s): a shape that is symmetric about an axis then has
+/// coefficients that are symmetric about the turned one.
+Matrix rotated(const Matrix& position, const Matrix3& rotation);
+
+/// The shape moved by the vector.
+Matrix shifted(Matrix position, const Triple& by);
+
+/// Zero in place of coefficients that are nothing but rounding: symmetries are read off the coefficients.
+Matrix without_rounding(const Matrix& position);
+
+/// Area and volume of the shape by a rule that is fine enough to be exact for resolved shapes.
+struct ShapeSize {
+  double area = 0.0;
+  double volume = 0.0;
+};
+ShapeSize size_of(const Matrix& position);
+
+}  // namespace vehd

@@ -1,0 +1,77 @@
+#include "bie/scene/schema_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bie/scene/key_reference.hpp"
+#include "bie/scene/schema.hpp"
+#include "bie/scene/text_table.hpp"
+#include "bie/scene/units.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr const char* page_start =
+    R"(# Keys of a scene file
+
+A scene is a TOML file with the tables below. A key that is left out has its default, and an effect whose table is left
+out is absent. Unknown keys, wrong types, wrong units and values out of range are errors that name the line. A run
+writes the scene that it really used, with every default spelled out, to `scene.toml`. This page is printed by
+
+```sh
+build/vehd help scene --markdown > docs/scene_keys.md
+```
+
+Values are dimensionless: any consistent scales will do. `build/vehd help groups SCENE.toml` prints the numbers that do
+not depend on them. With a table `[units]`, even an empty one, any number that has a dimension may instead be a text
+with an SI unit, `"10 um"`, and so may each component of a vector, `[0, 0, "1 kV/cm"]`; it is divided by the reference
+scale of its dimension (last section). A plain number stays what it is, in units of the reference scale.
+)";
+
+/// Header and keys of a table; the column of kinds only where there are any.
+TextTable key_table(const TableDescription& table) {
+  TextTable rows = {{"key", "of kind", "symbol", "type", "unit", "range", "default", "meaning"}};
+  for (const KeyReference& key : key_references()) {
+    if (key.table != table.name) continue;
+    rows.push_back({key.name, key.kinds, key.symbol, key.type, key.unit, key.range, key.default_value, key.meaning});
+  }
+  if (find_key(table.name, "kind") != nullptr) return rows;
+  for (auto& row : rows) row.erase(row.begin() + 1);
+  return rows;
+}
+
+/// The dimensions that some key has.
+TextTable unit_table() {
+  TextTable rows = {{"dimension", "reference scale", "units"}};
+  for (const Dimension& dimension : dimensions()) {
+    const auto uses = [&](const KeyDescription& key) { return key.unit == dimension.name; };
+    if (std::none_of(scene_keys().begin(), scene_keys().end(), uses)) continue;
+    rows.push_back({std::string(dimension.name), dimension.scale_text(), dimension.accepted()});
+  }
+  return rows;
+}
+
+std::string presence(const TableDescription& table) { return table.required ? " (required)" : ""; }
+
+}  // namespace
+
+std::string scene_help() {
+  std::string text;
+  for (const TableDescription& table : scene_tables()) {
+    text += fmt::format("[{}]  {}{}\n", table.name, table.description, presence(table));
+    text += aligned(key_table(table), "  ") + "\n";
+  }
+  return text + "Units of a scene with [units], as in \"10 um\"\n" + aligned(unit_table(), "  ");
+}
+
+std::string scene_help_markdown() {
+  std::string text = page_start;
+  for (const TableDescription& table : scene_tables()) {
+    text += fmt::format("\n## [{}]\n\n{}{}.\n\n", table.name, table.description, presence(table));
+    text += markdown_table(key_table(table));
+  }
+  return text + "\n## Units\n\n" + markdown_table(unit_table());
+}
+
+}  // namespace vehd

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "bie/scene/scene.hpp"
+
+/// Ellipsoids of revolution about z with the area 4π.
+namespace vehd {
+
+/// Semi-axes of the prolate of that reduced volume, above about 0.15.
+Triple prolate_axes(double reduced_volume);
+
+/// Semi-axes of the oblate of that reduced volume, above about 0.03.
+Triple oblate_axes(double reduced_volume);
+
+}  // namespace vehd

@@ -1,0 +1,123 @@
+#include "bie/scene/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace vehd {
+namespace {
+
+constexpr std::array<std::string_view, 4> scale_names = {"length", "time", "viscosity", "potential"};
+constexpr std::array<std::string_view, 4> scale_symbols = {"L", "T", "M", "Φ"};
+
+/// Vacuum permittivity in F/m.
+constexpr double vacuum_permittivity = 8.8541878188e-12;
+
+std::vector<Dimension> make_dimensions() {
+  return {
+      {"length", {1, 0, 0, 0}, {{"m"}, {"mm", 1, 1e3}, {"um", 1, 1e6}, {"nm", 1, 1e9}}},
+      {"area", {2, 0, 0, 0}, {{"m^2"}, {"mm^2", 1, 1e6}, {"um^2", 1, 1e12}}},
+      {"1/length", {-1, 0, 0, 0}, {{"1/m"}, {"1/mm", 1e3}, {"1/um", 1e6}}},
+      {"time", {0, 1, 0, 0}, {{"s"}, {"ms", 1, 1e3}, {"us", 1, 1e6}, {"ns", 1, 1e9}}},
+      {"1/time", {0, -1, 0, 0}, {{"1/s"}, {"1/ms", 1e3}, {"Hz"}, {"kHz", 1e3}, {"MHz", 1e6}}},
+      {"velocity", {1, -1, 0, 0}, {{"m/s"}, {"mm/s", 1, 1e3}, {"um/s", 1, 1e6}}},
+      {"acceleration", {1, -2, 0, 0}, {{"m/s^2"}}},
+      {"density", {-2, 1, 1, 0}, {{"kg/m^3"}, {"g/cm^3", 1e3}}},
+      {"viscosity", {0, 0, 1, 0}, {{"Pa s"}, {"mPa s", 1, 1e3}}},
+      {"energy", {3, -1, 1, 0}, {{"J"}, {"aJ", 1, 1e18}, {"zJ", 1, 1e21}}},
+      {"potential", {0, 0, 0, 1}, {{"V"}, {"mV", 1, 1e3}}},
+      {"field", {-1, 0, 0, 1}, {{"V/m"}, {"kV/m", 1e3}, {"V/cm", 1e2}, {"kV/cm", 1e5}}},
+      {"conductivity", {2, -2, 1, -2}, {{"S/m"}, {"mS/m", 1, 1e3}, {"mS/cm", 1, 1e1}, {"uS/cm", 1, 1e4}}},
+      {"permittivity", {2, -1, 1, -2}, {{"F/m"}, {"pF/m", 1, 1e12}, {"eps0", vacuum_permittivity}}},
+      {"capacitance/area", {1, -1, 1, -2}, {{"F/m^2"}, {"mF/m^2", 1, 1e3}, {"uF/cm^2", 1, 1e2}}},
+      {"conductance/area", {1, -2, 1, -2}, {{"S/m^2"}, {"S/cm^2", 1e4}, {"mS/cm^2", 1e1}}},
+  };
+}
+
+std::array<std::optional<double>, 4> scales(const UnitsScene& units) {
+  return {units.length, units.time, units.viscosity, units.potential};
+}
+
+/// Other ways of writing the same unit.
+std::string plain_unit(std::string_view text) {
+  constexpr std::array<std::array<std::string_view, 2>, 7> spellings = {
+      {{"µ", "u"}, {"μ", "u"}, {"²", "^2"}, {"³", "^3"}, {"·", " "}, {"*", " "}, {"\t", " "}}};
+  std::string unit(text);
+  for (const auto& [written, plain] : spellings) {
+    for (std::size_t at = unit.find(written); at != std::string::npos; at = unit.find(written, at + plain.size())) {
+      unit.replace(at, written.size(), plain);
+    }
+  }
+  const auto both_spaces = [](char a, char b) { return a == ' ' && b == ' '; };
+  unit.erase(std::unique(unit.begin(), unit.end(), both_spaces), unit.end());
+  if (unit.starts_with(' ')) unit.erase(0, 1);
+  if (unit.ends_with(' ')) unit.pop_back();
+  return unit;
+}
+
+}  // namespace
+
+const Unit* Dimension::find(std::string_view symbol) const {
+  const auto found = std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return unit.symbol == symbol; });
+  return found == units.end() ? nullptr : &*found;
+}
+
+std::string Dimension::accepted() const {
+  std::vector<std::string_view> symbols;
+  for (const Unit& unit : units) symbols.push_back(unit.symbol);
+  return fmt::format("{}", fmt::join(symbols, ", "));
+}
+
+std::string Dimension::scale_text() const {
+  std::vector<std::string> factors;
+  for (const std::size_t i : {2U, 0U, 1U, 3U}) {
+    if (powers[i] == 0) continue;
+    factors.push_back(powers[i] == 1 ? std::string(scale_symbols[i])
+                                     : fmt::format("{}^{}", scale_symbols[i], powers[i]));
+  }
+  return fmt::format("{}", fmt::join(factors, " "));
+}
+
+const std::vector<Dimension>& dimensions() {
+  static const std::vector<Dimension> all = make_dimensions();
+  return all;
+}
+
+const Dimension* find_dimension(std::string_view name) {
+  for (const Dimension& dimension : dimensions()) {
+    if (dimension.name == name) return &dimension;
+  }
+  return nullptr;
+}
+
+std::optional<Quantity> parse_quantity(std::string_view text) {
+  const std::size_t start = text.find_first_not_of(' ');
+  if (start == std::string_view::npos) return std::nullopt;
+  const char* end = text.data() + text.size();
+  Quantity quantity;
+  const auto [rest, error] = std::from_chars(text.data() + start, end, quantity.number);
+  if (error != std::errc() || !std::isfinite(quantity.number)) return std::nullopt;
+  quantity.unit = plain_unit(std::string_view(rest, static_cast<std::size_t>(end - rest)));
+  return quantity;
+}
+
+std::optional<double> reference_scale(const UnitsScene& units, const Dimension& dimension) {
+  if (!missing_scale(units, dimension).empty()) return std::nullopt;
+  double scale = 1.0;
+  for (std::size_t i = 0; i < dimension.powers.size(); ++i) {
+    if (dimension.powers[i] != 0) scale *= std::pow(*scales(units)[i], dimension.powers[i]);
+  }
+  return scale;
+}
+
+std::string_view missing_scale(const UnitsScene& units, const Dimension& dimension) {
+  for (std::size_t i = 0; i < dimension.powers.size(); ++i) {
+    if (dimension.powers[i] != 0 && !scales(units)[i]) return scale_names[i];
+  }
+  return {};
+}
+
+}  // namespace vehd

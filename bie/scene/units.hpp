@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bie/scene/scene.hpp"
+
+/// Values with SI units: which units each physical dimension has, and what 1 of the scene means in it. Four reference
+/// scales (length, time, viscosity, potential) fix all others, electric ones too, because the potential times a charge
+/// is an energy.
+namespace vehd {
+
+/// A unit as a ratio of two numbers, each exact, so that "10 um" is the number nearest to 1e-5.
+struct Unit {
+  std::string_view symbol;
+  double times = 1.0;
+  double over = 1.0;
+};
+
+struct Dimension {
+  std::string_view name;
+  std::array<int, 4> powers;  ///< of the reference length, time, viscosity and potential
+  std::vector<Unit> units;    ///< the first is the SI unit
+
+  [[nodiscard]] std::string_view si_unit() const { return units.front().symbol; }
+  /// nullptr if there is no such unit.
+  [[nodiscard]] const Unit* find(std::string_view symbol) const;
+  /// "m, mm, um, nm"
+  [[nodiscard]] std::string accepted() const;
+  /// "M L^3 T^-1", the reference scale of this dimension
+  [[nodiscard]] std::string scale_text() const;
+};
+
+const std::vector<Dimension>& dimensions();
+
+/// nullptr if there is none of that name.
+const Dimension* find_dimension(std::string_view name);
+
+/// A number and what follows it, "1 kV/cm".
+struct Quantity {
+  double number = 0.0;
+  std::string unit;  ///< in ASCII: u for micro, ^2 for a square, one space for a product
+
+  [[nodiscard]] double in_si(const Unit& of) const { return number * of.times / of.over; }
+};
+
+/// nullopt if the text does not start with a number.
+std::optional<Quantity> parse_quantity(std::string_view text);
+
+/// SI value of 1 of the scene.
+/// @return nullopt if a scale that the dimension needs is absent
+std::optional<double> reference_scale(const UnitsScene& units, const Dimension& dimension);
+
+/// Name in [units] of the first scale that the dimension needs and [units] lacks; empty if there is none.
+std::string_view missing_scale(const UnitsScene& units, const Dimension& dimension);
+
+}  // namespace vehd

@@ -1,0 +1,155 @@
+#include "bie/scene/units.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "bie/scene/dimensionless_groups.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace {
+
+std::string without_line(std::string text, const std::string& start) {
+  const std::size_t at = text.find("\n" + start) + 1;
+  return text.erase(at, text.find('\n', at) + 1 - at);
+}
+
+std::string replaced(std::string text, const std::string& old_part, const std::string& new_part) {
+  return text.replace(text.find(old_part), old_part.size(), new_part);
+}
+
+/// Message of the scene in SI units with a part replaced.
+std::string message_with(const std::string& old_part, const std::string& new_part) {
+  return message_of(replaced(si_scene(), old_part, new_part));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(units)
+
+BOOST_AUTO_TEST_CASE(quantities_are_parsed_however_they_are_spelled) {
+  const auto unit_of = [](const char* text) { return vehd::parse_quantity(text)->unit; };
+  BOOST_TEST(unit_of("1 kV/cm") == "kV/cm");
+  BOOST_TEST(unit_of(" 1.5e-3m ") == "m");
+  BOOST_TEST(unit_of("10 µm²") == "um^2");
+  BOOST_TEST(unit_of("10 μm") == "um");
+  BOOST_TEST(unit_of("1 mPa·s") == "mPa s");
+  BOOST_TEST(unit_of("1 mPa * s") == "mPa s");
+  BOOST_TEST(vehd::parse_quantity("-2e-20 J")->number == -2e-20);
+  BOOST_TEST(!vehd::parse_quantity("high"));
+  BOOST_TEST(!vehd::parse_quantity(""));
+  BOOST_TEST(!vehd::parse_quantity("1e999 m"));
+  BOOST_TEST(!vehd::parse_quantity("nan m"));
+}
+
+BOOST_AUTO_TEST_CASE(decimal_values_become_the_nearest_number_in_si) {
+  const auto si = [](const char* dimension, const char* text) {
+    const auto quantity = vehd::parse_quantity(text);
+    return quantity->in_si(*vehd::find_dimension(dimension)->find(quantity->unit));
+  };
+  BOOST_TEST(si("length", "10 um") == 1e-5);
+  BOOST_TEST(si("field", "1 kV/cm") == 1e5);
+  BOOST_TEST(si("capacitance/area", "1 uF/cm^2") == 1e-2);
+  BOOST_TEST(si("conductivity", "1 mS/cm") == 0.1);
+  BOOST_TEST(si("conductivity", "1 uS/cm") == 1e-4);
+  BOOST_TEST(si("conductance/area", "1 mS/cm^2") == 10.0);
+  BOOST_TEST(si("energy", "20 zJ") == 2e-20);
+  BOOST_TEST(si("1/time", "1 kHz") == 1e3);
+  BOOST_TEST(si("viscosity", "1 mPa s") == 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(electric_scales_turn_charge_times_potential_into_energy) {
+  const vehd::UnitsScene units{2.0, 3.0, 5.0, 7.0};
+  const auto scale = [&](const char* name) { return *vehd::reference_scale(units, *vehd::find_dimension(name)); };
+  const double energy = 5.0 * 8.0 / 3.0;  // viscosity length^3 / time
+  const double charge = energy / 7.0;
+  BOOST_TEST(scale("energy") == energy, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scale("field") == 7.0 / 2.0, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scale("capacitance/area") == charge / 7.0 / 4.0, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scale("conductance/area") == charge / 3.0 / 7.0 / 4.0, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scale("conductivity") == charge / 3.0 / 7.0 / 2.0, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scale("permittivity") == charge / 7.0 / 2.0, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scale("density") == 5.0 * 3.0 / 4.0, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scale("acceleration") == 2.0 / 9.0, boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(values_are_divided_by_their_scale) {
+  const vehd::Scene scene = parsed(si_scene());
+  const auto tolerance = boost::test_tools::tolerance(1e-14);
+  const double energy = 1e-3 * 1e-15 / 0.5;
+  BOOST_TEST(*scene.shape.area == 12.566370614359172, tolerance);
+  BOOST_TEST(*scene.membrane.bending_modulus == 2e-20 / energy, tolerance);
+  BOOST_TEST(scene.membrane.capacitance == 0.01 / (energy / 1e-6 / 1e-10), tolerance);
+  BOOST_TEST(scene.membrane.conductance == 100.0 / (energy / 1e-6 / 0.5 / 1e-10), tolerance);
+  BOOST_TEST(scene.fluid.viscosity == 1.0, tolerance);
+  BOOST_TEST(scene.flow->rate == 1.0, tolerance);
+  BOOST_TEST(scene.electric->field[2] == 1e4 / (1e-3 / 1e-5), tolerance);
+  BOOST_TEST(scene.electric->conductivity_in == 0.01 / (energy / 1e-6 / 0.5 / 1e-5), tolerance);
+  BOOST_TEST(scene.electric->permittivity == 80.0 * 8.8541878188e-12 / (energy / 1e-6 / 1e-5), tolerance);
+  BOOST_TEST(scene.numerics.dt == 0.02, tolerance);
+  BOOST_TEST(scene.numerics.end_time == 2.0, tolerance);
+}
+
+BOOST_AUTO_TEST_CASE(plain_numbers_stay_dimensionless) {
+  BOOST_TEST(*parsed(replaced(si_scene(), "\"2e-20 J\"", "0.25")).membrane.bending_modulus == 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(absent_scales_make_radius_viscosity_bending_and_capacitance_one) {
+  std::string text = si_scene();
+  for (const char* line : {"length = ", "time = ", "viscosity = ", "potential = "}) text = without_line(text, line);
+  const vehd::Scene scene = parsed(text);
+  const auto tolerance = boost::test_tools::tolerance(1e-14);
+  BOOST_TEST(*scene.units->length == 1e-5, tolerance);
+  BOOST_TEST(*scene.shape.area == 12.566370614359172, tolerance);
+  BOOST_TEST(scene.fluid.viscosity == 1.0, tolerance);
+  BOOST_TEST(*scene.membrane.bending_modulus == 1.0, tolerance);
+  BOOST_TEST(scene.membrane.capacitance == 1.0, tolerance);
+  BOOST_TEST(*scene.units->time == 1e-3 * 1e-15 / 2e-20, tolerance);
+}
+
+BOOST_AUTO_TEST_CASE(an_absent_scale_that_no_value_needs_is_no_error) {
+  const std::string text = with_appended("[units]\nlength = '1 um'\n");
+  BOOST_TEST(message_of(text) == "");
+  BOOST_TEST(!parsed(text).units->time.has_value());
+  BOOST_TEST(message_of(replaced(text, "[1.0, 1.0, 2.0]", "['1 um', '1 um', '2000 nm']")) == "");
+}
+
+BOOST_AUTO_TEST_CASE(absent_scale_that_a_value_needs) {
+  BOOST_TEST(message_of(replaced(without_line(si_scene(), "time = "), "\"2e-20 J\"", "0.25")) ==
+             "scene.toml:11: \"capacitance\" in [membrane] is the text '1 uF/cm^2', but the scene has no reference "
+             "time; accepted: \"time\" in [units], or a unit for \"bending_modulus\" in [membrane]");
+}
+
+BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {
+  BOOST_TEST(message_of(with_appended("[fluid]\nviscosity = '1 mPa s'\n")) ==
+             "scene.toml:9: \"viscosity\" in [fluid] is the text '1 mPa s', but the scene has no table [units]; "
+             "accepted: a number > 0");
+}
+
+BOOST_AUTO_TEST_CASE(wrong_units_name_the_accepted_ones) {
+  BOOST_TEST(message_with("\"2e-20 J\"", "'2e-20 N'") ==
+             "scene.toml:11: \"bending_modulus\" in [membrane] is the text '2e-20 N', whose unit is none of energy; "
+             "accepted: J, aJ, zJ");
+  BOOST_TEST(message_with("\"0.1 kV/cm\"", "'0.1 kV'") ==
+             "scene.toml:20: \"field\" in [electric] is the text '0.1 kV', whose unit is none of field; accepted: V/m, "
+             "kV/m, V/cm, kV/cm");
+  BOOST_TEST(message_with("\"10 ms\"", "'10'") ==
+             "scene.toml:25: \"dt\" in [numerics] is the text '10', without a unit; accepted: s, ms, us, ns");
+  BOOST_TEST(message_with("\"10 ms\"", "'soon'") ==
+             "scene.toml:25: \"dt\" in [numerics] is the text 'soon'; accepted: a number > 0");
+  BOOST_TEST(message_with("reduced_volume = 0.9", "reduced_volume = '0.9 m'") ==
+             "scene.toml:8: \"reduced_volume\" in [shape] is the text '0.9 m'; accepted: a number 0.2 ... 1");
+  BOOST_TEST(message_with("\"10 ms\"", "'-10 ms'") ==
+             "scene.toml:25: \"dt\" in [numerics] is the text '-10 ms'; accepted: a number > 0");
+}
+
+BOOST_AUTO_TEST_CASE(reference_scales_need_a_unit_and_a_positive_number) {
+  const std::string accepted = "; accepted: a positive number with its unit in quotes, m, mm, um, nm";
+  BOOST_TEST(message_with("\"10 um\"", "10.0") == "scene.toml:2: \"length\" in [units] is 10.0" + accepted);
+  BOOST_TEST(message_with("\"10 um\"", "'0 um'") ==
+             "scene.toml:2: \"length\" in [units] is the text '0 um'" + accepted);
+  BOOST_TEST(message_with("\"10 um\"", "'10 us'") ==
+             "scene.toml:2: \"length\" in [units] is the text '10 us', whose unit is none of length; accepted: m, mm, "
+             "um, nm");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
