@@ -16,4 +16,24 @@ inline std::array<double, 6> stokeslet(double rx, double ry, double rz, double i
           inverse_r + ry * ry * inverse_r3, ry * rz * inverse_r3, inverse_r + rz * rz * inverse_r3};
 }
 
+/// Prefactor 3/(4π) of the Stokes double layer; the viscosity does not enter.
+constexpr double kStokesDoubleLayerPrefactor = 3.0 / (4.0 * std::numbers::pi);
+
+/// Upper triangle xx, xy, xz, yy, yz, zz of r_i r_j (r·n(y))/|r|⁵ without prefactor: the stress −3/(4π) r_i r_j
+/// r_k/|r|⁵ of a Stokeslet, applied to the normal at the source and turned in sign, so that the layer obeys the same
+/// jumps as the Laplace double layer. For a rigid motion v = a + b × y
+///   D[v] = −v inside, −½ v on the surface (principal value), 0 outside,
+/// and D[v] of any v jumps by −v from outside to inside. A flow with velocity u and traction t = σ·n on the surface has
+///   u = S[t]/μ − D[u] inside (½u on the surface), and with decay u = D[u] − S[t]/μ outside.
+/// As r·n(y) = O(|r|²) for smooth surfaces, the kernel is O(1/|r|).
+inline std::array<double, 6> stokes_double_kernel(double rx, double ry, double rz, double r_dot_source_normal,
+                                                  double inverse_r) {
+  const double inverse_r2 = inverse_r * inverse_r;
+  const double factor = r_dot_source_normal * inverse_r2 * inverse_r2 * inverse_r;
+  const double x = factor * rx;
+  const double y = factor * ry;
+  const double z = factor * rz;
+  return {x * rx, x * ry, x * rz, y * ry, y * rz, z * rz};
+}
+
 }  // namespace vehd

@@ -22,7 +22,7 @@ BackgroundFlow axisymmetric_extension(double rate) {
 }
 
 EffectDescription LinearFlowEffect::description() const {
-  return {"background flow", "v_inf = gradient x on the right of Eq. (5)", {}, "", {}};
+  return {"background flow", "v_inf = gradient x on the right of Eq. (5)", {}, {}};
 }
 
 void LinearFlowEffect::add(const Situation& situation, Forcing& forcing) const {

@@ -38,8 +38,7 @@ Matrix linearised_bending_force(const BendingParameters& bending, const Membrane
 EffectDescription bending_description() {
   return {"bending",
           "f_b, Eq. (2), implicit through (28)",
-          {.stokes_single = true},
-          "velocity of the force, Eq. (5)",
+          {{&LayerSelection::stokes_single, "velocity of f_b, Eq. (5)"}},
           {"change of H"}};
 }
 

@@ -10,12 +10,16 @@
 
 namespace vehd {
 
-/// What one effect asks of a step, in words for `vehd plan` and in flags for the assembly.
+struct OperatorNeed {
+  bool LayerSelection::*layer;
+  std::string why;
+};
+
+/// What one effect asks of a step.
 struct EffectDescription {
   std::string name;
   std::string adds;  ///< the term of the model
-  LayerSelection layers;
-  std::string why;                    ///< why it needs those operators
+  std::vector<OperatorNeed> operators;
   std::vector<std::string> unknowns;  ///< scalar fields of degree p that it adds to the unknowns of a step
 };
 

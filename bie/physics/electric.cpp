@@ -121,13 +121,14 @@ EffectDescription electric_description(const ElectricParameters& electric) {
   EffectDescription d;
   d.name = "electric field";
   d.adds = "f_E = [[n.Sigma_el]], Eqs. (3), (11)-(15); C_m dV/dt + G_m V = -sigma_i dphi_i/dn, Eq. (30)";
-  d.layers.laplace_single = d.layers.laplace_double = true;
-  d.layers.laplace_adjoint = conductivity_contrast(electric) != 0.0;
-  d.layers.stokes_single = true;
-  d.why = "S in D' of V_m, Eq. (24), and D in the potentials, Eq. (11)";
-  if (d.layers.laplace_adjoint) d.why += "; S' in the charge density, Eq. (12)";
+  d.operators = {{&LayerSelection::laplace_single, "D' of V_m, Eq. (24)"},
+                 {&LayerSelection::laplace_double, "potentials on the membrane, Eq. (11)"},
+                 {&LayerSelection::stokes_single, "velocity of f_E, Eq. (5)"}};
   d.unknowns = {"V_m"};
-  if (d.layers.laplace_adjoint) d.unknowns.emplace_back("g");
+  if (conductivity_contrast(electric) != 0.0) {
+    d.operators.push_back({&LayerSelection::laplace_adjoint, "charge density, Eq. (12)"});
+    d.unknowns.emplace_back("g");
+  }
   return d;
 }
 

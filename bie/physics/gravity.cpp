@@ -3,7 +3,8 @@
 namespace vehd {
 
 EffectDescription GravityEffect::description() const {
-  return {"gravity", "f_g = (rho_i - rho_e)(g.x) n", {.stokes_single = true}, "velocity of the force, Eq. (5)", {}};
+  return {
+      "gravity", "f_g = (rho_i - rho_e)(g.x) n", {{&LayerSelection::stokes_single, "velocity of f_g, Eq. (5)"}}, {}};
 }
 
 void GravityEffect::add(const Situation& situation, Forcing& forcing) const {

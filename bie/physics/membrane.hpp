@@ -1,6 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "bie/geometry/surface.hpp"
+#include "bie/physics/viscosity_contrast.hpp"
 #include "bie/potentials/layer_operators.hpp"
 
 namespace vehd {
@@ -11,11 +15,16 @@ struct Membrane {
   const SphereTransform& fine;  ///< degree p ↔ upsampled grid
   Surface surface;              ///< on the upsampled grid
   LayerOperators layers;
-  double radius;  ///< √(area/4π), of the sphere behind the preconditioners
+  double radius;                                ///< √(area/4π), of the sphere behind the preconditioners
+  std::optional<ViscosityContrast> contrast{};  ///< empty where both fluids have the same viscosity
 
   /// Coefficients of J f from values on the upsampled grid.
   [[nodiscard]] Matrix weighted(const Matrix& values) const {
     return fine.analyze(surface.area_element.asDiagonal() * values);
+  }
+  /// Velocity of the membrane, coefficients, from v_∞ + S[f]/μ_e, which it is between fluids of equal viscosity.
+  [[nodiscard]] Matrix velocity(Matrix driven) const {
+    return contrast ? contrast->velocity(driven) : std::move(driven);
   }
 };
 

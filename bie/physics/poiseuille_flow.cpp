@@ -3,7 +3,7 @@
 namespace vehd {
 
 EffectDescription PoiseuilleFlowEffect::description() const {
-  return {"Poiseuille flow", "v_inf = v_c (1 - (y^2 + z^2)/R^2) e_x on the right of Eq. (5)", {}, "", {}};
+  return {"Poiseuille flow", "v_inf = v_c (1 - (y^2 + z^2)/R^2) e_x on the right of Eq. (5)", {}, {}};
 }
 
 void PoiseuilleFlowEffect::add(const Situation& situation, Forcing& forcing) const {

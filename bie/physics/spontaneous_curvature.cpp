@@ -5,8 +5,7 @@ namespace vehd {
 EffectDescription SpontaneousCurvatureEffect::description() const {
   return {"spontaneous curvature",
           "f_c = -2 kappa_B c (K - c H) n",
-          {.stokes_single = true},
-          "velocity of the force, Eq. (5)",
+          {{&LayerSelection::stokes_single, "velocity of f_c, Eq. (5)"}},
           {}};
 }
 

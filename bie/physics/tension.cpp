@@ -16,8 +16,7 @@ Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& ve
 EffectDescription tension_description() {
   return {"inextensibility",
           "f_lambda, Eq. (2), from div_gamma v = 0, Eq. (27b)",
-          {.stokes_single = true},
-          "velocity of the force, Eq. (5)",
+          {{&LayerSelection::stokes_single, "velocity of f_lambda, Eq. (5)"}},
           {"tension"}};
 }
 

@@ -42,6 +42,15 @@ int batch_count(int n_latitudes, int n_targets) {
 
 }  // namespace
 
+std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
+                                       const std::vector<Reflection>& reflections) {
+  const SphereGrid& grid = transform.grid();
+  const TargetImages images(reflections, KernelColumns({}), {quadrature.order, transform.azimuthal_order()},
+                            grid.n_phi);
+  const int n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
+  return std::uint64_t(n_latitudes) * images.originals().size() * quadrature.n_nodes();
+}
+
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                         const Matrix& position, const LayerSelection& selection,
                                         Instruments& instruments, const std::vector<Reflection>& reflections) {
@@ -68,7 +77,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const int n_originals = static_cast<int>(originals.size());
   const int n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
   const int n_batches = batch_count(n_latitudes, n_originals);
-  const std::uint64_t evaluations = std::uint64_t(n_latitudes) * n_originals * quadrature.n_nodes();
+  const std::uint64_t evaluations = evaluations_per_assembly(quadrature, transform, reflections);
   // Kernel values below which waking a second thread costs more than it saves.
   constexpr std::uint64_t kParallelEvaluations = 50000;
   // Per Fourier mode of the target azimuth: [kernels * coefficients x latitudes].
@@ -134,11 +143,18 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
     result.laplace_adjoint = ScalarOperator(std::move(operators[kernels.adjoint]), active.indices);
     instruments.count_kernel("laplace_adjoint", evaluations);
   }
-  if (selection.stokes_single) {
+  const auto stokes_operator = [&](int first) {
     std::array<Matrix, 6> blocks;
-    for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators[kernels.stokes + c]);
-    result.stokes_single = StokesOperator(std::move(blocks), active.indices);
+    for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators[first + c]);
+    return StokesOperator(std::move(blocks), active.indices);
+  };
+  if (selection.stokes_single) {
+    result.stokes_single = stokes_operator(kernels.stokes);
     instruments.count_kernel("stokes_single", evaluations);
+  }
+  if (selection.stokes_double) {
+    result.stokes_double = stokes_operator(kernels.stokes_double);
+    instruments.count_kernel("stokes_double", evaluations);
   }
   return result;
 }

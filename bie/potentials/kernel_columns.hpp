@@ -6,7 +6,7 @@ namespace vehd {
 
 /// What each column of the assembled rows means.
 struct KernelColumns {
-  int single = -1, double_layer = -1, adjoint = -1, stokes = -1;
+  int single = -1, double_layer = -1, adjoint = -1, stokes = -1, stokes_double = -1;
   int count = 0;
 
   explicit KernelColumns(const LayerSelection& selection) {
@@ -17,6 +17,20 @@ struct KernelColumns {
       stokes = count;
       count += 6;
     }
+    if (selection.stokes_double) {
+      stokes_double = count;
+      count += 6;
+    }
+  }
+
+  /// Do the kernels hold the normal at the source?
+  [[nodiscard]] bool need_source_normal() const { return double_layer >= 0 || stokes_double >= 0; }
+  /// Block xx, xy, xz, yy, yz, zz of a Stokes layer that a column belongs to, −1 for scalar kernels.
+  [[nodiscard]] int stokes_block(int column) const {
+    for (const int first : {stokes, stokes_double}) {
+      if (first >= 0 && column >= first && column < first + 6) return column - first;
+    }
+    return -1;
   }
 };
 

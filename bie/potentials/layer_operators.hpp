@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "bie/potentials/rotated_quadrature.hpp"
@@ -14,7 +15,8 @@ namespace vehd {
 /// Densities of S, S′ and the Stokes single layer enter weighted: as coefficients of J f, J = W/sin θ (the area element
 /// on the unit sphere), so that ∫ K f dA = ∫ K (J f) dω. The weighted density of a tangential derivative or of a force
 /// is smoother than the density itself, truncation to degree p keeps its integral exactly, and the kernel rows need no
-/// area element. The density of D enters plain, because J n(y) belongs to its kernel.
+/// area element. The densities of D and of the Stokes double layer enter plain, because J n(y) belongs to their
+/// kernels.
 
 /// Scalar layer operator from coefficients to coefficients of degree p. Stored transposed, so that applying it runs
 /// down contiguous columns. Where only some coefficients are active the matrix holds those alone, and all others are
@@ -36,7 +38,8 @@ class ScalarOperator {
   std::vector<Index> active_;
 };
 
-/// Stokes single layer for viscosity 1 from [n_coefficients x 3] to [n_coefficients x 3].
+/// Stokes layer from [n_coefficients x 3] to [n_coefficients x 3]. The kernels of both layers are symmetric in their
+/// two components.
 class StokesOperator {
  public:
   StokesOperator() = default;
@@ -49,6 +52,8 @@ class StokesOperator {
   /// @throws ShapeError
   [[nodiscard]] Matrix apply(const Matrix& density) const;
   [[nodiscard]] const std::array<Matrix, 6>& transposed() const { return transposed_; }
+  /// coefficient_index of each row, empty if all coefficients are there.
+  [[nodiscard]] const std::vector<Index>& active() const { return active_; }
 
  private:
   [[nodiscard]] Matrix apply_blocks(const Matrix& density) const;
@@ -63,16 +68,22 @@ struct LayerSelection {
   bool laplace_double = false;
   bool laplace_adjoint = false;
   bool stokes_single = false;
+  bool stokes_double = false;
 };
 
-/// Layer operators on the membrane. D and S′ are principal values: the side-dependent ±½ density of
-/// Eq. (11) is the caller's, so that the side is written where it is chosen.
+/// Layer operators on the membrane. D, S′ and the Stokes double layer are principal values: the side-dependent ±½
+/// density of Eq. (11) is the caller's, so that the side is written where it is chosen.
 struct LayerOperators {
   ScalarOperator laplace_single;   ///< J f ↦ S[f], Eq. (8)
   ScalarOperator laplace_double;   ///< f ↦ D[f], Eq. (8), principal value
   ScalarOperator laplace_adjoint;  ///< J f ↦ J S′[f], Eq. (10), principal value; J n(x) is smooth where n(x) is not
   StokesOperator stokes_single;    ///< J f ↦ Stokes single layer, Eq. (6) at μ = 1
+  StokesOperator stokes_double;    ///< v ↦ Stokes double layer, stokes_double_kernel, principal value
 };
+
+/// Kernel evaluations of each selected operator in one assembly: independent targets times quadrature nodes.
+std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
+                                       const std::vector<Reflection>& reflections);
 
 /// Assembles the selected operators for one surface at cost O(p^5): each target's kernel row on the rotated
 /// quadrature is taken back to coefficients by the adjoint of "phase shift, Wigner rotation, synthesis", and the rows

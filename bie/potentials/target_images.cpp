@@ -13,7 +13,7 @@ Eigen::RowVectorXd signs(const Reflection& g, const KernelColumns& kernels, cons
   constexpr int kSecond[] = {0, 1, 2, 1, 2, 2};
   Eigen::RowVectorXd result(kernels.count * active.count());
   for (int c = 0; c < kernels.count; ++c) {
-    const int stokes = kernels.stokes >= 0 ? c - kernels.stokes : -1;
+    const int stokes = kernels.stokes_block(c);
     const int factor = stokes >= 0 ? g.sign(kFirst[stokes]) * g.sign(kSecond[stokes]) : 1;
     for (Index i = 0; i < active.count(); ++i) {
       result[c * active.count() + i] = factor * g.parity(active.n[i], active.m[i]);

@@ -44,7 +44,7 @@ TargetRows::TargetRows(const RotatedQuadrature& quadrature, const KernelColumns&
       rotated_shape_(order_, 3 * chunk),
       rows_(order_, kernels.count * chunk),
       rotated_rows_(order_, kernels.count * chunk),
-      shape_kinds_(kernels.double_layer >= 0 ? kShapeKinds : 1) {}
+      shape_kinds_(kernels.need_source_normal() ? kShapeKinds : 1) {}
 
 void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
   load_shape(targets);
@@ -104,7 +104,7 @@ void TargetRows::rotate_back(std::span<const Target> targets) {
 }
 
 /// Shape data at all nodes of all targets in the chunk, in nodes_[kind]: [quadrant][quarter φ][θ][3][target].
-/// Only the double layer needs the tangents.
+/// Only the double layers need the tangents.
 void TargetRows::synthesize_shape() {
   const Index columns = Index{3} * chunk_;
   const Index plane = q_.n_theta * columns;
@@ -212,6 +212,21 @@ void TargetRows::evaluate_kernels(std::span<const Target> targets) {
         for (int t = 0; t < n_targets; ++t) {
           const auto g = stokeslet(rx[t], ry[t], rz[t], inverse_r[t]);
           for (int c = 0; c < 6; ++c) stokes[c * n_targets + t] = stokes_weight * g[c];
+        }
+      }
+      if (kernels_.stokes_double >= 0) {
+        const double* u = nodes_[1].row(azimuth).data() + Index{3} * i * n_targets;
+        const double* v = nodes_[2].row(azimuth).data() + Index{3} * i * n_targets;
+        double* stokes = out + kernels_.stokes_double * n_targets;
+        const double stokes_weight = kStokesDoubleLayerPrefactor * q_.weight[i];
+#pragma omp simd
+        for (int t = 0; t < n_targets; ++t) {
+          const double ux = u[t], uy = u[n_targets + t], uz = u[2 * n_targets + t];
+          const double vx = v[t], vy = v[n_targets + t], vz = v[2 * n_targets + t];
+          const double r_dot_area =
+              rx[t] * (uy * vz - uz * vy) + ry[t] * (uz * vx - ux * vz) + rz[t] * (ux * vy - uy * vx);
+          const auto k = stokes_double_kernel(rx[t], ry[t], rz[t], r_dot_area, inverse_r[t]);
+          for (int c = 0; c < 6; ++c) stokes[c * n_targets + t] = stokes_weight * k[c];
         }
       }
     }

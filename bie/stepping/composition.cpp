@@ -19,6 +19,7 @@ std::vector<EffectDescription> effects_of(const Model& model) {
   std::vector<EffectDescription> result;
   if (model.mobile && model.bending) result.push_back(bending_description());
   if (model.mobile && model.inextensible) result.push_back(tension_description());
+  if (model.mobile && model.viscosity_ratio != 1.0) result.push_back(viscosity_contrast_description());
   if (model.electric) result.push_back(electric_description(*model.electric));
   if (!model.mobile) return result;
   for (const auto& effect : explicit_effects(model)) result.push_back(effect->description());
@@ -34,11 +35,10 @@ LayerSelection needed_layers(const Model& model, bool electric_awake) {
   if (!electric_awake) awake.electric.reset();
   LayerSelection result;
   for (const EffectDescription& effect : effects_of(awake)) {
-    result.laplace_single |= effect.layers.laplace_single;
-    result.laplace_double |= effect.layers.laplace_double;
-    result.laplace_adjoint |= effect.layers.laplace_adjoint;
-    result.stokes_single |= effect.layers.stokes_single && model.mobile;
+    for (const OperatorNeed& need : effect.operators) result.*need.layer = true;
   }
+  // A frozen shape has no velocity.
+  if (!model.mobile) result.stokes_single = false;
   return result;
 }
 

@@ -15,14 +15,20 @@ namespace vehd {
 namespace {
 
 Membrane make_membrane(const Discretisation& discretisation, const Matrix& position, const LayerSelection& selection,
-                       Instruments& instruments) {
+                       double viscosity_ratio, Instruments& instruments) {
   const Discretisation::Tables& tables = discretisation.tables();
   Surface surface = make_surface(tables.fine, position);
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   const auto timer = instruments.time("operator assembly");
   LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments,
                                                    tables.symmetry.reflections);
-  return {tables.fine, std::move(surface), std::move(layers), radius};
+  std::optional<ViscosityContrast> contrast;
+  if (selection.stokes_double) {
+    contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, tables.fine, surface, layers.stokes_double,
+                     tables.symmetry.reflections);
+    layers.stokes_double = {};  // its factor replaces it
+  }
+  return {tables.fine, std::move(surface), std::move(layers), radius, std::move(contrast)};
 }
 
 /// f_E with q as a by-product, Eqs. (12), (15), (32).
@@ -44,6 +50,7 @@ Matrix solve_velocity(const Model& model, const NumericalSettings& settings, con
   if (!membrane.layers.stokes_single.empty()) {
     velocity += membrane.layers.stokes_single.apply(membrane.weighted(forcing.force)) / model.viscosity;
   }
+  velocity = membrane.velocity(std::move(velocity));
   if (!model.inextensible) return velocity;
   const VelocityField driven = velocity_field(membrane, velocity, false);
   MembraneUnknowns unknowns;
@@ -70,8 +77,11 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
   evaluation.electric_asleep = asleep;
   std::shared_ptr<Evaluation::Parts> made;
   if (!reuse) {
-    made = std::make_shared<Evaluation::Parts>(Evaluation::Parts{
-        make_membrane(discretisation, state.position, needed_layers(model, !asleep), instruments), {}, false});
+    made = std::make_shared<Evaluation::Parts>(
+        Evaluation::Parts{make_membrane(discretisation, state.position, needed_layers(model, !asleep),
+                                        model.viscosity_ratio, instruments),
+                          {},
+                          false});
   }
   const Membrane& membrane = reuse ? previous->parts->membrane : made->membrane;
   Fields& fields = evaluation.fields;

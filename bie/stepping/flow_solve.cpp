@@ -22,7 +22,7 @@ Matrix membrane_velocity(const Model& model, const Membrane& membrane, const Mem
   Matrix force = Matrix::Zero(membrane.surface.n_points(), 3);
   if (unknowns.curvature.size() > 0) force += linearised_bending_force(*model.bending, membrane, unknowns.curvature);
   if (unknowns.tension.size() > 0) force += tension_force(membrane, unknowns.tension);
-  return membrane.layers.stokes_single.apply(membrane.weighted(force)) / model.viscosity;
+  return membrane.velocity(membrane.layers.stokes_single.apply(membrane.weighted(force)) / model.viscosity);
 }
 
 bool uniform_tension_is_free(const Model& model, const Membrane& membrane) {
@@ -31,7 +31,8 @@ bool uniform_tension_is_free(const Model& model, const Membrane& membrane) {
   uniform.tension = Vector::Unit(n_coefficients(membrane.fine.order()), 0);
   const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, uniform), false);
   const double response = weighted_divergence(membrane, u.derivatives)[0];
-  const double typical = sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0}, 2)(1, 1);
+  const double typical =
+      sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0, model.viscosity_ratio}, 2)(1, 1);
   // The response grows with the square of the distance from a sphere: this is a distance of 1e-5 radii.
   constexpr double kNoResponse = 1e-10;
   return std::abs(response) < kNoResponse * std::abs(typical);
@@ -48,7 +49,8 @@ SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, 
 
   const auto unpack = [&](const Vector& v) { return MembraneUnknowns{v.head(n_curvature), v.tail(n_tension)}; };
   // Stand-in for the response of the area to a uniform tension, which vanishes on a sphere.
-  const double mean_response = 0.1 * sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0}, 2)(1, 1);
+  const double mean_response =
+      0.1 * sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0, model.viscosity_ratio}, 2)(1, 1);
   const bool pinned = n_tension > 0 && options.pin_uniform_tension;
   const LinearMap map = [&](const Vector& v) {
     const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, unpack(v)), bending);
@@ -59,7 +61,8 @@ SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, 
     return result;
   };
 
-  const SphereFlow sphere{membrane.radius, model.viscosity, bending ? model.bending->modulus : 0.0, dt};
+  const SphereFlow sphere{membrane.radius, model.viscosity, bending ? model.bending->modulus : 0.0, dt,
+                          model.viscosity_ratio};
   std::vector<Eigen::Matrix2d> inverse;
   for (int degree = 0; degree <= membrane.fine.order(); ++degree) {
     Eigen::Matrix2d block = sphere_flow_block(sphere, degree);

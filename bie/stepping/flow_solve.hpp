@@ -6,9 +6,9 @@
 
 namespace vehd {
 
-/// Response of the membrane forces that depend on the unknowns: velocity u = S[F h + T λ]/μ of a curvature increment h
-/// (F of Eq. (28a)) and a tension λ (T of Eq. (28c)). Scalars of degree p replace the three components of x^{n+1}:
-/// (27a) needs x^{n+1} only through H^{n+1}.
+/// Response of the membrane forces that depend on the unknowns: velocity u = S[F h + T λ]/μ, through the velocity map
+/// of a viscosity contrast if there is one, of a curvature increment h (F of Eq. (28a)) and a tension λ (T of Eq.
+/// (28c)). Scalars of degree p replace the three components of x^{n+1}: (27a) needs x^{n+1} only through H^{n+1}.
 struct MembraneUnknowns {
   Vector curvature;  ///< h; empty without bending
   Vector tension;    ///< λ; empty unless inextensible
@@ -22,7 +22,7 @@ struct VelocityField {
 
 VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficients, bool hessian);
 
-/// S[F h + T λ]/μ, coefficients.
+/// u of the unknowns, coefficients.
 Matrix membrane_velocity(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns);
 
 /// Right-hand side of the coupled system: h − dt Hop(u) = curvature, J ∇_γ·u = divergence for u = membrane_velocity.
@@ -42,7 +42,7 @@ struct FlowOptions {
 bool uniform_tension_is_free(const Model& model, const Membrane& membrane);
 
 /// Solves the semi-implicit system (27) with (28) for the increments (h, λ), preconditioned with its exact inverse
-/// on the sphere of the same area for the actual κ_B, μ and dt. dt = 0 leaves the tension problem alone.
+/// on the sphere of the same area for the actual κ_B, both viscosities and dt. dt = 0 leaves the tension problem alone.
 SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, const FlowRightHandSide& rhs,
                        const FlowOptions& options, MembraneUnknowns& unknowns);
 

@@ -11,7 +11,8 @@ namespace vehd {
 
 /// The effects that are present; an empty optional means that nothing of the effect is assembled or evaluated.
 struct Model {
-  double viscosity = 1.0;
+  double viscosity = 1.0;        ///< μ_e, outside
+  double viscosity_ratio = 1.0;  ///< μ_i/μ_e; at 1 there is no Stokes double layer
   bool inextensible = true;
   std::optional<BendingParameters> bending;
   std::optional<BackgroundFlow> flow;

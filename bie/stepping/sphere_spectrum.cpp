@@ -1,12 +1,15 @@
 #include "bie/stepping/sphere_spectrum.hpp"
 
+#include "bie/physics/viscosity_contrast.hpp"
+
 namespace vehd {
 
 Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
   const double n = degree;
   const double odd = 2.0 * n + 1.0;
-  const double layer_v = n / (odd * (2.0 * n + 3.0));
-  const double layer_w = degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0));
+  const ContrastSpectrum contrast = contrast_spectrum(sphere.viscosity_ratio, degree);
+  const double layer_v = n / (odd * (2.0 * n + 3.0)) / contrast.v;
+  const double layer_w = degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w;
   const double mobility = 1.0 / (sphere.viscosity * sphere.radius);
 
   // Coefficients of u on V and W for unit h and unit λ.

@@ -7,14 +7,16 @@ namespace vehd {
 /// Physical parameters of the sphere behind the flow preconditioner.
 struct SphereFlow {
   double radius;
-  double viscosity;
+  double viscosity;        ///< outside
   double bending_modulus;  ///< 0 without bending
   double dt;
+  double viscosity_ratio = 1.0;
 };
 
 /// The coupled system of solve_flow on a sphere, degree n: rows curvature and divergence, columns h and λ.
 /// With V = ∇Y − (n+1) Y r̂ and W = ∇Y + n Y r̂ the Stokes single layer has eigenvalues n/((2n+1)(2n+3)) and
-/// (n+1)/((2n+1)(2n−1)); weighted densities carry R².
+/// (n+1)/((2n+1)(2n−1)); weighted densities carry R². A viscosity contrast divides them by those of
+/// contrast_spectrum.
 Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int n);
 
 }  // namespace vehd

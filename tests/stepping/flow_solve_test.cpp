@@ -37,22 +37,25 @@ BOOST_AUTO_TEST_SUITE(flow_solve)
 
 BOOST_AUTO_TEST_CASE(sphere_flow_block_is_the_assembled_operator_on_a_sphere) {
   const double radius = 1.6;
-  const Model model = stiff_model();
+  Model model = stiff_model();
   const Space space(kOrder);
-  const Membrane membrane = make_membrane(space, sphere(kOrder, radius), kStokesLayer);
-  const SphereFlow parameters{radius, model.viscosity, model.bending->modulus, kDt};
-  for (int n = 0; n <= kOrder / 2; ++n) {
-    const Eigen::Matrix2d block = sphere_flow_block(parameters, n);
-    for (const int m : {-n, 0, n}) {
-      const Vector y = harmonic(kOrder, n, m);
-      const MembraneUnknowns of_curvature = left_side(model, membrane, {y, {}});
-      const MembraneUnknowns of_tension = left_side(model, membrane, {{}, y});
-      const double scale = block.cwiseAbs().maxCoeff();
-      BOOST_TEST_CONTEXT("degree " << n << ", order " << m) {
-        BOOST_TEST(max_difference(of_curvature.curvature, block(0, 0) * y) < 1e-10 * scale);
-        BOOST_TEST(max_difference(of_curvature.tension, block(1, 0) * y) < 1e-10 * scale);
-        BOOST_TEST(max_difference(of_tension.curvature, block(0, 1) * y) < 1e-10 * scale);
-        BOOST_TEST(max_difference(of_tension.tension, block(1, 1) * y) < 1e-10 * scale);
+  for (const double ratio : {1.0, 0.0, 0.2, 30.0}) {
+    model.viscosity_ratio = ratio;
+    const Membrane membrane = make_membrane(space, sphere(kOrder, radius), kStokesLayers, ratio);
+    const SphereFlow parameters{radius, model.viscosity, model.bending->modulus, kDt, ratio};
+    for (int n = 0; n <= kOrder / 2; ++n) {
+      const Eigen::Matrix2d block = sphere_flow_block(parameters, n);
+      for (const int m : {-n, 0, n}) {
+        const Vector y = harmonic(kOrder, n, m);
+        const MembraneUnknowns of_curvature = left_side(model, membrane, {y, {}});
+        const MembraneUnknowns of_tension = left_side(model, membrane, {{}, y});
+        const double scale = block.cwiseAbs().maxCoeff();
+        BOOST_TEST_CONTEXT("viscosity ratio " << ratio << ", degree " << n << ", order " << m) {
+          BOOST_TEST(max_difference(of_curvature.curvature, block(0, 0) * y) < 1e-10 * scale);
+          BOOST_TEST(max_difference(of_curvature.tension, block(1, 0) * y) < 1e-10 * scale);
+          BOOST_TEST(max_difference(of_tension.curvature, block(0, 1) * y) < 1e-10 * scale);
+          BOOST_TEST(max_difference(of_tension.tension, block(1, 1) * y) < 1e-10 * scale);
+        }
       }
     }
   }
@@ -93,6 +96,25 @@ BOOST_AUTO_TEST_CASE(iterations_are_bounded_from_soft_to_stiff_steps) {
     BOOST_TEST_CONTEXT("bending modulus " << modulus) {
       BOOST_TEST(report.converged);
       BOOST_TEST(report.iterations <= 100);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(iterations_are_bounded_at_every_viscosity_ratio) {
+  const Space space(kOrder);
+  const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 107), smooth_coefficients(kOrder, 6, 1, 108)};
+  Model model = shear_model();
+  for (const double ratio : {1e-3, 1.0, 1e3}) {
+    model.viscosity_ratio = ratio;
+    const Membrane membrane = make_membrane(space, ellipsoid(kOrder, {2.0, 1.0, 0.9}), kStokesLayers, ratio);
+    // Without and with bending: the solve of the state and that of the step.
+    for (const double dt : {0.0, kDt}) {
+      MembraneUnknowns unknowns;
+      const SolveReport report = solve_flow(model, membrane, dt, rhs, {1e-9}, unknowns);
+      BOOST_TEST_CONTEXT("viscosity ratio " << ratio << ", dt " << dt) {
+        BOOST_TEST(report.converged);
+        BOOST_TEST(report.iterations <= 40);
+      }
     }
   }
 }

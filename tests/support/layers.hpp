@@ -21,6 +21,7 @@ struct Space {
 
 constexpr LayerSelection kLaplaceLayers{true, true, true, false};
 constexpr LayerSelection kStokesLayer{false, false, false, true};
+constexpr LayerSelection kStokesLayers{.stokes_single = true, .stokes_double = true};
 constexpr LayerSelection kAllLayers{true, true, true, true};
 
 inline LayerOperators assemble(const Space& space, const Matrix& position, const LayerSelection& selection) {

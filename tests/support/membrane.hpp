@@ -8,10 +8,17 @@
 namespace vehd::testing {
 
 /// A frozen membrane on the tables of `space`, which must outlive it.
-inline Membrane make_membrane(const Space& space, const Matrix& position, const LayerSelection& selection) {
+/// @param viscosity_ratio  other than 1 it takes the Stokes double layer of the selection
+inline Membrane make_membrane(const Space& space, const Matrix& position, const LayerSelection& selection,
+                              double viscosity_ratio = 1.0) {
   Surface surface = make_surface(space.fine, position);
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
-  return {space.fine, std::move(surface), assemble(space, position, selection), radius};
+  LayerOperators layers = assemble(space, position, selection);
+  std::optional<ViscosityContrast> contrast;
+  if (viscosity_ratio != 1.0) {
+    contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, space.fine, surface, layers.stokes_double);
+  }
+  return {space.fine, std::move(surface), std::move(layers), radius, std::move(contrast)};
 }
 
 }  // namespace vehd::testing

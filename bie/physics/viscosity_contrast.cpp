@@ -1,0 +1,144 @@
+#include "bie/physics/viscosity_contrast.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "bie/physics/effect.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// One coefficient of one Cartesian component.
+struct Unknown {
+  Index position;  ///< among the operator's coefficients
+  Index entry;     ///< in the column-major [n_coefficients x 3]
+  int component;
+};
+
+std::vector<Unknown> symmetric_unknowns(int order, const std::vector<Index>& active,
+                                        const std::vector<Reflection>& reflections) {
+  const Index n_all = n_coefficients(order);
+  const Index n_active = active.empty() ? n_all : static_cast<Index>(active.size());
+  std::vector<Unknown> result;
+  for (int component = 0; component < 3; ++component) {
+    for (Index position = 0; position < n_active; ++position) {
+      const Index index = active.empty() ? position : active[position];
+      const int n = static_cast<int>(std::sqrt(double(index)));
+      const int m = static_cast<int>(index - coefficient_index(n, 0));
+      const auto keeps = [&](const Reflection& g) { return g.sign(component) * g.parity(n, m) > 0; };
+      if (std::all_of(reflections.begin(), reflections.end(), keeps)) {
+        result.push_back({position, component * n_all + index, component});
+      }
+    }
+  }
+  return result;
+}
+
+/// ½ − D on the unknowns.
+Matrix half_minus(const StokesOperator& double_layer, const std::vector<Unknown>& unknowns) {
+  constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const Index n = static_cast<Index>(unknowns.size());
+  Matrix result(n, n);
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      const Matrix& block = double_layer.transposed()[kBlock[unknowns[i].component][unknowns[j].component]];
+      result(i, j) = -block(unknowns[j].position, unknowns[i].position);
+    }
+  }
+  result.diagonal().array() += 0.5;
+  return result;
+}
+
+/// Orthonormal basis of the translations and rotations among the unknowns.
+Matrix rigid_motions(const Matrix& position, double radius, const std::vector<Index>& entries) {
+  Matrix centred = position / radius;
+  centred.row(0).setZero();
+  Matrix motions(static_cast<Index>(entries.size()), 6);
+  for (int axis = 0; axis < 3; ++axis) {
+    Matrix translation = Matrix::Zero(position.rows(), 3);
+    translation(0, axis) = 1.0;
+    Matrix rotation = Matrix::Zero(position.rows(), 3);
+    rotation.col((axis + 1) % 3) = -centred.col((axis + 2) % 3);
+    rotation.col((axis + 2) % 3) = centred.col((axis + 1) % 3);
+    motions.col(axis) = translation.reshaped()(entries);
+    motions.col(axis + 3) = rotation.reshaped()(entries);
+  }
+  // Motions that the symmetry excludes leave nothing but rounding.
+  Eigen::ColPivHouseholderQR<Matrix> factor;
+  factor.setThreshold(1e-9);
+  factor.compute(motions);
+  return factor.householderQ() * Matrix::Identity(motions.rows(), factor.rank());
+}
+
+}  // namespace
+
+ViscosityContrast::ViscosityContrast(const ViscosityContrastParameters& parameters, const SphereTransform& fine,
+                                     const Surface& surface, const StokesOperator& double_layer,
+                                     const std::vector<Reflection>& reflections)
+    : n_coefficients_(n_coefficients(fine.order())), largest_(std::max(1.0, parameters.ratio)) {
+  const double ratio = parameters.ratio;
+  if (!(ratio >= 0.0)) throw InputError(fmt::format("viscosity ratio is {} but must not be negative", ratio));
+  const std::vector<Unknown> unknowns = symmetric_unknowns(fine.order(), double_layer.active(), reflections);
+  for (const Unknown& unknown : unknowns) unknowns_.push_back(unknown.entry);
+
+  const double radius = std::cbrt(std::abs(enclosed_volume(surface)));
+  rigid_ = rigid_motions(fine.analyze(surface.position), radius, unknowns_);
+  // Of degree p, as v is: the product with its coefficients is the flux of v.
+  const Matrix area_vector = fine.analyze(surface.area_element.asDiagonal() * surface.normal);
+  const Vector flux = Vector(area_vector.reshaped()(unknowns_)).normalized();
+
+  Matrix system = half_minus(double_layer, unknowns);
+  const Matrix defect = rigid_ - system * rigid_;
+  system.noalias() += defect * rigid_.transpose();
+  const Vector outflow = system.transpose() * flux;
+  system.noalias() -= flux * outflow.transpose();
+  // The operator is ratio + (1 − ratio)(½ − D). Its eigenvalue ratio of the expansion is replaced with 1 below ratio 1,
+  // its eigenvalue 1 of the rigid motions with ratio above (undone in `velocity`): what is factorised, over max(1,
+  // ratio), is well conditioned at any ratio.
+  if (ratio > 1.0) {
+    system.noalias() -= rigid_ * rigid_.transpose();
+    system *= -(1.0 - 1.0 / ratio);
+  } else {
+    system.noalias() += flux * flux.transpose();
+    system.diagonal().array() -= 1.0;
+    system *= 1.0 - ratio;
+  }
+  system.diagonal().array() += 1.0;
+  factor_.compute(system);
+}
+
+Matrix ViscosityContrast::velocity(const Matrix& equal_viscosity_velocity) const {
+  require_size("velocity", equal_viscosity_velocity.rows(), n_coefficients_);
+  require_size("velocity (Cartesian components)", equal_viscosity_velocity.cols(), 3);
+  const Vector driven = equal_viscosity_velocity.reshaped()(unknowns_);
+  Vector solution = factor_.solve(driven);
+  const double faded = 1.0 / largest_;
+  const Vector kept = rigid_.transpose() * solution;
+  solution *= faded;
+  solution.noalias() += (1.0 - faded) * (rigid_ * kept);
+  Matrix result = Matrix::Zero(n_coefficients_, 3);
+  result.reshaped()(unknowns_) = solution;
+  return result;
+}
+
+ContrastSpectrum contrast_spectrum(double ratio, int n) {
+  if (n == 0) return {std::max(1.0, ratio), 1.0, 1.0};
+  const double mean = 0.5 * (1.0 + ratio);
+  const double contrast = 1.5 * (1.0 - ratio) / (2.0 * n + 1.0);
+  return {mean - contrast / (2.0 * n + 3.0), mean + contrast / (2.0 * n - 1.0), mean + contrast};
+}
+
+EffectDescription viscosity_contrast_description() {
+  return {"viscosity contrast",
+          "(1 + ratio)/2 v - (1 - ratio) D[v] = v_inf + S[f]/mu in place of Eq. (5)",
+          {{&LayerSelection::stokes_double, "D of the velocity map"}},
+          {}};
+}
+
+}  // namespace vehd

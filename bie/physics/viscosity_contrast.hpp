@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "bie/geometry/surface.hpp"
+#include "bie/potentials/layer_operators.hpp"
+#include "bie/sphere/reflection.hpp"
+
+namespace vehd {
+
+struct EffectDescription;
+
+/// Fluids of different viscosity inside and outside.
+struct ViscosityContrastParameters {
+  double ratio = 1.0;  ///< μ_i/μ_e ≥ 0
+};
+
+/// Velocity map of one frozen membrane between two fluids. Green's identities on either side give
+///
+///   (1 + ratio)/2 v − (1 − ratio) D[v] = w,   w = v_∞ + S[f]/μ_e,
+///
+/// with the principal value of the Stokes double layer D (stokes_double_kernel) and f the force on the fluid; w is the
+/// velocity that two fluids of viscosity μ_e would have. Two facts of the continuous operator are imposed on the
+/// discrete one, as its errors would otherwise be multiplied by ratio or by 1/ratio:
+/// - D[a + b × x] = −½(a + b × x). These motions stay while all others fade as ratio → ∞.
+/// - ∫ n·(½ − D)[v] dA = 0 for any v. So v has no flux where w has none, and the expansion of the inside, which an
+///   incompressible fluid forbids at any viscosity, stays regular as ratio → 0: a flux that w has by discretisation
+///   does not grow.
+/// The map is a dense LU factor on the unknowns that the reflections leave: found once per shape, applied many times.
+class ViscosityContrast {
+ public:
+  /// @param fine         degree p ↔ upsampled grid
+  /// @param surface      on the upsampled grid
+  /// @param double_layer Stokes double layer on the surface, not needed afterwards
+  /// @param reflections  under which surface and velocities are their own images, v(g s) = g v(s); parts of w that are
+  ///                     not are ignored
+  /// @throws InputError unless ratio ≥ 0
+  ViscosityContrast(const ViscosityContrastParameters& parameters, const SphereTransform& fine, const Surface& surface,
+                    const StokesOperator& double_layer, const std::vector<Reflection>& reflections = {});
+
+  /// v from w, coefficients [n_coefficients x 3]. @throws ShapeError
+  [[nodiscard]] Matrix velocity(const Matrix& equal_viscosity_velocity) const;
+
+ private:
+  Index n_coefficients_;
+  std::vector<Index> unknowns_;  ///< entries of the column-major [n_coefficients x 3] that take part
+  double largest_;               ///< max(1, ratio), the scale of the factor
+  Matrix rigid_;                 ///< orthonormal basis of the rigid motions, [unknowns x at most 6]
+  Eigen::PartialPivLU<Matrix> factor_;
+};
+
+/// Eigenvalues of v ↦ (1 + ratio)/2 v − (1 − ratio) D[v] on a sphere for the vector harmonics V = ∇Y − (n+1) Y r̂,
+/// W = ∇Y + n Y r̂, X = r̂ × ∇Y of degree n, where D has
+///   3/(2(2n+1)(2n+3)), −3/(2(2n−1)(2n+1)), −3/(2(2n+1)).
+struct ContrastSpectrum {
+  double v, w, x;
+};
+
+/// At n = 0 there is only V, the expansion: its entry is max(1, ratio), see ViscosityContrast; the others are 1.
+ContrastSpectrum contrast_spectrum(double ratio, int n);
+
+EffectDescription viscosity_contrast_description();
+
+}  // namespace vehd
