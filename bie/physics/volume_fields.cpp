@@ -1,0 +1,52 @@
+#include "bie/physics/volume_fields.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// Zero coefficients in place of a density that is absent.
+Matrix or_zero(const Matrix& density, const Matrix& position, Index components) {
+  return density.size() > 0 ? density : Matrix::Zero(position.rows(), components);
+}
+
+}  // namespace
+
+PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& position, const PotentialSources& sources,
+                              const OffSurfaceSettings& settings, Instruments& instruments) {
+  LayerDensities densities;
+  densities.laplace_single = or_zero(sources.weighted_charge, position, 1);
+  densities.laplace_double = or_zero(sources.transmembrane_potential, position, 1);
+  densities.gradients = true;
+  OffSurfaceValues layers =
+      OffSurfaceLayers(position, std::move(densities), settings).evaluate(points, side, instruments);
+  require_resolved(layers, points);
+  PotentialSamples samples;
+  samples.potential = layers.laplace_single.values - layers.laplace_double.values - points * sources.field;
+  samples.field = layers.laplace_double_gradient.values - layers.laplace_single_gradient.values;
+  samples.field.rowwise() += sources.field.transpose();
+  samples.potential_error = layers.laplace_single.error + layers.laplace_double.error;
+  samples.field_error = layers.laplace_single_gradient.error + layers.laplace_double_gradient.error;
+  samples.side = std::move(layers.side);
+  samples.distance = std::move(layers.distance);
+  return samples;
+}
+
+VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const VelocitySources& sources,
+                            const OffSurfaceSettings& settings, Instruments& instruments) {
+  LayerDensities densities;
+  densities.stokes_single = or_zero(sources.weighted_force, position, 3);
+  OffSurfaceValues layers =
+      OffSurfaceLayers(position, std::move(densities), settings).evaluate(points, Side::principal_value, instruments);
+  require_resolved(layers, points);
+  VelocitySamples samples;
+  samples.velocity = layers.stokes_single.values / sources.viscosity;
+  for (Index i = 0; sources.background && i < points.rows(); ++i) {
+    samples.velocity.row(i) += sources.background(points.row(i).transpose()).transpose();
+  }
+  samples.velocity_error = layers.stokes_single.error / sources.viscosity;
+  samples.side = std::move(layers.side);
+  samples.distance = std::move(layers.distance);
+  return samples;
+}
+
+}  // namespace vehd

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bie/potentials/off_surface.hpp"
+
+namespace vehd {
+
+/// What the potential off the membrane is made of: coefficients of degree p; an empty one is zero.
+struct PotentialSources {
+  Vector3 field = Vector3::Zero();  ///< E_∞
+  Vector transmembrane_potential;   ///< V_m
+  Vector weighted_charge;           ///< J q, q = [[∂φ/∂n]] = η g
+};
+
+struct PotentialSamples {
+  Vector potential;        ///< φ, [n_points]
+  Matrix field;            ///< E = −∇φ, [n_points x 3]
+  Vector potential_error;  ///< estimates of the quadrature's error, absolute
+  Vector field_error;
+  std::vector<Side> side;  ///< where each point stands
+  Vector distance;         ///< from the membrane, see OffSurfaceValues
+};
+
+/// φ(x) = −E_∞·x + S[q](x) − D[V_m](x), Eq. (11) off the membrane: φ jumps there by V_m, ∂φ/∂n by q (interior minus
+/// exterior), and φ → −E_∞·x far away.
+/// @param position  coefficients of the membrane, [n_coefficients x 3]
+/// @param points    [n_points x 3], inside and outside at any distance
+/// @param side      limit taken at points on the membrane; its principal value is the mean of both
+/// @throws ConvergenceError if the quadrature is not resolved at some point
+/// Accuracy: docs/near_membrane.md
+PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& position, const PotentialSources& sources,
+                              const OffSurfaceSettings& settings, Instruments& instruments);
+
+/// What the velocity off the membrane is made of, the same viscosity on both sides; an empty force is zero.
+struct VelocitySources {
+  double viscosity = 1.0;
+  std::function<Vector3(const Vector3&)> background;  ///< v_∞ at a point; empty in a quiescent fluid
+  Matrix weighted_force;  ///< J f, f = f_b + f_λ − f_E acting on the fluid, coefficients [n_coefficients x 3]
+};
+
+struct VelocitySamples {
+  Matrix velocity;        ///< [n_points x 3]
+  Vector velocity_error;  ///< estimate of the quadrature's error, absolute
+  std::vector<Side> side;
+  Vector distance;
+};
+
+/// v(x) = v_∞(x) + (1/8πμ) ∫ (I/|r| + r rᵀ/|r|³) f dA, Eq. (5), r = x − y: continuous across the membrane, so that
+/// points on it need no side.
+/// @throws ConvergenceError if the quadrature is not resolved at some point
+VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const VelocitySources& sources,
+                            const OffSurfaceSettings& settings, Instruments& instruments);
+
+}  // namespace vehd

@@ -1,0 +1,147 @@
+#include "bie/potentials/foot_point.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/legendre.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// A direction of the unit sphere with its frame.
+struct Direction {
+  double theta, phi;
+  Vector3 radial, e_theta, e_phi;
+
+  explicit Direction(const Vector3& s)
+      : theta(std::atan2(std::hypot(s.x(), s.y()), s.z())), phi(std::atan2(s.y(), s.x())) {
+    radial = Vector3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+    e_theta = Vector3(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi), -std::sin(theta));
+    e_phi = Vector3(-std::sin(phi), std::cos(phi), 0.0);
+  }
+
+  [[nodiscard]] Vector3 moved(const Eigen::Vector2d& step) const {
+    const double angle = step.norm();
+    if (angle == 0.0) return radial;
+    return std::cos(angle) * radial + std::sin(angle) / angle * (step.x() * e_theta + step.y() * e_phi);
+  }
+};
+
+/// ½|x − y|² on the sphere with its first two derivatives.
+struct SquaredDistance {
+  double value;
+  Eigen::Vector2d gradient;
+  Eigen::Matrix2d hessian, metric;
+};
+
+SquaredDistance squared_distance(const PointDerivatives& y, const Vector3& target) {
+  const Eigen::RowVector3d r = target.transpose() - y.value;
+  SquaredDistance q;
+  q.value = 0.5 * r.squaredNorm();
+  q.gradient << -r.dot(y.d1), -r.dot(y.d2);
+  q.metric << y.d1.squaredNorm(), y.d1.dot(y.d2), y.d1.dot(y.d2), y.d2.squaredNorm();
+  q.hessian << r.dot(y.d11), r.dot(y.d12), r.dot(y.d12), r.dot(y.d22);
+  q.hessian = (q.metric - q.hessian).eval();
+  return q;
+}
+
+/// Newton's step, or that of Gauss and Newton where the squared distance is not convex.
+Eigen::Vector2d descent_step(const SquaredDistance& q) {
+  constexpr double kLongestStep = 0.3;
+  const bool convex = q.hessian.trace() > 0.0 && q.hessian.determinant() > 1e-6 * q.metric.determinant();
+  Eigen::Vector2d step = -(convex ? q.hessian : q.metric).inverse() * q.gradient;
+  const double length = step.norm();
+  if (length > kLongestStep) step *= kLongestStep / length;
+  return step;
+}
+
+FootPoint foot_point_at(const Direction& direction, const PointDerivatives& y, const SquaredDistance& q,
+                        const Vector3& target) {
+  FootPoint foot;
+  foot.theta = direction.theta;
+  foot.phi = direction.phi;
+  foot.position = y.value.transpose();
+  const Vector3 cross = Vector3(y.d1.transpose()).cross(Vector3(y.d2.transpose()));
+  foot.area_element = cross.norm();
+  foot.normal = cross / foot.area_element;
+  foot.height = (target - foot.position).dot(foot.normal);
+  const Eigen::Vector2d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(q.hessian).eigenvalues();
+  foot.smallest_stretch = std::sqrt(std::max(eigenvalues[0], 0.0));
+  foot.largest_stretch = std::sqrt(std::max(eigenvalues[1], 0.0));
+  return foot;
+}
+
+}  // namespace
+
+PointDerivatives point_derivatives(const Matrix& coefficients, double theta, double phi) {
+  const int order = order_of(coefficients.rows());
+  const LegendreTables tables = legendre_tables(order, Vector::Constant(1, theta));
+  const auto zero = Eigen::RowVectorXd::Zero(coefficients.cols());
+  PointDerivatives p{zero, zero, zero, zero, zero, zero};
+  for (int m = 0; m <= order; ++m) {
+    const double cosine = std::cos(m * phi);
+    const double sine = std::sin(m * phi);
+    for (int n = m; n <= order; ++n) {
+      const auto a = coefficients.row(coefficient_index(n, m));
+      const auto b = coefficients.row(coefficient_index(n, -m));
+      const double b_factor = m > 0 ? 1.0 : 0.0;
+      const Eigen::RowVectorXd even = cosine * a + (b_factor * sine) * b;
+      const Eigen::RowVectorXd odd = (b_factor * cosine) * b - sine * a;
+      const double value = tables.value[m](0, n - m);
+      const double d11 = tables.d2_theta[m](0, n - m);
+      p.value += value * even;
+      p.d1 += tables.d_theta[m](0, n - m) * even;
+      p.d2 += tables.m_over_sin[m](0, n - m) * odd;
+      p.d11 += d11 * even;
+      p.d12 += tables.d_m_over_sin[m](0, n - m) * odd;
+      p.d22 += (-double(n) * (n + 1) * value - d11) * even;
+    }
+  }
+  return p;
+}
+
+FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Vector3& target) {
+  constexpr int kMaxSteps = 60;
+  constexpr int kMaxHalvings = 30;
+  constexpr double kTolerance = 1e-13;
+  require_size("position (Cartesian components)", position.cols(), 3);
+  Direction direction(start);
+  PointDerivatives y = point_derivatives(position, direction.theta, direction.phi);
+  SquaredDistance q = squared_distance(y, target);
+  for (int steps = 0; steps < kMaxSteps; ++steps) {
+    Eigen::Vector2d step = descent_step(q);
+    const bool last = step.norm() < kTolerance;
+    for (int halvings = 0;; ++halvings) {
+      const Direction next(direction.moved(step));
+      const PointDerivatives y_next = point_derivatives(position, next.theta, next.phi);
+      const SquaredDistance q_next = squared_distance(y_next, target);
+      // The square of a tiny distance is flat to rounding: the gradient decides when the value cannot.
+      const bool nearer = q_next.value <= q.value || q_next.gradient.norm() < q.gradient.norm();
+      if (nearer || halvings == kMaxHalvings || last) {
+        direction = next;
+        y = y_next;
+        q = q_next;
+        break;
+      }
+      step *= 0.5;
+    }
+    if (last) return foot_point_at(direction, y, q, target);
+  }
+  // Near a centre of curvature the distance hardly depends on the point, and any point close to nearest serves.
+  constexpr double kFlatGradient = 1e-3;
+  if (q.gradient.norm() <= kFlatGradient * std::sqrt(2.0 * q.value * q.metric.trace())) {
+    return foot_point_at(direction, y, q, target);
+  }
+  throw ConvergenceError(
+      fmt::format("nearest point of the membrane to ({:.6g}, {:.6g}, {:.6g}): no convergence in {} "
+                  "steps from the nearest node",
+                  target.x(), target.y(), target.z(), kMaxSteps));
+}
+
+}  // namespace vehd

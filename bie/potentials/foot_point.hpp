@@ -1,0 +1,36 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Fields at one point of the unit sphere with covariant derivatives in its frame (e_θ, e_φ), one column per field.
+/// Finite at the poles.
+struct PointDerivatives {
+  Eigen::RowVectorXd value, d1, d2, d11, d12, d22;
+};
+
+/// @param coefficients  [n_coefficients x n_fields]
+/// @throws ShapeError if the count of rows is no (p + 1)²
+PointDerivatives point_derivatives(const Matrix& coefficients, double theta, double phi);
+
+/// The point y of the surface nearest to a target x.
+struct FootPoint {
+  double theta = 0.0, phi = 0.0;
+  Vector3 position = Vector3::Zero();  ///< y
+  Vector3 normal = Vector3::Zero();    ///< outward
+  double area_element = 0.0;           ///< J
+  double height = 0.0;                 ///< (x − y)·n, negative inside; |height| is the distance
+  /// Roots of the eigenvalues of the Hessian of ½|x − y|² on the unit sphere: |x − y'| ≈ √(height² + (stretch t)²) at
+  /// the angle t from the foot point.
+  double smallest_stretch = 0.0, largest_stretch = 0.0;
+};
+
+/// Newton's method on the sphere from a starting direction: steps along great circles in local frames, so that poles
+/// are no special points, each shortened until it brings the surface nearer.
+/// @param position  coefficients of x, [n_coefficients x 3]
+/// @param start     unit vector of the parametrisation near the foot point
+/// @throws ConvergenceError after too many steps
+FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Vector3& target);
+
+}  // namespace vehd

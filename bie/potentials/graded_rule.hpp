@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Quadrature over the sphere for an integrand that varies over the angle `scale` at the north pole and over 1/order
+/// elsewhere: Gauss-Legendre in s on t = t(s), t the polar angle, with
+///   s = asinh(t/scale) + order t/4,
+/// times equispaced azimuth. Where |x − y|² ≈ h² + (c t)² the substitution t = scale sinh s puts the complex zeros of
+/// the distance, t = ±i h/c, at Im s ≥ π/2 whenever scale ≤ h/c, hence the rate of convergence hardly depends on h; the
+/// linear term keeps harmonics of degree p resolved away from the pole.
+struct GradedRule {
+  Vector theta;   ///< [n_theta]
+  Vector weight;  ///< [n_theta], includes sin θ and 2π/n_phi
+  int n_phi = 0;
+  /// Per m tables [3 n_theta x (order + 1 − m)] of T(t) − T(0), dT/dt, m T/sin t, the first to full relative accuracy
+  /// also at tiny t.
+  std::vector<Matrix> synthesis;
+  /// [n_phi x (2 order + 1)]: cos mψ for m = 0..order, then sin mψ for m = 1..order.
+  RowMatrix fourier;
+
+  [[nodiscard]] Index n_nodes() const { return theta.size() * n_phi; }
+};
+
+GradedRule make_graded_rule(int order, double scale, int n_theta, int n_phi);
+
+}  // namespace vehd

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "bie/potentials/layer_sums.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Densities as spherical-harmonic coefficients of the order of the surface; an empty one costs nothing.
+struct LayerDensities {
+  Vector laplace_single;   ///< J f, [n_coefficients]
+  Vector laplace_double;   ///< f, [n_coefficients]
+  Matrix stokes_single;    ///< J f, [n_coefficients x 3]
+  bool gradients = false;  ///< of the Laplace layers
+};
+
+/// Position and densities side by side: what is rotated and synthesised together, and which node columns follow.
+struct LayerFields {
+  Matrix coefficients;                              ///< [n_coefficients x fields], the position first
+  int single = -1, double_layer = -1, stokes = -1;  ///< first field of each density, −1 if absent
+  NodeColumns columns;
+};
+
+/// @throws ShapeError if a density does not match the order of the position
+LayerFields make_layer_fields(const Matrix& position, const LayerDensities& densities);
+
+}  // namespace vehd

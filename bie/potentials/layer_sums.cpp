@@ -1,0 +1,106 @@
+#include "bie/potentials/layer_sums.hpp"
+
+#include <cmath>
+
+#include "bie/kernels/laplace.hpp"
+#include "bie/kernels/stokes.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// r = x − y at one node.
+struct Separation {
+  double x, y, z, inverse;
+};
+
+inline Separation separation(const Vector3& offset, const double* px, const double* py, const double* pz, Index i) {
+  const double x = offset[0] - px[i];
+  const double y = offset[1] - py[i];
+  const double z = offset[2] - pz[i];
+  return {x, y, z, 1.0 / std::sqrt(x * x + y * y + z * z)};
+}
+
+}  // namespace
+
+void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayerSums& sums) {
+  const double* px = nodes.column(columns.position);
+  const double* py = nodes.column(columns.position + 1);
+  const double* pz = nodes.column(columns.position + 2);
+  const double* ux = nodes.column(columns.tangent_1);
+  const double* uy = nodes.column(columns.tangent_1 + 1);
+  const double* uz = nodes.column(columns.tangent_1 + 2);
+  const double* vx = nodes.column(columns.tangent_2);
+  const double* vy = nodes.column(columns.tangent_2 + 1);
+  const double* vz = nodes.column(columns.tangent_2 + 2);
+  const double* weight = nodes.weight;
+  const Index n = nodes.n_nodes;
+
+  {
+    double angle = 0.0;
+    double potential = 0.0;
+    const double* f = columns.double_layer >= 0 ? nodes.column(columns.double_layer) : weight;
+#pragma omp simd reduction(+ : angle, potential)
+    for (Index i = 0; i < n; ++i) {
+      const Separation r = separation(offset, px, py, pz, i);
+      const double r_dot_area = r.x * (uy[i] * vz[i] - uz[i] * vy[i]) + r.y * (uz[i] * vx[i] - ux[i] * vz[i]) +
+                                r.z * (ux[i] * vy[i] - uy[i] * vx[i]);
+      const double kernel = weight[i] * laplace_double_kernel(r_dot_area, r.inverse);
+      angle += kernel;
+      potential += kernel * f[i];
+    }
+    sums.solid_angle += angle;
+    if (columns.double_layer >= 0) sums.double_layer += potential;
+  }
+  if (columns.single >= 0) {
+    const double* f = nodes.column(columns.single);
+    double s = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
+#pragma omp simd reduction(+ : s, sx, sy, sz)
+    for (Index i = 0; i < n; ++i) {
+      const Separation r = separation(offset, px, py, pz, i);
+      const double charge = weight[i] * f[i] * laplace_single_kernel(r.inverse);
+      const double field = charge * r.inverse * r.inverse;
+      s += charge;
+      sx += field * r.x;
+      sy += field * r.y;
+      sz += field * r.z;
+    }
+    sums.single += s;
+    if (columns.single_gradient) sums.single_gradient -= Vector3(sx, sy, sz);
+  }
+  if (columns.double_1 >= 0) {
+    const double* f1 = nodes.column(columns.double_1);
+    const double* f2 = nodes.column(columns.double_2);
+    double gx = 0.0, gy = 0.0, gz = 0.0;
+#pragma omp simd reduction(+ : gx, gy, gz)
+    for (Index i = 0; i < n; ++i) {
+      const Separation r = separation(offset, px, py, pz, i);
+      const double kernel = weight[i] * r.inverse * r.inverse * r.inverse;
+      // J n×∇_γ f
+      const double wx = f1[i] * vx[i] - f2[i] * ux[i];
+      const double wy = f1[i] * vy[i] - f2[i] * uy[i];
+      const double wz = f1[i] * vz[i] - f2[i] * uz[i];
+      gx += kernel * (r.y * wz - r.z * wy);
+      gy += kernel * (r.z * wx - r.x * wz);
+      gz += kernel * (r.x * wy - r.y * wx);
+    }
+    sums.double_gradient -= Vector3(gx, gy, gz);
+  }
+  if (columns.stokes >= 0) {
+    const double* fx = nodes.column(columns.stokes);
+    const double* fy = nodes.column(columns.stokes + 1);
+    const double* fz = nodes.column(columns.stokes + 2);
+    double sx = 0.0, sy = 0.0, sz = 0.0;
+#pragma omp simd reduction(+ : sx, sy, sz)
+    for (Index i = 0; i < n; ++i) {
+      const Separation r = separation(offset, px, py, pz, i);
+      const auto g = stokeslet(r.x, r.y, r.z, r.inverse);
+      sx += weight[i] * (g[0] * fx[i] + g[1] * fy[i] + g[2] * fz[i]);
+      sy += weight[i] * (g[1] * fx[i] + g[3] * fy[i] + g[4] * fz[i]);
+      sz += weight[i] * (g[2] * fx[i] + g[4] * fy[i] + g[5] * fz[i]);
+    }
+    sums.stokes += Vector3(sx, sy, sz);
+  }
+}
+
+}  // namespace vehd

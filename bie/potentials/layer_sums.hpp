@@ -1,0 +1,42 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Where each field stands among the columns of a block of quadrature nodes: the position y, its tangents y_1, y_2 in
+/// the frame of the unit sphere, and what the wanted layers need of their densities. −1: absent.
+struct NodeColumns {
+  int position = 0;   ///< 3 columns
+  int tangent_1 = 3;  ///< 3 columns
+  int tangent_2 = 6;  ///< 3 columns
+  int single = -1, double_layer = -1, double_1 = -1, double_2 = -1;
+  int stokes = -1;  ///< 3 columns
+  int count = 9;
+  bool single_gradient = false;
+};
+
+/// Integrals over the membrane for one target, without prefactors.
+struct LayerSums {
+  double single = 0.0;                        ///< ∫ (J f)/|r| dω
+  Vector3 single_gradient = Vector3::Zero();  ///< −∫ (J f) r/|r|³ dω
+  double double_layer = 0.0;                  ///< ∫ f r·J n/|r|³ dω
+  Vector3 double_gradient = Vector3::Zero();  ///< −∫ r/|r|³ × (J n×∇_γ f) dω
+  Vector3 stokes = Vector3::Zero();           ///< ∫ (I/|r| + r rᵀ/|r|³)(J f) dω
+  double solid_angle = 0.0;                   ///< ∫ r·J n/|r|³ dω: −4π inside, 0 outside
+};
+
+/// Quadrature nodes in columns of equal stride.
+struct NodeBlock {
+  const double* data;
+  Index stride;  ///< between columns
+  Index n_nodes;
+  const double* weight;  ///< [n_nodes], for dω
+
+  [[nodiscard]] const double* column(int c) const { return data + c * stride; }
+};
+
+/// Adds the block's share for the target at `offset` from the origin of the block's positions.
+void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayerSums& sums);
+
+}  // namespace vehd

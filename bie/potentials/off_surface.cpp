@@ -1,0 +1,295 @@
+#include "bie/potentials/off_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <utility>
+
+#include "bie/potentials/foot_point.hpp"
+#include "bie/potentials/smooth_grid.hpp"
+#include "bie/potentials/target_frame.hpp"
+#include "bie/potentials/target_values.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+namespace {
+
+constexpr double kNodeGrowth = 1.25;
+/// Distance over spacing of the coarser smooth grid from which the smooth rule has a chance: exp(−2π 3.5) = 3e-10.
+constexpr double kFarSpacings = 3.5;
+/// Finest grading, t = 2^−50: beyond it every distance is rounding.
+constexpr int kFinestLevel = 50;
+
+/// What the one-sided limits of the gradients take from the densities at the foot point.
+struct FootDensities {
+  double single = 0.0;                         ///< f, not J f
+  Vector3 surface_gradient = Vector3::Zero();  ///< ∇_γ f of the double layer
+};
+
+/// Where a target stands and what was found for it.
+struct Target {
+  Vector3 point;
+  NearestNodes nearest;
+  FootPoint foot;
+  bool near = false;
+  bool on_membrane = false;
+  int level = 0;    ///< grading scale 2^−level
+  int azimuth = 0;  ///< n_phi starts at kNodeGrowth^azimuth times the least
+  Side side = Side::exterior;
+  double distance = 0.0;
+  TargetValues values;
+  LayerSizes last_change;
+  bool resolved = false;
+};
+
+int even(double n) { return 2 * static_cast<int>(std::ceil(0.5 * n)); }
+
+/// Levels of the azimuthal ladder above the least node count: along a circle about the pole |x − y| oscillates with the
+/// ratio of the stretches, and the trapezoidal rule gains the factor (a + b)/(a − b) with every two nodes.
+int azimuth_level(const FootPoint& foot, int least, double tolerance) {
+  constexpr int kHighest = 5;
+  const double gain =
+      (foot.largest_stretch + foot.smallest_stretch) / (foot.largest_stretch - foot.smallest_stretch + 1e-300);
+  const double needed = 2.0 * std::log(1.0 / tolerance) / std::log(std::max(gain, 1.0 + 1e-6));
+  return std::clamp(static_cast<int>(std::ceil(std::log(needed / least) / std::log(kNodeGrowth))), 0, kHighest);
+}
+
+}  // namespace
+
+struct OffSurfaceLayers::Data {
+  OffSurfaceSettings settings;
+  int order;
+  Matrix position;
+  LayerDensities densities;
+  LayerFields fields;
+  SmoothGrid coarse, fine;
+  double radius;
+  LayerSizes sizes;
+
+  Data(const Matrix& x, LayerDensities given, const OffSurfaceSettings& options)
+      : settings(options),
+        order(order_of(x.rows())),
+        position(x),
+        densities(std::move(given)),
+        fields(make_layer_fields(position, densities)),
+        coarse(make_smooth_grid(fields, 2 * order + 8)),
+        fine(make_smooth_grid(fields, 3 * order + 12)),
+        radius(mean_radius(coarse)),
+        sizes(density_sizes(coarse, fields.columns)) {}
+
+  [[nodiscard]] FootPoint foot_from(Index node, const Vector3& point) const {
+    return find_foot_point(position, coarse.directions.row(node).transpose(), point);
+  }
+
+  /// Smooth rule where it suffices. @return nodes visited
+  Index try_far(Target& target) const {
+    target.nearest = nearest_nodes(coarse, target.point);
+    target.distance = target.nearest.distance;
+    target.near = target.distance < kFarSpacings * coarse.spacing[target.nearest.first];
+    if (target.near) return 0;
+    target.values = with_prefactors(smooth_sums(fine, fields.columns, target.point));
+    target.last_change = change(target.values, with_prefactors(smooth_sums(coarse, fields.columns, target.point)));
+    target.side = target.values.enclosure < -0.5 ? Side::interior : Side::exterior;
+    const double defect = std::abs(target.values.enclosure - enclosure_of(target.side));
+    target.resolved = is_small(target.last_change, sizes, settings.tolerance) && defect < settings.tolerance;
+    target.near = !target.resolved;
+    return coarse.n_nodes() + fine.n_nodes();
+  }
+
+  [[nodiscard]] int least_n_theta(int level) const { return static_cast<int>(std::ceil(1.15 * order)) + 8 + level; }
+  [[nodiscard]] int least_n_phi() const { return 2 * order + 12; }
+
+  void locate(Target& target, Side membrane_side) const {
+    target.foot = foot_from(target.nearest.first, target.point);
+    if (target.nearest.opposite_counts) {
+      const FootPoint opposite = foot_from(target.nearest.opposite, target.point);
+      if (std::abs(opposite.height) < std::abs(target.foot.height)) target.foot = opposite;
+    }
+    target.distance = std::abs(target.foot.height);
+    target.on_membrane = target.distance < settings.membrane_distance * radius;
+    target.side = target.on_membrane ? membrane_side : target.foot.height < 0.0 ? Side::interior : Side::exterior;
+    if (!target.on_membrane) {
+      const double ratio = target.foot.largest_stretch / target.distance;
+      target.level = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(ratio, 1.0)))), 0, kFinestLevel);
+    }
+    target.azimuth = azimuth_level(target.foot, least_n_phi(), settings.tolerance);
+  }
+
+  [[nodiscard]] GradedRule rule(int level, int azimuth, int stage) const {
+    return make_graded_rule(order, std::exp2(-level),
+                            static_cast<int>(std::ceil(least_n_theta(level) * std::pow(kNodeGrowth, stage))),
+                            even(least_n_phi() * std::pow(kNodeGrowth, azimuth + stage)));
+  }
+
+  [[nodiscard]] FootDensities foot_densities(const FootPoint& foot) const {
+    FootDensities result;
+    if (fields.single >= 0) {
+      result.single = point_derivatives(densities.laplace_single, foot.theta, foot.phi).value[0] / foot.area_element;
+    }
+    if (fields.columns.double_1 >= 0) {
+      const PointDerivatives f = point_derivatives(densities.laplace_double, foot.theta, foot.phi);
+      const PointDerivatives x = point_derivatives(position, foot.theta, foot.phi);
+      const Vector3 u = x.d1.transpose();
+      const Vector3 v = x.d2.transpose();
+      // J n×∇_γ f = f_1 x_2 − f_2 x_1, and ∇_γ f = −n×(n×∇_γ f).
+      result.surface_gradient = (f.d1[0] * v - f.d2[0] * u).cross(foot.normal) / foot.area_element;
+    }
+    return result;
+  }
+
+  /// Values from the sums about the foot point.
+  [[nodiscard]] TargetValues near_values(const Target& target, const TargetFrame& frame, const FootDensities& at_foot,
+                                         const LayerSums& sums) const {
+    TargetValues v = with_prefactors(sums);
+    if (fields.double_layer >= 0) v.double_layer += frame.pole()[fields.double_layer] * enclosure_of(target.side);
+    if (target.on_membrane) {
+      // The sums are principal values there; the interior limits add ½ f n to ∇S and −½ ∇_γ f to ∇D.
+      const double jump = enclosure_of(Side::principal_value) - enclosure_of(target.side);
+      v.single_gradient += jump * at_foot.single * target.foot.normal;
+      v.double_gradient -= jump * at_foot.surface_gradient;
+    }
+    return v;
+  }
+
+  /// Goes through the rules until two agree. @return nodes visited
+  Index run_rules(Target& target, const std::vector<GradedRule>& rules, bool first) const {
+    const TargetFrame frame(fields, target.foot.theta, target.foot.phi);
+    const FootDensities at_foot = target.on_membrane ? foot_densities(target.foot) : FootDensities{};
+    const Vector3 offset = target.on_membrane ? Vector3::Zero() : Vector3(target.point - target.foot.position);
+    Index nodes = 0;
+    for (const GradedRule& r : rules) {
+      const TargetValues next = near_values(target, frame, at_foot, frame.integrate(r, offset));
+      nodes += r.n_nodes();
+      if (!first) {
+        target.last_change = change(next, target.values);
+        const double expected = target.on_membrane ? -0.5 : enclosure_of(target.side);
+        // A solid angle that is far off betrays another part of the membrane that no node has seen.
+        constexpr double kEnclosureDefect = 1e-2;
+        target.resolved = is_small(target.last_change, sizes, settings.tolerance) &&
+                          std::abs(next.enclosure - expected) < kEnclosureDefect;
+      }
+      target.values = next;
+      first = false;
+    }
+    return nodes;
+  }
+};
+
+OffSurfaceLayers::OffSurfaceLayers(const Matrix& position, LayerDensities densities, const OffSurfaceSettings& settings)
+    : data_(std::make_unique<const Data>(position, std::move(densities), settings)) {}
+
+OffSurfaceLayers::~OffSurfaceLayers() = default;
+OffSurfaceLayers::OffSurfaceLayers(OffSurfaceLayers&&) noexcept = default;
+OffSurfaceLayers& OffSurfaceLayers::operator=(OffSurfaceLayers&&) noexcept = default;
+
+namespace {
+
+void rethrow_first(const std::vector<std::exception_ptr>& exceptions) {
+  for (const std::exception_ptr& exception : exceptions) {
+    if (exception) std::rethrow_exception(exception);
+  }
+}
+
+OffSurfaceValues collect(const std::vector<Target>& targets, const NodeColumns& columns) {
+  const Index n = static_cast<Index>(targets.size());
+  OffSurfaceValues out;
+  const auto prepare = [n](LayerField& field, bool wanted, Index components) {
+    field.values.resize(wanted ? n : 0, components);
+    field.error.resize(wanted ? n : 0);
+  };
+  prepare(out.laplace_single, columns.single >= 0, 1);
+  prepare(out.laplace_single_gradient, columns.single_gradient, 3);
+  prepare(out.laplace_double, columns.double_layer >= 0, 1);
+  prepare(out.laplace_double_gradient, columns.double_1 >= 0, 3);
+  prepare(out.stokes_single, columns.stokes >= 0, 3);
+  out.side.resize(targets.size());
+  out.distance.resize(n);
+  out.resolved.resize(n);
+  const auto put = [](LayerField& field, Index i, const auto& value, double error) {
+    if (field.values.rows() == 0) return;
+    field.values.row(i) = value;
+    field.error[i] = error;
+  };
+  for (Index i = 0; i < n; ++i) {
+    const Target& t = targets[i];
+    const Eigen::Matrix<double, 1, 1> single(t.values.single);
+    const Eigen::Matrix<double, 1, 1> double_layer(t.values.double_layer);
+    put(out.laplace_single, i, single, t.last_change.single);
+    put(out.laplace_single_gradient, i, t.values.single_gradient.transpose(), t.last_change.single_gradient);
+    put(out.laplace_double, i, double_layer, t.last_change.double_layer);
+    put(out.laplace_double_gradient, i, t.values.double_gradient.transpose(), t.last_change.double_gradient);
+    put(out.stokes_single, i, t.values.stokes.transpose(), t.last_change.stokes);
+    out.side[i] = t.side;
+    out.distance[i] = t.distance;
+    out.resolved[i] = t.resolved;
+  }
+  return out;
+}
+
+void count(Instruments& instruments, const NodeColumns& columns, std::uint64_t evaluations) {
+  if (columns.single >= 0) instruments.count_kernel("laplace_single", evaluations);
+  if (columns.single_gradient) instruments.count_kernel("laplace_single_gradient", evaluations);
+  if (columns.double_layer >= 0) instruments.count_kernel("laplace_double", evaluations);
+  if (columns.double_1 >= 0) instruments.count_kernel("laplace_double_gradient", evaluations);
+  if (columns.stokes >= 0) instruments.count_kernel("stokes_single", evaluations);
+}
+
+}  // namespace
+
+OffSurfaceValues OffSurfaceLayers::evaluate(const Matrix& points, Side side, Instruments& instruments) const {
+  require_size("points (Cartesian components)", points.cols(), 3);
+  const auto timer = instruments.time("off-surface evaluation");
+  const Data& data = *data_;
+  const Index n = points.rows();
+  std::vector<Target> targets(n);
+  std::vector<std::exception_ptr> exceptions(n);
+  std::uint64_t evaluations = 0;
+#pragma omp parallel for schedule(dynamic, 1) reduction(+ : evaluations)
+  for (Index i = 0; i < n; ++i) {
+    try {
+      Target& target = targets[i];
+      target.point = points.row(i).transpose();
+      evaluations += data.try_far(target);
+      if (target.near) data.locate(target, side);
+    } catch (...) {
+      exceptions[i] = std::current_exception();
+    }
+  }
+  rethrow_first(exceptions);
+
+  // Targets that share the tables of their rules.
+  for (int stage = 1; stage < data.settings.max_rules; ++stage) {
+    std::map<std::pair<int, int>, std::vector<Index>> groups;
+    for (Index i = 0; i < n; ++i) {
+      if (!targets[i].resolved) groups[{targets[i].level, targets[i].azimuth}].push_back(i);
+    }
+    for (const auto& [key, members] : groups) {
+      std::vector<GradedRule> rules;
+      if (stage == 1) rules.push_back(data.rule(key.first, key.second, 0));
+      rules.push_back(data.rule(key.first, key.second, stage));
+      const Index n_members = static_cast<Index>(members.size());
+#pragma omp parallel for schedule(dynamic, 1) reduction(+ : evaluations)
+      for (Index i = 0; i < n_members; ++i) evaluations += data.run_rules(targets[members[i]], rules, stage == 1);
+    }
+    if (groups.empty()) break;
+  }
+  count(instruments, data.fields.columns, evaluations);
+  return collect(targets, data.fields.columns);
+}
+
+void require_resolved(const OffSurfaceValues& values, const Matrix& points) {
+  for (Index i = 0; i < values.resolved.size(); ++i) {
+    if (values.resolved[i]) continue;
+    throw ConvergenceError(
+        fmt::format("layer potentials at ({:.6g}, {:.6g}, {:.6g}), {:.3g} from the membrane: the finest rules still "
+                    "disagree; another part of the membrane may be as near, or its order too low for its shape",
+                    points(i, 0), points(i, 1), points(i, 2), values.distance[i]));
+  }
+}
+
+}  // namespace vehd

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bie/potentials/layer_fields.hpp"
+#include "bie/potentials/side.hpp"
+#include "bie/support/instruments.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+struct OffSurfaceSettings {
+  /// Largest change from one rule to the next, relative to the largest density (times the radius √(area/4π) for the
+  /// single layers, times its surface gradient for ∇D). The accepted value is that of the finer rule.
+  double tolerance = 1e-9;
+  /// Rules of a near target at most, each with a quarter more nodes in either direction.
+  int max_rules = 9;
+  /// Points nearer than this, relative to the radius, are on the membrane: the side stated in the call is theirs.
+  double membrane_distance = 1e-12;
+};
+
+/// One layer at all targets.
+struct LayerField {
+  Matrix values;  ///< [n_targets x components], no rows if not asked for
+  Vector error;   ///< estimate per target, absolute: the last change. Truncation to degree p is not part of it.
+};
+
+struct OffSurfaceValues {
+  LayerField laplace_single, laplace_single_gradient;
+  LayerField laplace_double, laplace_double_gradient;
+  LayerField stokes_single;  ///< at μ = 1
+  std::vector<Side> side;    ///< where each target stands; on the membrane as stated in the call
+  Vector distance;           ///< from the membrane; of far targets, from its nearest quadrature node
+  Eigen::Array<bool, Eigen::Dynamic, 1> resolved;
+};
+
+/// Layer potentials of given densities at any points, near and far, inside and outside:
+///   S[f](x) = ∫ G f dA, D[f](x) = ∫ ∂G/∂n(y) f dA, their gradients, and the Stokes single layer, Eqs. (6), (8), (9).
+/// Far targets take the smooth rule of upsampled grids. Near ones take a rule whose pole is the nearest point y0 of the
+/// membrane and whose nodes crowd there in step with the distance (GradedRule), positions relative to y0 so that
+/// nothing cancels, and
+///   D[f] = D[f − f(y0)] + f(y0) D[1], D[1] = −1 inside, 0 outside, −½ on the membrane,
+///   ∇D[f] = ∫ ∇G × (n×∇_γ f) dA,
+/// in place of the strongly singular forms. Every target goes through rules of rising size until two agree.
+/// Accuracy: that of the densities and of the surface at degree p, whatever the distance (docs/near_membrane.md).
+class OffSurfaceLayers {
+ public:
+  /// @param position  coefficients of the membrane, [n_coefficients x 3]
+  /// @throws ShapeError if a density does not match the order of the surface
+  OffSurfaceLayers(const Matrix& position, LayerDensities densities, const OffSurfaceSettings& settings = {});
+  ~OffSurfaceLayers();
+  OffSurfaceLayers(OffSurfaceLayers&&) noexcept;
+  OffSurfaceLayers& operator=(OffSurfaceLayers&&) noexcept;
+
+  /// @param points  [n_targets x 3]
+  /// @param side    limit taken at points on the membrane; the others have a side of their own
+  /// The same numbers for any count of threads. Targets whose rules do not agree in the end keep the last values and
+  /// are not `resolved`.
+  /// @throws ConvergenceError if the nearest point of the membrane cannot be found
+  [[nodiscard]] OffSurfaceValues evaluate(const Matrix& points, Side side, Instruments& instruments) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+/// @throws ConvergenceError naming the first target that is not resolved, with its distance
+void require_resolved(const OffSurfaceValues& values, const Matrix& points);
+
+}  // namespace vehd

@@ -1,0 +1,90 @@
+#include "bie/potentials/smooth_grid.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// Square root of the larger eigenvalue of the metric: the most that a unit angle spans.
+Vector largest_stretch(const Matrix& u, const Matrix& v) {
+  const Eigen::ArrayXd e = u.rowwise().squaredNorm();
+  const Eigen::ArrayXd g = v.rowwise().squaredNorm();
+  const Eigen::ArrayXd f = u.cwiseProduct(v).rowwise().sum();
+  return (0.5 * (e + g) + (0.25 * (e - g).square() + f.square()).sqrt()).sqrt();
+}
+
+void put_columns(const LayerFields& fields, const SphereDerivatives& f, Matrix& nodes) {
+  const NodeColumns& columns = fields.columns;
+  nodes.resize(f.value.rows(), columns.count);
+  nodes.middleCols(columns.position, 3) = f.value.leftCols(3);
+  nodes.middleCols(columns.tangent_1, 3) = f.d1.leftCols(3);
+  nodes.middleCols(columns.tangent_2, 3) = f.d2.leftCols(3);
+  if (columns.single >= 0) nodes.col(columns.single) = f.value.col(fields.single);
+  if (columns.double_layer >= 0) nodes.col(columns.double_layer) = f.value.col(fields.double_layer);
+  if (columns.double_1 >= 0) {
+    nodes.col(columns.double_1) = f.d1.col(fields.double_layer);
+    nodes.col(columns.double_2) = f.d2.col(fields.double_layer);
+  }
+  if (columns.stokes >= 0) nodes.middleCols(columns.stokes, 3) = f.value.middleCols(fields.stokes, 3);
+}
+
+}  // namespace
+
+SmoothGrid make_smooth_grid(const LayerFields& fields, int grid_order) {
+  const SphereTransform transform(order_of(fields.coefficients.rows()), make_grid(grid_order));
+  const SphereDerivatives f = transform.synthesize_gradient(fields.coefficients);
+  const SphereGrid& grid = transform.grid();
+  SmoothGrid smooth;
+  put_columns(fields, f, smooth.nodes);
+  smooth.spacing = std::numbers::pi / grid_order * largest_stretch(f.d1.leftCols(3), f.d2.leftCols(3));
+  smooth.weight.resize(grid.n_points());
+  smooth.directions.resize(grid.n_points(), 3);
+  smooth.area_vectors.resize(grid.n_points(), 3);
+  for (int j = 0; j < grid.n_theta; ++j) {
+    const double sine = std::sin(grid.theta[j]);
+    for (int k = 0; k < grid.n_phi; ++k) {
+      const Index i = Index{j} * grid.n_phi + k;
+      smooth.weight[i] = grid.weight[j];
+      smooth.directions.row(i) << sine * std::cos(grid.phi[k]), sine * std::sin(grid.phi[k]), std::cos(grid.theta[j]);
+      const Vector3 u = f.d1.row(i).head<3>().transpose();
+      const Vector3 v = f.d2.row(i).head<3>().transpose();
+      smooth.area_vectors.row(i) = u.cross(v).transpose();
+    }
+  }
+  return smooth;
+}
+
+LayerSums smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const Vector3& target) {
+  LayerSums sums;
+  add_layer_sums(columns, {grid.nodes.data(), grid.n_nodes(), grid.n_nodes(), grid.weight.data()}, target, sums);
+  return sums;
+}
+
+double mean_radius(const SmoothGrid& grid) {
+  return std::sqrt(grid.area_vectors.rowwise().norm().dot(grid.weight) / (4.0 * std::numbers::pi));
+}
+
+NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target) {
+  constexpr int kPosition = NodeColumns{}.position;
+  const Vector squared_distance =
+      (grid.nodes.middleCols<3>(kPosition).rowwise() - target.transpose()).rowwise().squaredNorm();
+  NearestNodes nearest;
+  nearest.distance = std::sqrt(squared_distance.minCoeff(&nearest.first));
+  const double reach = nearest.distance + grid.spacing[nearest.first];
+  double least_opposite = reach * reach;
+  for (Index i = 0; i < grid.n_nodes(); ++i) {
+    if (squared_distance[i] >= least_opposite) continue;
+    if (grid.area_vectors.row(i).dot(grid.area_vectors.row(nearest.first)) >= 0.0) continue;
+    least_opposite = squared_distance[i];
+    nearest.opposite = i;
+    nearest.opposite_counts = true;
+  }
+  return nearest;
+}
+
+}  // namespace vehd

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "bie/potentials/layer_fields.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Upsampled grid: the quadrature of far targets and the start of the search for the nearest point.
+struct SmoothGrid {
+  Matrix nodes;         ///< [n_nodes x columns], see NodeColumns
+  Vector weight;        ///< [n_nodes]
+  Matrix directions;    ///< [n_nodes x 3], on the unit sphere
+  Matrix area_vectors;  ///< J n, [n_nodes x 3]
+  Vector spacing;       ///< [n_nodes], largest distance to a neighbour, to first order
+
+  [[nodiscard]] Index n_nodes() const { return nodes.rows(); }
+};
+
+SmoothGrid make_smooth_grid(const LayerFields& fields, int grid_order);
+
+/// Sums of the smooth rule: error about exp(−2π distance/spacing).
+LayerSums smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const Vector3& target);
+
+/// √(area/4π).
+double mean_radius(const SmoothGrid& grid);
+
+/// Nodes from which the nearest point of the membrane is sought: the nearest one and, if hardly farther, the nearest
+/// one whose normal points the other way. Where two parts of the membrane are closer than their nodes, the nearest node
+/// may belong to the farther part.
+struct NearestNodes {
+  Index first = 0, opposite = 0;
+  bool opposite_counts = false;
+  double distance = 0.0;  ///< of the first
+};
+
+NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target);
+
+}  // namespace vehd

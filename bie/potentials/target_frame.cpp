@@ -1,0 +1,89 @@
+#include "bie/potentials/target_frame.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/rotation.hpp"
+
+namespace vehd {
+
+TargetFrame::TargetFrame(const LayerFields& fields, double theta, double phi)
+    : fields_(fields),
+      order_(order_of(fields.coefficients.rows())),
+      n_fields_(fields.coefficients.cols()),
+      pole_(Eigen::RowVectorXd::Zero(n_fields_)) {
+  for (int m = 0; m <= order_; ++m) rotated_.emplace_back(Matrix::Zero(order_ + 1 - m, 2 * n_fields_));
+  const RotationY rotation = rotation_y(order_, theta);
+  Matrix cosine, sine;
+  for (int n = 0; n <= order_; ++n) {
+    cosine.resize(n + 1, n_fields_);
+    sine.resize(n, n_fields_);
+    for (int m = 0; m <= n; ++m) {
+      const double c = std::cos(m * phi);
+      const double s = std::sin(m * phi);
+      const auto a = fields.coefficients.row(coefficient_index(n, m));
+      const auto b = fields.coefficients.row(coefficient_index(n, -m));
+      if (m == 0) {
+        cosine.row(0) = a;
+        continue;
+      }
+      cosine.row(m) = c * a + s * b;
+      sine.row(m - 1) = c * b - s * a;
+    }
+    const Matrix cosine_after = rotation.cosine[n] * cosine;
+    const Matrix sine_after = rotation.sine[n] * sine;
+    for (int m = 0; m <= n; ++m) {
+      rotated_[m].row(n - m).head(n_fields_) = cosine_after.row(m);
+      if (m > 0) rotated_[m].row(n - m).tail(n_fields_) = sine_after.row(m - 1);
+    }
+    pole_ += std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi)) * cosine_after.row(0);
+  }
+}
+
+RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
+  const NodeColumns& columns = fields_.columns;
+  const Index n_theta = rule.theta.size();
+  RowMatrix result(2 * order_ + 1, columns.count * n_theta);
+  Matrix product;
+  const auto put = [&](int m, int column, const auto& cosine, const auto& sine) {
+    result.row(m).segment(column * n_theta, n_theta) = cosine.transpose();
+    if (m > 0) result.row(order_ + m).segment(column * n_theta, n_theta) = sine.transpose();
+  };
+  for (int m = 0; m <= order_; ++m) {
+    product.noalias() = rule.synthesis[m] * rotated_[m];
+    const auto part = [&](Index kind, Index field) { return product.col(field).segment(kind * n_theta, n_theta); };
+    const auto put_value = [&](int column, Index field) { put(m, column, part(0, field), part(0, n_fields_ + field)); };
+    const auto put_tangents = [&](int column_1, int column_2, Index field) {
+      put(m, column_1, part(1, field), part(1, n_fields_ + field));
+      put(m, column_2, part(2, n_fields_ + field), -part(2, field));
+    };
+    for (int i = 0; i < 3; ++i) {
+      put_value(columns.position + i, i);
+      put_tangents(columns.tangent_1 + i, columns.tangent_2 + i, i);
+    }
+    if (columns.single >= 0) put_value(columns.single, fields_.single);
+    if (columns.double_layer >= 0) put_value(columns.double_layer, fields_.double_layer);
+    if (columns.double_1 >= 0) put_tangents(columns.double_1, columns.double_2, fields_.double_layer);
+    for (int i = 0; i < 3 && columns.stokes >= 0; ++i) put_value(columns.stokes + i, fields_.stokes + i);
+  }
+  // The tables hold differences from the pole.
+  const auto add_pole = [&](int column, Index field) {
+    result.row(0).segment(column * n_theta, n_theta).array() += pole_[field];
+  };
+  if (columns.single >= 0) add_pole(columns.single, fields_.single);
+  for (int i = 0; i < 3 && columns.stokes >= 0; ++i) add_pole(columns.stokes + i, fields_.stokes + i);
+  return result;
+}
+
+LayerSums TargetFrame::integrate(const GradedRule& rule, const Vector3& offset) const {
+  const Index n_theta = rule.theta.size();
+  const RowMatrix nodes = rule.fourier * amplitudes(rule);
+  LayerSums sums;
+  for (int k = 0; k < rule.n_phi; ++k) {
+    add_layer_sums(fields_.columns, {nodes.row(k).data(), n_theta, n_theta, rule.weight.data()}, offset, sums);
+  }
+  return sums;
+}
+
+}  // namespace vehd

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/potentials/graded_rule.hpp"
+#include "bie/potentials/layer_fields.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Fields on the membrane in the frame whose north pole is a given direction.
+class TargetFrame {
+ public:
+  /// @param fields  must outlive the frame
+  TargetFrame(const LayerFields& fields, double theta, double phi);
+
+  /// Values of the fields at the pole.
+  [[nodiscard]] const Eigen::RowVectorXd& pole() const { return pole_; }
+
+  /// Sums over the nodes of a rule for a target at `offset` from the position of the pole. The double layer is that of
+  /// f − f(pole): the rest of D is the caller's.
+  [[nodiscard]] LayerSums integrate(const GradedRule& rule, const Vector3& offset) const;
+
+ private:
+  /// Amplitudes of cos mψ and sin mψ on the circles of the rule, [2 order + 1 x columns * n_theta].
+  [[nodiscard]] RowMatrix amplitudes(const GradedRule& rule) const;
+
+  const LayerFields& fields_;
+  int order_;
+  Index n_fields_;
+  std::vector<Matrix> rotated_;  ///< per m [(order + 1 − m) x 2 n_fields], cosines and sines
+  Eigen::RowVectorXd pole_;
+};
+
+}  // namespace vehd
