@@ -15,20 +15,18 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// √(2E:E) of the rate of strain E; the rate of a shear.
-double shear_rate(const BackgroundFlow& flow) {
-  const Matrix3 strain = 0.5 * (flow.gradient + flow.gradient.transpose());
-  return std::sqrt(2.0) * strain.norm();
-}
-
 class Groups {
  public:
-  explicit Groups(const Scene& scene) : model_(model_of(scene)), size_(size_of(initial_position(scene))) {}
+  explicit Groups(const Scene& scene)
+      : scene_(scene), model_(model_of(scene)), size_(size_of(initial_position(scene))) {}
 
   std::vector<DimensionlessGroup> all() {
     add_geometry();
+    if (model_.viscosity_ratio != 1.0) {
+      add({"viscosity ratio", "Λ", model_.viscosity_ratio, "1", "μ_i/μ_e"});
+    }
     if (model_.bending) add_bending();
-    if (model_.flow && model_.bending) add_flow();
+    if (model_.bending && shear_rate() > 0.0) add_flow();
     if (model_.electric) add_electric();
     return groups_;
   }
@@ -44,10 +42,20 @@ class Groups {
          "A/a_V² − 4π, a_V the radius of the sphere with the same volume"});
   }
 
-  void add_bending() { add({"bending time", "t_κ", bending_time(), "time", "μa³/κ_B: shapes relax by bending"}); }
+  void add_bending() {
+    add({"bending time", "t_κ", bending_time(), "time", "μa³/κ_B: shapes relax by bending"});
+    if (scene_.membrane.spontaneous_curvature != 0.0) {
+      add({"spontaneous curvature", "c₀", scene_.membrane.spontaneous_curvature * radius(), "1", "ca, −1 on a sphere"});
+    }
+    if (!scene_.gravity) return;
+    const Triple& g = scene_.gravity->acceleration;
+    const double weight = std::abs(scene_.fluid.density_difference) * Vector3(g[0], g[1], g[2]).norm();
+    add({"Bond number", "Bo", weight * std::pow(radius(), 4) / model_.bending->modulus, "1",
+         "|ρ_i − ρ_e|ga⁴/κ_B: weight over bending force"});
+  }
 
   void add_flow() {
-    add({"capillary number of the flow", "χ", shear_rate(*model_.flow) * bending_time(), "1",
+    add({"capillary number of the flow", "χ", shear_rate() * bending_time(), "1",
          "μγ̇a³/κ_B: viscous stress over bending stress"});
   }
 
@@ -62,8 +70,17 @@ class Groups {
     const double series = 2.0 * inside * outside / (inside + 2.0 * outside);
     const double rate = model_.charging->conductance + series / radius();
     if (rate > 0.0) {
-      add({"charging time", "t_m", model_.charging->capacitance / rate, "time",
+      const double charging_time = model_.charging->capacitance / rate;
+      add({"charging time", "t_m", charging_time, "time",
            "C_m/(G_m + 2σ_iσ_e/((σ_i + 2σ_e)a)): a sphere's membrane charges"});
+      const auto& waveform = scene_.electric->waveform;
+      if (waveform && waveform->kind == WaveformKind::ac) {
+        add({"frequency", "ωt_m", 2.0 * pi * waveform->frequency * charging_time, "1",
+             "2πf t_m: above 1 the field passes through the membrane"});
+      }
+    }
+    if (electric.permittivity_ratio != 1.0) {
+      add({"permittivity ratio", "S", electric.permittivity_ratio, "1", "ε_i/ε_e"});
     }
     const double stress = electric.permittivity * electric.field.squaredNorm();
     if (stress == 0.0) return;
@@ -72,17 +89,28 @@ class Groups {
       add({"electric capillary number", "Ca", stress / model_.bending->modulus * 3.0 * size_.volume / (4.0 * pi), "1",
            "εE²/κ_B · 3V/4π, Eq. (36): electric stress over bending stress"});
     }
-    if (model_.flow) {
-      add({"Mason number", "Mn", model_.viscosity * shear_rate(*model_.flow) / stress, "1",
+    if (shear_rate() > 0.0) {
+      add({"Mason number", "Mn", model_.viscosity * shear_rate() / stress, "1",
            "μγ̇/(εE²): viscous stress over electric stress"});
     }
   }
 
+  /// √(2E:E) of the rate of strain E: the rate of a shear; of a Poiseuille flow at the distance a from its axis.
+  [[nodiscard]] double shear_rate() const {
+    if (!scene_.flow) return 0.0;
+    const FlowScene& flow = *scene_.flow;
+    if (flow.kind == FlowKind::poiseuille) {
+      return 2.0 * std::abs(flow.centre_velocity) * radius() / (flow.radius * flow.radius);
+    }
+    const Matrix3& gradient = model_.flow->gradient;
+    return std::sqrt(0.5) * (gradient + gradient.transpose()).norm();
+  }
   [[nodiscard]] double radius() const { return std::sqrt(size_.area / (4.0 * pi)); }
   [[nodiscard]] double bending_time() const {
     return model_.viscosity * std::pow(radius(), 3) / model_.bending->modulus;
   }
 
+  const Scene& scene_;
   Model model_;
   ShapeSize size_;
   std::vector<DimensionlessGroup> groups_;

@@ -27,6 +27,8 @@ std::string type_text(const KeyDescription& key) {
       return "3 x 3 numbers";
     case ValueType::axis_angle:
       return "4 numbers";
+    case ValueType::numbers:
+      return "list of numbers";
     case ValueType::modes:
       return "list of {n, m, a}";
     case ValueType::quantity:

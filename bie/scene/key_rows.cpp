@@ -15,8 +15,11 @@ const auto units = [](auto& scene) -> auto& { return *scene.units; };
 const auto shape = [](auto& scene) -> auto& { return scene.shape; };
 const auto membrane = [](auto& scene) -> auto& { return scene.membrane; };
 const auto fluid = [](auto& scene) -> auto& { return scene.fluid; };
+const auto gravity = [](auto& scene) -> auto& { return *scene.gravity; };
 const auto flow = [](auto& scene) -> auto& { return *scene.flow; };
 const auto electric = [](auto& scene) -> auto& { return *scene.electric; };
+const auto flow_waveform = [](auto& scene) -> auto& { return *scene.flow->waveform; };
+const auto electric_waveform = [](auto& scene) -> auto& { return *scene.electric->waveform; };
 const auto numerics = [](auto& scene) -> auto& { return scene.numerics; };
 const auto output = [](auto& scene) -> auto& { return scene.output; };
 
@@ -89,30 +92,82 @@ void add_membrane_keys(KeyTable& table) {
   table.add("bending_modulus", not_negative,
             {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus; absent or 0: no bending"}, membrane,
             &MembraneScene::bending_modulus);
+  table.add("spontaneous_curvature", any_number,
+            {"c", "1/length", "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere"}, membrane,
+            &MembraneScene::spontaneous_curvature);
   table.add("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"}, membrane,
             &MembraneScene::inextensible);
   table.add("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"}, membrane,
             &MembraneScene::capacitance);
   table.add("conductance", not_negative, {"G_m", "conductance/area", "used with [electric] only"}, membrane,
             &MembraneScene::conductance);
+  table.add("mobile", any_number, {"", "", "false: the shape is frozen and only the membrane charges"}, membrane,
+            &MembraneScene::mobile);
 }
 
 void add_fluid_keys(KeyTable& table) {
   table.begin("fluid");
-  table.add("viscosity", positive, {"μ", "viscosity", "inside and outside"}, fluid, &FluidScene::viscosity);
+  table.add("viscosity", positive, {"μ", "viscosity", "of the fluid outside"}, fluid, &FluidScene::viscosity);
+  table.add("viscosity_ratio", not_negative, {"μ_i/μ_e", "1", "inside over outside; 1: no double layer is evaluated"},
+            fluid, &FluidScene::viscosity_ratio);
+  table.add("density_difference", any_number, {"ρ_i − ρ_e", "density", "inside minus outside; goes with [gravity]"},
+            fluid, &FluidScene::density_difference);
+}
+
+void add_gravity_keys(KeyTable& table) {
+  table.begin("gravity");
+  table.add("acceleration", any_number, {"g", "acceleration", "of free fall"}, gravity, &GravityScene::acceleration)
+      .required = true;
+}
+
+template <typename Part>
+void add_waveform_keys(KeyTable& table, std::string_view name, Part part) {
+  table.begin(name);
+  table
+      .add_word("kind", {"dc", "ac", "pulse", "pulse_train", "table"},
+                "constant; cos(2πft + phase); 1 during [start, start + duration); that in every period; linear between "
+                "the entries of a table",
+                part, &WaveformScene::kind)
+      .required = true;
+  table.begin(name, {"ac"});
+  table.add("frequency", positive, {"f", "1/time", "at least four steps a period are taken"}, part,
+            &WaveformScene::frequency)
+      .required = true;
+  table.add("phase", any_number, {"", "1", "in radians; −π/2 makes a sine"}, part, &WaveformScene::phase);
+  table.begin(name, {"pulse", "pulse_train"});
+  table.add("start", any_number, {"", "time", "of the first pulse"}, part, &WaveformScene::start);
+  table.add("duration", positive, {"", "time", "of a pulse"}, part, &WaveformScene::duration).required = true;
+  table.begin(name, {"pulse_train"});
+  table.add("period", positive, {"", "time", "from pulse to pulse; longer than a pulse"}, part, &WaveformScene::period)
+      .required = true;
+  table.begin(name, {"table"});
+  table.add("path", any_number,
+            {"", "", "text file of lines \"time factor\", relative to the scene file; absent: times and values"}, part,
+            &WaveformScene::path);
+  table.add("times", any_number, {"", "time", "ascending, two equal ones make a jump"}, part, &WaveformScene::times);
+  table.add("values", any_number, {"", "1", "factor at each of the times; constant beyond the ends"}, part,
+            &WaveformScene::values);
 }
 
 void add_flow_keys(KeyTable& table) {
   table.begin("flow");
   table
-      .add_word("kind", {"shear", "planar_extension", "axisymmetric_extension", "gradient"},
-                "rate (z, 0, 0), rate (x, 0, -z), rate (-x/2, -y/2, z), or any gradient", flow, &FlowScene::kind)
+      .add_word("kind", {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
+                "rate (z, 0, 0); rate (x, 0, −z); rate (−x/2, −y/2, z); any gradient; centre_velocity (1 − (y² + "
+                "z²)/radius²) along x", flow, &FlowScene::kind)
       .required = true;
   table.begin("flow", {"shear", "planar_extension", "axisymmetric_extension"});
   table.add("rate", any_number, {"γ̇", "1/time", "velocity gradient"}, flow, &FlowScene::rate).required = true;
   table.begin("flow", {"gradient"});
   table.add("gradient", any_number, {"∇v", "1/time", "rows dv_i/dx_j of trace zero"}, flow, &FlowScene::gradient)
       .required = true;
+  table.begin("flow", {"poiseuille"});
+  table.add("centre_velocity", any_number, {"v_c", "velocity", "on the axis"}, flow, &FlowScene::centre_velocity)
+      .required = true;
+  table.add("radius", positive, {"R", "length", "where the profile vanishes; there is no wall"}, flow,
+            &FlowScene::radius)
+      .required = true;
+  add_waveform_keys(table, "flow.waveform", flow_waveform);
 }
 
 void add_electric_keys(KeyTable& table) {
@@ -127,10 +182,13 @@ void add_electric_keys(KeyTable& table) {
       .add("conductivity_out", not_negative, {"σ_e", "conductivity", "of the fluid outside"}, electric,
            &ElectricScene::conductivity_out)
       .required = true;
-  table.add("permittivity", positive, {"ε", "permittivity", "inside and outside"}, electric,
+  table.add("permittivity", positive, {"ε", "permittivity", "of the fluid outside"}, electric,
             &ElectricScene::permittivity);
+  table.add("permittivity_ratio", positive, {"ε_i/ε_e", "1", "inside over outside"}, electric,
+            &ElectricScene::permittivity_ratio);
   table.add_word("initial_Vm", {"zero", "steady"}, "transmembrane potential at time 0", electric,
                  &ElectricScene::initial_potential);
+  add_waveform_keys(table, "electric.waveform", electric_waveform);
 }
 
 void add_numerics_keys(KeyTable& table) {
@@ -141,7 +199,8 @@ void add_numerics_keys(KeyTable& table) {
       .add("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone"}, numerics,
            &NumericsScene::end_time)
       .required = true;
-  table.add_word("symmetry", {"auto", "off"}, "whether symmetries of the scene may be used", numerics,
+  table.add_word("symmetry", {"auto", "off", "axisymmetric"},
+                 "use what is found; use none; refuse a scene that is not axisymmetric about z", numerics,
                  &NumericsScene::symmetry);
 }
 
@@ -153,6 +212,18 @@ void add_output_keys(KeyTable& table) {
 
 TableDescription always_present(std::string_view name, std::string_view description, bool required = false) {
   return {name, description, required, [](const Scene&) { return true; }, [](Scene&) {}};
+}
+
+/// The waveform of a field or flow; its owner comes with it.
+template <typename Member>
+TableDescription waveform_table(std::string_view name, std::string_view description,
+                                std::optional<Member> Scene::*member) {
+  return {name, description, false,
+          [member](const Scene& scene) { return (scene.*member).has_value() && (scene.*member)->waveform.has_value(); },
+          [member](Scene& scene) {
+            if (!(scene.*member)) (scene.*member).emplace();
+            (scene.*member)->waveform.emplace();
+          }};
 }
 
 /// An effect that the scene has exactly if it has the table.
@@ -171,8 +242,11 @@ std::vector<TableDescription> table_rows() {
       always_present("shape", "initial shape", true),
       always_present("membrane", "mechanical and electric properties of the membrane"),
       always_present("fluid", "the fluids inside and outside"),
+      optional_table("gravity", "weight of the inner fluid; absent: none", &Scene::gravity),
       optional_table("flow", "background flow; absent: quiescent", &Scene::flow),
+      waveform_table("flow.waveform", "factor of the flow in time; absent: 1", &Scene::flow),
       optional_table("electric", "applied field; absent: nothing electric is assembled", &Scene::electric),
+      waveform_table("electric.waveform", "factor of the field in time; absent: 1", &Scene::electric),
       always_present("numerics", "resolution in space and time", true),
       always_present("output", "what is written"),
   };
@@ -184,6 +258,7 @@ std::vector<KeyDescription> key_rows() {
   add_shape_keys(table);
   add_membrane_keys(table);
   add_fluid_keys(table);
+  add_gravity_keys(table);
   add_flow_keys(table);
   add_electric_keys(table);
   add_numerics_keys(table);

@@ -34,6 +34,8 @@ struct MemberTraits<TripleOfTriples> : PlainMember<TripleOfTriples, ValueType::m
 template <>
 struct MemberTraits<AxisAngle> : PlainMember<AxisAngle, ValueType::axis_angle> {};
 template <>
+struct MemberTraits<std::vector<double>> : PlainMember<std::vector<double>, ValueType::numbers> {};
+template <>
 struct MemberTraits<std::vector<HarmonicMode>> : PlainMember<std::vector<HarmonicMode>, ValueType::modes> {};
 template <typename Contained>
 struct MemberTraits<std::optional<Contained>> : MemberTraits<Contained> {};

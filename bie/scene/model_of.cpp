@@ -1,9 +1,32 @@
 #include "bie/scene/model_of.hpp"
 
+#include "bie/physics/gravity.hpp"
+#include "bie/physics/poiseuille_flow.hpp"
+#include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/scene/initial_shape.hpp"
 
 namespace vehd {
 namespace {
+
+Waveform waveform_of(const std::optional<WaveformScene>& waveform) {
+  if (!waveform) return {};
+  const WaveformScene& w = *waveform;
+  switch (w.kind) {
+    case WaveformKind::dc:
+      break;
+    case WaveformKind::ac:
+      return Waveform::alternating(1.0, w.frequency, w.phase);
+    case WaveformKind::pulse:
+      return Waveform::pulse(1.0, w.start, w.duration);
+    case WaveformKind::pulse_train:
+      return Waveform::pulse_train(1.0, w.start, w.duration, w.period);
+    case WaveformKind::table:
+      return Waveform::table(w.times, w.values);
+  }
+  return {};
+}
+
+Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
 
 BackgroundFlow background_flow_of(const FlowScene& flow) {
   switch (flow.kind) {
@@ -14,6 +37,7 @@ BackgroundFlow background_flow_of(const FlowScene& flow) {
     case FlowKind::axisymmetric_extension:
       return axisymmetric_extension(flow.rate);
     case FlowKind::gradient:
+    case FlowKind::poiseuille:
       break;
   }
   BackgroundFlow result;
@@ -23,19 +47,42 @@ BackgroundFlow background_flow_of(const FlowScene& flow) {
   return result;
 }
 
+void add_flow(const FlowScene& flow, Model& model) {
+  if (flow.kind == FlowKind::poiseuille) {
+    const PoiseuilleParameters poiseuille{flow.centre_velocity, flow.radius, waveform_of(flow.waveform)};
+    model.effects.push_back(std::make_shared<PoiseuilleFlowEffect>(poiseuille));
+    return;
+  }
+  model.flow = background_flow_of(flow);
+  model.flow->waveform = waveform_of(flow.waveform);
+}
+
 }  // namespace
 
 Model model_of(const Scene& scene) {
   Model model;
   model.viscosity = scene.fluid.viscosity;
+  model.viscosity_ratio = scene.fluid.viscosity_ratio;
   model.inextensible = scene.membrane.inextensible;
+  model.mobile = scene.membrane.mobile;
   if (scene.membrane.bending_modulus.value_or(0.0) > 0.0) {
-    model.bending = BendingParameters{*scene.membrane.bending_modulus};
+    const double modulus = *scene.membrane.bending_modulus;
+    model.bending = BendingParameters{modulus};
+    if (const double curvature = scene.membrane.spontaneous_curvature; curvature != 0.0) {
+      model.effects.push_back(
+          std::make_shared<SpontaneousCurvatureEffect>(SpontaneousCurvatureParameters{modulus, curvature}));
+    }
   }
-  if (scene.flow) model.flow = background_flow_of(*scene.flow);
+  if (scene.gravity) {
+    const GravityParameters gravity{scene.fluid.density_difference, vector_of(scene.gravity->acceleration)};
+    model.effects.push_back(std::make_shared<GravityEffect>(gravity));
+  }
+  if (scene.flow) add_flow(*scene.flow, model);
   if (scene.electric) {
     ElectricParameters electric;
-    electric.field = Vector3(scene.electric->field[0], scene.electric->field[1], scene.electric->field[2]);
+    electric.field = vector_of(scene.electric->field);
+    electric.waveform = waveform_of(scene.electric->waveform);
+    electric.permittivity_ratio = scene.electric->permittivity_ratio;
     electric.conductivity_in = scene.electric->conductivity_in;
     electric.conductivity_out = scene.electric->conductivity_out;
     electric.permittivity = scene.electric->permittivity;

@@ -14,6 +14,7 @@
 #include "bie/scene/scene_checks.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/toml_values.hpp"
+#include "bie/scene/waveform_file.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -50,7 +51,9 @@ toml::table parse_toml(const std::string& text, const std::string& name) {
 
 std::vector<std::string_view> table_names() {
   std::vector<std::string_view> names;
-  for (const TableDescription& table : scene_tables()) names.push_back(table.name);
+  for (const TableDescription& table : scene_tables()) {
+    if (table.name.find('.') == std::string_view::npos) names.push_back(table.name);
+  }
   return names;
 }
 
@@ -86,7 +89,30 @@ void read_key(Scene& scene, const KeyDescription& key, const toml::node& node, c
   key.set(scene, checked_value(key, node, file, scene.units));
 }
 
+/// The table of a dotted name, or nullptr.
+const toml::table* find_table(const toml::table& file, std::string_view name) {
+  return file.at_path(name).as_table();
+}
+
+/// Whether "owner.name" is a table of its own.
+bool is_subtable(std::string_view owner, std::string_view name) {
+  const auto is_it = [&](const TableDescription& table) { return table.name == fmt::format("{}.{}", owner, name); };
+  return std::any_of(scene_tables().begin(), scene_tables().end(), is_it);
+}
+
+/// [electric.waveform] alone makes TOML create [electric] as well.
+void require_owner(const TableDescription& description, const toml::table& table, const std::string& file) {
+  for (const auto& [name, node] : table) {
+    if (!is_subtable(description.name, name.str())) return;
+  }
+  for (const auto& [name, node] : table) {
+    throw InputError(fmt::format("{}: [{}.{}] without [{}]: there is nothing that it could act on", place(node, file),
+                                 description.name, name.str(), description.name));
+  }
+}
+
 void read_table(Scene& scene, const TableDescription& description, const toml::table& table, const std::string& file) {
+  require_owner(description, table, file);
   description.create(scene);
   // The kind decides which of the other keys are accepted.
   if (const KeyDescription* kind = find_key(description.name, "kind")) {
@@ -100,6 +126,11 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
   const std::string kind = kind_of(scene, description.name);
   for (const auto& [name, node] : table) {
     if (name.str() == "kind" && !kind.empty()) continue;
+    if (is_subtable(description.name, name.str())) {
+      if (node.is_table()) continue;
+      throw InputError(fmt::format("{}: \"{}\" in [{}] is {}; accepted: a table [{}.{}]", place(node, file), name.str(),
+                                   description.name, shown(node), description.name, name.str()));
+    }
     if (find_key(description.name, name.str()) == nullptr) {
       throw InputError(fmt::format("{}: {}", place(node, file), unknown_key_text(description.name, name.str())));
     }
@@ -139,7 +170,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   }
   Scene scene;
   for (const TableDescription& description : scene_tables()) {
-    if (const toml::table* table = file[description.name].as_table()) {
+    if (const toml::table* table = find_table(file, description.name)) {
       read_table(scene, description, *table, name);
       // [units] comes first: the values of every later table may need its scales.
       if (description.name == "units") derive_reference_scales(*scene.units, file);
@@ -147,11 +178,14 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
       throw InputError(fmt::format("{}:1: missing table [{}] ({})", name, description.name, description.description));
     }
   }
+  if (scene.flow && scene.flow->waveform) read_waveform_table(*scene.flow->waveform, folder);
+  if (scene.electric && scene.electric->waveform) read_waveform_table(*scene.electric->waveform, folder);
   check_scene(scene, file, name);
   if (scene.shape.kind == ShapeKind::file) {
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
     require_shape_file(scene, file, name);
   }
+  check_symmetry(scene, file, name);
   return scene;
 }
 

@@ -22,9 +22,10 @@ struct HarmonicMode {
 };
 
 enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, radial, file };
-enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient };
+enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient, poiseuille };
+enum class WaveformKind { dc, ac, pulse, pulse_train, table };
 enum class InitialPotential { zero, steady };
-enum class SymmetryUse { automatic, off };
+enum class SymmetryUse { automatic, off, axisymmetric };
 
 /// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
 struct UnitsScene {
@@ -55,21 +56,46 @@ struct ShapeScene {
 
 struct MembraneScene {
   std::optional<double> bending_modulus;
+  double spontaneous_curvature = 0.0;
   bool inextensible = true;
   double capacitance = 1.0;
   double conductance = 0.0;
+  bool mobile = true;
   bool operator==(const MembraneScene&) const = default;
 };
 
 struct FluidScene {
   double viscosity = 1.0;
+  double viscosity_ratio = 1.0;
+  double density_difference = 0.0;
   bool operator==(const FluidScene&) const = default;
+};
+
+struct GravityScene {
+  Triple acceleration{0.0, 0.0, 0.0};
+  bool operator==(const GravityScene&) const = default;
+};
+
+/// Factor of a field or flow in the course of time; which members count depends on the kind.
+struct WaveformScene {
+  WaveformKind kind = WaveformKind::dc;
+  double frequency = 1.0;
+  double phase = 0.0;
+  double start = 0.0;
+  double duration = 1.0;
+  double period = 1.0;
+  std::optional<std::string> path;  ///< of a table that is still to be read
+  std::vector<double> times, values;
+  bool operator==(const WaveformScene&) const = default;
 };
 
 struct FlowScene {
   FlowKind kind = FlowKind::shear;
   double rate = 1.0;
   TripleOfTriples gradient{};
+  double centre_velocity = 1.0;
+  double radius = 1.0;
+  std::optional<WaveformScene> waveform;  ///< absent: constant
   bool operator==(const FlowScene&) const = default;
 };
 
@@ -78,6 +104,8 @@ struct ElectricScene {
   double conductivity_in = 1.0;
   double conductivity_out = 1.0;
   double permittivity = 1.0;
+  double permittivity_ratio = 1.0;
+  std::optional<WaveformScene> waveform;  ///< absent: constant
   InitialPotential initial_potential = InitialPotential::zero;
   bool operator==(const ElectricScene&) const = default;
 };
@@ -101,6 +129,7 @@ struct Scene {
   ShapeScene shape;
   MembraneScene membrane;
   FluidScene fluid;
+  std::optional<GravityScene> gravity;
   std::optional<FlowScene> flow;
   std::optional<ElectricScene> electric;
   NumericsScene numerics;

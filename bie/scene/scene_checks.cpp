@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "bie/scene/initial_shape.hpp"
+#include "bie/scene/model_of.hpp"
 #include "bie/scene/toml_values.hpp"
 #include "bie/support/errors.hpp"
 
@@ -18,6 +19,8 @@ constexpr double most_snapshots = 999999;
 constexpr double most_steps = 1e9;
 /// Largest trace of a velocity gradient, relative to its entries: what decimal input rounds to.
 constexpr double trace_tolerance = 1e-12;
+/// A step as long as the period would see an alternating field as constant.
+constexpr double fewest_steps_a_period = 4.0;
 
 class Checks {
  public:
@@ -29,13 +32,91 @@ class Checks {
     if (scene_.shape.kind == ShapeKind::radial) check_radial_shape();
     if (scene_.flow && scene_.flow->kind == FlowKind::gradient) check_gradient();
     if (scene_.electric) check_conductivities();
+    check_effects();
+    if (scene_.flow && scene_.flow->waveform) check_waveform("flow", *scene_.flow->waveform, flow_is_zero());
+    if (scene_.electric && scene_.electric->waveform) {
+      check_waveform("electric", *scene_.electric->waveform, scene_.electric->field == Triple{});
+    }
     check_counts();
   }
 
  private:
   [[noreturn]] void refuse(std::string_view table, std::string_view key, const std::string& problem) const {
-    const auto node = table_[table][key];
-    throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *table_[table].node(), file_), problem));
+    const auto owner = table_.at_path(table);
+    const auto node = owner[key];
+    throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *owner.node(), file_), problem));
+  }
+
+  void check_effects() const {
+    const bool heavy = scene_.fluid.density_difference != 0.0;
+    if (scene_.gravity && !heavy) {
+      refuse("gravity", "acceleration",
+             "[gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
+    }
+    if (heavy && !scene_.gravity) {
+      refuse("fluid", "density_difference", "\"density_difference\" in [fluid] has no effect without [gravity]");
+    }
+    if (scene_.gravity && scene_.gravity->acceleration == Triple{}) {
+      refuse("gravity", "acceleration", "\"acceleration\" in [gravity] is 0; accepted: a vector that is not zero");
+    }
+    if (scene_.membrane.spontaneous_curvature != 0.0 && !(scene_.membrane.bending_modulus.value_or(0.0) > 0.0)) {
+      refuse("membrane", "spontaneous_curvature",
+             "\"spontaneous_curvature\" in [membrane] has no effect without \"bending_modulus\"");
+    }
+    if (!scene_.membrane.mobile && !scene_.electric) {
+      refuse("membrane", "mobile", "\"mobile\" in [membrane] is false without [electric]: nothing would ever change");
+    }
+  }
+
+  [[nodiscard]] bool flow_is_zero() const {
+    const FlowScene& flow = *scene_.flow;
+    if (flow.kind == FlowKind::gradient) return flow.gradient == TripleOfTriples{};
+    return (flow.kind == FlowKind::poiseuille ? flow.centre_velocity : flow.rate) == 0.0;
+  }
+
+  void check_waveform(const std::string& owner, const WaveformScene& waveform, bool acts_on_nothing) const {
+    const std::string table = owner + ".waveform";
+    if (acts_on_nothing) {
+      refuse(table, "kind", fmt::format("[{}] acts on nothing: what it multiplies in [{}] is 0", table, owner));
+    }
+    switch (waveform.kind) {
+      case WaveformKind::dc:
+      case WaveformKind::pulse:
+        break;
+      case WaveformKind::ac: {
+        const double steps = 1.0 / (waveform.frequency * scene_.numerics.dt);
+        if (steps >= fewest_steps_a_period) break;
+        refuse(table, "frequency",
+               fmt::format("\"dt\" in [numerics] takes {:.3g} steps a period of [{}]; accepted: at least {:g}", steps,
+                           table, fewest_steps_a_period));
+      }
+      case WaveformKind::pulse_train:
+        if (waveform.period > waveform.duration) break;
+        refuse(table, "period",
+               fmt::format("\"period\" in [{}] is {:g}; accepted: more than the duration {:g}", table, waveform.period,
+                           waveform.duration));
+      case WaveformKind::table:
+        check_waveform_table(table, waveform);
+    }
+  }
+
+  void check_waveform_table(const std::string& table, const WaveformScene& waveform) const {
+    const auto refuse_times = [&](const std::string& problem) {
+      refuse(table, "times", fmt::format("the table of [{}] {}", table, problem));
+    };
+    const auto& times = waveform.times;
+    if (times.size() != waveform.values.size()) {
+      refuse_times(fmt::format("has {} times and {} values; accepted: as many of either", times.size(),
+                               waveform.values.size()));
+    }
+    if (times.size() < 2) refuse_times(fmt::format("has {} entries; accepted: at least 2", times.size()));
+    const auto fall = std::is_sorted_until(times.begin(), times.end());
+    if (fall != times.end()) refuse_times(fmt::format("falls to the time {:g}; accepted: ascending times", *fall));
+    for (std::size_t i = 2; i < times.size(); ++i) {
+      if (times[i] == times[i - 2]) {
+        refuse_times(fmt::format("has the time {:g} three times; accepted: twice, which makes a jump", times[i]));
+      }
+    }
   }
 
   void check_placement() const {
@@ -109,6 +190,15 @@ class Checks {
 
 void check_scene(const Scene& scene, const toml::table& table, const std::string& file) {
   Checks(scene, table, file).run();
+}
+
+void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file) {
+  if (scene.numerics.symmetry != SymmetryUse::axisymmetric) return;
+  const Symmetry found = symmetry_of(scene, model_of(scene));
+  if (found.axisymmetric) return;
+  throw InputError(fmt::format(
+      "{}: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about z; they have: {}",
+      place(*table["numerics"]["symmetry"].node(), file), symmetry_text(found)));
 }
 
 void require_shape_file(const Scene& scene, const toml::table& table, const std::string& file) {

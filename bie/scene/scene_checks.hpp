@@ -12,6 +12,9 @@ namespace vehd {
 /// @throws InputError "file:line: ..." at the key to blame
 void check_scene(const Scene& scene, const toml::table& table, const std::string& file);
 
+/// The symmetry that the scene insists on; builds its shape. @throws InputError
+void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file);
+
 /// The shape file must exist before a run starts. @throws InputError
 void require_shape_file(const Scene& scene, const toml::table& table, const std::string& file);
 

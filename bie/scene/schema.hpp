@@ -15,10 +15,10 @@
 namespace vehd {
 
 /// `quantity` is a number that always has a unit, kept in SI; every other value is dimensionless once read.
-enum class ValueType { boolean, integer, number, word, text, triple, matrix, axis_angle, modes, quantity };
+enum class ValueType { boolean, integer, number, word, text, triple, matrix, axis_angle, numbers, modes, quantity };
 
 using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, AxisAngle,
-                           std::vector<HarmonicMode>>;
+                           std::vector<double>, std::vector<HarmonicMode>>;
 
 /// Accepted interval of a number or of every component of an array.
 struct Range {

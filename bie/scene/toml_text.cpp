@@ -28,8 +28,8 @@ std::string text_to_toml(const std::string& text) {
   return quoted + '"';
 }
 
-template <std::size_t size>
-std::string numbers_to_toml(const std::array<double, size>& numbers) {
+template <typename Numbers>
+std::string numbers_to_toml(const Numbers& numbers) {
   std::string text;
   for (const double number : numbers) text += (text.empty() ? "" : ", ") + number_to_toml(number);
   return "[" + text + "]";
@@ -42,6 +42,7 @@ struct TomlText {
   std::string operator()(const std::string& value) const { return text_to_toml(value); }
   std::string operator()(const Triple& value) const { return numbers_to_toml(value); }
   std::string operator()(const AxisAngle& value) const { return numbers_to_toml(value); }
+  std::string operator()(const std::vector<double>& value) const { return numbers_to_toml(value); }
   std::string operator()(const TripleOfTriples& rows) const {
     return fmt::format("[{}, {}, {}]", numbers_to_toml(rows[0]), numbers_to_toml(rows[1]), numbers_to_toml(rows[2]));
   }

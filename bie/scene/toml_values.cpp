@@ -110,6 +110,14 @@ AxisAngle axis_angle(const Context& context, const toml::node& node) {
   return {number(context, array[0]), number(context, array[1]), number(context, array[2]), number(context, array[3])};
 }
 
+std::vector<double> numbers(const Context& context, const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  std::vector<double> result;
+  for (const toml::node& entry : *array) result.push_back(number(context, entry));
+  return result;
+}
+
 std::string text(const Context& context, const toml::node& node) {
   if (!node.is_string()) context.refuse(node, fmt::format("is {}", shown(node)));
   return *node.value<std::string>();
@@ -199,6 +207,8 @@ std::string accepted_text(const KeyDescription& key) {
       return "3 rows of 3 finite numbers";
     case ValueType::axis_angle:
       return "4 finite numbers [axis_x, axis_y, axis_z, degrees]";
+    case ValueType::numbers:
+      return fmt::format("a list of numbers, each {}", key.range.text());
     case ValueType::modes:
       return "entries {n = degree, m = -n ... n, a = finite number}";
     case ValueType::quantity:
@@ -230,6 +240,8 @@ Value checked_value(const KeyDescription& key, const toml::node& node, const std
       return axis_angle(context, node);
     case ValueType::quantity:
       return quantity(context, node);
+    case ValueType::numbers:
+      return numbers(context, node);
     case ValueType::modes:
       break;
   }

@@ -7,8 +7,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace {
@@ -72,27 +70,6 @@ std::vector<std::string> vehd_command(const std::vector<std::string>& arguments)
 ProgramResult run_command(const std::vector<std::string>& command) { return RunningProgram(command).wait(); }
 
 ProgramResult run_vehd(const std::vector<std::string>& arguments) { return run_command(vehd_command(arguments)); }
-
-TemporaryDirectory::TemporaryDirectory() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "vehd-test.XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
-  path_ = pattern;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string file_text(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 
 std::string quick_scene(const std::string& end_time) {
   return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n"

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/files.hpp"
+
 /// The real binary as users run it.
 struct ProgramResult {
   int exit_code = -1;  ///< -1: ended by a signal
@@ -38,22 +40,6 @@ class RunningProgram {
 ProgramResult run_vehd(const std::vector<std::string>& arguments);
 ProgramResult run_command(const std::vector<std::string>& command);
 std::vector<std::string> vehd_command(const std::vector<std::string>& arguments);
-
-/// A directory of its own for one test case, removed at the end.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string file_text(const std::filesystem::path& path);
-void write_text(const std::filesystem::path& path, const std::string& text);
 
 /// A quick scene: order 6, bending, a field, 12 steps of 0.25, a snapshot every 0.5.
 std::string quick_scene(const std::string& end_time = "3.0");

@@ -71,6 +71,22 @@ BOOST_AUTO_TEST_CASE(are_those_of_effects_that_the_scene_has) {
   for (const auto& [symbol, group] : no_field) BOOST_TEST(std::isfinite(group.value), symbol);
 }
 
+BOOST_AUTO_TEST_CASE(of_further_effects_have_the_written_values) {
+  auto groups = groups_of(
+      parsed("[shape]\nkind='ellipsoid'\naxes=[2,2,2]\n[membrane]\nbending_modulus=0.5\nspontaneous_curvature=-0.25\n"
+             "[fluid]\nviscosity=3\nviscosity_ratio=7\ndensity_difference=-2\n[gravity]\nacceleration=[0,3,4]\n"
+             "[flow]\nkind='poiseuille'\ncentre_velocity=-5\nradius=4\n[electric]\nfield=[0,0,1]\nconductivity_in=1\n"
+             "conductivity_out=2\npermittivity_ratio=0.3\n[electric.waveform]\nkind='ac'\nfrequency=0.25\n"
+             "[numerics]\ndt=1\nend_time=1\n"));
+  const auto tolerance = boost::test_tools::tolerance(1e-12);
+  BOOST_TEST(groups["Λ"].value == 7.0);
+  BOOST_TEST(groups["S"].value == 0.3);
+  BOOST_TEST(groups["c₀"].value == -0.5, tolerance);
+  BOOST_TEST(groups["Bo"].value == 2.0 * 5.0 * 16.0 / 0.5, tolerance);
+  BOOST_TEST(groups["χ"].value == 2.0 * 5.0 * 2.0 / 16.0 * 3.0 * 8.0 / 0.5, tolerance);
+  BOOST_TEST(groups["ωt_m"].value == 0.5 * std::numbers::pi * groups["t_m"].value, tolerance);
+}
+
 BOOST_AUTO_TEST_CASE(si_text_needs_the_scale) {
   const vehd::Scene scene = parsed(si_scene());
   auto groups = groups_of(scene);

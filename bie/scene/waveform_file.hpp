@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// Replaces the path of a waveform, if it has one, with the times and values of the file: lines of two numbers apart by
+/// blanks or a comma; # starts a comment. A run so knows its waveform even when the file is gone.
+/// @param folder  where a relative path starts
+/// @throws InputError "file:line: …"
+void read_waveform_table(WaveformScene& waveform, const std::filesystem::path& folder);
+
+}  // namespace vehd
