@@ -77,7 +77,10 @@ int run_program(int argc, char** argv) {
   ExitCode exit_code = ExitCode::done;
   add_run_command(program, exit_code);
   add_plot_command(program, exit_code);
+  add_plan_command(program, exit_code);
   add_verify_command(program, exit_code);
+  add_mesh_command(program, exit_code);
+  add_check_command(program, exit_code);
   add_bench_command(program, exit_code);
   add_help_command(program, exit_code);
   return static_cast<int>(parse_and_run(program, argc, argv, exit_code));

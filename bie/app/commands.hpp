@@ -12,6 +12,9 @@ namespace vehd {
 void add_run_command(CLI::App& program, ExitCode& exit_code);
 void add_plot_command(CLI::App& program, ExitCode& exit_code);
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
+void add_plan_command(CLI::App& program, ExitCode& exit_code);
+void add_mesh_command(CLI::App& program, ExitCode& exit_code);
+void add_check_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
 void add_help_command(CLI::App& program, ExitCode& exit_code);
 

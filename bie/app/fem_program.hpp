@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bie/app/errors.hpp"
+
+namespace vehd {
+
+/// The separate executable of the finite-element side. deal.II brings the OpenMPI build of HDF5, which must not meet
+/// the serial one in one process.
+class FemProgram {
+ public:
+  /// Looks beside the running program. @throws InputError saying how to build it if it is not there
+  FemProgram();
+
+  /// Runs it with these arguments on the terminal of this program, and waits.
+  /// @param n_ranks  processes, started by mpirun if more than one
+  /// @return its exit code, one of ExitCode
+  /// @throws InputError if it cannot be started, std::runtime_error if a signal ended it
+  [[nodiscard]] ExitCode run(const std::vector<std::string>& arguments, int n_ranks = 1) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace vehd

@@ -1,0 +1,85 @@
+#include "bie/app/frozen_state.hpp"
+
+#include <fmt/format.h>
+
+#include "bie/app/run_reader.hpp"
+#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/stepping/stepper.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
+
+void require_start(const std::filesystem::path& file, std::optional<double> time) {
+  if (time.value_or(0.0) == 0.0) return;
+  throw InputError(fmt::format("{}: a scene has no state at time {:g}; run it and give its run.h5, or leave --time out",
+                               file.string(), *time));
+}
+
+FrozenState start_of_scene(const std::filesystem::path& file) {
+  const Scene scene = read_scene(file);
+  FrozenState frozen;
+  frozen.source = file.string();
+  frozen.model = model_of(scene);
+  const Discretisation discretisation = discretisation_of(scene, frozen.model);
+  frozen.symmetry = discretisation.symmetry();
+  const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
+  Instruments instruments;
+  frozen.state =
+      initial_state(frozen.model, discretisation, initial_position(scene), steady, scene.numerics.dt, instruments);
+  frozen.fields = evaluate(frozen.model, discretisation, frozen.state, instruments).fields;
+  return frozen;
+}
+
+std::size_t snapshot_of(const RunReader& run, std::optional<double> time) {
+  return time ? run.at(*time) : run.times().size() - 1;
+}
+
+FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<double> time) {
+  const RunReader run(file);
+  const std::size_t snapshot = snapshot_of(run, time);
+  const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
+  FrozenState frozen;
+  frozen.source = file.string();
+  frozen.model = model_of(scene);
+  State& state = frozen.state;
+  state.time = run.times()[snapshot];
+  const auto read = [&](const std::string& name, Index components) {
+    return run.has_field(snapshot, name) ? run.coefficients(snapshot, name, components) : Matrix();
+  };
+  state.position = run.coefficients(snapshot, "x", 3);
+  state.area_strain = Vector::Zero(state.position.rows());
+  if (frozen.model.electric) state.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
+  Fields& fields = frozen.fields;
+  fields.velocity = read("velocity", 3);
+  fields.force_bending = read("force_bending", 3);
+  fields.force_tension = read("force_tension", 3);
+  fields.force_electric = read("force_electric", 3);
+  fields.tension = read("tension", 1);
+  fields.charge = read("q", 1);
+  if (scene.numerics.symmetry == SymmetryUse::automatic) frozen.symmetry = find_symmetry(frozen.model, state);
+  return frozen;
+}
+
+}  // namespace
+
+FrozenState read_frozen_state(const std::filesystem::path& file, std::optional<double> time) {
+  if (!is_scene(file)) return snapshot_of_run(file, time);
+  require_start(file, time);
+  return start_of_scene(file);
+}
+
+Matrix read_frozen_shape(const std::filesystem::path& file, std::optional<double> time) {
+  if (is_scene(file)) {
+    require_start(file, time);
+    return initial_position(read_scene(file));
+  }
+  const RunReader run(file);
+  return run.coefficients(snapshot_of(run, time), "x", 3);
+}
+
+}  // namespace vehd

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "bie/stepping/fields.hpp"
+#include "bie/stepping/model.hpp"
+#include "bie/stepping/state.hpp"
+#include "bie/stepping/symmetry.hpp"
+
+namespace vehd {
+
+/// One instant of a run, or the start of a scene, at which the membrane is held still and its fields are compared.
+struct FrozenState {
+  std::string source;  ///< file that it comes from
+  Model model;
+  Symmetry symmetry;
+  State state;    ///< time, x and V_m; V_m empty without electricity
+  Fields fields;  ///< as the run stored them
+};
+
+/// @param file  a run.h5, or a scene (.toml) whose initial state is computed in memory
+/// @param time  of the snapshot; absent: the last one. A scene knows time 0 only.
+/// @throws InputError if there is no such time or the file cannot be used
+FrozenState read_frozen_state(const std::filesystem::path& file, std::optional<double> time);
+
+/// The shape alone, coefficients [n_coefficients x 3]; of a scene nothing is solved.
+Matrix read_frozen_shape(const std::filesystem::path& file, std::optional<double> time);
+
+}  // namespace vehd

@@ -1,0 +1,148 @@
+#include "bie/app/plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <functional>
+
+#include "bie/app/step_plan.hpp"
+#include "bie/app/summary.hpp"
+#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/stepping/composition.hpp"
+#include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/stepper.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+struct OperatorFlag {
+  const char* name;
+  bool LayerSelection::*flag;
+};
+constexpr std::array kOperators = {OperatorFlag{"laplace_single", &LayerSelection::laplace_single},
+                                   OperatorFlag{"laplace_double", &LayerSelection::laplace_double},
+                                   OperatorFlag{"laplace_adjoint", &LayerSelection::laplace_adjoint},
+                                   OperatorFlag{"stokes_single", &LayerSelection::stokes_single},
+                                   OperatorFlag{"stokes_double", &LayerSelection::stokes_double}};
+
+constexpr std::array kKnownEffects = {"bending",         "inextensibility", "electric field",       "background flow",
+                                      "Poiseuille flow", "gravity",         "spontaneous curvature",
+                                    "viscosity contrast"};
+
+/// The model without one of its effects.
+Model without(const Model& model, const std::string& name) {
+  Model result = model;
+  if (name == "bending") result.bending.reset();
+  if (name == "inextensibility") result.inextensible = false;
+  if (name == "electric field") result.electric.reset();
+  if (name == "background flow") result.flow.reset();
+  if (name == "viscosity contrast") result.viscosity_ratio = 1.0;
+  std::erase_if(result.effects, [&](const auto& effect) { return effect->description().name == name; });
+  return result;
+}
+
+/// Independent coefficients per scalar field.
+std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
+  const std::int64_t all = symmetry.axisymmetric ? order + 1 : std::int64_t{order + 1} * (order + 1);
+  return symmetry.axisymmetric ? all
+                               : (all + static_cast<std::int64_t>(symmetry.reflections.size()) - 1) /
+                                     static_cast<std::int64_t>(symmetry.reflections.size());
+}
+
+std::string difference_text(const Scene& scene, const Model& model, const Model& reduced, const RunPlan& plan,
+                            std::size_t n_unknowns) {
+  std::vector<std::string> parts;
+  const LayerSelection needed = needed_layers(model, true);
+  const LayerSelection left = needed_layers(reduced, true);
+  std::vector<std::string> saved;
+  for (const OperatorFlag& op : kOperators) {
+    if (needed.*op.flag && !(left.*op.flag)) saved.emplace_back(op.name);
+  }
+  if (!saved.empty()) parts.push_back(fmt::format("no {}", fmt::join(saved, ", ")));
+  if (n_unknowns > 0) parts.push_back(fmt::format("{} fewer unknown field{}", n_unknowns, n_unknowns > 1 ? "s" : ""));
+  const std::string symmetry = symmetry_text(symmetry_of(scene, reduced));
+  if (symmetry != plan.symmetry) parts.push_back("symmetry: " + symmetry);
+  return parts.empty() ? "nothing but its own term" : fmt::format("{}", fmt::join(parts, "; "));
+}
+
+}  // namespace
+
+RunPlan plan_of(const Scene& scene) {
+  const Model model = model_of(scene);
+  const Symmetry symmetry = symmetry_of(scene, model);
+  const std::vector<EffectDescription> effects = effects_of(model);
+  RunPlan plan;
+  plan.symmetry = symmetry_text(symmetry);
+  std::size_t n_fields = 0;
+  for (const EffectDescription& effect : effects) {
+    n_fields += effect.unknowns.size();
+    plan.effects.push_back({effect.name, effect.adds,
+                            difference_text(scene, model, without(model, effect.name), plan, effect.unknowns.size())});
+  }
+  for (const char* name : kKnownEffects) {
+    const auto present = [&](const EffectDescription& effect) { return effect.name == name; };
+    if (std::none_of(effects.begin(), effects.end(), present)) plan.absent.emplace_back(name);
+  }
+  const LayerSelection needed = needed_layers(model, true);
+  for (const OperatorFlag& op : kOperators) {
+    if (!(needed.*op.flag)) continue;
+    std::vector<std::string> reasons;
+    for (const EffectDescription& effect : effects) {
+      for (const OperatorNeed& need : effect.operators) {
+        if (need.layer == op.flag) reasons.push_back(need.why);
+      }
+    }
+    plan.operators.push_back({op.name, fmt::format("{}", fmt::join(reasons, "; "))});
+  }
+  const Discretisation discretisation(settings_of(scene), symmetry);
+  const Discretisation::Tables& tables = discretisation.tables();
+  plan.kernel_evaluations = evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections);
+  plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
+  double time = 0.0;
+  while (time < scene.numerics.end_time) {
+    const EventTimes events{scene.output.every, scene.numerics.end_time, next_corner(model, time)};
+    const StepPlan step = plan_step(time, scene.numerics.dt, events);
+    plan.n_steps += std::lround((step.event_time - time) / step.dt_limit);
+    time = step.event_time;
+  }
+  return plan;
+}
+
+void predict_cost(const Scene& scene, RunPlan& plan) {
+  constexpr int kLargestTimed = 32;
+  constexpr int kWarmUp = 2;
+  constexpr int kTimed = 3;
+  Scene timed = scene;
+  timed.numerics.order = std::min(scene.numerics.order, kLargestTimed);
+  const Model model = model_of(timed);
+  const Discretisation discretisation = discretisation_of(timed, model);
+  const double dt = timed.numerics.dt;
+  const bool steady = timed.electric && timed.electric->initial_potential == InitialPotential::steady;
+  Instruments instruments;
+  State state = initial_state(model, discretisation, initial_position(timed), steady, dt, instruments);
+  Evaluation evaluation = evaluate(model, discretisation, state, instruments);
+  std::vector<double> seconds;
+  for (int i = 0; i < kWarmUp + kTimed; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    const StepPlan step =
+        plan_step(state.time, dt, {timed.output.every, state.time + 1e3 * dt, next_corner(model, state.time)});
+    Advance advanced = advance(model, discretisation, state, evaluation, dt, step.dt_limit, instruments);
+    if (!advanced.accepted) throw ConvergenceError("no acceptable first step: " + advanced.reason);
+    state = std::move(advanced.state);
+    evaluation = evaluate(model, discretisation, state, instruments, &evaluation);
+    if (i >= kWarmUp)
+      seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  const double ratio = double(scene.numerics.order) / timed.numerics.order;
+  plan.seconds_per_step = seconds[seconds.size() / 2] * std::pow(ratio, 5);
+  plan.memory_bytes = static_cast<std::int64_t>(static_cast<double>(peak_memory_bytes()) * std::pow(ratio, 4));
+}
+
+}  // namespace vehd

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+struct PlannedEffect {
+  std::string name;
+  std::string adds;       ///< the term of the model
+  std::string if_absent;  ///< what a run would save without it
+};
+
+struct PlannedOperator {
+  std::string name;  ///< as in kernel_evaluations of summary.json
+  std::string why;
+};
+
+/// What a run of a scene will do and cost.
+struct RunPlan {
+  std::vector<PlannedEffect> effects;
+  std::vector<std::string> absent;
+  std::string symmetry;
+  std::vector<PlannedOperator> operators;
+  std::uint64_t kernel_evaluations = 0;  ///< of each operator at each new shape
+  std::int64_t unknowns = 0;             ///< independent scalars that the solves of a step find
+  std::int64_t n_steps = 0;              ///< if none is rejected
+  double seconds_per_step = 0.0;
+  std::int64_t memory_bytes = 0;
+};
+
+/// Everything that follows from the scene alone; costs are left at zero.
+RunPlan plan_of(const Scene& scene);
+
+/// Adds seconds per step and memory: a few steps from the scene's start are taken, in memory alone. Orders above 32
+/// are timed at 32 and scaled with the growth of assembly, p^5, and of operators, p^4.
+/// @throws ConvergenceError where the first step cannot be taken
+void predict_cost(const Scene& scene, RunPlan& plan);
+
+}  // namespace vehd

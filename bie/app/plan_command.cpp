@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+#include "bie/app/commands.hpp"
+#include "bie/app/plan.hpp"
+#include "bie/app/progress.hpp"
+#include "bie/scene/reader.hpp"
+
+namespace vehd {
+namespace {
+
+struct PlanOptions {
+  std::string scene_file;
+  CommonOptions common;
+};
+
+nlohmann::json json_of(const RunPlan& plan) {
+  nlohmann::json json;
+  json["effects"] = nlohmann::json::array();
+  for (const PlannedEffect& effect : plan.effects) {
+    json["effects"].push_back({{"name", effect.name}, {"adds", effect.adds}, {"if_absent", effect.if_absent}});
+  }
+  json["absent"] = plan.absent;
+  json["symmetry"] = plan.symmetry;
+  json["operators"] = nlohmann::json::array();
+  for (const PlannedOperator& op : plan.operators) json["operators"].push_back({{"name", op.name}, {"why", op.why}});
+  json["kernel_evaluations_per_shape"] = plan.kernel_evaluations;
+  json["unknowns"] = plan.unknowns;
+  json["steps"] = plan.n_steps;
+  json["seconds_per_step"] = plan.seconds_per_step;
+  json["memory_bytes"] = plan.memory_bytes;
+  return json;
+}
+
+void print(const RunPlan& plan) {
+  fmt::print("effects\n");
+  for (const PlannedEffect& effect : plan.effects) {
+    fmt::print("  {:<22} {}\n  {:<22} without it: {}\n", effect.name, effect.adds, "", effect.if_absent);
+  }
+  fmt::print("absent     {}\n", fmt::join(plan.absent, ", "));
+  fmt::print("symmetry   {}\n", plan.symmetry);
+  fmt::print("operators  ({} kernel evaluations each at every new shape)\n", plan.kernel_evaluations);
+  for (const PlannedOperator& op : plan.operators) fmt::print("  {:<22} {}\n", op.name, op.why);
+  fmt::print("unknowns   {} a step\n", plan.unknowns);
+  fmt::print("cost       {} steps of {:.2g} s: {}, {:.0f} MB\n", plan.n_steps, plan.seconds_per_step,
+             duration_text(static_cast<double>(plan.n_steps) * plan.seconds_per_step),
+             static_cast<double>(plan.memory_bytes) / 1e6);
+}
+
+ExitCode plan(const PlanOptions& options) {
+  const Scene scene = read_scene(options.scene_file);
+  RunPlan result = plan_of(scene);
+  predict_cost(scene, result);
+  print(result);
+  write_json(options.common, json_of(result));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("plan", "Say what a run of a scene will do and cost");
+  const auto options = std::make_shared<PlanOptions>();
+  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
+  add_common_options(*command, options->common);
+  command->footer("Seconds and memory come from a few trial steps; nothing is written.");
+  command->callback([options, &exit_code] { exit_code = plan(*options); });
+}
+
+}  // namespace vehd

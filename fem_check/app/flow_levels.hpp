@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "fem_check/app/check_input.hpp"
+#include "fem_check/app/level.hpp"
+#include "fem_check/app/potential_levels.hpp"
+#include "fem_check/app/progress.hpp"
+#include "fem_check/app/refinement.hpp"
+#include "fem_check/flow.hpp"
+
+namespace vehd::fem_check {
+
+/// Flows at rising degree. Surface fields: velocity and divergence (force given); samples: velocity.
+struct FlowLevels {
+  LevelSequence sequence;
+  std::vector<FlowSolution> solutions;  ///< of every level, force given
+};
+
+FlowLevels solve_flow_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                             const Report& report);
+
+/// Adds velocity_own_force, with the f_E of the finite elements in the force in place of the snapshot's, to the last
+/// two levels. Stokes flow is linear: only the change is solved, on the level before the last.
+void add_own_force(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                   const PotentialLevels& potential, LevelSequence& sequence, const Report& report);
+
+}  // namespace vehd::fem_check

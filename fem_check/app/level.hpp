@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fem_check/types.hpp"
+
+namespace vehd::fem_check {
+
+/// Fields by name: one column per point of the comparison on γ, or per sample point.
+using FieldValues = std::map<std::string, Eigen::MatrixXd>;
+
+/// One discrete solution: its fields at the points of the comparison, and what it took.
+struct Level {
+  std::string problem;  ///< "potential" or "flow"
+  int degree = 0;
+  double outer_radius = 0.0;
+  int n_cells = 0;
+  long n_unknowns = 0;
+  double seconds = 0.0;
+  std::size_t peak_memory_bytes = 0;
+  FieldValues surface;
+  FieldValues samples;
+};
+
+/// All levels of one problem on one mesh, coarse to fine, and one of them again with the outer sphere further out.
+struct LevelSequence {
+  std::vector<Level> levels;
+  int repeated = 0;  ///< which of them
+  Level far;         ///< its repetition
+};
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "meshes/mesh_quality.hpp"
+
+namespace vehd::fem_check {
+
+struct MeshTask {
+  std::filesystem::path input;   ///< file with the shape
+  std::filesystem::path output;  ///< MSH 4.1
+  std::string family = "hex";    ///< or "tet"
+  int refine = 0;                ///< how often the element size is divided by 1.5
+};
+
+struct MeshResult {
+  std::string family;
+  int n_cells = 0, n_faces = 0;  ///< faces: on the membrane
+  double outer_radius = 0.0;
+  double shape_volume = 0.0, shape_area = 0.0;
+  meshes::MeshQuality quality;
+};
+
+/// Meshes the shape and writes the mesh. @throws InputError, meshes::MeshError
+MeshResult run_mesh(const MeshTask& task);
+
+std::string text_of(const MeshResult& result);
+nlohmann::json json_of(const MeshResult& result);
+
+}  // namespace vehd::fem_check

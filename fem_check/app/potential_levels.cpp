@@ -1,0 +1,61 @@
+#include "fem_check/app/potential_levels.hpp"
+
+#include <chrono>
+
+#include "fem_check/app/level_loop.hpp"
+#include "fem_check/app/surface_series.hpp"
+
+namespace vehd::fem_check {
+namespace {
+
+PotentialProblem base_problem(const CheckInput& input, const Refinement& refinement) {
+  PotentialProblem problem;
+  problem.field = input.physics.field;
+  problem.conductivity_in = input.physics.conductivity_in;
+  problem.conductivity_out = input.physics.conductivity_out;
+  problem.permittivity_in = input.physics.permittivity_in;
+  problem.permittivity_out = input.physics.permittivity_out;
+  problem.tolerance = refinement.potential_tolerance;
+  return problem;
+}
+
+}  // namespace
+
+PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                                       const Report& report) {
+  PotentialProblem prescribed = base_problem(input, refinement), steady = prescribed;
+  prescribed.membrane = PrescribedJump{SurfaceSeries(input.potential).scalar()};
+  steady.membrane = SteadyMembrane{input.physics.conductance, 0.0};
+
+  PotentialLevels result;
+  std::vector<PotentialSolution> steady_solutions;
+  const auto solve = [&](const Discretisation& discretisation) {
+    const auto start = std::chrono::steady_clock::now();
+    const SurfacePoints points = discretisation.quadrature_points(refinement.points_per_edge);
+    const PotentialSolution solution = solve_potential(discretisation, prescribed);
+    const PotentialTraces traces = solution.on_surface(points);
+    FieldValues surface{{"q", traces.charge.transpose()}, {"force", traces.force}}, samples;
+    if (input.samples.points.cols() > 0) {
+      samples["potential"] = solution.potential(discretisation.locate(input.samples.points)).transpose();
+    }
+    if (input.steady()) {
+      steady_solutions.push_back(solve_potential(discretisation, steady));
+      const PotentialTraces steady_traces = steady_solutions.back().on_surface(points);
+      surface["Vm"] = steady_traces.transmembrane_potential.transpose();
+      surface["q_steady"] = steady_traces.charge.transpose();
+    }
+    result.solutions.push_back(solution);
+    Level level = level_of("potential", discretisation, solution.cost(), start);
+    level.surface = std::move(surface);
+    level.samples = std::move(samples);
+    return level;
+  };
+  const LevelPlan plan{
+      {refinement.potential_first, refinement.potential_last}, refinement.potential_target, {"q", "Vm", "q_steady"}};
+  result.sequence = run_levels(plan, meshes, report, solve);
+  result.solutions.pop_back();  // the one with the outer sphere further out
+  if (input.steady()) result.steady = steady_solutions[steady_solutions.size() - 2];
+  return result;
+}
+
+}  // namespace vehd::fem_check

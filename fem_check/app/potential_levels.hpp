@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fem_check/app/check_input.hpp"
+#include "fem_check/app/level.hpp"
+#include "fem_check/app/progress.hpp"
+#include "fem_check/app/refinement.hpp"
+#include "fem_check/potential.hpp"
+
+namespace vehd::fem_check {
+
+/// Potentials at rising degree. Surface fields: q and force (V_m given), Vm and q_steady (membrane law); samples:
+/// potential.
+struct PotentialLevels {
+  LevelSequence sequence;
+  std::vector<PotentialSolution> solutions;  ///< of every level, V_m given
+  std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
+};
+
+PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                                       const Report& report);
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,35 @@
+#include "fem_check/app/refinement.hpp"
+
+#include <cmath>
+
+namespace vehd::fem_check {
+
+Refinement Refinement::quick() {
+  Refinement refinement;
+  refinement.cells_per_edge = 2;
+  refinement.points_per_edge = 8;
+  refinement.potential_first = 3;
+  refinement.potential_last = 5;
+  refinement.flow_first = 2;
+  refinement.flow_last = 4;
+  refinement.potential_target = 0.0;
+  refinement.flow_target = 0.0;
+  refinement.potential_tolerance = 1e-9;
+  refinement.flow_tolerance = 1e-7;
+  return refinement;
+}
+
+Meshes::Meshes(const meshes::FrozenShape& shape, const Refinement& refinement) {
+  meshes::BlockMeshOptions options;
+  options.cells_per_edge = refinement.cells_per_edge;
+  options.blend_layers = refinement.blend_layers;
+  options.shell_layers = refinement.shell_layers;
+  options.outer_radius = refinement.outer_radius * shape.radius();
+  near_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options));
+  // Layers grow by a constant factor, so that the inner ones stay where they are.
+  options.outer_radius *= std::pow(refinement.outer_radius, 1.0 / refinement.shell_layers);
+  options.shell_layers += 1;
+  far_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options));
+}
+
+}  // namespace vehd::fem_check

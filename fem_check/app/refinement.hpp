@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "fem_check/discretisation.hpp"
+#include "meshes/frozen_shape.hpp"
+
+namespace vehd::fem_check {
+
+/// How fine the finite elements get: one coarse curved mesh, rising degrees.
+struct Refinement {
+  int cells_per_edge = 3;
+  int blend_layers = 1;
+  int shell_layers = 4;
+  double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape
+  int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
+
+  int potential_first = 4, potential_last = 8;  ///< degrees
+  int flow_first = 3, flow_last = 7;
+  double potential_target = 5e-6;  ///< estimated relative error at which degrees stop rising before the last
+  double flow_target = 5e-5;
+  double potential_tolerance = 1e-11;  ///< of the linear solvers
+  double flow_tolerance = 1e-9;
+
+  static Refinement finest() { return {}; }
+  /// Three levels each, ten seconds in all.
+  static Refinement quick();
+};
+
+/// Degrees of one problem.
+struct DegreeRange {
+  int first;
+  int last;
+};
+
+/// Meshes of one shape at both radii of the outer sphere.
+class Meshes {
+ public:
+  /// @throws MeshError if the blocks cannot follow the shape
+  Meshes(const meshes::FrozenShape& shape, const Refinement& refinement);
+
+  [[nodiscard]] Discretisation discretise(int degree) const { return {near_, degree}; }
+  [[nodiscard]] double outer_radius() const { return near_->outer_radius(); }
+  /// With one more layer of cells, outside the others.
+  [[nodiscard]] Discretisation discretise_far(int degree) const { return {far_, degree}; }
+  [[nodiscard]] double far_outer_radius() const { return far_->outer_radius(); }
+
+ private:
+  std::shared_ptr<const meshes::VolumeMesh> near_, far_;
+};
+
+}  // namespace vehd::fem_check

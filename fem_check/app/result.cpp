@@ -1,0 +1,116 @@
+#include "fem_check/app/result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vehd::fem_check {
+namespace {
+
+nlohmann::json json_of(const Norms& norms) { return {{"l2", norms.l2}, {"max", norms.max}}; }
+
+nlohmann::json json_of(const FieldComparison& field) {
+  return {{"l2", field.difference.l2},
+          {"max", field.difference.max},
+          {"fem_error", field.fem_error()},
+          {"fem_levels_change", json_of(field.levels_change)},
+          {"fem_truncation", json_of(field.truncation)},
+          {"fem_solver", field.solver},
+          {"bie_error", field.bie_error()},
+          {"bie_change", json_of(field.bie_change)},
+          {"verdict", field.agrees() ? "agree" : "does not"}};
+}
+
+/// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
+nlohmann::json level_fields(const CheckResult& result, const Level& level, std::size_t index, std::size_t n_levels) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const FieldComparison& field : result.fields) {
+    const bool of_problem = level.surface.contains(field.name);
+    if (of_problem && field.of_levels.size() == n_levels) json[field.name] = json_of(field.of_levels[index]);
+  }
+  return json;
+}
+
+nlohmann::json levels_json(const CheckResult& result) {
+  nlohmann::json json = nlohmann::json::array();
+  for (std::size_t i = 0; i < result.levels.size(); ++i) {
+    const Level& level = result.levels[i];
+    const auto same = [&](const Level& other) { return other.problem == level.problem; };
+    const auto begin = result.levels.begin(), here = begin + static_cast<std::ptrdiff_t>(i);
+    const auto n_levels = static_cast<std::size_t>(std::count_if(begin, result.levels.end(), same));
+    const auto index = static_cast<std::size_t>(std::count_if(begin, here, same));
+    json.push_back({{"problem", level.problem},
+                    {"degree", level.degree},
+                    {"cells", level.n_cells},
+                    {"dofs", level.n_unknowns},
+                    {"seconds", level.seconds},
+                    {"memory_bytes", level.peak_memory_bytes},
+                    {"fields", level_fields(result, level, index, n_levels)}});
+  }
+  return json;
+}
+
+std::string row_of(const FieldComparison& field) {
+  return fmt::format("{:<12} {:>9.1e} {:>9.1e}   {:>9.1e} {:>6}   {:>9.1e}   {}\n", field.label, field.difference.l2,
+                     field.difference.max, field.fem_error(), field.order ? fmt::format("{:.1f}", *field.order) : "-",
+                     field.bie_error(), field.agrees() ? "agree" : "does not");
+}
+
+}  // namespace
+
+bool CheckResult::agrees() const {
+  return std::all_of(fields.begin(), fields.end(), [](const FieldComparison& field) { return field.agrees(); });
+}
+
+std::string CheckResult::disagreeing() const {
+  std::string text;
+  for (const FieldComparison& field : fields) {
+    if (!field.agrees()) text += (text.empty() ? "" : ", ") + field.label;
+  }
+  return text;
+}
+
+std::string table_of(const CheckResult& result) {
+  std::string text =
+      fmt::format("{} at time {:g}: boundary integrals of order {} and {}, finite elements to R = {:.3g}\n",
+                  result.source, result.time, result.order, result.high_order, result.outer_radius);
+  text += fmt::format("{:<12} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
+                      "order", "BIE error", "verdict");
+  for (const FieldComparison& field : result.fields) text += row_of(field);
+  if (result.divergence) {
+    text += fmt::format("surface divergence of v: {:.1e} of the strain rate (levels differ by {:.1e})\n",
+                        result.divergence->size.l2, result.divergence->levels_change.l2);
+  }
+  if (result.stored_velocity) {
+    text += fmt::format("velocity of the snapshot against v of its own truncated forces: {:.1e}\n",
+                        *result.stored_velocity);
+  }
+  return text;
+}
+
+nlohmann::json json_of(const CheckResult& result) {
+  nlohmann::json fields = nlohmann::json::object(), orders = nlohmann::json::object();
+  for (const FieldComparison& field : result.fields) {
+    fields[field.name] = json_of(field);
+    if (field.order) orders[field.name] = *field.order;
+  }
+  nlohmann::json json{{"source", result.source},
+                      {"time", result.time},
+                      {"order", result.order},
+                      {"high_order", result.high_order},
+                      {"verdict", result.agrees() ? "agree" : "does not"},
+                      {"fields", fields},
+                      {"order_observed", orders},
+                      {"levels", levels_json(result)},
+                      {"truncation_radius", result.outer_radius},
+                      {"truncation_radius_second", result.far_outer_radius},
+                      {"seconds", result.seconds}};
+  if (result.divergence) {
+    json["surface_divergence"] = json_of(result.divergence->size);
+    json["surface_divergence"]["fem_error"] = result.divergence->levels_change.l2;
+  }
+  if (result.stored_velocity) json["stored_velocity"] = *result.stored_velocity;
+  return json;
+}
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vehd::fem_check {
+
+/// Field on the points of a file, [components x points] with 1 or 3 components.
+struct NamedField {
+  std::string name;
+  Eigen::MatrixXd values;
+};
+
+enum class VtuCells { quadrilaterals, hexahedra };
+
+/// Lattices of (intervals + 1)^d points each, first coordinate fastest, as they come in a row.
+struct Lattices {
+  VtuCells cells;
+  int intervals;
+  Eigen::Matrix3Xd points;
+};
+
+/// Writes an unstructured grid for ParaView, numbers as raw appended data. @throws InputError if it cannot be written
+void write_vtu(const std::filesystem::path& file, const Lattices& lattices, const std::vector<NamedField>& fields);
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+
+#include "fem_check/discretisation.hpp"
+#include "fem_check/types.hpp"
+
+namespace vehd::fem_check {
+
+/// Stokes flow −∇p + μΔv = 0 on both sides of γ, v continuous, v → A x far away. Velocities have the degree of the
+/// discretisation, pressures one less; the pressure may jump across γ.
+struct FlowProblem {
+  VectorOnSurface force;               ///< f, force per area of the membrane on the fluid: f = [[T n]]
+  Matrix3 gradient = Matrix3::Zero();  ///< A, v_i = A_ij x_j, without trace
+  double viscosity_in = 1.0;
+  double viscosity_out = 1.0;
+  double tolerance = 1e-10;  ///< of the linear solver, relative
+};
+
+struct FlowTraces {
+  Vectors velocity;   ///< v on γ
+  Vector divergence;  ///< ∇_γ·v: zero if the membrane is inextensible
+};
+
+class FlowSolution {
+ public:
+  struct Data;
+  explicit FlowSolution(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+  [[nodiscard]] FlowTraces on_surface(const SurfacePoints& points) const;
+  [[nodiscard]] Vectors velocity(const VolumePoints& points) const;
+  /// Pressure, zero far away.
+  [[nodiscard]] Vector pressure(const VolumePoints& points) const;
+  /// ∫ f dA and ∫ (x − centre) × f dA, centre that of the outer sphere: both enter the outer condition.
+  [[nodiscard]] const Vector3& net_force() const;
+  [[nodiscard]] const Vector3& net_torque() const;
+  [[nodiscard]] const Cost& cost() const;
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+/// @throws std::invalid_argument for a degree below 2, a viscosity that is not positive or a gradient with a trace
+/// @throws SolveError if the linear solver does not converge
+FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem);
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,104 @@
+#include "fem_check/membrane_trace.hpp"
+
+namespace vehd::fem_check {
+
+namespace {
+
+/// Lagrange polynomials of the nodes at one point.
+Vector lagrange(const std::vector<double>& nodes, double x) {
+  Vector result = Vector::Ones(static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (i != j) result[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+    }
+  }
+  return result;
+}
+
+/// Tensor products, first coordinate fastest.
+Vector lagrange(const std::vector<double>& nodes, const Eigen::Vector2d& point) {
+  const Vector first = lagrange(nodes, point[0]);
+  const Vector second = lagrange(nodes, point[1]);
+  const Eigen::MatrixXd product = first * second.transpose();
+  return Eigen::Map<const Vector>(product.data(), product.size());
+}
+
+SurfacePoints gauss_points(const Space& space) {
+  const dealii::QGauss<1> gauss(space.element.degree + 2);
+  std::vector<double> nodes;
+  for (const auto& point : gauss.get_points()) nodes.push_back(point[0]);
+  return tensor_points(space, nodes, gauss.get_weights());
+}
+
+/// Of the lattice points of all faces the first at each node: the order in which the pairs are numbered.
+SurfacePoints first_at_each_node(const SurfacePoints& lattice, const SheetPairs& pairs) {
+  std::vector<Eigen::Index> kept;
+  Eigen::Index point = 0;
+  for (const std::vector<int>& face : pairs.of_face) {
+    for (const int pair : face) {
+      if (pair == static_cast<int>(kept.size())) kept.push_back(point);
+      ++point;
+    }
+  }
+  SurfacePoints result;
+  result.position = lattice.position(Eigen::all, kept);
+  result.normal = lattice.normal(Eigen::all, kept);
+  result.direction = lattice.direction(Eigen::all, kept);
+  result.weight = lattice.weight(kept);
+  result.face_coordinates = lattice.face_coordinates(Eigen::all, kept);
+  for (const Eigen::Index i : kept) result.face.push_back(lattice.face[i]);
+  return result;
+}
+
+}  // namespace
+
+MembraneTrace::MembraneTrace(const Space& space)
+    : pairs_(sheet_pairs(space, space.dofs)),
+      rule_(gauss_points(space)),
+      edge_nodes_(edge_nodes(space.element.degree)) {
+  nodes_ = first_at_each_node(tensor_points(space, edge_nodes_, {}), pairs_);
+  const Eigen::Index per_face = rule_.size() / static_cast<Eigen::Index>(pairs_.of_face.size());
+  shape_.resize(per_face, static_cast<Eigen::Index>(edge_nodes_.size() * edge_nodes_.size()));
+  for (Eigen::Index q = 0; q < per_face; ++q) {
+    shape_.row(q) = lagrange(edge_nodes_, rule_.face_coordinates.col(q)).transpose();
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t f = 0; f < pairs_.of_face.size(); ++f) {
+    const std::vector<int>& of_face = pairs_.of_face[f];
+    const Eigen::MatrixXd local = shape_.transpose() * weights(static_cast<int>(f)).asDiagonal() * shape_;
+    for (std::size_t b = 0; b < of_face.size(); ++b) {
+      for (std::size_t a = 0; a < of_face.size(); ++a) entries.emplace_back(of_face[a], of_face[b], local(a, b));
+    }
+  }
+  Eigen::SparseMatrix<double> mass(size(), size());
+  mass.setFromTriplets(entries.begin(), entries.end());
+  mass_.compute(mass);
+  if (mass_.info() != Eigen::Success) throw SolveError("the mass matrix of the membrane is not positive definite");
+}
+
+Vector MembraneTrace::integrate(const Vector& f) const {
+  Vector result = Vector::Zero(size());
+  for (std::size_t face = 0; face < pairs_.of_face.size(); ++face) {
+    const Eigen::Index begin = static_cast<Eigen::Index>(face) * shape_.rows();
+    const Vector local =
+        shape_.transpose() * weights(static_cast<int>(face)).cwiseProduct(f.segment(begin, shape_.rows()));
+    for (std::size_t a = 0; a < pairs_.of_face[face].size(); ++a) result[pairs_.of_face[face][a]] += local[a];
+  }
+  return result;
+}
+
+Vector MembraneTrace::project(const Vector& functional) const { return mass_.solve(functional); }
+
+Vector MembraneTrace::evaluate(const Vector& nodal, const SurfacePoints& points) const {
+  Vector result(points.size());
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    const Vector shape = lagrange(edge_nodes_, points.face_coordinates.col(i));
+    const std::vector<int>& of_face = pairs_.of_face[points.face[i]];
+    double sum = 0.0;
+    for (std::size_t a = 0; a < of_face.size(); ++a) sum += shape[a] * nodal[of_face[a]];
+    result[i] = sum;
+  }
+  return result;
+}
+
+}  // namespace vehd::fem_check

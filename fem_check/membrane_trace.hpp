@@ -1,0 +1,38 @@
+#pragma once
+
+#include "fem_check/space.hpp"
+
+namespace vehd::fem_check {
+
+/// Restriction of the scalar element to γ: nodal values (one per pair of coincident nodes), functionals, L2 projection.
+class MembraneTrace {
+ public:
+  explicit MembraneTrace(const Space& space);
+
+  [[nodiscard]] const SheetPairs& pairs() const { return pairs_; }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(pairs_.pairs.size()); }
+  /// Positions (and directions) of the nodes, in the order of the pairs.
+  [[nodiscard]] const SurfacePoints& nodes() const { return nodes_; }
+  /// Gauss points at which surface data are taken.
+  [[nodiscard]] const SurfacePoints& rule() const { return rule_; }
+  /// Values of the trace functions at the points of one face of the rule: [points x nodes].
+  [[nodiscard]] const Eigen::MatrixXd& shape() const { return shape_; }
+  /// Weights of the rule on one face.
+  [[nodiscard]] auto weights(int face) const { return rule_.weight.segment(face * shape_.rows(), shape_.rows()); }
+
+  /// ∫_γ f w dA for every trace function w, f given at the points of the rule.
+  [[nodiscard]] Vector integrate(const Vector& f) const;
+  /// Nodal values of the trace function whose products with all w are given.
+  [[nodiscard]] Vector project(const Vector& functional) const;
+  [[nodiscard]] Vector evaluate(const Vector& nodal, const SurfacePoints& points) const;
+
+ private:
+  SheetPairs pairs_;
+  SurfacePoints nodes_;
+  SurfacePoints rule_;
+  Eigen::MatrixXd shape_;
+  std::vector<double> edge_nodes_;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> mass_;
+};
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "fem_check/discretisation.hpp"
+#include "fem_check/types.hpp"
+
+namespace vehd::fem_check {
+
+/// [[φ]] = V_m is given at every point of γ.
+struct PrescribedJump {
+  ScalarOnSurface potential_jump;
+};
+
+/// Steady membrane, −σ_i ∂φ_i/∂n = G_m V_m. With G_m = 0 the mean of V_m is free; `mean` fixes it, because charging
+/// conserves it. Otherwise `mean` is not used.
+struct SteadyMembrane {
+  double conductance = 0.0;
+  double mean = 0.0;
+};
+
+/// Backward Euler steps of C_m dV_m/dt + G_m V_m = −σ_i ∂φ_i/∂n.
+struct ChargingMembrane {
+  double capacitance = 1.0;
+  double conductance = 0.0;
+  double time_step = 0.1;
+  int steps = 1;
+  ScalarOnSurface initial;  ///< V_m before the first step
+};
+
+/// What holds at the outer sphere for the disturbance ψ = φ + E_∞·x.
+struct OuterCondition {
+  enum class Kind {
+    radiation,  ///< ∂ψ/∂r = −2ψ/R: exact for the dipole, error R⁻⁷ in a uniform field
+    dirichlet,  ///< ψ given
+    neumann     ///< ∂ψ/∂r given
+  };
+  Kind kind = Kind::radiation;
+  std::function<double(const Vector3&)> value;  ///< absent: zero
+};
+
+/// Δφ = 0 on both sides of γ, φ → −E_∞·x far away.
+struct PotentialProblem {
+  Vector3 field = Vector3::Zero();  ///< E_∞
+  double conductivity_in = 1.0;
+  double conductivity_out = 1.0;
+  double permittivity_in = 1.0;
+  double permittivity_out = 1.0;
+  std::variant<PrescribedJump, SteadyMembrane, ChargingMembrane> membrane = SteadyMembrane{};
+  ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous
+  OuterCondition outer;
+  double tolerance = 1e-11;  ///< of the linear solver, relative
+};
+
+/// Everything on γ that the boundary-integral side knows too. E = −∇φ.
+struct PotentialTraces {
+  Vector transmembrane_potential;  ///< V_m
+  Vector charge;                   ///< q = ∂φ_i/∂n − ∂φ_e/∂n, by variational recovery
+  Vector flux_in;                  ///< ∂φ_i/∂n, by variational recovery
+  Vector charge_from_gradient;     ///< from the interior gradient and the continuity of current
+  Vector flux_in_from_gradient;    ///< n·∇φ_i
+  Vectors force;  ///< f_E = [[n·Σ]], Σ = ε (E ⊗ E − ½|E|² I): tangential gradients, recovered fluxes
+};
+
+class PotentialSolution {
+ public:
+  struct Data;
+  explicit PotentialSolution(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+  [[nodiscard]] PotentialTraces on_surface(const SurfacePoints& points) const;
+  /// φ at points of the volume.
+  [[nodiscard]] Vector potential(const VolumePoints& points) const;
+  [[nodiscard]] const Cost& cost() const;
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+/// @throws std::invalid_argument if a conductivity, conductance, capacitance or time step is out of range
+/// @throws SolveError if the linear solver does not converge
+PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem);
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,24 @@
+#include "fem_check/session.hpp"
+
+#include <dlfcn.h>
+
+#include "fem_check/deal_ii.hpp"
+
+namespace vehd::fem_check {
+
+struct Session::Implementation {
+  dealii::Utilities::MPI::MPI_InitFinalize mpi;
+};
+
+Session::Session(int& argc, char**& argv) : implementation_(new Implementation{{argc, argv, 1}}) {
+  // OpenBLAS, if it is the BLAS of this machine, starts threads of its own under every small dense product.
+  using SetThreads = void (*)(int);
+  if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(symbol)(1);
+}
+
+Session::~Session() = default;
+
+int Session::rank() const { return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)); }
+int Session::n_ranks() const { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <memory>
+
+#include "fem_check/deal_ii.hpp"
+#include "fem_check/types.hpp"
+#include "meshes/volume_mesh.hpp"
+
+/// Inner workings of Discretisation, for the sources of this folder.
+namespace vehd::fem_check {
+
+using DofIndex = dealii::types::global_dof_index;
+using UnitPoint = dealii::Point<3>;
+
+/// One face of γ from both sides. Corner k has the face coordinates (k & 1, k >> 1), on both sides at the same place.
+struct MembraneFace {
+  unsigned inner_cell;
+  unsigned outer_cell;
+  std::array<UnitPoint, 4> inner_corners;
+  std::array<UnitPoint, 4> outer_corners;
+};
+
+struct OuterFace {
+  unsigned cell;
+  unsigned face;
+};
+
+class MembraneTrace;
+
+/// Triangulation, curved mapping and one scalar element on it.
+struct Space {
+  Space(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, MPI_Comm communicator);
+
+  using Cell = dealii::DoFHandler<3>::active_cell_iterator;
+  [[nodiscard]] Cell cell(const dealii::DoFHandler<3>& handler, unsigned index) const {
+    return {&triangulation, 0, static_cast<int>(index), &handler};
+  }
+  [[nodiscard]] Cell cell(unsigned index) const { return cell(dofs, index); }
+  [[nodiscard]] bool inside(unsigned index) const { return mesh->cell(index).region == meshes::Region::inside; }
+  /// Unit coordinates in the numbering of the mesh, whose cells deal.II may have turned.
+  [[nodiscard]] meshes::Point mesh_unit(unsigned cell, const UnitPoint& unit) const;
+
+  std::shared_ptr<const meshes::VolumeMesh> mesh;
+  MPI_Comm communicator;
+  dealii::parallel::shared::Triangulation<3> triangulation;
+  dealii::MappingQCache<3> mapping;
+  dealii::FE_Q<3> element;
+  dealii::DoFHandler<3> dofs;
+  std::vector<std::array<int, 8>> mesh_vertex;  ///< vertex number in the mesh's cell at each vertex of deal.II's
+  std::vector<MembraneFace> membrane;
+  std::vector<OuterFace> outer;
+  std::vector<dealii::BoundingBox<3>> boxes;
+  std::shared_ptr<const MembraneTrace> trace;
+  double seconds_setup = 0.0;
+};
+
+/// Point of a membrane face in the unit cell whose corners are given.
+UnitPoint on_face(const std::array<UnitPoint, 4>& corners, double s, double t);
+
+/// Which degrees of freedom of a handler are the same node of γ on both sides.
+struct SheetPairs {
+  std::vector<std::array<DofIndex, 2>> pairs;  ///< {inner, outer}
+  std::vector<int> index_of_inner;             ///< for each degree of freedom the number of its pair, or −1
+  std::vector<std::vector<int>> of_face;  ///< pairs on each face, Gauss–Lobatto lattice, first coordinate fastest
+};
+SheetPairs sheet_pairs(const Space& space, const dealii::DoFHandler<3>& handler);
+
+/// Shape functions of one cell at given unit points: [n_points x n_dofs].
+struct CellValues {
+  std::vector<DofIndex> dofs;
+  Eigen::MatrixXd value;
+  std::array<Eigen::MatrixXd, 3> gradient;  ///< physical
+  Vectors position;
+  std::vector<Matrix3> jacobian;  ///< ∂x/∂unit
+
+  [[nodiscard]] Vector values(const dealii::Vector<double>& nodal) const;
+  [[nodiscard]] Vectors gradients(const dealii::Vector<double>& nodal) const;  ///< [3 x n_points]
+};
+CellValues cell_values(const Space& space, const dealii::DoFHandler<3>& handler, unsigned cell,
+                       const std::vector<UnitPoint>& units, bool gradients);
+
+/// Run of points on one face.
+struct FaceRun {
+  int face;
+  Eigen::Index begin;
+  Eigen::Index size;
+};
+std::vector<FaceRun> face_runs(const SurfacePoints& points);
+/// Unit coordinates of a run, in the inner or outer cell.
+std::vector<UnitPoint> unit_points(const Space& space, const SurfacePoints& points, const FaceRun& run, Side side);
+
+/// Run of points in one cell.
+struct CellRun {
+  unsigned cell;
+  Eigen::Index begin;
+  Eigen::Index size;
+  std::vector<UnitPoint> units;
+};
+std::vector<CellRun> cell_runs(const VolumePoints& points);
+
+/// Tensor points on every face; weights only for a quadrature rule.
+SurfacePoints tensor_points(const Space& space, const std::vector<double>& nodes, const std::vector<double>& weights);
+/// Gauss–Lobatto points of [0, 1], the nodes of an element of this degree along an edge.
+std::vector<double> edge_nodes(unsigned degree);
+
+std::size_t peak_memory_bytes();
+
+/// Seconds since construction or the last call.
+class Stopwatch {
+ public:
+  double lap();
+
+ private:
+  double start_ = MPI_Wtime();
+};
+
+}  // namespace vehd::fem_check

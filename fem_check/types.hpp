@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+/// Finite elements on both sides of a frozen membrane γ. Signs as in docs/conventions.md: n points outwards,
+/// [[a]] = a_i − a_e, θ from the +z axis. Weak forms: docs/weak_forms.md.
+namespace vehd::fem_check {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+using Vector = Eigen::VectorXd;
+using Vectors = Eigen::Matrix3Xd;  ///< one column per point
+
+enum class Side { inside, outside };
+
+/// A solver that did not reach its tolerance, or a result that is not finite.
+class SolveError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A point that lies in no cell: beyond the outer sphere.
+class LocationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Points of γ in the curved mesh, the points of one membrane face in a row.
+struct SurfacePoints {
+  Vectors position;
+  Vectors normal;                     ///< outward unit normal of the mesh
+  Vectors direction;                  ///< r̂(θ, φ) of the parametrisation x(θ, φ)
+  Vector weight;                      ///< ∫ f dA = Σ f weight; zero where the points are no quadrature rule
+  std::vector<int> face;              ///< number of the membrane face
+  Eigen::Matrix2Xd face_coordinates;  ///< in [0, 1]² of that face
+
+  [[nodiscard]] Eigen::Index size() const { return position.cols(); }
+  [[nodiscard]] Vector theta() const;
+  [[nodiscard]] Vector phi() const;
+};
+
+/// Points of the volume with the cell that each lies in.
+struct VolumePoints {
+  Vectors position;
+  std::vector<int> cell;
+  std::vector<bool> inside;  ///< in the interior of the vesicle
+  Vectors unit;              ///< coordinates in the unit cell
+
+  [[nodiscard]] Eigen::Index size() const { return position.cols(); }
+};
+
+/// Fields given on γ: one value (column) for each point asked for.
+using ScalarOnSurface = std::function<Vector(const SurfacePoints&)>;
+using VectorOnSurface = std::function<Vectors(const SurfacePoints&)>;
+
+/// What a solution took. Peak memory is that of the process up to its end, on this rank.
+struct Cost {
+  int n_cells = 0;
+  long n_unknowns = 0;
+  int iterations = 0;
+  double seconds_setup = 0.0;  ///< triangulation, mapping and numbering
+  double seconds_assembly = 0.0;
+  double seconds_solve = 0.0;  ///< preconditioner included
+  std::size_t peak_memory_bytes = 0;
+};
+
+/// ‖a − b‖/‖b‖ in L2(γ); rows are components.
+double relative_l2(const SurfacePoints& points, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// max |a − b| / max |b| over the points; rows are components.
+double relative_max(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace vehd::meshes {
+
+/// One of the 13 blocks of a block mesh.
+struct Block {
+  enum class Layer { core, blend, shell };
+  Layer layer;
+  int axis;     ///< the coordinate axis that cuts the block's face of the cube; means nothing in the core
+  double sign;  ///< +1 or −1: on which side
+};
+
+}  // namespace vehd::meshes

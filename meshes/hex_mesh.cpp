@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "meshes/block_map.hpp"
+#include "meshes/mesh_quality.hpp"
+#include "meshes/volume_mesh.hpp"
+
+namespace vehd::meshes {
+namespace {
+
+void require(bool holds, const char* what, double value, const char* accepted) {
+  if (!holds) throw std::invalid_argument(fmt::format("block mesh: {} is {}, but must be {}", what, value, accepted));
+}
+
+void require_options(const BlockMeshOptions& o) {
+  require(o.cells_per_edge >= 1, "cells_per_edge", o.cells_per_edge, "at least 1");
+  require(o.blend_layers >= 1, "blend_layers", o.blend_layers, "at least 1");
+  require(o.shell_layers >= 1, "shell_layers", o.shell_layers, "at least 1");
+  require(o.blend_growth > 0.0, "blend_growth", o.blend_growth, "positive");
+  require(o.shell_growth >= 0.0, "shell_growth", o.shell_growth, "positive, or 0 for the automatic value");
+  require(o.core_fraction > 0.0 && o.core_fraction < 1.0, "core_fraction", o.core_fraction, "between 0 and 1");
+}
+
+}  // namespace
+
+HexMesh::HexMesh(MeshTopology topology, std::shared_ptr<const BlockMap> map)
+    : VolumeMesh(std::move(topology), map->centre(), map->outer_radius()), map_(std::move(map)) {
+  for (const MeshCell& cell : this->topology().cells) {
+    Point middle = Point::Zero();
+    for (const int v : cell.vertices) middle += this->topology().vertices[v] / 8.0;
+    blocks_.push_back(BlockMap::block_at(middle));
+  }
+}
+
+Point HexMesh::reference(int cell_index, const Point& unit) const {
+  const std::array<double, 8> weights = vertex_functions(CellShape::hexahedron, unit);
+  Point result = Point::Zero();
+  for (int v = 0; v < 8; ++v) result += weights[v] * topology().vertices[cell(cell_index).vertices[v]];
+  return result;
+}
+
+Point HexMesh::physical(int cell_index, const Point& unit) const {
+  return map_->position(blocks_[cell_index], reference(cell_index, unit));
+}
+
+std::vector<Point> HexMesh::physical_points(int cell_index, const std::vector<Point>& units) const {
+  Eigen::Matrix3Xd points(3, units.size());
+  for (std::size_t i = 0; i < units.size(); ++i) points.col(i) = reference(cell_index, units[i]);
+  points = map_->positions(blocks_[cell_index], points);
+  std::vector<Point> result(units.size());
+  for (std::size_t i = 0; i < units.size(); ++i) result[i] = points.col(i);
+  return result;
+}
+
+Matrix3 HexMesh::jacobian(int cell_index, const Point& unit) const {
+  Matrix3 slope = Matrix3::Zero();
+  for (int v = 0; v < 8; ++v) {
+    const Point& x = topology().vertices[cell(cell_index).vertices[v]];
+    const double sx = (v & 1) ? 1.0 : -1.0;
+    const double sy = (v & 2) ? 1.0 : -1.0;
+    const double sz = (v & 4) ? 1.0 : -1.0;
+    const double wx = (v & 1) ? unit.x() : 1.0 - unit.x();
+    const double wy = (v & 2) ? unit.y() : 1.0 - unit.y();
+    const double wz = (v & 4) ? unit.z() : 1.0 - unit.z();
+    slope.col(0) += sx * wy * wz * x;
+    slope.col(1) += wx * sy * wz * x;
+    slope.col(2) += wx * wy * sz * x;
+  }
+  return map_->derivative(blocks_[cell_index], reference(cell_index, unit)) * slope;
+}
+
+Point HexMesh::direction(int cell_index, const Point& unit) const {
+  if (blocks_[cell_index].layer == Block::Layer::core) {
+    throw std::logic_error(fmt::format("cell {} lies in the core: no point of it has a direction", cell_index));
+  }
+  return map_->direction(blocks_[cell_index], reference(cell_index, unit));
+}
+
+HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options) {
+  require_options(options);
+  const auto map = std::make_shared<const BlockMap>(shape, options.outer_radius, options.core_fraction);
+  const double growth = options.shell_growth > 0.0
+                            ? options.shell_growth
+                            : std::pow(options.outer_radius / shape.radius(), 1.0 / options.shell_layers);
+  HexMesh mesh(make_block_topology(options, growth), map);
+  constexpr int kGaussPoints = 3;
+  require_quality(quality(mesh, shape, kGaussPoints), options.smallest_scaled_jacobian);
+  return mesh;
+}
+
+}  // namespace vehd::meshes

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "meshes/tetrahedron_filler.hpp"
+
+namespace vehd::meshes {
+
+/// Refines tetrahedra until none has two faces on the membrane: the membrane is smooth, so that two curved faces of one
+/// cell would meet at 180° and the map would be singular along their common edge. The edge opposite to that one is cut
+/// by a new vertex, moved into the volume as far as it serves the flattest of the new cells.
+/// @param triangles  of the membrane, vertex numbers of `volumes`
+void separate_membrane_faces(FilledVolumes& volumes, const std::vector<std::array<int, 3>>& triangles);
+
+}  // namespace vehd::meshes

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "meshes/frozen_shape.hpp"
+#include "meshes/volume_mesh.hpp"
+
+namespace vehd::meshes {
+
+/// Figures of a mesh, taken on its curved map at the vertices and at Gauss points.
+struct MeshQuality {
+  double smallest_scaled_jacobian = 1.0;  ///< 1 for a cube or a regular tetrahedron, ≤ 0 if inverted
+  int worst_cell = -1;
+  Region worst_region = Region::inside;
+  Point worst_position = Point::Zero();
+  std::vector<double> scaled_jacobian;  ///< smallest of every cell
+
+  double smallest_size = 0.0;  ///< cube root of the smallest and of the largest cell volume
+  double largest_size = 0.0;
+
+  double volume_inside = 0.0;  ///< of the mesh
+  double area = 0.0;           ///< of its membrane faces
+  double volume_error = 0.0;   ///< relative to the shape's own, signed
+  double area_error = 0.0;
+};
+
+/// @param n_gauss  points per direction of the quadrature that gives volume and area
+MeshQuality quality(const VolumeMesh& mesh, const FrozenShape& shape, int n_gauss = 4);
+
+/// @throws MeshError naming position, region, value and threshold unless every cell reaches the threshold
+void require_quality(const MeshQuality& quality, double smallest_scaled_jacobian);
+
+}  // namespace vehd::meshes

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "meshes/types.hpp"
+
+/// Cells, faces and the interface of a volume mesh, numbered as deal.II numbers them.
+namespace vehd::meshes {
+
+enum class CellShape { hexahedron, tetrahedron };
+enum class Region { inside = 0, outside = 1 };
+enum class FaceKind { interior, membrane, outer_sphere };
+
+/// Hexahedron: vertex v has the unit coordinates (v & 1, v >> 1 & 1, v >> 2 & 1); faces x = 0, x = 1, y = 0, y = 1,
+/// z = 0, z = 1. Tetrahedron: vertices (0,0,0), (1,0,0), (0,1,0), (0,0,1); faces {0,1,2}, {1,0,3}, {0,2,3}, {2,1,3}.
+/// Unused entries of a tetrahedron are −1 and FaceKind::interior. Every cell is right-handed.
+struct MeshCell {
+  std::array<int, 8> vertices;
+  Region region;
+  std::array<FaceKind, 6> faces;
+};
+
+/// One face of the membrane seen from both sides.
+struct InterfacePair {
+  int inside_cell;
+  int inside_face;
+  int outside_cell;
+  int outside_face;
+  /// Vertex number within the outside cell that coincides with face_vertices(inside_face)[k] of the inside cell; −1
+  /// beyond the third of a triangle.
+  std::array<int, 4> outside_vertex;
+};
+
+struct MeshTopology {
+  CellShape shape = CellShape::hexahedron;
+  /// Block meshes: reference coordinates (BlockMap). Tetrahedra: positions in space.
+  std::vector<Point> vertices;
+  std::vector<MeshCell> cells;
+  std::vector<InterfacePair> interface;
+  /// {inside vertex, outside vertex} at the same point of γ: different numbers if the interface is split, equal if not.
+  std::vector<std::array<int, 2>> interface_vertices;
+};
+
+int vertices_per_cell(CellShape shape);
+int faces_per_cell(CellShape shape);
+/// Vertex numbers within a cell of one of its faces, in deal.II's order; the fourth is −1 for a triangle.
+const std::array<int, 4>& face_vertices(CellShape shape, int face);
+/// Unit coordinates of one vertex.
+Point unit_vertex(CellShape shape, int vertex);
+/// Values of the (tri)linear vertex functions at a point of the unit cell; entries of a tetrahedron end at 4.
+std::array<double, 8> vertex_functions(CellShape shape, const Point& unit);
+/// Centre of the unit cell.
+Point unit_centre(CellShape shape);
+
+/// Fills `interface` and `interface_vertices` from the faces marked as membrane.
+/// @throws MeshError if a membrane face has no partner on the other side
+void find_interface(MeshTopology& topology);
+
+/// Gives the outside cells vertices of their own on γ, so that inside and outside share none. The interface must have
+/// been found.
+void split_interface(MeshTopology& topology);
+
+}  // namespace vehd::meshes

@@ -1,0 +1,129 @@
+#include "meshes/msh_file.hpp"
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "meshes/gmsh_session.hpp"
+
+namespace vehd::meshes {
+namespace {
+
+using VertexList = std::vector<int>;
+
+/// gmsh's second-order nodes in gmsh's order: each is the middle of the listed vertices (deal.II's numbers) of the unit
+/// cell.
+const std::vector<VertexList>& second_order_nodes(CellShape shape) {
+  static const std::vector<VertexList> kHexahedron{{0},          {1},          {3},
+                                                   {2},          {4},          {5},
+                                                   {7},          {6},          {0, 1},
+                                                   {0, 2},       {0, 4},       {1, 3},
+                                                   {1, 5},       {3, 2},       {3, 7},
+                                                   {2, 6},       {4, 5},       {4, 6},
+                                                   {5, 7},       {7, 6},       {0, 1, 2, 3},
+                                                   {0, 1, 4, 5}, {0, 2, 4, 6}, {1, 3, 5, 7},
+                                                   {2, 3, 6, 7}, {4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}};
+  static const std::vector<VertexList> kTetrahedron{{0}, {1}, {2}, {3}, {0, 1}, {1, 2}, {2, 0}, {0, 3}, {2, 3}, {1, 3}};
+  return shape == CellShape::hexahedron ? kHexahedron : kTetrahedron;
+}
+
+/// Elements and the nodes that they are the first to use, of one region.
+struct RegionElements {
+  std::vector<std::size_t> element_tags;
+  std::vector<std::size_t> element_nodes;
+  std::vector<std::size_t> node_tags;
+  std::vector<double> node_positions;
+};
+
+/// Second-order nodes belong to sets of vertices, hence cells at a face share them and a split interface stays split.
+class NodeNumbers {
+ public:
+  /// Tag of the node of these vertices, from 1; `fresh` tells whether it is new.
+  std::size_t tag(VertexList vertices, bool& fresh) {
+    std::sort(vertices.begin(), vertices.end());
+    const auto [place, inserted] = tags_.try_emplace(std::move(vertices), tags_.size() + 1);
+    fresh = inserted;
+    return place->second;
+  }
+
+ private:
+  std::map<VertexList, std::size_t> tags_;
+};
+
+void add_element(const VolumeMesh& mesh, int cell, NodeNumbers& numbers, RegionElements& elements) {
+  elements.element_tags.push_back(cell + 1);
+  for (const VertexList& corners : second_order_nodes(mesh.cell_shape())) {
+    VertexList vertices;
+    Point unit = Point::Zero();
+    for (const int v : corners) {
+      vertices.push_back(mesh.cell(cell).vertices[v]);
+      unit += unit_vertex(mesh.cell_shape(), v) / double(corners.size());
+    }
+    bool fresh = false;
+    elements.element_nodes.push_back(numbers.tag(std::move(vertices), fresh));
+    if (!fresh) continue;
+    elements.node_tags.push_back(elements.element_nodes.back());
+    const Point x = mesh.physical(cell, unit);
+    elements.node_positions.insert(elements.node_positions.end(), x.begin(), x.end());
+  }
+}
+
+void add_region(int volume, const std::string& name, CellShape shape, const RegionElements& elements) {
+  constexpr int kHexahedron27 = 12;  // gmsh's element types
+  constexpr int kTetrahedron10 = 11;
+  gmsh::model::addDiscreteEntity(3, volume);
+  gmsh::model::mesh::addNodes(3, volume, elements.node_tags, elements.node_positions);
+  gmsh::model::mesh::addElementsByType(volume, shape == CellShape::hexahedron ? kHexahedron27 : kTetrahedron10,
+                                       elements.element_tags, elements.element_nodes);
+  gmsh::model::addPhysicalGroup(3, {volume}, volume);
+  gmsh::model::setPhysicalName(3, volume, name);
+}
+
+int add_quality_view(const MeshQuality& quality) {
+  std::string model;
+  gmsh::model::getCurrent(model);
+  std::vector<std::size_t> tags;
+  std::vector<std::vector<double>> values;
+  for (std::size_t c = 0; c < quality.scaled_jacobian.size(); ++c) {
+    tags.push_back(c + 1);
+    values.push_back({quality.scaled_jacobian[c]});
+  }
+  const int view = gmsh::view::add("smallest scaled Jacobian");
+  gmsh::view::addModelData(view, 0, model, "ElementData", tags, values);
+  return view;
+}
+
+}  // namespace
+
+void write_msh(const std::filesystem::path& file, const VolumeMesh& mesh, const MeshQuality& quality) {
+  // gmsh itself reports an unwritable file late and in few words.
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder)) {
+    throw MeshError(fmt::format("cannot write {}: there is no folder {}", file.string(), folder.string()));
+  }
+  NodeNumbers numbers;
+  std::array<RegionElements, 2> regions;
+  for (int c = 0; c < mesh.n_cells(); ++c) {
+    add_element(mesh, c, numbers, regions[static_cast<int>(mesh.cell(c).region)]);
+  }
+  const GmshSession session;
+  try {
+    add_region(1, "inside", mesh.cell_shape(), regions[0]);
+    add_region(2, "outside", mesh.cell_shape(), regions[1]);
+    const int view = add_quality_view(quality);
+    gmsh::write(file.string());
+    // A view brings its own copy of the mesh unless told otherwise: every element would be there twice.
+    gmsh::option::setNumber("PostProcessing.SaveMesh", 0);
+    constexpr bool kAppend = true;
+    gmsh::view::write(view, file.string(), kAppend);
+  } catch (...) {
+    throw MeshError(fmt::format("cannot write {}: {}", file.string(), gmsh_message()));
+  }
+}
+
+}  // namespace vehd::meshes

@@ -1,0 +1,73 @@
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.hpp"
+
+namespace {
+
+nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(file_text(path)); }
+
+/// Plan and summary of one scene.
+struct PlannedRun {
+  TemporaryDirectory directory;
+  nlohmann::json plan, summary;
+
+  explicit PlannedRun(const std::string& scene) {
+    write_text(directory / "scene.toml", scene);
+    BOOST_REQUIRE(run_vehd({"plan", directory / "scene.toml", "--json", directory / "plan.json"}).exit_code == 0);
+    plan = json_of(directory / "plan.json");
+    const ProgramResult run = run_vehd({"run", directory / "scene.toml", "-o", directory / "out", "--no-plot"});
+    BOOST_REQUIRE(run.exit_code == 0);
+    summary = json_of(directory / "out/summary.json");
+  }
+};
+
+void plan_is_what_the_run_does(const PlannedRun& run) {
+  BOOST_TEST(run.summary["steps"].get<int>() == run.plan["steps"].get<int>());
+  BOOST_TEST(run.summary["rejected_steps"].get<int>() == 0);
+  const auto& used = run.summary["kernel_evaluations"];
+  BOOST_TEST(used.size() == run.plan["operators"].size());
+  const auto shapes = run.summary["steps"].get<std::uint64_t>() + 1;
+  const auto per_shape = run.plan["kernel_evaluations_per_shape"].get<std::uint64_t>();
+  for (const auto& op : run.plan["operators"]) {
+    const std::string name = op["name"];
+    BOOST_REQUIRE(used.contains(name));
+    BOOST_TEST(used[name].get<std::uint64_t>() == shapes * per_shape);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(plan)
+
+BOOST_AUTO_TEST_CASE(run_evaluates_exactly_the_planned_kernels) {
+  const PlannedRun run(quick_scene());
+  plan_is_what_the_run_does(run);
+  BOOST_TEST(run.plan["symmetry"].get<std::string>() == "axisymmetric about z, mirror z");
+  BOOST_TEST(run.plan["operators"].size() == 4);
+  BOOST_TEST(run.plan["memory_bytes"].get<double>() > 1e6);
+  BOOST_TEST(run.plan["seconds_per_step"].get<double>() > 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(scene_without_electricity_plans_and_evaluates_no_laplace_kernel) {
+  const PlannedRun run(
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.5, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.1\n"
+      "[flow]\nkind = \"shear\"\nrate = 1.0\n[numerics]\norder = 6\ndt = 0.1\nend_time = 0.5\n");
+  plan_is_what_the_run_does(run);
+  BOOST_TEST(run.plan["operators"].size() == 1);
+  BOOST_TEST(run.plan["operators"][0]["name"].get<std::string>() == "stokes_single");
+  const auto& absent = run.plan["absent"];
+  BOOST_TEST((std::find(absent.begin(), absent.end(), "electric field") != absent.end()));
+}
+
+BOOST_AUTO_TEST_CASE(symmetry_can_be_switched_off) {
+  std::string scene = quick_scene();
+  const std::size_t at = scene.find("[numerics]\n");
+  BOOST_REQUIRE(at != std::string::npos);
+  scene.insert(at + 11, "symmetry = \"off\"\n");
+  const PlannedRun run(scene);
+  plan_is_what_the_run_does(run);
+  BOOST_TEST(run.plan["symmetry"].get<std::string>() == "none");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

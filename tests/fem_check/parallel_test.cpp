@@ -1,0 +1,49 @@
+#include <boost/test/unit_test.hpp>
+
+#include "tests/fem_check/cases.hpp"
+
+using namespace vehd::fem_check;
+using namespace vehd::fem_check::testing;
+namespace shapes = vehd::meshes::testing;
+
+/// CTest runs this suite under mpirun with two ranks: together they must find what each finds alone.
+BOOST_AUTO_TEST_SUITE(parallel)
+
+BOOST_AUTO_TEST_CASE(ranks_together_solve_the_potential_as_one_alone) {
+  PotentialProblem problem;
+  problem.field = {0.3, 0.2, 1.0};
+  problem.conductivity_out = 2.0;
+  const std::variant<PrescribedJump, SteadyMembrane, ChargingMembrane> membranes[] = {
+      PrescribedJump{on_surface([](const Vector3& x, const Vector3&) { return 0.2 * x.z(); })},
+      SteadyMembrane{5.0, 0.0}, SteadyMembrane{0.0, 0.3}};
+  const Level level{.degree = 3};
+  const Discretisation together = discretise(shapes::shape_33(), level);
+  const Discretisation alone = discretise(shapes::shape_33(), level, Ranks::each_alone);
+  const SurfacePoints points = alone.quadrature_points(5);
+  for (const auto& membrane : membranes) {
+    problem.membrane = membrane;
+    const PotentialTraces a = solve_potential(together, problem).on_surface(points);
+    const PotentialTraces b = solve_potential(alone, problem).on_surface(points);
+    BOOST_TEST(relative_l2(points, a.transmembrane_potential, b.transmembrane_potential) < 1e-8);
+    BOOST_TEST((a.flux_in - b.flux_in).cwiseAbs().maxCoeff() < 1e-8);
+    BOOST_TEST(relative_l2(points, a.force, b.force) < 1e-8);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(ranks_together_solve_the_flow_as_one_alone) {
+  FlowProblem problem;
+  problem.force = vectors_on_surface(
+      [](const Vector3& x, const Vector3& n) { return Vector3(x.z() * n + Vector3(0.1, x.x() * x.y(), 0.0)); });
+  const Level level{.degree = 3};
+  const Discretisation together = discretise(shapes::prolate(), level);
+  const Discretisation alone = discretise(shapes::prolate(), level, Ranks::each_alone);
+  const SurfacePoints points = alone.quadrature_points(5);
+  for (const double inside : {1.0, 4.0}) {
+    problem.viscosity_in = inside;
+    const FlowTraces a = solve_flow(together, problem).on_surface(points);
+    const FlowTraces b = solve_flow(alone, problem).on_surface(points);
+    BOOST_TEST(relative_l2(points, a.velocity, b.velocity) < 1e-7);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
