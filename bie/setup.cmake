@@ -2,7 +2,11 @@
 #   cmake -P bie/setup.cmake               installs what is missing, builds, simulates Example 2 of the paper
 #   cmake -DSTEP=test -P bie/setup.cmake   installs what is missing, builds, runs the tests
 #   cmake -DSTEP=build -P bie/setup.cmake  installs what is missing, builds
+#   cmake -DSTEP=check -P bie/setup.cmake  installs deal.II and gmsh as well, builds the finite-element check, compares the
+#                                          two methods on the first shape of Example 2
 #   cmake -DSTEP=docs -P bie/setup.cmake   the same, then runs every scene of docs/scenes for the pictures in docs/images
+# With -DVEHD_FEM_CHECK=ON before -P, test and build include the finite-element check and install what it needs; without
+# it they include the check where deal.II and gmsh are there already.
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
@@ -10,8 +14,8 @@ set(build "${source}/build")
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
-if(NOT STEP MATCHES "^(run|test|build|docs)$")
-  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build, docs")
+if(NOT STEP MATCHES "^(run|test|build|check|docs)$")
+  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build, check, docs")
 endif()
 
 set(packages ninja-build pkg-config libeigen3-dev libfftw3-dev libhdf5-dev libboost-test-dev libtomlplusplus-dev
@@ -20,6 +24,8 @@ if(STEP STREQUAL "test")
   # The tests open run.xdmf as ParaView does and render it on a virtual display.
   list(APPEND packages python3-paraview xvfb xauth)
 endif()
+# libdeal.ii-dev brings Trilinos and Open MPI.
+set(fem_packages libdeal.ii-dev libgmsh-dev)
 
 function(run_or_stop)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${source}" RESULT_VARIABLE status)
@@ -31,7 +37,7 @@ endfunction()
 
 function(find_missing_packages result)
   set(missing)
-  foreach(package IN LISTS packages)
+  foreach(package IN LISTS ARGN)
     execute_process(COMMAND dpkg-query -W "-f=\${Status}" ${package} OUTPUT_VARIABLE status ERROR_QUIET
                     RESULT_VARIABLE unknown)
     if(NOT unknown EQUAL 0 OR NOT status STREQUAL "install ok installed")
@@ -41,7 +47,19 @@ function(find_missing_packages result)
   set(${result} ${missing} PARENT_SCOPE)
 endfunction()
 
-find_missing_packages(missing)
+if(STEP STREQUAL "check")
+  set(VEHD_FEM_CHECK ON)
+elseif(NOT DEFINED VEHD_FEM_CHECK)
+  find_missing_packages(missing ${fem_packages})
+  set(VEHD_FEM_CHECK OFF)
+  if(NOT missing AND STEP MATCHES "^(test|build)$")
+    set(VEHD_FEM_CHECK ON)
+  endif()
+endif()
+if(VEHD_FEM_CHECK)
+  list(APPEND packages ${fem_packages})
+endif()
+find_missing_packages(missing ${packages})
 if(missing)
   list(JOIN missing " " names)
   message(STATUS "Installing ${names}")
@@ -72,12 +90,24 @@ set(generator)
 if(NOT EXISTS "${build}/CMakeCache.txt")
   set(generator -G Ninja)
 endif()
-run_or_stop("${CMAKE_COMMAND}" ${generator} -S "${source}" -B "${build}" -DCMAKE_BUILD_TYPE=Release)
+set(options -DCMAKE_BUILD_TYPE=Release)
+if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build)$")
+  # The other steps leave a build with the check as it is.
+  list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
+endif()
+run_or_stop("${CMAKE_COMMAND}" ${generator} -S "${source}" -B "${build}" ${options})
 if(STEP STREQUAL "test")
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs})
   run_or_stop("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" --output-on-failure)
 else()
-  run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs} --target vehd)
+  set(targets vehd)
+  if(VEHD_FEM_CHECK)
+    list(APPEND targets vehd_fem_program)
+  endif()
+  run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs} --target ${targets})
+endif()
+if(STEP STREQUAL "check")
+  run_or_stop("${build}/vehd" check docs/scenes/figure2.toml --quick -o out/figure2_check)
 endif()
 if(STEP STREQUAL "run")
   # --resume: a second call continues an interrupted run and leaves a complete one alone.

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "bie/app/bench_methods.hpp"
 #include "bie/app/bench_parts.hpp"
 #include "bie/app/bench_time.hpp"
 #include "bie/app/commands.hpp"
@@ -21,6 +22,12 @@ struct TimeOptions {
   std::string scene_file;
   std::vector<double> steps;
   double at = 0.0;
+  CommonOptions common;
+};
+
+struct MethodsOptions {
+  MethodsTask task{"out/bench_methods"};
+  bool no_plot = false;
   CommonOptions common;
 };
 
@@ -60,6 +67,30 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
   });
 }
 
+void add_methods(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command =
+      bench.add_subcommand("methods", "Boundary integrals against finite elements on an exact solution");
+  const auto options = std::make_shared<MethodsOptions>();
+  MethodsTask& task = options->task;
+  command->add_option("-o,--output", task.directory, "Directory for table and picture")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_flag("--quick", task.quick, "Two levels of each, one repeat");
+  command->add_option("--repeats", task.repeats, "Timed solves of each level; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--no-plot", options->no_plot, "Draw no picture");
+  add_common_options(*command, options->common);
+  command->footer("Needs the finite-element program (VEHD_FEM_CHECK). See docs/two_methods.md.");
+  command->callback([options, &exit_code, repeats = command->get_option("--repeats")] {
+    MethodsTask methods = options->task;
+    methods.plot = !options->no_plot;
+    if (methods.quick && repeats->count() == 0) methods.repeats = 1;
+    write_json(options->common, bench_methods(methods));
+    exit_code = ExitCode::done;
+  });
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& program, ExitCode& exit_code) {
@@ -67,6 +98,7 @@ void add_bench_command(CLI::App& program, ExitCode& exit_code) {
   command->require_subcommand(1);
   add_parts(*command, exit_code);
   add_time(*command, exit_code);
+  add_methods(*command, exit_code);
 }
 
 }  // namespace vehd

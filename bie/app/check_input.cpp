@@ -100,4 +100,27 @@ void write_shape_input(const std::filesystem::path& path, const Matrix& position
   file.close();
 }
 
+void write_sources_input(const std::filesystem::path& path, const Matrix& position, const ElectricParameters& electric,
+                         const std::vector<PointSource>& sources) {
+  const auto n = static_cast<Index>(sources.size());
+  Matrix points(n, 3), strength(n, 1);
+  std::vector<std::int64_t> inside;
+  for (Index i = 0; i < n; ++i) {
+    const PointSource& source = sources[static_cast<std::size_t>(i)];
+    points.row(i) = source.position.transpose();
+    strength(i, 0) = source.strength;
+    inside.push_back(source.inside ? 1 : 0);
+  }
+  Hdf5Writer file(path, Hdf5Writer::Mode::create);
+  write_header(file, position);
+  file.group("/physics");
+  file.attribute("/physics", "conductivity_in", electric.conductivity_in);
+  file.attribute("/physics", "conductivity_out", electric.conductivity_out);
+  file.group("/sources");
+  write(file, "/sources/position", points, {"length", "point sources"});
+  write(file, "/sources/strength", strength, {"potential*length", "s of s/(4 pi r)"});
+  file.integers("/sources/inside", inside, {inside.size()}, {"1", "1 inside, 0 outside"});
+  file.close();
+}
+
 }  // namespace vehd

@@ -4,6 +4,7 @@
 
 #include "bie/app/check_fields.hpp"
 #include "bie/app/check_samples.hpp"
+#include "bie/physics/point_sources.hpp"
 
 /// The file through which the boundary-integral side talks to the finite-element side: docs/check.md has its layout.
 namespace vehd {
@@ -24,5 +25,9 @@ void write_check_input(const std::filesystem::path& file, const CheckInput& inpu
 
 /// The same file with the shape alone. @throws OutputError
 void write_shape_input(const std::filesystem::path& file, const Matrix& position);
+
+/// The shape and the point sources that make the exact solution on it. @throws OutputError
+void write_sources_input(const std::filesystem::path& file, const Matrix& position, const ElectricParameters& electric,
+                         const std::vector<PointSource>& sources);
 
 }  // namespace vehd

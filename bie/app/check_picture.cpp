@@ -56,7 +56,8 @@ bool draw_differences(const std::filesystem::path& directory) {
       "unset border; unset tics; set colorbox\n"
       "set cbtics in; set format cb '%g'\n"
       "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n",
-      across * panel_width, down * panel_height, gnuplot_quoted((directory / "differences.png").string()), down, across);
+      across * panel_width, down * panel_height, gnuplot_quoted((directory / "differences.png").string()), down,
+      across);
   for (int i = 0; i < n_fields; ++i) {
     script += fmt::format("set title '{}'\nsplot {} using 1:2:3:{} with pm3d\n", title_of(columns[coordinates + i]),
                           gnuplot_quoted(data.string()), coordinates + i + 1);

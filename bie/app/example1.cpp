@@ -4,12 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/point_sources.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 
 namespace vehd {
-namespace {
 
 /// Drawn at random once: three sources at radius 0.2 and three at radius 4.
 std::vector<PointSource> example1_sources() {
@@ -21,8 +19,14 @@ std::vector<PointSource> example1_sources() {
           {{0.0246152487, -0.8331962230, 3.9121832963}, 1.0067243153, false}};
 }
 
-/// Eq. (33).
-Scene example1_scene(int order) {
+ElectricParameters example1_electric() {
+  ElectricParameters electric;
+  electric.conductivity_in = 2.0;
+  electric.conductivity_out = 1.0;
+  return electric;
+}
+
+Matrix example1_position(int order) {
   Scene scene;
   scene.shape.kind = ShapeKind::radial;
   scene.shape.base = 1.0;
@@ -30,22 +34,16 @@ Scene example1_scene(int order) {
   scene.shape.exponent = -3.0;
   scene.shape.modes = {{3, 2, 1.0}};
   scene.numerics.order = order;
-  return scene;
+  return initial_position(scene);
 }
 
-}  // namespace
-
-Example1Result solve_example1(int order) {
+Example1Result solve_example1(int order, int upsampling) {
   NumericalSettings settings;
   settings.order = order;
-  // The errors are those at the nodes of order p, so products are formed there.
-  settings.upsampling = 1;
+  settings.upsampling = upsampling;
   const Discretisation discretisation(settings);
   const Discretisation::Tables& tables = discretisation.tables();
-  const Matrix position = initial_position(example1_scene(order));
-  ElectricParameters electric;
-  electric.conductivity_in = 2.0;
-  electric.conductivity_out = 1.0;
+  const Matrix position = example1_position(order);
 
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
@@ -55,10 +53,9 @@ Example1Result solve_example1(int order) {
   const Membrane membrane{tables.fine, std::move(surface),
                           assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments),
                           radius};
-  const PointSourceErrors errors = point_source_errors(electric, example1_sources(), membrane, 1e-10);
+  const PointSourceErrors errors = point_source_errors(example1_electric(), example1_sources(), membrane, 1e-10);
   require_converged(errors.report, "charge density, Eq. (35)");
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {order, errors.charge, errors.force, errors.report.iterations, seconds};
+  return {order, errors, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
 }  // namespace vehd

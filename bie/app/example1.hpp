@@ -1,17 +1,26 @@
 #pragma once
 
+#include <vector>
+
+#include "bie/physics/point_sources.hpp"
+
 namespace vehd {
 
 /// Example 1 of the paper: Eq. (35) on shape (33) with σ_i = 2, σ_e = 1 and six point sources.
 struct Example1Result {
   int order = 0;
-  double error_q = 0.0;      ///< relative max error of q over the 2(p+1)² nodes of the discretisation
-  double error_force = 0.0;  ///< the same of f_E
-  int iterations = 0;        ///< GMRES, to a relative residual of 1e-10
+  PointSourceErrors errors;  ///< over the nodes of the upsampled grid
   double seconds = 0.0;      ///< operators, solve and fields; tables of the order excluded
 };
 
+/// @param upsampling  of the grid on which products are formed and errors taken; 1 as in the paper: the 2(p+1)² nodes
 /// @throws ConvergenceError if GMRES does not converge
-Example1Result solve_example1(int order);
+Example1Result solve_example1(int order, int upsampling = 1);
+
+/// What the example gives.
+std::vector<PointSource> example1_sources();
+ElectricParameters example1_electric();
+/// Shape (33) truncated to a degree, coefficients [n_coefficients x 3].
+Matrix example1_position(int order);
 
 }  // namespace vehd

@@ -31,9 +31,9 @@ constexpr std::array kOperators = {OperatorFlag{"laplace_single", &LayerSelectio
                                    OperatorFlag{"stokes_single", &LayerSelection::stokes_single},
                                    OperatorFlag{"stokes_double", &LayerSelection::stokes_double}};
 
-constexpr std::array kKnownEffects = {"bending",         "inextensibility", "electric field",       "background flow",
-                                      "Poiseuille flow", "gravity",         "spontaneous curvature",
-                                    "viscosity contrast"};
+constexpr std::array kKnownEffects = {
+    "bending",         "inextensibility", "electric field",        "background flow",
+    "Poiseuille flow", "gravity",         "spontaneous curvature", "viscosity contrast"};
 
 /// The model without one of its effects.
 Model without(const Model& model, const std::string& name) {

@@ -1,5 +1,7 @@
 #include "bie/physics/point_sources.hpp"
 
+#include <cmath>
+
 #include "bie/kernels/laplace.hpp"
 
 namespace vehd {
@@ -30,6 +32,11 @@ Matrix maxwell_traction_of_gradient(double permittivity, const Surface& s, const
 
 double relative_max(const Matrix& difference, const Matrix& reference) {
   return difference.rowwise().norm().maxCoeff() / reference.rowwise().norm().maxCoeff();
+}
+
+double relative_l2(const Surface& s, const Matrix& difference, const Matrix& reference) {
+  return std::sqrt(s.quadrature.dot(difference.rowwise().squaredNorm()) /
+                   s.quadrature.dot(reference.rowwise().squaredNorm()));
 }
 
 }  // namespace
@@ -68,6 +75,7 @@ PointSourceErrors point_source_errors(const ElectricParameters& electric, const 
                              maxwell_traction_of_gradient(electric.permittivity, s, exact.gradient_out, exact.flux_out);
   const Vector exact_charge = exact.flux_in - exact.flux_out;
   return {relative_max(traces.charge - exact_charge, exact_charge), relative_max(force - exact_force, exact_force),
+          relative_l2(s, traces.charge - exact_charge, exact_charge), relative_l2(s, force - exact_force, exact_force),
           density.report};
 }
 

@@ -25,8 +25,9 @@ PointSourceFields point_source_fields(const std::vector<PointSource>& sources, c
 
 /// Example 1 of the paper: solution of (35) for the jumps V_m and J_m of the point sources, against the exact one.
 struct PointSourceErrors {
-  double charge;  ///< max |q − q*| / max |q*| over the upsampled grid
-  double force;   ///< max |f_E − f_E*| / max |f_E*|
+  double charge;               ///< max |q − q*| / max |q*| over the upsampled grid
+  double force;                ///< max |f_E − f_E*| / max |f_E*|
+  double charge_l2, force_l2;  ///< ‖q − q*‖/‖q*‖ and the same of f_E, in L2(γ)
   SolveReport report;
 };
 

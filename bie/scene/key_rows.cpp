@@ -92,9 +92,8 @@ void add_membrane_keys(KeyTable& table) {
   table.add("bending_modulus", not_negative,
             {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus; absent or 0: no bending"}, membrane,
             &MembraneScene::bending_modulus);
-  table.add("spontaneous_curvature", any_number,
-            {"c", "1/length", "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere"}, membrane,
-            &MembraneScene::spontaneous_curvature);
+  table.add("spontaneous_curvature", any_number, {"c", "1/length", "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere"},
+            membrane, &MembraneScene::spontaneous_curvature);
   table.add("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"}, membrane,
             &MembraneScene::inextensible);
   table.add("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"}, membrane,
@@ -130,8 +129,9 @@ void add_waveform_keys(KeyTable& table, std::string_view name, Part part) {
                 part, &WaveformScene::kind)
       .required = true;
   table.begin(name, {"ac"});
-  table.add("frequency", positive, {"f", "1/time", "at least four steps a period are taken"}, part,
-            &WaveformScene::frequency)
+  table
+      .add("frequency", positive, {"f", "1/time", "at least four steps a period are taken"}, part,
+           &WaveformScene::frequency)
       .required = true;
   table.add("phase", any_number, {"", "1", "in radians; −π/2 makes a sine"}, part, &WaveformScene::phase);
   table.begin(name, {"pulse", "pulse_train"});
@@ -154,7 +154,8 @@ void add_flow_keys(KeyTable& table) {
   table
       .add_word("kind", {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
                 "rate (z, 0, 0); rate (x, 0, −z); rate (−x/2, −y/2, z); any gradient; centre_velocity (1 − (y² + "
-                "z²)/radius²) along x", flow, &FlowScene::kind)
+                "z²)/radius²) along x",
+                flow, &FlowScene::kind)
       .required = true;
   table.begin("flow", {"shear", "planar_extension", "axisymmetric_extension"});
   table.add("rate", any_number, {"γ̇", "1/time", "velocity gradient"}, flow, &FlowScene::rate).required = true;
@@ -164,8 +165,9 @@ void add_flow_keys(KeyTable& table) {
   table.begin("flow", {"poiseuille"});
   table.add("centre_velocity", any_number, {"v_c", "velocity", "on the axis"}, flow, &FlowScene::centre_velocity)
       .required = true;
-  table.add("radius", positive, {"R", "length", "where the profile vanishes; there is no wall"}, flow,
-            &FlowScene::radius)
+  table
+      .add("radius", positive, {"R", "length", "where the profile vanishes; there is no wall"}, flow,
+           &FlowScene::radius)
       .required = true;
   add_waveform_keys(table, "flow.waveform", flow_waveform);
 }

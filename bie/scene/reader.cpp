@@ -90,9 +90,7 @@ void read_key(Scene& scene, const KeyDescription& key, const toml::node& node, c
 }
 
 /// The table of a dotted name, or nullptr.
-const toml::table* find_table(const toml::table& file, std::string_view name) {
-  return file.at_path(name).as_table();
-}
+const toml::table* find_table(const toml::table& file, std::string_view name) { return file.at_path(name).as_table(); }
 
 /// Whether "owner.name" is a table of its own.
 bool is_subtable(std::string_view owner, std::string_view name) {

@@ -106,8 +106,8 @@ class Checks {
     };
     const auto& times = waveform.times;
     if (times.size() != waveform.values.size()) {
-      refuse_times(fmt::format("has {} times and {} values; accepted: as many of either", times.size(),
-                               waveform.values.size()));
+      refuse_times(
+          fmt::format("has {} times and {} values; accepted: as many of either", times.size(), waveform.values.size()));
     }
     if (times.size() < 2) refuse_times(fmt::format("has {} entries; accepted: at least 2", times.size()));
     const auto fall = std::is_sorted_until(times.begin(), times.end());

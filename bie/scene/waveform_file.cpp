@@ -21,9 +21,10 @@ void read_waveform_table(WaveformScene& waveform, const std::filesystem::path& f
   if (!waveform.path) return;
   const std::filesystem::path path = std::filesystem::absolute(folder / *waveform.path).lexically_normal();
   if (!waveform.times.empty() || !waveform.values.empty()) {
-    throw InputError(fmt::format("{}: the waveform has \"path\" together with \"times\" or \"values\"; accepted: one "
-                                 "of them",
-                                 path.string()));
+    throw InputError(
+        fmt::format("{}: the waveform has \"path\" together with \"times\" or \"values\"; accepted: one "
+                    "of them",
+                    path.string()));
   }
   std::error_code error;
   std::ifstream file(path);

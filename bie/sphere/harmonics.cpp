@@ -35,7 +35,9 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
 
   Matrix values(n_points, n_fields);
   const Index n_blocks = (n_points + kBlock - 1) / kBlock;
-#pragma omp parallel for schedule(static)
+  // Terms below which waking a second thread costs more than it saves.
+  constexpr Index kParallelTerms = 30000;
+#pragma omp parallel for schedule(static) if (n_points * coefficients.rows() > kParallelTerms)
   for (Index block = 0; block < n_blocks; ++block) {
     const Index start = block * kBlock;
     const Index size = std::min(kBlock, n_points - start);

@@ -17,7 +17,7 @@ constexpr int kKinds = 6;
 constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, true, false};
 
 /// Grid values below which waking a second thread costs more than it saves.
-constexpr Index kParallelValues = 60000;
+constexpr Index kParallelValues = 200000;
 
 }  // namespace
 

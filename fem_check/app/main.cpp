@@ -6,10 +6,11 @@
 #include "fem_check/app/check.hpp"
 #include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/mesh.hpp"
+#include "fem_check/app/point_sources.hpp"
 #include "fem_check/session.hpp"
 #include "meshes/types.hpp"
 
-/// The finite-element side of `vehd check` and `vehd mesh`, which start it.
+/// The finite-element side of `vehd check`, `vehd mesh` and `vehd bench methods`, which start it.
 namespace {
 
 using namespace vehd::fem_check;
@@ -57,7 +58,7 @@ int fail(int code, const std::string& message) {
 
 int main(int argc, char** argv) {
   const Session session(argc, argv);
-  CLI::App program("Finite-element side of vehd: started by vehd check and vehd mesh.", "vehd_fem");
+  CLI::App program("Finite-element side of vehd: started by vehd check, mesh and bench methods.", "vehd_fem");
   program.require_subcommand(1);
   std::string json_file;
 
@@ -77,9 +78,20 @@ int main(int argc, char** argv) {
   mesh_command->add_option("--refine", mesh_task.refine, "How often the element size is divided by 1.5");
   mesh_command->add_option("--json", json_file, "Also write the result as JSON");
 
+  PointSourceTask sources_task;
+  CLI::App* sources_command = program.add_subcommand("sources", "Solve for point sources, whose solution is known");
+  sources_command->add_option("INPUT", sources_task.input, "File with the shape and the sources")->required();
+  sources_command->add_option("--degree", sources_task.degree, "Of the elements");
+  sources_command->add_option("--cells", sources_task.cells_per_edge, "Cells per edge of a block");
+  sources_command->add_option("--json", json_file, "Where the result goes")->required();
+
   try {
     program.parse(argc, argv);
     if (mesh_command->parsed()) return mesh(mesh_task, json_file);
+    if (sources_command->parsed()) {
+      write_json(json_file, json_of(run_point_sources(sources_task)));
+      return done;
+    }
     check_task.refinement = quick ? Refinement::quick() : Refinement::finest();
     return check(check_task, json_file, session.rank() == 0);
   } catch (const CLI::ParseError& error) {

@@ -14,8 +14,8 @@ void shares_nothing(const std::filesystem::path& path) {
       ".*\\bvehd_(support|sphere|linear|kernels|geometry|potentials|physics|stepping|scene|app)\\b.*");
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
-    const bool shared = path.filename() == "CMakeLists.txt" ? std::regex_match(line, solver_library)
-                                                            : std::regex_search(line, include);
+    const bool shared =
+        path.filename() == "CMakeLists.txt" ? std::regex_match(line, solver_library) : std::regex_search(line, include);
     BOOST_TEST(!shared, path.string() + ": " + line);
   }
 }

@@ -99,8 +99,9 @@ BOOST_AUTO_TEST_CASE(effects_are_those_that_the_scene_names) {
 }
 
 BOOST_AUTO_TEST_CASE(combinations_without_an_effect_are_refused_in_one_line) {
-  BOOST_TEST(message_with("[gravity]\nacceleration = [0, 0, -1]\n") ==
-             "scene.toml:9: [gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
+  BOOST_TEST(
+      message_with("[gravity]\nacceleration = [0, 0, -1]\n") ==
+      "scene.toml:9: [gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
   BOOST_TEST(message_with("[fluid]\ndensity_difference = 1\n") ==
              "scene.toml:9: \"density_difference\" in [fluid] has no effect without [gravity]");
   BOOST_TEST(message_with("[fluid]\ndensity_difference = 1\n[gravity]\nacceleration = [0, 0, 0]\n") ==
@@ -138,16 +139,18 @@ BOOST_AUTO_TEST_CASE(waveform_that_makes_no_sense_is_refused) {
              "scene.toml:14: the table of [electric.waveform] has 1 entries; accepted: at least 2");
   BOOST_TEST(message("kind = 'table'\ntimes = [1, 0]\nvalues = [1, 1]\n") ==
              "scene.toml:14: the table of [electric.waveform] falls to the time 0; accepted: ascending times");
-  BOOST_TEST(message("kind = 'table'\ntimes = [0, 0, 0]\nvalues = [1, 2, 3]\n") ==
-             "scene.toml:14: the table of [electric.waveform] has the time 0 three times; accepted: twice, which makes a "
-             "jump");
+  BOOST_TEST(
+      message("kind = 'table'\ntimes = [0, 0, 0]\nvalues = [1, 2, 3]\n") ==
+      "scene.toml:14: the table of [electric.waveform] has the time 0 three times; accepted: twice, which makes a "
+      "jump");
 }
 
 BOOST_AUTO_TEST_CASE(symmetry_that_is_asked_for_must_be_there) {
   BOOST_TEST(message_with("symmetry = 'axisymmetric'\n") == "");
-  BOOST_TEST(message_with("symmetry = 'axisymmetric'\n[flow]\nkind = 'shear'\nrate = 1\n") ==
-             "scene.toml:8: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about z; they "
-             "have: mirror y, half turn about y, inversion");
+  BOOST_TEST(
+      message_with("symmetry = 'axisymmetric'\n[flow]\nkind = 'shear'\nrate = 1\n") ==
+      "scene.toml:8: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about z; they "
+      "have: mirror y, half turn about y, inversion");
   BOOST_TEST(vehd::symmetry_of(parsed(with_appended("symmetry = 'axisymmetric'\n")), {}).axisymmetric);
 }
 
