@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bie/physics/membrane.hpp"
+#include "bie/physics/waveform.hpp"
 #include "bie/sphere/reflection.hpp"
 
 namespace vehd {
@@ -28,6 +29,7 @@ struct Situation {
   const Membrane& membrane;
   const Matrix& position;  ///< coefficients of x
   double time;
+  Limit limit = Limit::after;  ///< which value counts where a waveform jumps at this time
 };
 
 /// What effects add up to.

@@ -9,7 +9,7 @@ EffectDescription PoiseuilleFlowEffect::description() const {
 void PoiseuilleFlowEffect::add(const Situation& situation, Forcing& forcing) const {
   const Matrix& x = situation.membrane.surface.position;
   const Eigen::ArrayXd off_axis = (x.col(1).array().square() + x.col(2).array().square());
-  const double amplitude = parameters_.centre_velocity * parameters_.waveform.at(situation.time);
+  const double amplitude = parameters_.centre_velocity * parameters_.waveform.at(situation.time, situation.limit);
   const Vector profile = amplitude * (1.0 - off_axis / (parameters_.radius * parameters_.radius));
   forcing.velocity.col(0) += situation.membrane.fine.analyze(profile);
 }

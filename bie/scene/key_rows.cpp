@@ -1,6 +1,7 @@
 #include "bie/scene/key_rows.hpp"
 
 #include "bie/scene/key_table.hpp"
+#include "bie/stepping/deferred_correction.hpp"
 
 namespace vehd {
 namespace {
@@ -197,6 +198,11 @@ void add_numerics_keys(KeyTable& table) {
   table.begin("numerics");
   table.add("order", {4, 64}, {"p", "1", "degree of the spherical harmonics"}, numerics, &NumericsScene::order);
   table.add("dt", positive, {"Δt", "time", "largest time step"}, numerics, &NumericsScene::dt).required = true;
+  table.add("time_order", {1, highest_time_order},
+            {"", "1",
+             "order of a step in Δt: 1 the paper's scheme; 2, 3, 4 its deferred correction at 2, 5, 7 times the "
+             "work"},
+            numerics, &NumericsScene::time_order);
   table
       .add("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone"}, numerics,
            &NumericsScene::end_time)

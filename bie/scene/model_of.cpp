@@ -95,6 +95,7 @@ Model model_of(const Scene& scene) {
 NumericalSettings settings_of(const Scene& scene) {
   NumericalSettings settings;
   settings.order = scene.numerics.order;
+  settings.time_order = scene.numerics.time_order;
   return settings;
 }
 

@@ -113,6 +113,7 @@ struct ElectricScene {
 struct NumericsScene {
   int order = 16;
   double dt = 0.0;
+  int time_order = 1;
   double end_time = 0.0;
   SymmetryUse symmetry = SymmetryUse::automatic;
   bool operator==(const NumericsScene&) const = default;

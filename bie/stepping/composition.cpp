@@ -30,6 +30,11 @@ bool electric_sleeps(const Model& model, const State& state) {
   return model.electric && model.electric->waveform.is_quiet(state.time) && state.transmembrane_potential.isZero(0.0);
 }
 
+bool electric_is_silent(const Model& model, const State& state) {
+  return model.electric && model.electric->waveform.at(state.time, Limit::before) == 0.0 &&
+         state.transmembrane_potential.isZero(0.0);
+}
+
 LayerSelection needed_layers(const Model& model, bool electric_awake) {
   Model awake = model;
   if (!electric_awake) awake.electric.reset();

@@ -19,6 +19,9 @@ std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model&
 /// No field, no V_m, and no change of that before the next corner of the waveform: nothing electric needs to be done.
 bool electric_sleeps(const Model& model, const State& state);
 
+/// No field and no V_m at the time of the state, before a jump of the waveform if there is one then.
+bool electric_is_silent(const Model& model, const State& state);
+
 /// The operators that the effects need; those of the electric problem only while it is awake.
 LayerSelection needed_layers(const Model& model, bool electric_awake);
 

@@ -47,7 +47,7 @@ Measure measure(const SphereTransform& fine, const Matrix& position) {
 }  // namespace
 
 ConstrainedMove constrained_move(const Model& model, const Discretisation& discretisation, const State& state,
-                                 const Evaluation::Parts& parts, const Vector& tension, double dt,
+                                 const Evaluation::Parts& parts, const MoveStart& start, double dt,
                                  const Landing& landing) {
   const Membrane& membrane = parts.membrane;
   const NumericalSettings& settings = discretisation.settings();
@@ -63,8 +63,8 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
   }
 
   ConstrainedMove move;
-  move.velocity = parts.velocity;
-  move.tension = tension;
+  Matrix velocity = start.velocity;
+  move.tension = start.tension;
   Vector curvature = Vector::Zero(normal.rows());  // h of Eq. (28), accumulated
   const double mean_curvature = bending ? membrane.fine.analyze(membrane.surface.mean_curvature).norm() : 0.0;
   double curvature_scale = 0.0;
@@ -72,7 +72,7 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
   double landing_area = 0.0;
   double landing_volume = 0.0;
   for (int pass = 0; pass <= kMaxPasses; ++pass) {
-    move.position = state.position + dt * move.velocity;
+    move.position = start.position + dt * velocity;
     const Measure after = measure(membrane.fine, move.position);
     const Eigen::ArrayXd stretch = after.area_element.cwiseQuotient(area_element);
     if (!(stretch.minCoeff() > 1.0 - kLargestStretch && stretch.maxCoeff() < 1.0 + kLargestStretch)) {
@@ -90,7 +90,7 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
     FlowRightHandSide rhs;
     double curvature_error = 0.0;
     if (bending) {
-      rhs.curvature = dt * curvature_increment(membrane, membrane.fine.synthesize_hessian(move.velocity)) - curvature;
+      rhs.curvature = dt * curvature_increment(membrane, membrane.fine.synthesize_hessian(velocity)) - curvature;
       if (pass == 0) curvature_scale = std::max(rhs.curvature.norm(), kCurvatureFloor * mean_curvature);
       curvature_error = rhs.curvature.norm() / curvature_scale;
     }
@@ -128,7 +128,7 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
                                 report.iterations);
       return move;
     }
-    move.velocity += push * normal + membrane_velocity(model, membrane, increment);
+    velocity += push * normal + membrane_velocity(model, membrane, increment);
     if (bending) curvature += increment.curvature;
     if (model.inextensible) move.tension += increment.tension;
   }

@@ -10,6 +10,7 @@ namespace vehd {
 /// Numerical settings of a run; the defaults are the program's defaults.
 struct NumericalSettings {
   int order = 16;                         ///< p
+  int time_order = 1;                     ///< order of a step in dt, 1 … highest_time_order
   int upsampling = 2;                     ///< nonlinear terms live on the grid of order upsampling * p
   double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
   double flow_tolerance = 1e-9;           ///< of the tension and velocity solves

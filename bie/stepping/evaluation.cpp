@@ -31,15 +31,26 @@ Membrane make_membrane(const Discretisation& discretisation, const Matrix& posit
   return {tables.fine, std::move(surface), std::move(layers), radius, std::move(contrast)};
 }
 
-/// f_E with q as a by-product, Eqs. (12), (15), (32).
-Matrix solve_electric(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
-                      double tolerance, Evaluation& evaluation) {
+/// dV_m/dt = −(σ_i ∂φ_i/∂n + G_m V_m)/C_m, Eq. (4e). No net current leaves a closed membrane, which the quadrature
+/// sees only up to its error.
+Vector charging_rate(const ElectricParameters& electric, const ChargingParameters& charging, const Membrane& membrane,
+                     const Vector& potential, const ElectricTraces& traces) {
+  const Vector& area = membrane.surface.quadrature;
+  Vector current = electric.conductivity_in * traces.flux_in;
+  current.array() -= current.dot(area) / area.sum();
+  return -(membrane.fine.analyze(current) + charging.conductance * potential) / charging.capacitance;
+}
+
+/// f_E with q and dV_m/dt as by-products, Eqs. (12), (15), (32).
+Matrix solve_electric(const ElectricParameters& electric, const ChargingParameters& charging, const Membrane& membrane,
+                      const Vector& potential, double tolerance, Evaluation& evaluation) {
   const Vector rhs = weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential);
   const SecondKindSolution density = solve_second_kind(membrane, conductivity_contrast(electric), rhs, tolerance, {});
   require_converged(density.report, "charge density, Eq. (12)");
   evaluation.iterations_electric = density.report.iterations;
   const ElectricTraces traces = electric_traces(electric, membrane, potential, density);
   evaluation.fields.charge = membrane.fine.analyze(traces.charge);
+  evaluation.potential_rate = charging_rate(electric, charging, membrane, potential, traces);
   return electric_force(electric.permittivity, membrane, traces, electric.permittivity_ratio);
 }
 
@@ -69,9 +80,9 @@ Matrix solve_velocity(const Model& model, const NumericalSettings& settings, con
 }  // namespace
 
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
-                    Instruments& instruments, const Evaluation* previous) {
+                    Instruments& instruments, const Evaluation* previous, Limit limit) {
   const NumericalSettings& settings = discretisation.settings();
-  const bool asleep = electric_sleeps(model, state);
+  const bool asleep = limit == Limit::after ? electric_sleeps(model, state) : electric_is_silent(model, state);
   const bool reuse = !model.mobile && previous != nullptr && (asleep || !previous->electric_asleep);
   Evaluation evaluation;
   evaluation.electric_asleep = asleep;
@@ -89,17 +100,20 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
   Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(state.position.rows(), 3)};
   if (model.electric && asleep) {
     fields.charge = Vector::Zero(state.position.rows());
+    evaluation.potential_rate = Vector::Zero(state.position.rows());
     fields.force_electric = Matrix::Zero(state.position.rows(), 3);
   } else if (model.electric) {
     const auto timer = instruments.time("electric");
-    const Matrix electric = solve_electric(model.electric->at(state.time, Limit::after), membrane,
+    const Matrix electric = solve_electric(model.electric->at(state.time, limit), *model.charging, membrane,
                                            state.transmembrane_potential, settings.electric_tolerance, evaluation);
     fields.force_electric = membrane.fine.analyze(electric);
     forcing.force -= electric;
   }
   if (model.mobile) {
     const auto timer = instruments.time("tension solve");
-    for (const auto& effect : explicit_effects(model)) effect->add({membrane, state.position, state.time}, forcing);
+    for (const auto& effect : explicit_effects(model)) {
+      effect->add({membrane, state.position, state.time, limit}, forcing);
+    }
     if (model.bending) {
       const Matrix bending = bending_force(*model.bending, membrane);
       fields.force_bending = membrane.fine.analyze(bending);

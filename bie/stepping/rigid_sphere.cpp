@@ -26,7 +26,6 @@ ConstrainedMove rigid_sphere_move(const State& state, const Evaluation::Parts& p
   const Vector retraction = membrane.radius * radial.rowwise().norm().cwiseInverse();
   radial.array().colwise() *= retraction.array();
   move.position = membrane.fine.analyze(radial.rowwise() + moved_centre.transpose());
-  move.velocity = (move.position - state.position) / dt;
   move.tension = tension;
   const Vector stretch = make_surface(membrane.fine, move.position).area_element.cwiseQuotient(s.area_element);
   const Vector stretch_before = 1.0 + membrane.fine.synthesize(state.area_strain).col(0).array();

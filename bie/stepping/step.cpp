@@ -3,90 +3,27 @@
 #include <numbers>
 
 #include "bie/physics/membrane_charging.hpp"
-#include "bie/stepping/constrained_move.hpp"
+#include "bie/stepping/deferred_correction.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
-#include "bie/stepping/reparametrisation.hpp"
-#include "bie/stepping/rigid_sphere.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
-namespace {
-
-/// V_m after the step, Eq. (30). @returns false where the solve fails
-bool charge(const Model& model, const Discretisation::Tables& tables, const Membrane& membrane, double time, double dt,
-            Vector& potential, int& iterations) {
-  const double end = time + dt;
-  const SolveReport report = charge_membrane(model.electric->at(end, Limit::before), *model.charging, membrane, dt,
-                                             tables.settings.electric_tolerance, potential);
-  iterations = report.iterations;
-  // A potential this small does nothing any more, and without it the electric part can sleep.
-  constexpr double kDecayed = 1e-10;
-  const double scale = model.electric->field.norm() * membrane.radius;
-  if (model.electric->waveform.is_quiet(end) && potential.norm() < kDecayed * scale) potential.setZero();
-  return report.converged;
-}
-
-}  // namespace
-
 StepResult step(const Model& model, const Discretisation& discretisation, const State& state,
                 const Evaluation& evaluation, double dt, Instruments& instruments) {
-  const Discretisation::Tables& tables = discretisation.tables();
-  const Evaluation::Parts& parts = *evaluation.parts;
+  const StageContext context{model, discretisation, state, evaluation, instruments};
   StepResult result;
-  State& next = result.state;
-  next = state;
-  next.time = state.time + dt;
-  next.step = state.step + 1;
-  if (model.electric && !evaluation.electric_asleep) {
-    const auto timer = instruments.time("electric");
-    if (!charge(model, tables, parts.membrane, state.time, dt, next.transmembrane_potential,
-                result.iterations_electric)) {
-      result.reason = "membrane charging, Eq. (30), did not converge";
-      return result;
-    }
+  try {
+    const CorrectedStep corrected = deferred_correction(context, dt, discretisation.settings().time_order);
+    result.iterations_flow = corrected.stage.iterations_flow;
+    result.iterations_electric = corrected.stage.iterations_electric;
+    result.accepted = corrected.stage.accepted;
+    result.reason = corrected.stage.reason;
+    result.change = corrected.change;
+    if (result.accepted) result.state = arrived_state(context, corrected.stage);
+  } catch (const ConvergenceError& error) {
+    result.reason = error.what();
   }
-  if (!model.mobile) {
-    next = symmetric_part(tables.symmetry, std::move(next));
-    result.accepted = next.transmembrane_potential.allFinite();
-    if (!result.accepted) result.reason = "the new state is not finite";
-    return result;
-  }
-
-  // Columns: x, strain, then whatever the model carries.
-  const Landing landing = [&](const ConstrainedMove& move) {
-    const auto timer = instruments.time("reparametrisation");
-    Matrix fields(move.position.rows(), 4 + (model.electric ? 1 : 0) + (model.inextensible ? 1 : 0));
-    fields.leftCols(3) = move.position;
-    fields.col(3) = move.area_strain;
-    Index column = 4;
-    if (model.electric) fields.col(column++) = next.transmembrane_potential;
-    if (model.inextensible) fields.col(column++) = move.tension;
-    return reparametrise(tables.fine, make_surface(tables.fine, move.position), move.position, dt * move.velocity,
-                         fields);
-  };
-  const auto timer = instruments.time("velocity solve");
-  const Vector& tension = evaluation.fields.tension;
-  const ConstrainedMove move = parts.is_sphere
-                                   ? rigid_sphere_move(state, parts, tension, dt, landing)
-                                   : constrained_move(model, discretisation, state, parts, tension, dt, landing);
-  result.iterations_flow = move.iterations;
-  if (!move.accepted) {
-    result.reason = move.reason;
-    return result;
-  }
-  const Matrix& fields = move.landed;
-  if (!fields.allFinite()) {
-    result.reason = "the new state is not finite";
-    return result;
-  }
-  next.position = fields.leftCols(3);
-  next.area_strain = fields.col(3);
-  Index column = 4;
-  if (model.electric) next.transmembrane_potential = fields.col(column++);
-  if (model.inextensible) next.tension = fields.col(column++);
-  next = symmetric_part(tables.symmetry, std::move(next));
-  result.accepted = true;
   return result;
 }
 

@@ -20,25 +20,29 @@ struct Evaluation {
   int iterations_flow = 0;       ///< GMRES iterations of the tension solve
   int iterations_electric = 0;   ///< GMRES iterations of Eq. (12)
   bool electric_asleep = false;  ///< see electric_sleeps
+  Vector potential_rate;         ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
   struct Parts;
   std::shared_ptr<const Parts> parts;  ///< surface and operators, for the step alone
 };
 
 /// Solves everything at a frozen state.
 /// @param previous  of the same run, if there is one: where the shape is frozen its operators serve again
+/// @param limit     which value counts where a waveform jumps at the time of the state
 /// @throws ConvergenceError naming the solve that failed
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
-                    Instruments& instruments, const Evaluation* previous = nullptr);
+                    Instruments& instruments, const Evaluation* previous = nullptr, Limit limit = Limit::after);
 
 struct StepResult {
   bool accepted = false;
-  std::string reason;  ///< why a step was rejected; empty when accepted
-  State state;         ///< the new state when accepted, otherwise unspecified
+  std::string reason;   ///< why a step was rejected; empty when accepted
+  State state;          ///< the new state when accepted, otherwise unspecified
+  double change = 0.0;  ///< made by the last correction, see CorrectedStep
   int iterations_flow = 0;
   int iterations_electric = 0;
 };
 
-/// One semi-implicit step of size dt, Eqs. (27)-(31); never throws for a step that merely went wrong.
+/// One step of size dt and of the order that the settings ask for: the semi-implicit one of Eqs. (27)-(31), or its
+/// deferred correction. Never throws for a step that merely went wrong.
 StepResult step(const Model& model, const Discretisation& discretisation, const State& state,
                 const Evaluation& evaluation, double dt, Instruments& instruments);
 

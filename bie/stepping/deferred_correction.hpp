@@ -1,0 +1,24 @@
+#pragma once
+
+#include "bie/stepping/stage.hpp"
+
+namespace vehd {
+
+/// The last stage of a step and how far the stage before its last correction was from it.
+struct CorrectedStep {
+  Stage stage;
+  double change = 0.0;  ///< of x over the radius and of V_m over its size, whichever is larger; 0 without a correction
+};
+
+/// Highest order of deferred_correction.
+constexpr int highest_time_order = 4;
+
+/// One step of order 1 … highest_time_order by spectral deferred correction (Dutt, Greengard, Rokhlin 2000) of the
+/// first-order stage: with c_m the nodes of a quadrature rule on the step and q_mj its weights, each sweep takes
+///   y_m ← y_m + (1 − c_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F(y_j) − y_m),   y = (x, V_m) on material points,
+/// and gains one order. F is the full instantaneous rate of evaluate(), L the implicit part of the first-order stage at
+/// the start of the step. Order 2 takes the trapezoidal rule, orders 3 and 4 Simpson's: the limit of the sweeps is the
+/// Lobatto IIIA method. One step knows nothing of those before, so its size may jump.
+CorrectedStep deferred_correction(const StageContext& context, double dt, int order);
+
+}  // namespace vehd

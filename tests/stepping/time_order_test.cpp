@@ -1,0 +1,137 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "bie/stepping/deferred_correction.hpp"
+#include "tests/support/runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+Discretisation discretisation_for(const Model& model, const Matrix& position, int time_order) {
+  NumericalSettings settings;
+  settings.order = order_of(position.rows());
+  settings.time_order = time_order;
+  State start;
+  start.position = position;
+  start.area_strain = Vector::Zero(position.rows());
+  return Discretisation(settings, find_symmetry(model, start));
+}
+
+/// Shape, V_m, tension and energy, all independent of the parametrisation.
+Vector observed_at(const Model& model, const Matrix& position, int time_order, double end_time, int n_steps) {
+  const Discretisation discretisation = discretisation_for(model, position, time_order);
+  const double dt = end_time / n_steps;
+  const State end = run(model, discretisation, start(model, discretisation, position, dt), dt, n_steps);
+  const Diagnostics d = evaluated(model, discretisation, end).diagnostics;
+  return Vector{{d.extent_x, d.extent_z, d.Vm_max, d.tension_integral, d.bending_energy_scaled}};
+}
+
+/// Errors of all that is observed, at n, 2n, 4n steps.
+class OrderStudy {
+ public:
+  OrderStudy(Model model, Matrix position, double end_time, int n_steps)
+      : model_(std::move(model)),
+        position_(std::move(position)),
+        end_time_(end_time),
+        n_steps_(n_steps),
+        reference_(observed_at(model_, position_, highest_time_order, end_time_, 2 * (n_steps << (kLevels - 1)))) {}
+
+  /// The largest relative error must fall with at least this rate in the end.
+  void reaches(int time_order, double least_rate) const {
+    double before = 0.0, error = 0.0;
+    for (int level = 0; level < kLevels; ++level) {
+      before = error;
+      const Vector values = observed_at(model_, position_, time_order, end_time_, n_steps_ << level);
+      error = (values - reference_).cwiseQuotient(reference_).cwiseAbs().maxCoeff();
+      BOOST_TEST_MESSAGE("order " << time_order << ", " << (n_steps_ << level) << " steps: " << error);
+    }
+    BOOST_TEST(std::log2(before / error) > least_rate, "order " << time_order << ": " << before << " to " << error);
+  }
+
+ private:
+  static constexpr int kLevels = 3;
+
+  Model model_;
+  Matrix position_;
+  double end_time_;
+  int n_steps_;
+  Vector reference_;
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(time_order)
+
+BOOST_AUTO_TEST_CASE(shape_tension_and_potential_of_example_2_reach_every_order) {
+  // The fastest modes charge within 0.1: only the smallest steps resolve them.
+  const OrderStudy study(field_model(), prolate(16), 0.5, 8);
+  study.reaches(1, 0.9);
+  study.reaches(2, 1.6);
+  study.reaches(3, 2.5);
+  study.reaches(4, 3.3);
+}
+
+BOOST_AUTO_TEST_CASE(alternating_field_keeps_the_order) {
+  Model model = field_model();
+  model.electric->waveform = Waveform::alternating(1.0, 0.5, 0.4);
+  const OrderStudy study(model, prolate(16), 0.25, 8);
+  study.reaches(2, 1.7);
+  study.reaches(4, 3.5);
+}
+
+BOOST_AUTO_TEST_CASE(tank_treading_keeps_the_order) {
+  OrderStudy(shear_model(), ellipsoid(8, {1.0, 1.2, 1.5}), 0.5, 2).reaches(2, 1.6);
+}
+
+BOOST_AUTO_TEST_CASE(alternating_field_on_a_frozen_sphere_is_followed_to_every_order) {
+  // Exact: C V̇ = −G V + κ(3E(t)/2 − V) for the amplitude V of V_m = V cos θ, κ = 2σ_iσ_e/(σ_i + 2σ_e).
+  Model model = field_model();
+  model.mobile = false;
+  const double frequency = 0.5, omega = 2.0 * std::acos(-1.0) * frequency;
+  model.electric->waveform = Waveform::alternating(1.0, frequency, 0.0);
+  const double kappa = 2.0 * 1.0 * 2.0 / (1.0 + 4.0), rate = 5.0 + kappa, drive = 1.5 * kappa;
+  const auto exact = [&](double t) {
+    const double steady = (rate * std::cos(omega * t) + omega * std::sin(omega * t)) / (rate * rate + omega * omega);
+    return drive * (steady - rate / (rate * rate + omega * omega) * std::exp(-rate * t));
+  };
+  for (int order = 1; order <= 4; ++order) {
+    const Discretisation discretisation = discretisation_for(model, sphere(6), order);
+    double errors[2];
+    for (int level = 0; level < 2; ++level) {
+      const int n_steps = 80 << level;
+      const State end =
+          run(model, discretisation, start(model, discretisation, sphere(6), 1.0), 1.0 / n_steps, n_steps);
+      errors[level] = std::abs(evaluated(model, discretisation, end).diagnostics.Vm_north - exact(1.0));
+    }
+    BOOST_TEST(std::log2(errors[0] / errors[1]) > order - 0.3, order << ": " << errors[0] << " " << errors[1]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(step_sizes_may_jump) {
+  const Model model = field_model();
+  const Matrix position = prolate(12);
+  const Discretisation discretisation = discretisation_for(model, position, 4);
+  const auto extent = [&](const std::vector<double>& steps) {
+    State state = start(model, discretisation, position, 0.1);
+    for (const double dt : steps) state = run(model, discretisation, std::move(state), dt, 1);
+    return evaluated(model, discretisation, state).diagnostics.extent_z;
+  };
+  const double reference = extent(std::vector<double>(16, 0.025));
+  const double uniform = std::abs(extent(std::vector<double>(4, 0.1)) - reference);
+  BOOST_TEST(std::abs(extent({0.1, 0.01, 0.1, 0.01, 0.08, 0.1}) - reference) < 1.5 * uniform);
+}
+
+BOOST_AUTO_TEST_CASE(jump_of_the_field_at_the_end_of_a_step_belongs_to_the_next) {
+  Model model = field_model();
+  model.mobile = false;
+  model.electric->waveform = Waveform::pulse(1.0, 0.5, 1.0);
+  const Discretisation discretisation = discretisation_for(model, sphere(6), 4);
+  const State end = run(model, discretisation, start(model, discretisation, sphere(6), 0.25), 0.25, 2);
+  BOOST_TEST(end.time == 0.5);
+  BOOST_TEST(end.transmembrane_potential.isZero(0.0));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
