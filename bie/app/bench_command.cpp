@@ -76,7 +76,7 @@ void add_methods(CLI::App& bench, ExitCode& exit_code) {
       ->type_name("DIR")
       ->capture_default_str();
   command->add_flag("--quick", task.quick, "Two levels of each, one repeat");
-  command->add_option("--repeats", task.repeats, "Timed solves of each level; the median counts")
+  command->add_option("--repeats", task.repeats, "Timed solves of each level, fewer of long ones; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--no-plot", options->no_plot, "Draw no picture");

@@ -5,6 +5,7 @@
 
 #include "fem_check/app/field_files.hpp"
 #include "fem_check/app/flow_levels.hpp"
+#include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/potential_levels.hpp"
 #include "fem_check/app/questions.hpp"
 #include "fem_check/app/surface_series.hpp"
@@ -15,6 +16,13 @@ namespace {
 void add(CheckResult& result, const std::vector<FieldQuestion>& questions, const LevelSequence& sequence) {
   for (const FieldQuestion& question : questions) result.fields.push_back(compare(question, sequence));
   for (const Level& level : sequence.levels) result.levels.push_back(level);
+}
+
+/// Before the work, not after it.
+void require_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (!std::filesystem::is_directory(directory)) throw InputError(directory.string() + ": cannot be created");
 }
 
 double root_mean_square(const Eigen::MatrixXd& values, const Vector& weight) {
@@ -39,6 +47,7 @@ SurfaceDivergence divergence_of(const CheckInput& input, const LevelSequence& se
 CheckResult run_check(const CheckTask& task, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   const CheckInput input = read_check_input(task.input);
+  if (task.writes) require_directory(task.directory);
   const meshes::FrozenShape shape(input.position);
   const Meshes meshes(shape, task.refinement);
   // Fields are taken at the same points of γ on every level: those of the finest geometry that any level has.

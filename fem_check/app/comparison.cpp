@@ -10,6 +10,14 @@ namespace {
 constexpr double negligible = 1e-6;
 /// Error of a solution over the residual at which its solver stops.
 constexpr double solver_amplification = 10.0;
+/// Slowest power of the radius with which the error of the outer sphere falls: with u = 0 there.
+constexpr double slowest_truncation_order = 3.0;
+
+/// The whole error of the nearer sphere over what moving it out changes.
+double truncation_tail(const LevelSequence& sequence) {
+  const double ratio = sequence.levels[sequence.repeated].outer_radius / sequence.far.outer_radius;
+  return 1.0 / (1.0 - std::pow(ratio, slowest_truncation_order));
+}
 
 Eigen::MatrixXd selected(const Eigen::MatrixXd& values, const std::vector<Eigen::Index>& columns) {
   return columns.empty() ? values : Eigen::MatrixXd(values(Eigen::all, columns));
@@ -65,7 +73,11 @@ FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequ
   result.difference = result.of_levels.back();
   result.levels_change = measure(values[last], values[last - 1]);
   const Eigen::MatrixXd far = values_of(sequence.far);
-  if (far.size() > 0) result.truncation = measure(far, values_of(sequence.levels[sequence.repeated]));
+  if (far.size() > 0) {
+    const double tail = truncation_tail(sequence);
+    const Norms change = measure(far, values_of(sequence.levels[sequence.repeated]));
+    result.truncation = {tail * change.l2, tail * change.max};
+  }
   result.solver = measure.relative(solver_amplification * question.solver_tolerance * question.natural_size);
   result.bie_change = measure(question.bie, question.bie_high);
   if (values.size() >= 3) {

@@ -21,7 +21,7 @@ struct FieldComparison {
   std::string label;  ///< in the table
   Norms difference;
   Norms levels_change;           ///< last level against the one before
-  Norms truncation;              ///< outer sphere further out
+  Norms truncation;              ///< of the outer sphere, from one further out
   double solver = 0.0;           ///< what the linear solvers leave
   Norms bie_change;              ///< order p against the higher order
   std::optional<double> order;   ///< observed, in the mesh size N^(−1/3), N unknowns

@@ -47,7 +47,7 @@ FlowLevels solve_flow_levels(const CheckInput& input, const Meshes& meshes, cons
 void add_own_force(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
                    const PotentialLevels& potential, LevelSequence& sequence, const Report& report) {
   const std::size_t last = sequence.levels.size() - 1;
-  const Discretisation discretisation = meshes.discretise(sequence.levels[last - 1].degree);
+  const Discretisation discretisation = meshes.discretise(sequence.levels[sequence.repeated].degree);
   const SurfacePoints points = discretisation.quadrature_points(refinement.points_per_edge);
   const SurfaceSeries given(input.force_electric);
   FlowProblem problem = problem_of(input, refinement);
@@ -59,7 +59,11 @@ void add_own_force(const CheckInput& input, const Meshes& meshes, const Refineme
     Level& level = sequence.levels[last - back];
     const Vectors velocity = change.on_surface(points).velocity;
     level.surface["velocity_own_force"] = level.surface.at("velocity") + velocity;
-    if (back == 0) sequence.far.surface["velocity_own_force"] = sequence.far.surface.at("velocity") + velocity;
+    if (back == 0) {
+      for (Level* other : {&sequence.far, &sequence.levels[sequence.repeated]}) {
+        other->surface["velocity_own_force"] = other->surface.at("velocity") + velocity;
+      }
+    }
     Level step = level_of("flow by the change of f_E", discretisation, change.cost(), start);
     step.outer_radius = meshes.outer_radius();
     report(level_line(step));

@@ -27,7 +27,8 @@ Level level_of(const std::string& problem, const Discretisation& discretisation,
 /// "finite elements: potential, degree 4, outer radius 8: 7291 unknowns, 0.8 s".
 std::string level_line(const Level& level);
 
-/// Raises the degree until the target is met, then repeats the level before the last with the outer sphere further out.
+/// Raises the degree until the target is met, then repeats a level with the outer sphere further out: one two degrees
+/// below the last, as the change has little to do with the degree.
 /// @param solve  (discretisation) → Level
 template <typename Solve>
 LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Report& report, const Solve& solve) {
@@ -45,7 +46,7 @@ LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Repo
     const double change = largest_change(levels[levels.size() - 2], levels.back(), plan.judged_by);
     if (change * std::min(1.0, change / before) <= plan.target) break;
   }
-  result.repeated = static_cast<int>(levels.size()) - 2;
+  result.repeated = static_cast<int>(levels.size() - fewest);
   result.far = solve(meshes.discretise_far(levels[result.repeated].degree));
   result.far.outer_radius = meshes.far_outer_radius();
   report(level_line(result.far));

@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
   sources_command->add_option("INPUT", sources_task.input, "File with the shape and the sources")->required();
   sources_command->add_option("--degree", sources_task.degree, "Of the elements");
   sources_command->add_option("--cells", sources_task.cells_per_edge, "Cells per edge of a block");
+  sources_command->add_option("--radius", sources_task.outer_radius, "Of the outer sphere, over that of the shape");
   sources_command->add_option("--json", json_file, "Where the result goes")->required();
 
   try {

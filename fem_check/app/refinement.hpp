@@ -15,8 +15,8 @@ struct Refinement {
   double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape
   int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
 
-  int potential_first = 4, potential_last = 8;  ///< degrees
-  int flow_first = 3, flow_last = 7;
+  int potential_first = 4, potential_last = 9;  ///< degrees
+  int flow_first = 3, flow_last = 8;
   double potential_target = 5e-6;  ///< estimated relative error at which degrees stop rising before the last
   double flow_target = 5e-5;
   double potential_tolerance = 1e-11;  ///< of the linear solvers
