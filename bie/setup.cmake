@@ -4,6 +4,8 @@
 #   cmake -DSTEP=build -P bie/setup.cmake  installs what is missing, builds
 #   cmake -DSTEP=check -P bie/setup.cmake  installs deal.II and gmsh as well, builds the finite-element check, compares the
 #                                          two methods on the first shape of Example 2
+#   cmake -DSTEP=callgrind -P bie/setup.cmake  installs valgrind, counts the instructions of a run without electricity:
+#                                              none in electric code, next to none in bookkeeping
 #   cmake -DSTEP=docs -P bie/setup.cmake   the same, then runs every scene of docs/scenes for the pictures in docs/images
 # With -DVEHD_FEM_CHECK=ON before -P, test and build include the finite-element check and install what it needs; without
 # it they include the check where deal.II and gmsh are there already.
@@ -14,8 +16,8 @@ set(build "${source}/build")
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
-if(NOT STEP MATCHES "^(run|test|build|check|docs)$")
-  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build, check, docs")
+if(NOT STEP MATCHES "^(run|test|build|check|callgrind|docs)$")
+  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build, check, callgrind, docs")
 endif()
 
 set(packages ninja-build pkg-config libeigen3-dev libfftw3-dev libhdf5-dev libboost-test-dev libtomlplusplus-dev
@@ -23,6 +25,11 @@ set(packages ninja-build pkg-config libeigen3-dev libfftw3-dev libhdf5-dev libbo
 if(STEP STREQUAL "test")
   # The tests open run.xdmf as ParaView does and render it on a virtual display.
   list(APPEND packages python3-paraview xvfb xauth)
+endif()
+if(STEP STREQUAL "callgrind")
+  list(APPEND packages valgrind)
+  # Valgrind does not know the instructions of every new processor.
+  set(build "${source}/build-callgrind")
 endif()
 # libdeal.ii-dev brings Trilinos and Open MPI.
 set(fem_packages libdeal.ii-dev libgmsh-dev)
@@ -91,6 +98,9 @@ if(NOT EXISTS "${build}/CMakeCache.txt")
   set(generator -G Ninja)
 endif()
 set(options -DCMAKE_BUILD_TYPE=Release)
+if(STEP STREQUAL "callgrind")
+  list(APPEND options -DVEHD_NATIVE=OFF)
+endif()
 if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build)$")
   # The other steps leave a build with the check as it is.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
@@ -120,6 +130,10 @@ if(STEP STREQUAL "run")
     run_or_stop(${simulate})
   endif()
   message(STATUS "Pictures of the run: out/figure2/plots/shapes.png and history.png")
+endif()
+if(STEP STREQUAL "callgrind")
+  run_or_stop("${CMAKE_COMMAND}" "-DPROGRAM=${build}/vehd" "-DFOLDER=${build}/absent_effects" -P
+              "${source}/tests/app/absent_effects.cmake")
 endif()
 if(STEP STREQUAL "docs")
   file(GLOB scenes "${source}/docs/scenes/*.toml")

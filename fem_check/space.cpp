@@ -98,8 +98,10 @@ void require_supported(const meshes::VolumeMesh& mesh, int degree) {
   if (mesh.cell_shape() != CellShape::hexahedron) {
     throw std::invalid_argument("the mesh has tetrahedra; the solvers take hexahedra");
   }
-  if (degree < 1 || degree > 8) {
-    throw std::invalid_argument("element degree is " + std::to_string(degree) + "; accepted are 1 to 8");
+  constexpr int highest_degree = 10;
+  if (degree < 1 || degree > highest_degree) {
+    throw std::invalid_argument("element degree is " + std::to_string(degree) + "; accepted are 1 to " +
+                                std::to_string(highest_degree));
   }
   for (const auto& [inside, outside] : mesh.topology().interface_vertices) {
     if (inside == outside) throw std::invalid_argument("inside and outside share vertices; split the interface");
