@@ -1,5 +1,9 @@
 #include "bie/physics/background_flow.hpp"
 
+#include <Eigen/Eigenvalues>
+
+#include "bie/physics/turned.hpp"
+
 namespace vehd {
 
 BackgroundFlow shear_flow(double rate) {
@@ -42,7 +46,19 @@ bool LinearFlowEffect::allows(const Reflection& g) const {
 bool LinearFlowEffect::allows_axis() const {
   Matrix3 axisymmetric = Matrix3::Zero();
   axisymmetric.diagonal() << flow_.gradient(0, 0), flow_.gradient(0, 0), flow_.gradient(2, 2);
-  return flow_.gradient == axisymmetric;
+  // Turning to an oblique axis rounds the two equal entries apart.
+  constexpr double kRounding = 1e-14;
+  return (flow_.gradient - axisymmetric).cwiseAbs().maxCoeff() <= kRounding * flow_.gradient.cwiseAbs().maxCoeff();
+}
+
+std::shared_ptr<const ExplicitEffect> LinearFlowEffect::turned(const Matrix3& rotation) const {
+  return std::make_shared<LinearFlowEffect>(BackgroundFlow{turned_tensor(rotation, flow_.gradient), flow_.waveform});
+}
+
+std::vector<Vector3> LinearFlowEffect::axis_candidates() const {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> strain(0.5 * (flow_.gradient + flow_.gradient.transpose()));
+  const Matrix3& axes = strain.eigenvectors();
+  return {axes.col(0), axes.col(1), axes.col(2)};
 }
 
 std::optional<double> LinearFlowEffect::next_corner(double time) const { return flow_.waveform.next_corner(time); }

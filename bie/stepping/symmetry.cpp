@@ -109,15 +109,15 @@ Symmetry find_symmetry(const Model& model, const State& state) {
   return result;
 }
 
-std::string symmetry_text(const Symmetry& symmetry) {
+std::string symmetry_text(const Symmetry& symmetry, const std::string& axis) {
   std::vector<std::string> names;
-  if (symmetry.axisymmetric) names.emplace_back("axisymmetric about z");
+  if (symmetry.axisymmetric) names.push_back("axisymmetric about " + axis);
   for (const Reflection& g : symmetry.reflections) {
     const bool about_z = symmetry.axisymmetric && g.z > 0;
     if (g == Reflection{} || about_z) continue;
     std::vector<std::string> turned;
     for (int i = 0; i < 3; ++i) {
-      if (g.sign(i) < 0) turned.emplace_back(1, "xyz"[i]);
+      if (g.sign(i) < 0) turned.push_back(i == 2 ? axis : std::string(1, "xy"[i]));
     }
     if (symmetry.axisymmetric && turned.size() > 1) continue;
     if (turned.size() == 3) {

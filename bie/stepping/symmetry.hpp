@@ -25,8 +25,9 @@ struct Symmetry {
 /// What `auto` finds. Deviations within 1e-12 of the size count as rounding.
 Symmetry find_symmetry(const Model& model, const State& state);
 
-/// In words: "axisymmetric about z, mirror z", "mirror y, turn about y, inversion", "none".
-std::string symmetry_text(const Symmetry& symmetry);
+/// In words: "axisymmetric about z, mirror z", "mirror y, half turn about y, inversion", "none".
+/// @param axis  name of the axis that carries the poles
+std::string symmetry_text(const Symmetry& symmetry, const std::string& axis = "z");
 
 /// The symmetric part of a state. Rounding breaks a symmetry and an instability would feed on that.
 State symmetric_part(const Symmetry& symmetry, State state);
