@@ -43,12 +43,27 @@ bool LinearFlowEffect::allows(const Reflection& g) const {
   return true;
 }
 
+namespace {
+
+/// Turning to an oblique axis rounds equal entries apart.
+bool are_equal(const Matrix3& a, const Matrix3& b) {
+  constexpr double kRounding = 1e-14;
+  return (a - b).cwiseAbs().maxCoeff() <= kRounding * a.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
 bool LinearFlowEffect::allows_axis() const {
   Matrix3 axisymmetric = Matrix3::Zero();
   axisymmetric.diagonal() << flow_.gradient(0, 0), flow_.gradient(0, 0), flow_.gradient(2, 2);
-  // Turning to an oblique axis rounds the two equal entries apart.
-  constexpr double kRounding = 1e-14;
-  return (flow_.gradient - axisymmetric).cwiseAbs().maxCoeff() <= kRounding * flow_.gradient.cwiseAbs().maxCoeff();
+  return are_equal(flow_.gradient, axisymmetric);
+}
+
+bool LinearFlowEffect::allows_turns() const {
+  const Matrix3& a = flow_.gradient;
+  Matrix3 swirling = Matrix3::Zero();
+  swirling << a(0, 0), a(0, 1), 0.0, -a(0, 1), a(0, 0), 0.0, 0.0, 0.0, a(2, 2);
+  return are_equal(a, swirling);
 }
 
 std::shared_ptr<const ExplicitEffect> LinearFlowEffect::turned(const Matrix3& rotation) const {

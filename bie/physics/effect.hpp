@@ -48,6 +48,8 @@ class ExplicitEffect {
   [[nodiscard]] virtual bool allows(const Reflection& g) const = 0;
   /// Is it axisymmetric about z, without swirl?
   [[nodiscard]] virtual bool allows_axis() const = 0;
+  /// Is it its own image under every turn about z? Unlike an axisymmetric one it may swirl.
+  [[nodiscard]] virtual bool allows_turns() const { return allows_axis(); }
   /// The same effect turned by the rotation R.
   [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const = 0;
   /// Where to look for an axis about which it is axisymmetric; none where every axis is one.
