@@ -32,7 +32,7 @@ struct StepCost {
 StepCost time_steps(const Scene& scene, int repeats) {
   const Problem problem = problem_of(scene);
   const Model& model = problem.model;
-  const Discretisation discretisation(settings_of(scene), problem.symmetry);
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const double dt = scene.numerics.dt;
   Instruments warm_up;
   State state = initial_state(model, discretisation, problem.position, false, dt, warm_up);

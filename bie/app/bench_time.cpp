@@ -38,7 +38,7 @@ struct TimedRun {
 TimedRun run_to(const Scene& scene, double dt, double end_time) {
   const Problem problem = problem_of(scene);
   const Model& model = problem.model;
-  const Discretisation discretisation(settings_of(scene), problem.symmetry);
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;

@@ -32,7 +32,7 @@ FrozenState start_of_scene(const std::filesystem::path& file) {
   frozen.source = file.string();
   frozen.model = model_of(scene);
   const Problem problem = problem_of(scene);
-  const Discretisation discretisation(settings_of(scene), problem.symmetry);
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   Instruments instruments;
   const State start =

@@ -49,10 +49,9 @@ Model without(const Model& model, const std::string& name) {
 
 /// Independent coefficients per scalar field.
 std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
-  const std::int64_t all = symmetry.axisymmetric ? order + 1 : std::int64_t{order + 1} * (order + 1);
-  return symmetry.axisymmetric ? all
-                               : (all + static_cast<std::int64_t>(symmetry.reflections.size()) - 1) /
-                                     static_cast<std::int64_t>(symmetry.reflections.size());
+  if (symmetry.axisymmetric) return order + 1;
+  const std::int64_t all = std::int64_t{order + 1} * (order + 1);
+  return (all + symmetry.group_order() - 1) / symmetry.group_order();
 }
 
 std::string text_of(const Problem& problem) { return symmetry_text(problem.symmetry, axis_name(problem.frame)); }
@@ -103,9 +102,10 @@ RunPlan plan_of(const Scene& scene) {
     }
     plan.operators.push_back({op.name, fmt::format("{}", fmt::join(reasons, "; "))});
   }
-  const Discretisation discretisation(settings_of(scene), symmetry);
+  const Discretisation discretisation(problem.settings, symmetry);
   const Discretisation::Tables& tables = discretisation.tables();
-  plan.kernel_evaluations = evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections);
+  plan.kernel_evaluations =
+      evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections, symmetry.fold);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
   while (time < scene.numerics.end_time) {
@@ -125,7 +125,7 @@ void predict_cost(const Scene& scene, RunPlan& plan) {
   timed.numerics.order = std::min(scene.numerics.order, kLargestTimed);
   const Problem problem = problem_of(timed);
   const Model& model = problem.model;
-  const Discretisation discretisation(settings_of(timed), problem.symmetry);
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const double dt = timed.numerics.dt;
   const bool steady = timed.electric && timed.electric->initial_potential == InitialPotential::steady;
   Instruments instruments;

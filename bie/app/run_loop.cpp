@@ -53,7 +53,7 @@ class Simulation {
   explicit Simulation(const RunTask& task)
       : scene_(task.scene),
         problem_(problem_of(task.scene)),
-        discretisation_(settings_of(task.scene), problem_.symmetry),
+        discretisation_(problem_.settings, problem_.symmetry),
         start_(task.checkpoint ? *task.checkpoint : first_checkpoint()),
         meter_(start_.totals, instruments_),
         state_(start_.state),

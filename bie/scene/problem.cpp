@@ -16,7 +16,10 @@ Problem problem_of(const Scene& scene, const Model& model) {
   const Matrix3 to_frame = problem.frame.axes.transpose();
   problem.model = turned(to_frame, model);
   start = turned(to_frame, std::move(start));
-  if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = find_symmetry(problem.model, start);
+  const Symmetry found = find_symmetry(problem.model, start);
+  problem.settings = settings_of(scene);
+  problem.settings.longitude_fold = found.fold;
+  if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = found;
   problem.position = std::move(start.position);
   return problem;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bie/scene/scene.hpp"
+#include "bie/stepping/discretisation.hpp"
 #include "bie/stepping/frame.hpp"
 #include "bie/stepping/symmetry.hpp"
 
@@ -10,6 +11,7 @@ namespace vehd {
 struct Problem {
   Frame frame;
   Model model;
+  NumericalSettings settings;
   Symmetry symmetry;  ///< that the run uses: that of its start, or none where the scene says "off"
   Matrix position;    ///< of the initial membrane, coefficients [n_coefficients x 3]
 };
