@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "bie/app/summary.hpp"
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 
@@ -30,11 +30,12 @@ struct StepCost {
 };
 
 StepCost time_steps(const Scene& scene, int repeats) {
-  const Model model = model_of(scene);
-  const Discretisation discretisation = discretisation_of(scene, model);
+  const Problem problem = problem_of(scene);
+  const Model& model = problem.model;
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const double dt = scene.numerics.dt;
   Instruments warm_up;
-  State state = initial_state(model, discretisation, initial_position(scene), false, dt, warm_up);
+  State state = initial_state(model, discretisation, problem.position, false, dt, warm_up);
   Evaluation evaluation = evaluate(model, discretisation, state, warm_up);
   Instruments timed;
   StepCost cost;

@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "bie/app/step_plan.hpp"
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
+#include "bie/stepping/laboratory.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 
@@ -35,12 +36,13 @@ struct TimedRun {
 };
 
 TimedRun run_to(const Scene& scene, double dt, double end_time) {
-  const Model model = model_of(scene);
-  const Discretisation discretisation = discretisation_of(scene, model);
+  const Problem problem = problem_of(scene);
+  const Model& model = problem.model;
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
-  State state = initial_state(model, discretisation, initial_position(scene), steady, dt, instruments);
+  State state = initial_state(model, discretisation, problem.position, steady, dt, instruments);
   Evaluation evaluation = evaluate(model, discretisation, state, instruments);
   while (state.time < end_time) {
     const StepPlan plan =
@@ -52,7 +54,9 @@ TimedRun run_to(const Scene& scene, double dt, double end_time) {
     if (plan.reaches_event && advanced.dt == plan.dt_limit) state.time = plan.event_time;
     evaluation = evaluate(model, discretisation, state, instruments, &evaluation);
   }
-  return {evaluation.diagnostics, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  const Laboratory laboratory(problem.frame, discretisation.settings());
+  return {laboratory.diagnostics(evaluation.diagnostics, state, evaluation.fields),
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
 }  // namespace

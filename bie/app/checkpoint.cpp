@@ -13,7 +13,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t checkpoint_schema_version = 1;
+constexpr std::int64_t checkpoint_schema_version = 2;
 
 /// The members of a state with the names under which they are stored.
 template <typename StateType, typename Visitor>

@@ -5,6 +5,7 @@
 #include "bie/app/run_reader.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
@@ -20,18 +21,26 @@ void require_start(const std::filesystem::path& file, std::optional<double> time
                                file.string(), *time));
 }
 
+/// In the laboratory, where the finite elements are as well.
+Symmetry symmetry_of(const Scene& scene, const FrozenState& frozen) {
+  return scene.numerics.symmetry == SymmetryUse::off ? Symmetry{} : find_symmetry(frozen.model, frozen.state);
+}
+
 FrozenState start_of_scene(const std::filesystem::path& file) {
   const Scene scene = read_scene(file);
   FrozenState frozen;
   frozen.source = file.string();
   frozen.model = model_of(scene);
-  const Discretisation discretisation = discretisation_of(scene, frozen.model);
-  frozen.symmetry = discretisation.symmetry();
+  const Problem problem = problem_of(scene);
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   Instruments instruments;
-  frozen.state =
-      initial_state(frozen.model, discretisation, initial_position(scene), steady, scene.numerics.dt, instruments);
-  frozen.fields = evaluate(frozen.model, discretisation, frozen.state, instruments).fields;
+  const State start =
+      initial_state(problem.model, discretisation, problem.position, steady, scene.numerics.dt, instruments);
+  const Matrix3& to_laboratory = problem.frame.axes;
+  frozen.fields = turned(to_laboratory, evaluate(problem.model, discretisation, start, instruments).fields);
+  frozen.state = turned(to_laboratory, start);
+  frozen.symmetry = symmetry_of(scene, frozen);
   return frozen;
 }
 
@@ -61,7 +70,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<dou
   fields.force_electric = read("force_electric", 3);
   fields.tension = read("tension", 1);
   fields.charge = read("q", 1);
-  if (scene.numerics.symmetry == SymmetryUse::automatic) frozen.symmetry = find_symmetry(frozen.model, state);
+  frozen.symmetry = symmetry_of(scene, frozen);
   return frozen;
 }
 

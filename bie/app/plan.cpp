@@ -11,8 +11,8 @@
 
 #include "bie/app/step_plan.hpp"
 #include "bie/app/summary.hpp"
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/stepper.hpp"
@@ -49,11 +49,12 @@ Model without(const Model& model, const std::string& name) {
 
 /// Independent coefficients per scalar field.
 std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
-  const std::int64_t all = symmetry.axisymmetric ? order + 1 : std::int64_t{order + 1} * (order + 1);
-  return symmetry.axisymmetric ? all
-                               : (all + static_cast<std::int64_t>(symmetry.reflections.size()) - 1) /
-                                     static_cast<std::int64_t>(symmetry.reflections.size());
+  if (symmetry.axisymmetric) return order + 1;
+  const std::int64_t all = std::int64_t{order + 1} * (order + 1);
+  return (all + symmetry.group_order() - 1) / symmetry.group_order();
 }
+
+std::string text_of(const Problem& problem) { return symmetry_text(problem.symmetry, axis_name(problem.frame)); }
 
 std::string difference_text(const Scene& scene, const Model& model, const Model& reduced, const RunPlan& plan,
                             std::size_t n_unknowns) {
@@ -66,7 +67,7 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
   }
   if (!saved.empty()) parts.push_back(fmt::format("no {}", fmt::join(saved, ", ")));
   if (n_unknowns > 0) parts.push_back(fmt::format("{} fewer unknown field{}", n_unknowns, n_unknowns > 1 ? "s" : ""));
-  const std::string symmetry = symmetry_text(symmetry_of(scene, reduced));
+  const std::string symmetry = text_of(problem_of(scene, reduced));
   if (symmetry != plan.symmetry) parts.push_back("symmetry: " + symmetry);
   return parts.empty() ? "nothing but its own term" : fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -75,10 +76,11 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
 
 RunPlan plan_of(const Scene& scene) {
   const Model model = model_of(scene);
-  const Symmetry symmetry = symmetry_of(scene, model);
+  const Problem problem = problem_of(scene, model);
+  const Symmetry& symmetry = problem.symmetry;
   const std::vector<EffectDescription> effects = effects_of(model);
   RunPlan plan;
-  plan.symmetry = symmetry_text(symmetry);
+  plan.symmetry = text_of(problem);
   std::size_t n_fields = 0;
   for (const EffectDescription& effect : effects) {
     n_fields += effect.unknowns.size();
@@ -100,9 +102,10 @@ RunPlan plan_of(const Scene& scene) {
     }
     plan.operators.push_back({op.name, fmt::format("{}", fmt::join(reasons, "; "))});
   }
-  const Discretisation discretisation(settings_of(scene), symmetry);
+  const Discretisation discretisation(problem.settings, symmetry);
   const Discretisation::Tables& tables = discretisation.tables();
-  plan.kernel_evaluations = evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections);
+  plan.kernel_evaluations =
+      evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections, symmetry.fold);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
   while (time < scene.numerics.end_time) {
@@ -120,12 +123,13 @@ void predict_cost(const Scene& scene, RunPlan& plan) {
   constexpr int kTimed = 3;
   Scene timed = scene;
   timed.numerics.order = std::min(scene.numerics.order, kLargestTimed);
-  const Model model = model_of(timed);
-  const Discretisation discretisation = discretisation_of(timed, model);
+  const Problem problem = problem_of(timed);
+  const Model& model = problem.model;
+  const Discretisation discretisation(problem.settings, problem.symmetry);
   const double dt = timed.numerics.dt;
   const bool steady = timed.electric && timed.electric->initial_potential == InitialPotential::steady;
   Instruments instruments;
-  State state = initial_state(model, discretisation, initial_position(timed), steady, dt, instruments);
+  State state = initial_state(model, discretisation, problem.position, steady, dt, instruments);
   Evaluation evaluation = evaluate(model, discretisation, state, instruments);
   std::vector<double> seconds;
   for (int i = 0; i < kWarmUp + kTimed; ++i) {

@@ -11,8 +11,8 @@
 #include "bie/app/run_recorder.hpp"
 #include "bie/app/step_plan.hpp"
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
@@ -52,12 +52,12 @@ class Simulation {
  public:
   explicit Simulation(const RunTask& task)
       : scene_(task.scene),
-        model_(model_of(task.scene)),
-        discretisation_(discretisation_of(task.scene, model_)),
+        problem_(problem_of(task.scene)),
+        discretisation_(problem_.settings, problem_.symmetry),
         start_(task.checkpoint ? *task.checkpoint : first_checkpoint()),
         meter_(start_.totals, instruments_),
         state_(start_.state),
-        recorder_(task.paths, discretisation_, updated(start_)),
+        recorder_(task.paths, discretisation_, problem_.frame, updated(start_)),
         progress_(task.progress, state_.time, task.scene.numerics.end_time) {}
 
   RunOutcome run(Interruption& interruption) {
@@ -90,7 +90,7 @@ class Simulation {
     Checkpoint checkpoint;
     const bool steady = scene_.electric.has_value() && scene_.electric->initial_potential == InitialPotential::steady;
     checkpoint.state =
-        initial_state(model_, discretisation_, initial_position(scene_), steady, scene_.numerics.dt, instruments_);
+        initial_state(problem_.model, discretisation_, problem_.position, steady, scene_.numerics.dt, instruments_);
     return checkpoint;
   }
 
@@ -102,7 +102,7 @@ class Simulation {
   }
 
   void start() {
-    evaluation_ = evaluate(model_, discretisation_, state_, instruments_);
+    evaluation_ = evaluate(problem_.model, discretisation_, state_, instruments_);
     if (recorder_.n_rows() > 0) return;
     HistoryRow row;
     row.iterations_flow = evaluation_.iterations_flow;
@@ -111,13 +111,14 @@ class Simulation {
   }
 
   void take_step() {
-    StepPlan plan = plan_step(state_.time, state_.dt_next,
-                              {scene_.output.every, scene_.numerics.end_time, next_corner(model_, state_.time)});
+    StepPlan plan =
+        plan_step(state_.time, state_.dt_next,
+                  {scene_.output.every, scene_.numerics.end_time, next_corner(problem_.model, state_.time)});
     HistoryRow row;
     for (;;) {
       Advance advanced = try_step(plan, row);
       try {
-        Evaluation evaluation = evaluate(model_, discretisation_, advanced.state, instruments_, &evaluation_);
+        Evaluation evaluation = evaluate(problem_.model, discretisation_, advanced.state, instruments_, &evaluation_);
         row.dt = advanced.dt;
         row.iterations_flow += evaluation.iterations_flow;
         row.iterations_electric += evaluation.iterations_electric;
@@ -142,7 +143,7 @@ class Simulation {
     // Equal up to rounding: the step must end on the event, not just before it.
     if (plan.reaches_event) from.dt_next = std::max(from.dt_next, plan.dt_limit);
     Advance advanced =
-        advance(model_, discretisation_, from, evaluation_, scene_.numerics.dt, plan.dt_limit, instruments_);
+        advance(problem_.model, discretisation_, from, evaluation_, scene_.numerics.dt, plan.dt_limit, instruments_);
     row.rejected += advanced.rejected;
     row.iterations_flow += advanced.iterations_flow;
     row.iterations_electric += advanced.iterations_electric;
@@ -162,7 +163,7 @@ class Simulation {
 
   const Scene& scene_;
   Instruments instruments_;
-  Model model_;
+  Problem problem_;
   Discretisation discretisation_;
   Checkpoint start_;
   WorkMeter meter_;

@@ -22,9 +22,11 @@ SnapshotStore::WriteHeader header_writer(const Discretisation& discretisation, c
 
 }  // namespace
 
-RunRecorder::RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Checkpoint& start)
+RunRecorder::RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Frame& frame,
+                         const Checkpoint& start)
     : paths_(paths),
       discretisation_(discretisation),
+      laboratory_(frame, discretisation.settings()),
       last_(written(paths, start)),
       snapshots_(paths.snapshots(), header_writer(discretisation, start), start.n_snapshots),
       history_(paths.history(), start.history_bytes) {
@@ -37,12 +39,13 @@ RunRecorder::RunRecorder(const RunPaths& paths, const Discretisation& discretisa
   }
 }
 
-void RunRecorder::record(const HistoryRow& row, const State& state, const Evaluation& evaluation, bool with_snapshot,
+void RunRecorder::record(HistoryRow row, const State& state, const Evaluation& evaluation, bool with_snapshot,
                          const RunTotals& totals) {
+  row.diagnostics = laboratory_.diagnostics(row.diagnostics, state, evaluation.fields);
   history_.append(row);
   if (with_snapshot) {
     snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
-      write_snapshot(file, name, discretisation_, state, evaluation.fields);
+      write_snapshot(file, name, discretisation_, laboratory_.state(state), laboratory_.fields(evaluation.fields));
     });
     write_xdmf(state, evaluation.fields);
   }

@@ -9,6 +9,7 @@
 #include "bie/app/run_directory.hpp"
 #include "bie/app/snapshot_store.hpp"
 #include "bie/app/xdmf.hpp"
+#include "bie/stepping/laboratory.hpp"
 #include "bie/stepping/stepper.hpp"
 
 namespace vehd {
@@ -18,10 +19,11 @@ namespace vehd {
 class RunRecorder {
  public:
   /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
-  RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Checkpoint& start);
+  /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
+  RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Frame& frame, const Checkpoint& start);
 
   /// Records one accepted state.
-  void record(const HistoryRow& row, const State& state, const Evaluation& evaluation, bool with_snapshot,
+  void record(HistoryRow row, const State& state, const Evaluation& evaluation, bool with_snapshot,
               const RunTotals& totals);
 
   /// Work that a session has done after its last row.
@@ -36,6 +38,7 @@ class RunRecorder {
 
   const RunPaths& paths_;
   const Discretisation& discretisation_;
+  Laboratory laboratory_;
   Checkpoint last_;
   SnapshotStore snapshots_;
   HistoryFile history_;

@@ -1,5 +1,9 @@
 #include "bie/physics/background_flow.hpp"
 
+#include <Eigen/Eigenvalues>
+
+#include "bie/physics/turned.hpp"
+
 namespace vehd {
 
 BackgroundFlow shear_flow(double rate) {
@@ -39,10 +43,37 @@ bool LinearFlowEffect::allows(const Reflection& g) const {
   return true;
 }
 
+namespace {
+
+/// Turning to an oblique axis rounds equal entries apart.
+bool are_equal(const Matrix3& a, const Matrix3& b) {
+  constexpr double kRounding = 1e-14;
+  return (a - b).cwiseAbs().maxCoeff() <= kRounding * a.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
 bool LinearFlowEffect::allows_axis() const {
   Matrix3 axisymmetric = Matrix3::Zero();
   axisymmetric.diagonal() << flow_.gradient(0, 0), flow_.gradient(0, 0), flow_.gradient(2, 2);
-  return flow_.gradient == axisymmetric;
+  return are_equal(flow_.gradient, axisymmetric);
+}
+
+bool LinearFlowEffect::allows_turns() const {
+  const Matrix3& a = flow_.gradient;
+  Matrix3 swirling = Matrix3::Zero();
+  swirling << a(0, 0), a(0, 1), 0.0, -a(0, 1), a(0, 0), 0.0, 0.0, 0.0, a(2, 2);
+  return are_equal(a, swirling);
+}
+
+std::shared_ptr<const ExplicitEffect> LinearFlowEffect::turned(const Matrix3& rotation) const {
+  return std::make_shared<LinearFlowEffect>(BackgroundFlow{turned_tensor(rotation, flow_.gradient), flow_.waveform});
+}
+
+std::vector<Vector3> LinearFlowEffect::axis_candidates() const {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> strain(0.5 * (flow_.gradient + flow_.gradient.transpose()));
+  const Matrix3& axes = strain.eigenvectors();
+  return {axes.col(0), axes.col(1), axes.col(2)};
 }
 
 std::optional<double> LinearFlowEffect::next_corner(double time) const { return flow_.waveform.next_corner(time); }

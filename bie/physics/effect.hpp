@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -49,6 +50,12 @@ class ExplicitEffect {
   [[nodiscard]] virtual bool allows(const Reflection& g) const = 0;
   /// Is it axisymmetric about z, without swirl?
   [[nodiscard]] virtual bool allows_axis() const = 0;
+  /// Is it its own image under every turn about z? Unlike an axisymmetric one it may swirl.
+  [[nodiscard]] virtual bool allows_turns() const { return allows_axis(); }
+  /// The same effect turned by the rotation R.
+  [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const = 0;
+  /// Where to look for an axis about which it is axisymmetric; none where every axis is one.
+  [[nodiscard]] virtual std::vector<Vector3> axis_candidates() const { return {}; }
   /// The next time after `time` at which a step should end because the effect changes abruptly.
   [[nodiscard]] virtual std::optional<double> next_corner(double) const { return std::nullopt; }
 };

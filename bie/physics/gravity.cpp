@@ -1,5 +1,7 @@
 #include "bie/physics/gravity.hpp"
 
+#include "bie/physics/turned.hpp"
+
 namespace vehd {
 
 EffectDescription GravityEffect::description() const {
@@ -25,5 +27,12 @@ bool GravityEffect::allows(const Reflection& g) const {
 bool GravityEffect::allows_axis() const {
   return parameters_.acceleration.x() == 0.0 && parameters_.acceleration.y() == 0.0;
 }
+
+std::shared_ptr<const ExplicitEffect> GravityEffect::turned(const Matrix3& rotation) const {
+  return std::make_shared<GravityEffect>(
+      GravityParameters{parameters_.density_difference, turned_vector(rotation, parameters_.acceleration)});
+}
+
+std::vector<Vector3> GravityEffect::axis_candidates() const { return {parameters_.acceleration}; }
 
 }  // namespace vehd

@@ -19,6 +19,8 @@ class GravityEffect : public ExplicitEffect {
   void add(const Situation& situation, Forcing& forcing) const override;
   [[nodiscard]] bool allows(const Reflection& g) const override;
   [[nodiscard]] bool allows_axis() const override;
+  [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const override;
+  [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
 
  private:
   GravityParameters parameters_;

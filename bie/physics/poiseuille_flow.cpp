@@ -1,5 +1,7 @@
 #include "bie/physics/poiseuille_flow.hpp"
 
+#include "bie/physics/turned.hpp"
+
 namespace vehd {
 
 EffectDescription PoiseuilleFlowEffect::description() const {
@@ -8,15 +10,32 @@ EffectDescription PoiseuilleFlowEffect::description() const {
 
 void PoiseuilleFlowEffect::add(const Situation& situation, Forcing& forcing) const {
   const Matrix& x = situation.membrane.surface.position;
-  const Eigen::ArrayXd off_axis = (x.col(1).array().square() + x.col(2).array().square());
+  const Vector3& d = parameters_.direction;
+  const Matrix off_axis = x - (x * d) * d.transpose();
   const double amplitude = parameters_.centre_velocity * parameters_.waveform.at(situation.time, situation.limit);
-  const Vector profile = amplitude * (1.0 - off_axis / (parameters_.radius * parameters_.radius));
-  forcing.velocity.col(0) += situation.membrane.fine.analyze(profile);
+  const Vector profile =
+      amplitude * (1.0 - off_axis.rowwise().squaredNorm().array() / (parameters_.radius * parameters_.radius));
+  forcing.velocity += situation.membrane.fine.analyze(profile) * d.transpose();
 }
 
-bool PoiseuilleFlowEffect::allows(const Reflection& g) const { return g.x > 0; }
+bool PoiseuilleFlowEffect::allows(const Reflection& g) const {
+  for (int i = 0; i < 3; ++i) {
+    if (g.sign(i) < 0 && parameters_.direction[i] != 0.0) return false;
+  }
+  return true;
+}
 
-bool PoiseuilleFlowEffect::allows_axis() const { return false; }
+bool PoiseuilleFlowEffect::allows_axis() const {
+  return parameters_.direction.x() == 0.0 && parameters_.direction.y() == 0.0;
+}
+
+std::shared_ptr<const ExplicitEffect> PoiseuilleFlowEffect::turned(const Matrix3& rotation) const {
+  PoiseuilleParameters result = parameters_;
+  result.direction = turned_vector(rotation, parameters_.direction);
+  return std::make_shared<PoiseuilleFlowEffect>(result);
+}
+
+std::vector<Vector3> PoiseuilleFlowEffect::axis_candidates() const { return {parameters_.direction}; }
 
 std::optional<double> PoiseuilleFlowEffect::next_corner(double time) const {
   return parameters_.waveform.next_corner(time);

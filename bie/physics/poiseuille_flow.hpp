@@ -5,12 +5,13 @@
 
 namespace vehd {
 
-/// Unbounded Poiseuille flow along x, v = waveform(t) centre_velocity (1 − (y² + z²)/radius²) e_x: no wall stands at
-/// `radius`, it only sets the curvature of the profile.
+/// Unbounded Poiseuille flow along a unit vector d, v = waveform(t) centre_velocity (1 − |x − (x·d) d|²/radius²) d: no
+/// wall stands at `radius`, it only sets the curvature of the profile.
 struct PoiseuilleParameters {
   double centre_velocity = 1.0;
   double radius = 1.0;
   Waveform waveform{};
+  Vector3 direction = Vector3::UnitX();
 };
 
 class PoiseuilleFlowEffect : public ExplicitEffect {
@@ -21,6 +22,8 @@ class PoiseuilleFlowEffect : public ExplicitEffect {
   void add(const Situation& situation, Forcing& forcing) const override;
   [[nodiscard]] bool allows(const Reflection& g) const override;
   [[nodiscard]] bool allows_axis() const override;
+  [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const override;
+  [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
   [[nodiscard]] std::optional<double> next_corner(double time) const override;
 
  private:

@@ -43,9 +43,9 @@ int batch_count(int n_latitudes, int n_targets) {
 }  // namespace
 
 std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
-                                       const std::vector<Reflection>& reflections) {
+                                       const std::vector<Reflection>& reflections, int fold) {
   const SphereGrid& grid = transform.grid();
-  const TargetImages images(reflections, KernelColumns({}), {quadrature.order, transform.azimuthal_order()},
+  const TargetImages images({reflections, fold}, KernelColumns({}), {quadrature.order, transform.azimuthal_order()},
                             grid.n_phi);
   const int n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
   return std::uint64_t(n_latitudes) * images.originals().size() * quadrature.n_nodes();
@@ -53,7 +53,8 @@ std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, cons
 
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                         const Matrix& position, const LayerSelection& selection,
-                                        Instruments& instruments, const std::vector<Reflection>& reflections) {
+                                        Instruments& instruments, const std::vector<Reflection>& reflections,
+                                        int fold) {
   const int order = quadrature.order;
   const int azimuthal_order = transform.azimuthal_order();
   require_size("position", position.rows(), n_coefficients(order));
@@ -69,7 +70,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   }
 
   const ActiveCoefficients active(order, azimuthal_order);
-  const TargetImages images(reflections, kernels, active, grid.n_phi);
+  const TargetImages images({reflections, fold}, kernels, active, grid.n_phi);
   const std::vector<int>& originals = images.originals();
   const Index n = active.count();
   const Index n_modes = 2 * azimuthal_order + 1;
@@ -77,7 +78,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const int n_originals = static_cast<int>(originals.size());
   const int n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
   const int n_batches = batch_count(n_latitudes, n_originals);
-  const std::uint64_t evaluations = evaluations_per_assembly(quadrature, transform, reflections);
+  const std::uint64_t evaluations = evaluations_per_assembly(quadrature, transform, reflections, fold);
   // Kernel values below which waking a second thread costs more than it saves.
   constexpr std::uint64_t kParallelEvaluations = 50000;
   // Per Fourier mode of the target azimuth: [kernels * coefficients x latitudes].

@@ -83,7 +83,7 @@ struct LayerOperators {
 
 /// Kernel evaluations of each selected operator in one assembly: independent targets times quadrature nodes.
 std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
-                                       const std::vector<Reflection>& reflections);
+                                       const std::vector<Reflection>& reflections, int fold = 1);
 
 /// Assembles the selected operators for one surface at cost O(p^5): each target's kernel row on the rotated
 /// quadrature is taken back to coefficients by the adjoint of "phase shift, Wigner rotation, synthesis", and the rows
@@ -92,8 +92,10 @@ std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, cons
 ///                     azimuthal order take no part
 /// @param reflections  maps g with x(g s) = g x(s), closed under composition: targets that are images of one another
 ///                     share one row
+/// @param fold         turns by 2π/fold about z are such maps as well; it divides the number of longitudes
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                         const Matrix& position, const LayerSelection& selection,
-                                        Instruments& instruments, const std::vector<Reflection>& reflections = {});
+                                        Instruments& instruments, const std::vector<Reflection>& reflections = {},
+                                        int fold = 1);
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 #include "bie/potentials/target_images.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
 
@@ -42,34 +43,39 @@ ActiveCoefficients::ActiveCoefficients(int order, int azimuthal_order) {
   if (azimuthal_order >= order) indices.clear();
 }
 
-TargetImages::TargetImages(const std::vector<Reflection>& reflections, const KernelColumns& kernels,
-                           const ActiveCoefficients& active, int n_phi)
-    : image_of_(n_phi, {0, -1}) {
-  std::vector<Reflection> azimuthal;
-  for (const Reflection& g : reflections) {
+TargetImages::TargetImages(const SurfaceMaps& maps, const KernelColumns& kernels, const ActiveCoefficients& active,
+                           int n_phi)
+    : images_(n_phi) {
+  std::vector<Reflection> azimuthal{Reflection{}};
+  for (const Reflection& g : maps.reflections) {
     if (g == Reflection{}) continue;
     if (g.z > 0) {
       azimuthal.push_back(g);
-      signs_.push_back(signs(g, kernels, active));
     } else if (!flip_) {
       flip_ = g;
       flip_signs_ = signs(g, kernels, active);
     }
   }
+  for (const Reflection& g : azimuthal) signs_.push_back(signs(g, kernels, active));
+  for (int j = 1; j < maps.fold; ++j) turns_.emplace_back(2.0 * std::numbers::pi * j / maps.fold, kernels, active);
   for (int k = 0; k < n_phi; ++k) {
-    if (image_of_[k].second >= 0) continue;
+    if (images_[k].original >= 0) continue;
     originals_.push_back(k);
-    for (std::size_t i = 0; i < azimuthal.size(); ++i) {
-      const int image = azimuthal[i].azimuth(k, n_phi);
-      if (image > k) image_of_[image] = {k, static_cast<int>(i)};
+    for (int g = 0; g < static_cast<int>(azimuthal.size()); ++g) {
+      for (int j = 0; j < maps.fold; ++j) {
+        const int image = (azimuthal[g].azimuth(k, n_phi) + j * (n_phi / maps.fold)) % n_phi;
+        if (image > k && images_[image].original < 0) images_[image] = {k, g, j};
+      }
     }
   }
 }
 
 void TargetImages::fill(Eigen::Ref<RowMatrix> rows) const {
-  for (std::size_t k = 0; k < image_of_.size(); ++k) {
-    const auto [original, g] = image_of_[k];
-    if (g >= 0) rows.row(k) = rows.row(original).cwiseProduct(signs_[g]);
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const Image& image = images_[k];
+    if (image.original < 0) continue;
+    rows.row(k) = rows.row(image.original).cwiseProduct(signs_[image.reflection]);
+    if (image.turns > 0) turns_[image.turns - 1].apply(rows.row(k));
   }
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "bie/potentials/kernel_columns.hpp"
+#include "bie/potentials/row_turn.hpp"
 #include "bie/sphere/reflection.hpp"
 
 namespace vehd {
@@ -20,12 +20,19 @@ struct ActiveCoefficients {
   [[nodiscard]] Index count() const { return static_cast<Index>(n.size()); }
 };
 
-/// How the rows of one target follow from those of another when the surface is its own mirror image: a row over
-/// coefficients changes sign with the parity of each harmonic and, in the Stokes blocks, with the components i and j.
+/// Maps g with x(g s) = g x(s): reflections, closed under composition, and turns about z by multiples of 2π/fold.
+struct SurfaceMaps {
+  const std::vector<Reflection>& reflections;
+  int fold = 1;
+};
+
+/// How the rows of one target follow from those of another when the surface is its own image. Under a reflection a row
+/// over coefficients changes sign with the parity of each harmonic and, in the Stokes blocks, with the components i and
+/// j; for turns see RowTurn.
 class TargetImages {
  public:
-  TargetImages(const std::vector<Reflection>& reflections, const KernelColumns& kernels,
-               const ActiveCoefficients& active, int n_phi);
+  /// @param n_phi  even, and a multiple of the fold
+  TargetImages(const SurfaceMaps& maps, const KernelColumns& kernels, const ActiveCoefficients& active, int n_phi);
 
   /// Azimuths whose rows have to be computed.
   [[nodiscard]] const std::vector<int>& originals() const { return originals_; }
@@ -38,9 +45,16 @@ class TargetImages {
   void fill(Eigen::Ref<RowMatrix> rows) const;
 
  private:
-  std::vector<std::pair<int, int>> image_of_;  ///< original azimuth and reflection, −1 for an original
+  /// An azimuth as the image of another: reflected first, then turned.
+  struct Image {
+    int original = -1;  ///< −1 for an original
+    int reflection = 0;
+    int turns = 0;
+  };
+  std::vector<Image> images_;
   std::vector<int> originals_;
-  std::vector<Eigen::RowVectorXd> signs_;
+  std::vector<Eigen::RowVectorXd> signs_;  ///< of each reflection that keeps the latitude, the identity first
+  std::vector<RowTurn> turns_;             ///< by 2π/fold, 4π/fold, ...
   std::optional<Reflection> flip_;
   Eigen::RowVectorXd flip_signs_;
 };

@@ -208,7 +208,7 @@ void add_numerics_keys(KeyTable& table) {
            &NumericsScene::end_time)
       .required = true;
   table.add_word("symmetry", {"auto", "off", "axisymmetric"},
-                 "use what is found; use none; refuse a scene that is not axisymmetric about z", numerics,
+                 "use what is found; use none; refuse a scene that is not axisymmetric about any axis", numerics,
                  &NumericsScene::symmetry);
 }
 

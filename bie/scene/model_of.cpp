@@ -3,7 +3,6 @@
 #include "bie/physics/gravity.hpp"
 #include "bie/physics/poiseuille_flow.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
-#include "bie/scene/initial_shape.hpp"
 
 namespace vehd {
 namespace {
@@ -97,18 +96,6 @@ NumericalSettings settings_of(const Scene& scene) {
   settings.order = scene.numerics.order;
   settings.time_order = scene.numerics.time_order;
   return settings;
-}
-
-Symmetry symmetry_of(const Scene& scene, const Model& model) {
-  if (scene.numerics.symmetry == SymmetryUse::off) return {};
-  State start;
-  start.position = initial_position(scene);
-  start.area_strain = Vector::Zero(start.position.rows());
-  return find_symmetry(model, start);
-}
-
-Discretisation discretisation_of(const Scene& scene, const Model& model) {
-  return Discretisation(settings_of(scene), symmetry_of(scene, model));
 }
 
 }  // namespace vehd

@@ -6,6 +6,7 @@
 
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/rotation.hpp"
 #include "bie/sphere/transform.hpp"
 
 namespace vehd {
@@ -40,21 +41,7 @@ Matrix3 rotation_matrix(const AxisAngle& rotation) {
 }
 
 Matrix rotated(const Matrix& position, const Matrix3& rotation) {
-  const int order = order_of(position.rows());
-  const SphereTransform transform(order, make_grid(order));
-  const SphereGrid& grid = transform.grid();
-  Vector theta(grid.n_points()), phi(grid.n_points());
-  for (Index j = 0; j < grid.n_theta; ++j) {
-    for (Index k = 0; k < grid.n_phi; ++k) {
-      const Vector3 direction(std::sin(grid.theta(j)) * std::cos(grid.phi(k)),
-                              std::sin(grid.theta(j)) * std::sin(grid.phi(k)), std::cos(grid.theta(j)));
-      const Vector3 before = rotation.transpose() * direction;
-      theta(j * grid.n_phi + k) = std::atan2(std::hypot(before.x(), before.y()), before.z());
-      phi(j * grid.n_phi + k) = std::atan2(before.y(), before.x());
-    }
-  }
-  const Matrix points = evaluate_harmonics(position, theta, phi);
-  return without_rounding(transform.analyze(points * rotation.transpose()));
+  return without_rounding(turned_fields(position, rotation) * rotation.transpose());
 }
 
 Matrix shifted(Matrix position, const Triple& by) {

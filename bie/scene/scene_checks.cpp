@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "bie/scene/initial_shape.hpp"
-#include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/scene/toml_values.hpp"
 #include "bie/support/errors.hpp"
 
@@ -194,11 +194,12 @@ void check_scene(const Scene& scene, const toml::table& table, const std::string
 
 void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file) {
   if (scene.numerics.symmetry != SymmetryUse::axisymmetric) return;
-  const Symmetry found = symmetry_of(scene, model_of(scene));
-  if (found.axisymmetric) return;
+  const Problem found = problem_of(scene);
+  if (found.symmetry.axisymmetric) return;
   throw InputError(fmt::format(
-      "{}: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about z; they have: {}",
-      place(*table["numerics"]["symmetry"].node(), file), symmetry_text(found)));
+      "{}: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one axis; they have: "
+      "{}",
+      place(*table["numerics"]["symmetry"].node(), file), symmetry_text(found.symmetry, axis_name(found.frame))));
 }
 
 void require_shape_file(const Scene& scene, const toml::table& table, const std::string& file) {

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/transform.hpp"
+
 namespace vehd {
 
 namespace {
@@ -80,6 +83,23 @@ RotationY rotation_y(int order, double beta) {
     }
   }
   return rotation;
+}
+
+Matrix turned_fields(const Matrix& coefficients, const Matrix3& rotation) {
+  const int order = order_of(coefficients.rows());
+  const SphereTransform transform(order, make_grid(order));
+  const SphereGrid& grid = transform.grid();
+  Vector theta(grid.n_points()), phi(grid.n_points());
+  for (Index j = 0; j < grid.n_theta; ++j) {
+    for (Index k = 0; k < grid.n_phi; ++k) {
+      const Vector3 direction(std::sin(grid.theta(j)) * std::cos(grid.phi(k)),
+                              std::sin(grid.theta(j)) * std::sin(grid.phi(k)), std::cos(grid.theta(j)));
+      const Vector3 before = rotation.transpose() * direction;
+      theta(j * grid.n_phi + k) = std::atan2(std::hypot(before.x(), before.y()), before.z());
+      phi(j * grid.n_phi + k) = std::atan2(before.y(), before.x());
+    }
+  }
+  return transform.analyze(evaluate_harmonics(coefficients, theta, phi));
 }
 
 }  // namespace vehd

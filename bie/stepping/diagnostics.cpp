@@ -38,13 +38,13 @@ double surface_maximum(const SphereGrid& grid, const SphereDerivatives& field, c
   return std::max(value, sign * at_top(0, 0));
 }
 
-/// Angle of the long axis of the gyration tensor against +x in the x-z plane, in (−90, 90] degrees.
-double inclination(const Surface& s) {
+/// Angle of the long axis of the gyration tensor against +x in the x-z plane of the laboratory, in (−90, 90] degrees.
+double inclination(const Surface& s, const Frame& frame) {
   const Vector3 centre = s.position.transpose() * s.quadrature / s.quadrature.sum();
   const Matrix centred = s.position.rowwise() - centre.transpose();
   const Matrix3 gyration = centred.transpose() * s.quadrature.asDiagonal() * centred;
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
-  const Vector3 axis = solver.eigenvectors().col(2);
+  const Vector3 axis = frame.axes * solver.eigenvectors().col(2);
   const double degrees = std::atan2(axis.z(), axis.x()) * 180.0 / std::numbers::pi;
   // A vertical axis is +90 on either side of rounding.
   constexpr double kRounding = 1e-9;
@@ -58,7 +58,35 @@ double spectrum_tail(const Matrix& position) {
   return position.bottomRows(position.rows() - from).norm() / position.bottomRows(position.rows() - 1).norm();
 }
 
+/// Value where the parameter sphere has its north pole in the laboratory.
+double north_value(const Frame& frame, const Vector& coefficients) {
+  const Vector3 north = frame.axes.row(2);
+  const double theta = std::atan2(std::hypot(north.x(), north.y()), north.z());
+  const double phi = std::atan2(north.y(), north.x());
+  return evaluate_harmonics(coefficients, Vector{{theta}}, Vector{{phi}})(0, 0);
+}
+
 }  // namespace
+
+Diagnostics along_laboratory_axes(Diagnostics d, const Frame& frame, const SphereTransform& fine, const Surface& s,
+                                  const State& state, const Fields& fields) {
+  if (state.transmembrane_potential.size() > 0) {
+    d.Vm_north = north_value(frame, state.transmembrane_potential);
+    d.q_north = north_value(frame, fields.charge);
+  }
+  const Matrix position = state.position * frame.axes.transpose();
+  const SphereDerivatives x = fine.synthesize_hessian(position);
+  const Matrix poles = pole_values(position);
+  const auto extent = [&](Index axis) {
+    return surface_maximum(fine.grid(), x, position, poles, axis, 1.0) +
+           surface_maximum(fine.grid(), x, position, poles, axis, -1.0);
+  };
+  d.extent_x = extent(0);
+  d.extent_y = extent(1);
+  d.extent_z = extent(2);
+  d.inclination_deg = inclination(s, frame);
+  return d;
+}
 
 Diagnostics diagnose(const State& state, const Membrane& membrane, const Fields& fields) {
   const Surface& s = membrane.surface;
@@ -76,22 +104,10 @@ Diagnostics diagnose(const State& state, const Membrane& membrane, const Fields&
   if (state.transmembrane_potential.size() > 0) {
     const Matrix poles = pole_values(state.transmembrane_potential);
     const SphereDerivatives v = fine.synthesize_hessian(state.transmembrane_potential);
-    d.Vm_north = poles(0, 0);
     d.Vm_max = std::max(surface_maximum(fine.grid(), v, state.transmembrane_potential, poles, 0, 1.0),
                         surface_maximum(fine.grid(), v, state.transmembrane_potential, poles, 0, -1.0));
-    d.q_north = pole_values(fields.charge)(0, 0);
   }
-  const SphereDerivatives x = fine.synthesize_hessian(state.position);
-  const Matrix poles = pole_values(state.position);
-  const auto extent = [&](Index axis) {
-    return surface_maximum(fine.grid(), x, state.position, poles, axis, 1.0) +
-           surface_maximum(fine.grid(), x, state.position, poles, axis, -1.0);
-  };
-  d.extent_x = extent(0);
-  d.extent_y = extent(1);
-  d.extent_z = extent(2);
-  d.inclination_deg = inclination(s);
-  return d;
+  return along_laboratory_axes(d, Frame{}, fine, s, state, fields);
 }
 
 }  // namespace vehd

@@ -1,5 +1,7 @@
 #include "bie/stepping/discretisation.hpp"
 
+#include <numeric>
+
 #include "bie/geometry/surface.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 
@@ -7,10 +9,17 @@ namespace vehd {
 
 namespace {
 
+/// The least even number of longitudes that integrates products of harmonics and that the turns map onto itself.
+int n_longitudes(int grid_order, int fold) {
+  const int step = std::lcm(2, fold);
+  return step * ((2 * grid_order + 2 + step - 1) / step);
+}
+
 /// Cartesian components of axisymmetric vectors have the modes m = 0 and ±1 only.
-SphereTransform transform_for(const Symmetry& symmetry, int order, int grid_order) {
-  if (symmetry.axisymmetric) return {order, make_grid(grid_order, 4), 1};
-  return {order, make_grid(grid_order)};
+SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings& settings, int grid_order) {
+  if (symmetry.axisymmetric) return {settings.order, make_grid(grid_order, 4), 1};
+  const int fold = std::lcm(symmetry.fold, settings.longitude_fold);
+  return {settings.order, make_grid(grid_order, n_longitudes(grid_order, fold))};
 }
 
 }  // namespace
@@ -19,8 +28,8 @@ Discretisation::Tables::Tables(const NumericalSettings& settings_, const Symmetr
     : settings(settings_),
       symmetry(symmetry_),
       output(settings.order, make_grid(settings.order)),
-      targets(transform_for(symmetry, settings.order, settings.order)),
-      fine(transform_for(symmetry, settings.order, settings.upsampling * settings.order)),
+      targets(transform_for(symmetry, settings, settings.order)),
+      fine(transform_for(symmetry, settings, settings.upsampling * settings.order)),
       quadrature(make_rotated_quadrature(targets.grid(), settings.quadrature_oversampling)) {}
 
 Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry& symmetry)

@@ -12,6 +12,7 @@ struct NumericalSettings {
   int order = 16;                         ///< p
   int time_order = 1;                     ///< order of a step in dt, 1 … highest_time_order
   int upsampling = 2;                     ///< nonlinear terms live on the grid of order upsampling * p
+  int longitude_fold = 1;                 ///< every grid is its own image under turns by 2π/fold about z
   double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
   double flow_tolerance = 1e-9;           ///< of the tension and velocity solves
   double electric_tolerance = 1e-10;      ///< of the charge-density and charging solves

@@ -21,7 +21,7 @@ Membrane make_membrane(const Discretisation& discretisation, const Matrix& posit
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   const auto timer = instruments.time("operator assembly");
   LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments,
-                                                   tables.symmetry.reflections);
+                                                   tables.symmetry.reflections, tables.symmetry.fold);
   std::optional<ViscosityContrast> contrast;
   if (selection.stokes_double) {
     contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, tables.fine, surface, layers.stokes_double,

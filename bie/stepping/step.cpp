@@ -72,7 +72,7 @@ State initial_state(const Model& model, const Discretisation& discretisation, co
     const LayerSelection selection{true, true, true, false};
     const Membrane membrane{tables.fine, std::move(surface),
                             assemble_layer_operators(tables.quadrature, tables.targets, position, selection,
-                                                     instruments, tables.symmetry.reflections),
+                                                     instruments, tables.symmetry.reflections, tables.symmetry.fold),
                             radius};
     require_converged(steady_potential(*model.electric, *model.charging, membrane, tables.settings.electric_tolerance,
                                        state.transmembrane_potential),

@@ -20,9 +20,43 @@ Vector symmetric_scalar(const Symmetry& symmetry, const std::vector<int>& signs,
   Vector result = Vector::Zero(field.size());
   for (int n = 0; n <= order_of(field.size()); ++n) {
     for (int m = -n; m <= n; ++m) {
-      bool kept = !symmetry.axisymmetric || m == 0;
+      bool kept = symmetry.axisymmetric ? m == 0 : m % symmetry.fold == 0;
       for (std::size_t g = 0; g < signs.size(); ++g) kept = kept && signs[g] * symmetry.reflections[g].parity(n, m) > 0;
       if (kept) result[coefficient_index(n, m)] = field[coefficient_index(n, m)];
+    }
+  }
+  return result;
+}
+
+/// Mean of a vector field and its images under the turns: of v_x + i v_y it has the part e^{imφ}, m = 1 modulo the
+/// fold, of v_z that with m = 0 modulo the fold.
+Matrix turned_mean(int fold, const Matrix& field) {
+  Matrix result = Matrix::Zero(field.rows(), 3);
+  const auto is_multiple = [&](int m) { return m % fold == 0; };
+  for (int n = 0; n <= order_of(field.rows()); ++n) {
+    for (int m = 0; m <= n; ++m) {
+      const Index cosine = coefficient_index(n, m), sine = coefficient_index(n, -m);
+      if (is_multiple(m)) {
+        result(cosine, 2) = field(cosine, 2);
+        result(sine, 2) = field(sine, 2);
+      }
+      if (m == 0) continue;
+      if (is_multiple(m - 1)) {
+        const double real = 0.5 * (field(cosine, 0) + field(sine, 1));
+        const double imaginary = 0.5 * (field(cosine, 1) - field(sine, 0));
+        result(cosine, 0) += real;
+        result(sine, 1) += real;
+        result(cosine, 1) += imaginary;
+        result(sine, 0) -= imaginary;
+      }
+      if (is_multiple(m + 1)) {
+        const double real = 0.5 * (field(cosine, 0) - field(sine, 1));
+        const double imaginary = 0.5 * (field(cosine, 1) + field(sine, 0));
+        result(cosine, 0) += real;
+        result(sine, 1) -= real;
+        result(cosine, 1) += imaginary;
+        result(sine, 0) += imaginary;
+      }
     }
   }
   return result;
@@ -33,11 +67,13 @@ Matrix symmetric_vector(const Symmetry& symmetry, const Matrix& field) {
   Matrix result(field.rows(), 3);
   Symmetry images = symmetry;
   images.axisymmetric = false;
+  images.fold = 1;
   for (int i = 0; i < 3; ++i) {
     std::vector<int> signs;
     for (const Reflection& g : symmetry.reflections) signs.push_back(g.sign(i));
     result.col(i) = symmetric_scalar(images, signs, field.col(i));
   }
+  if (symmetry.fold > 1) result = turned_mean(symmetry.fold, result);
   if (!symmetry.axisymmetric) return result;
   // x = R(θ) cos φ, y = R(θ) sin φ, z = Z(θ).
   Matrix axisymmetric = Matrix::Zero(field.rows(), 3);
@@ -75,7 +111,28 @@ int field_sign(const Model& model, const Reflection& g) {
   return is_small(image + field, field) ? -1 : 0;
 }
 
+/// The largest number of equal turns about z, at least three, under which the scene is its own image; 1 if there is
+/// none. Beyond 2p + 2 it would not save anything.
+int find_fold(const Model& model, const State& state) {
+  const auto effects = explicit_effects(model);
+  const auto allows_turns = [](const auto& effect) { return effect->allows_turns(); };
+  if (model.electric && !model.electric->field.head<2>().isZero(0.0)) return 1;
+  if (!std::all_of(effects.begin(), effects.end(), allows_turns)) return 1;
+  for (int fold = 2 * order_of(state.position.rows()) + 2; fold > 2; --fold) {
+    Symmetry turns;
+    turns.fold = fold;
+    if (has(turns, state)) return fold;
+  }
+  return 1;
+}
+
 }  // namespace
+
+int Symmetry::group_order() const {
+  const bool turned_twice =
+      fold % 2 == 0 && std::find(reflections.begin(), reflections.end(), Reflection{-1, -1, 1}) != reflections.end();
+  return fold * static_cast<int>(reflections.size()) / (turned_twice ? 2 : 1);
+}
 
 State symmetric_part(const Symmetry& symmetry, State state) {
   if (!symmetry.any()) return state;
@@ -106,18 +163,21 @@ Symmetry find_symmetry(const Model& model, const State& state) {
   const bool field_allows = !model.electric || (model.electric->field.x() == 0.0 && model.electric->field.y() == 0.0);
   const auto allows_axis = [](const auto& effect) { return effect->allows_axis(); };
   result.axisymmetric = field_allows && std::all_of(effects.begin(), effects.end(), allows_axis) && has(axis, state);
+  if (!result.axisymmetric) result.fold = find_fold(model, state);
   return result;
 }
 
-std::string symmetry_text(const Symmetry& symmetry) {
+std::string symmetry_text(const Symmetry& symmetry, const std::string& axis) {
   std::vector<std::string> names;
-  if (symmetry.axisymmetric) names.emplace_back("axisymmetric about z");
+  if (symmetry.axisymmetric) names.push_back("axisymmetric about " + axis);
+  if (symmetry.fold > 1) names.push_back(fmt::format("{}-fold about {}", symmetry.fold, axis));
   for (const Reflection& g : symmetry.reflections) {
     const bool about_z = symmetry.axisymmetric && g.z > 0;
-    if (g == Reflection{} || about_z) continue;
+    const bool in_fold = symmetry.fold > 1 && g == Reflection{-1, -1, 1};
+    if (g == Reflection{} || about_z || in_fold) continue;
     std::vector<std::string> turned;
     for (int i = 0; i < 3; ++i) {
-      if (g.sign(i) < 0) turned.emplace_back(1, "xyz"[i]);
+      if (g.sign(i) < 0) turned.push_back(i == 2 ? axis : std::string(1, "xy"[i]));
     }
     if (symmetry.axisymmetric && turned.size() > 1) continue;
     if (turned.size() == 3) {

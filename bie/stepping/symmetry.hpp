@@ -19,14 +19,20 @@ struct Symmetry {
   /// Sign of V_m under each reflection.
   std::vector<int> potential_signs{1};
 
-  [[nodiscard]] bool any() const { return axisymmetric || reflections.size() > 1; }
+  /// Turns by 2π/fold about z are symmetries as well; 1 where there is none beyond the half turn of the reflections.
+  int fold = 1;
+
+  [[nodiscard]] bool any() const { return axisymmetric || reflections.size() > 1 || fold > 1; }
+  /// Number of images that a point in general position has, itself included; not for axisymmetric ones.
+  [[nodiscard]] int group_order() const;
 };
 
 /// What `auto` finds. Deviations within 1e-12 of the size count as rounding.
 Symmetry find_symmetry(const Model& model, const State& state);
 
-/// In words: "axisymmetric about z, mirror z", "mirror y, turn about y, inversion", "none".
-std::string symmetry_text(const Symmetry& symmetry);
+/// In words: "axisymmetric about z, mirror z", "mirror y, half turn about y, inversion", "none".
+/// @param axis  name of the axis that carries the poles
+std::string symmetry_text(const Symmetry& symmetry, const std::string& axis = "z");
 
 /// The symmetric part of a state. Rounding breaks a symmetry and an instability would feed on that.
 State symmetric_part(const Symmetry& symmetry, State state);

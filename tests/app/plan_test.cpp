@@ -60,6 +60,15 @@ BOOST_AUTO_TEST_CASE(scene_without_electricity_plans_and_evaluates_no_laplace_ke
   BOOST_TEST((std::find(absent.begin(), absent.end(), "electric field") != absent.end()));
 }
 
+BOOST_AUTO_TEST_CASE(three_equal_turns_are_planned_and_used) {
+  const PlannedRun run(
+      "[shape]\nkind = \"radial\"\nmodes = [{n = 3, m = 3, a = 0.2}, {n = 3, m = 0, a = 0.1}]\n[membrane]\n"
+      "bending_modulus = 0.1\n[electric]\nfield = [0, 0, 0.5]\nconductivity_in = 1\nconductivity_out = 2\n"
+      "[numerics]\norder = 6\ndt = 0.1\nend_time = 0.3\n");
+  plan_is_what_the_run_does(run);
+  BOOST_TEST(run.plan["symmetry"].get<std::string>() == "3-fold about z, mirror y");
+}
+
 BOOST_AUTO_TEST_CASE(symmetry_can_be_switched_off) {
   std::string scene = quick_scene();
   const std::size_t at = scene.find("[numerics]\n");

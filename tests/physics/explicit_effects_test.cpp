@@ -97,6 +97,30 @@ BOOST_AUTO_TEST_CASE(symmetries_are_those_of_the_forcing) {
   BOOST_TEST(gravity.allows(mirror_x));
   BOOST_TEST(!gravity.allows(mirror_z));
   BOOST_TEST(gravity.allows_axis());
+  BOOST_TEST(PoiseuilleFlowEffect({1.0, 1.0, {}, Vector3::UnitZ()}).allows_axis());
+}
+
+BOOST_AUTO_TEST_CASE(turned_effect_does_the_same_to_the_turned_body) {
+  const Matrix3 r = general_rotation();
+  const Matrix turned_position = position * r.transpose();
+  const Membrane turned_membrane = make_membrane(space, turned_position, {});
+  const Waveform waveform = Waveform::alternating(1.0, 1.0, 0.0);
+  BackgroundFlow flow = shear_flow(1.3);
+  flow.waveform = waveform;
+  const std::vector<std::shared_ptr<const ExplicitEffect>> effects{
+      std::make_shared<LinearFlowEffect>(flow),
+      std::make_shared<PoiseuilleFlowEffect>(PoiseuilleParameters{1.5, 2.0, waveform}),
+      std::make_shared<GravityEffect>(GravityParameters{2.5, {0.4, -0.2, 0.7}}),
+      std::make_shared<SpontaneousCurvatureEffect>(SpontaneousCurvatureParameters{0.1, -0.6})};
+  for (const auto& effect : effects) {
+    const Forcing expected = forcing_of(*effect, 0.1);
+    Forcing forcing{Matrix::Zero(expected.force.rows(), 3), Matrix::Zero(position.rows(), 3)};
+    effect->turned(r)->add({turned_membrane, turned_position, 0.1}, forcing);
+    const double scale = expected.force.norm() + expected.velocity.norm();
+    BOOST_TEST(scale > 0.1);
+    BOOST_TEST((forcing.force - expected.force * r.transpose()).norm() < 1e-11 * scale);
+    BOOST_TEST((forcing.velocity - expected.velocity * r.transpose()).norm() < 1e-11 * scale);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

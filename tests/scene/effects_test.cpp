@@ -4,6 +4,7 @@
 
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/files.hpp"
@@ -147,11 +148,15 @@ BOOST_AUTO_TEST_CASE(waveform_that_makes_no_sense_is_refused) {
 
 BOOST_AUTO_TEST_CASE(symmetry_that_is_asked_for_must_be_there) {
   BOOST_TEST(message_with("symmetry = 'axisymmetric'\n") == "");
-  BOOST_TEST(
-      message_with("symmetry = 'axisymmetric'\n[flow]\nkind = 'shear'\nrate = 1\n") ==
-      "scene.toml:8: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about z; they "
-      "have: mirror y, half turn about y, inversion");
-  BOOST_TEST(vehd::symmetry_of(parsed(with_appended("symmetry = 'axisymmetric'\n")), {}).axisymmetric);
+  BOOST_TEST(message_with("symmetry = 'axisymmetric'\n[flow]\nkind = 'shear'\nrate = 1\n") ==
+             "scene.toml:8: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one "
+             "axis; they have: mirror y, half turn about y, inversion");
+  const std::string along_x = "[shape]\nkind='ellipsoid'\naxes=[2,1,1]\n[numerics]\ndt=1\nend_time=1\norder=8\n";
+  BOOST_TEST(message_of(along_x + "symmetry='axisymmetric'\n") == "");
+  const vehd::Problem lying = vehd::problem_of(parsed(along_x + "symmetry='off'\n"));
+  BOOST_TEST(vehd::axis_name(lying.frame) == "x");
+  BOOST_TEST(!lying.symmetry.any());
+  BOOST_TEST(vehd::problem_of(parsed(with_appended("symmetry = 'axisymmetric'\n"))).symmetry.axisymmetric);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -37,8 +37,10 @@ double reduced_volume_of(const vehd::ShapeSize& size) {
 }
 
 vehd::Symmetry symmetry_of(const std::string& shape) {
-  const vehd::Scene scene = scene_of(shape);
-  return vehd::symmetry_of(scene, vehd::model_of(scene));
+  vehd::State start;
+  start.position = position_of(shape);
+  start.area_strain = vehd::Vector::Zero(start.position.rows());
+  return vehd::find_symmetry(vehd::model_of(scene_of(shape)), start);
 }
 
 double bending_energy(const Matrix& position, int grid_order) {

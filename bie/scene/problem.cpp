@@ -1,0 +1,27 @@
+#include "bie/scene/problem.hpp"
+
+#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/model_of.hpp"
+
+namespace vehd {
+
+Problem problem_of(const Scene& scene) { return problem_of(scene, model_of(scene)); }
+
+Problem problem_of(const Scene& scene, const Model& model) {
+  State start;
+  start.position = initial_position(scene);
+  start.area_strain = Vector::Zero(start.position.rows());
+  Problem problem;
+  problem.frame = find_frame(model, start);
+  const Matrix3 to_frame = problem.frame.axes.transpose();
+  problem.model = turned(to_frame, model);
+  start = turned(to_frame, std::move(start));
+  const Symmetry found = find_symmetry(problem.model, start);
+  problem.settings = settings_of(scene);
+  problem.settings.longitude_fold = found.fold;
+  if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = found;
+  problem.position = std::move(start.position);
+  return problem;
+}
+
+}  // namespace vehd

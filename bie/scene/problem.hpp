@@ -1,0 +1,25 @@
+#pragma once
+
+#include "bie/scene/scene.hpp"
+#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/frame.hpp"
+#include "bie/stepping/symmetry.hpp"
+
+namespace vehd {
+
+/// What a run of a scene computes with. All vectors are those of the frame.
+struct Problem {
+  Frame frame;
+  Model model;
+  NumericalSettings settings;
+  Symmetry symmetry;  ///< that the run uses: that of its start, or none where the scene says "off"
+  Matrix position;    ///< of the initial membrane, coefficients [n_coefficients x 3]
+};
+
+/// @throws InputError if the shape file cannot be used
+Problem problem_of(const Scene& scene);
+
+/// The same with another model, in laboratory coordinates, on the scene's shape.
+Problem problem_of(const Scene& scene, const Model& model);
+
+}  // namespace vehd

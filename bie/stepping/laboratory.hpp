@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/frame.hpp"
+
+namespace vehd {
+
+/// Results of a run as they look in the laboratory, whatever the frame that it computes in.
+class Laboratory {
+ public:
+  Laboratory(const Frame& frame, const NumericalSettings& settings);
+
+  [[nodiscard]] State state(const State& of_frame) const { return turned(frame_.axes, of_frame); }
+  [[nodiscard]] Fields fields(const Fields& of_frame) const { return turned(frame_.axes, of_frame); }
+  /// @param d       of the state in the frame
+  /// @param state   in the frame, as are the fields
+  [[nodiscard]] Diagnostics diagnostics(const Diagnostics& d, const State& state, const Fields& fields) const;
+
+ private:
+  Frame frame_;
+  std::optional<SphereTransform> fine_;  ///< all longitudes of the upsampled grid; empty where nothing is turned
+};
+
+}  // namespace vehd

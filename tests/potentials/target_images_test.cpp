@@ -1,0 +1,68 @@
+#include <boost/test/unit_test.hpp>
+
+#include "tests/support/layers.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr int kOrder = 8;
+
+/// ρ = 1 + 0.15 Y_{k,k} + chirality · 0.1 (Y_{k+1,−k} + Y_{3,0}): the turns by 2π/k, and mirrors y and z where nothing
+/// is chiral.
+Matrix star(int fold, double chirality) {
+  const SphereTransform transform(kOrder, make_grid(3 * kOrder, 240));
+  const Vector radius =
+      1.0 + (transform.synthesize(0.15 * harmonic(kOrder, fold, fold) +
+                                  chirality * 0.1 * (harmonic(kOrder, fold + 1, -fold) + harmonic(kOrder, 3, 0))))
+                .col(0)
+                .array();
+  return transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
+}
+
+/// Largest difference between all five operators assembled with and without use of the maps.
+double difference(const Matrix& position, const std::vector<Reflection>& reflections, int fold, int n_phi) {
+  const SphereTransform transform(kOrder, make_grid(kOrder, n_phi));
+  const RotatedQuadrature quadrature = make_rotated_quadrature(transform.grid(), 1.15);
+  const LayerSelection everything{true, true, true, true, true};
+  Instruments instruments;
+  const LayerOperators all = assemble_layer_operators(quadrature, transform, position, everything, instruments);
+  const LayerOperators shared =
+      assemble_layer_operators(quadrature, transform, position, everything, instruments, reflections, fold);
+  const Matrix density = random_coefficients(kOrder, 3, 54);
+  double result = 0.0;
+  for (const auto layer :
+       {&LayerOperators::laplace_single, &LayerOperators::laplace_double, &LayerOperators::laplace_adjoint}) {
+    result = std::max(result, max_difference((shared.*layer).apply(density), (all.*layer).apply(density)));
+  }
+  for (const auto layer : {&LayerOperators::stokes_single, &LayerOperators::stokes_double}) {
+    result = std::max(result, max_difference((shared.*layer).apply(density), (all.*layer).apply(density)));
+  }
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(target_images)
+
+BOOST_AUTO_TEST_CASE(turned_targets_share_rows_without_change) {
+  BOOST_TEST(difference(star(3, 1.0), {{}}, 3, 18) < 1e-12);
+  BOOST_TEST(difference(star(5, 1.0), {{}}, 5, 20) < 1e-12);
+  BOOST_TEST(difference(star(4, 1.0), {{}, {-1, -1, 1}}, 4, 20) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(turned_and_reflected_targets_share_rows_without_change) {
+  const Reflection y{1, -1, 1}, x{-1, 1, 1};
+  // n + m is even in each harmonic of the star: mirror z as well.
+  BOOST_TEST(difference(star(3, 0.0), {{}, y, {1, 1, -1}, {1, -1, -1}}, 3, 18) < 1e-12);
+  BOOST_TEST(difference(star(4, 0.0), {{}, x, y, {-1, -1, 1}}, 4, 20) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(wrong_fold_is_noticed) {
+  BOOST_TEST(difference(star(3, 1.0), {{}}, 5, 30) > 1e-3);
+  BOOST_TEST(difference(star(3, 1.0), {{}, {1, -1, 1}}, 3, 18) > 1e-3);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

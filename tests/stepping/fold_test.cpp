@@ -1,0 +1,137 @@
+#include <boost/test/unit_test.hpp>
+
+#include "bie/stepping/symmetry.hpp"
+#include "tests/support/runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr int kOrder = 12;
+
+/// ρ = 1 + 0.15 Y_{k,k} + chirality · 0.1 (Y_{k+1,−k} + Y_{3,0}).
+Matrix star(int fold, double chirality) {
+  const SphereTransform transform(kOrder, make_grid(3 * kOrder, 240));
+  const Vector radius =
+      1.0 + (transform.synthesize(0.15 * harmonic(kOrder, fold, fold) +
+                                  chirality * 0.1 * (harmonic(kOrder, fold + 1, -fold) + harmonic(kOrder, 3, 0))))
+                .col(0)
+                .array();
+  return transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
+}
+
+Model extension_model() {
+  Model model = relaxation_model(0.1);
+  model.flow = axisymmetric_extension(0.5);
+  return model;
+}
+
+Symmetry found(const Model& model, const Matrix& position) {
+  return find_symmetry(model, start(model, discretisation_of(kOrder), position, 0.1));
+}
+
+NumericalSettings settings_for(const Symmetry& symmetry) {
+  NumericalSettings settings;
+  settings.order = kOrder;
+  settings.longitude_fold = symmetry.fold;
+  return settings;
+}
+
+/// Largest difference per step of the states that n steps with and without use of the symmetry end in.
+double difference_per_step(const Model& model, const Matrix& position, double dt, int n_steps) {
+  const Symmetry symmetry = found(model, position);
+  const Discretisation reduced(settings_for(symmetry), symmetry);
+  const Discretisation full(settings_for(symmetry));
+  const State a = run(model, reduced, start(model, reduced, position, dt), dt, n_steps);
+  const State b = run(model, full, start(model, full, position, dt), dt, n_steps);
+  double difference = max_difference(a.position, b.position);
+  if (model.electric) {
+    difference = std::max(difference, max_difference(a.transmembrane_potential, b.transmembrane_potential));
+  }
+  return difference / n_steps;
+}
+
+std::uint64_t evaluations(const Model& model, const Matrix& position, const Symmetry& used, const Symmetry& grid) {
+  const Discretisation discretisation(settings_for(grid), used);
+  Instruments instruments;
+  evaluate(model, discretisation, start(model, discretisation, position, 0.1), instruments);
+  return instruments.kernel_evaluations().at("stokes_single");
+}
+
+/// Kernel evaluations with the symmetry over those without, on the same grid.
+double reduction(const Model& model, const Matrix& position) {
+  const Symmetry symmetry = found(model, position);
+  return double(evaluations(model, position, symmetry, symmetry)) / double(evaluations(model, position, {}, symmetry));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(fold)
+
+BOOST_AUTO_TEST_CASE(largest_number_of_turns_is_found) {
+  BOOST_TEST(symmetry_text(found(field_model(), star(3, 1.0))) == "3-fold about z");
+  BOOST_TEST(symmetry_text(found(extension_model(), star(5, 1.0))) == "5-fold about z");
+  BOOST_TEST(symmetry_text(found(relaxation_model(0.1), star(6, 1.0))) == "6-fold about z");
+  BOOST_TEST(symmetry_text(found(field_model(), star(3, 0.0))) ==
+             "3-fold about z, mirror y, mirror z, half turn about x");
+  // An axisymmetric shape that swirls.
+  Model swirling = relaxation_model(0.1);
+  swirling.flow = BackgroundFlow{};
+  swirling.flow->gradient(0, 1) = -0.3;
+  swirling.flow->gradient(1, 0) = 0.3;
+  const Symmetry swirl = found(swirling, prolate(kOrder));
+  BOOST_TEST(!swirl.axisymmetric);
+  BOOST_TEST(swirl.fold == 2 * kOrder + 2);
+}
+
+BOOST_AUTO_TEST_CASE(turns_that_are_gone_are_not_used) {
+  Matrix bump = star(3, 1.0);
+  bump(coefficient_index(4, 3), 1) += 1e-9;
+  BOOST_TEST(found(field_model(), bump).fold == 1);
+  bump = star(3, 1.0);
+  bump(coefficient_index(4, 2), 2) += 1e-9;
+  BOOST_TEST(found(field_model(), bump).fold == 1);
+  Model tilted = field_model();
+  tilted.electric->field = {1e-6, 0.0, 1.0};
+  BOOST_TEST(found(tilted, star(3, 1.0)).fold == 1);
+  Model sheared = extension_model();
+  sheared.flow->gradient(0, 2) = 1e-6;
+  BOOST_TEST(found(sheared, star(3, 1.0)).fold == 1);
+  State charged = start(field_model(), discretisation_of(kOrder), star(3, 1.0), 0.1);
+  charged.transmembrane_potential[coefficient_index(2, 1)] = 1e-9;
+  charged.transmembrane_potential[coefficient_index(1, 0)] = 1.0;
+  BOOST_TEST(find_symmetry(field_model(), charged).fold == 1);
+}
+
+BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps) {
+  for (const int n : {3, 5}) {
+    for (const double chirality : {0.0, 1.0}) {
+      BOOST_TEST(difference_per_step(field_model(), star(n, chirality), 0.1, 3) < 1e-9);
+      BOOST_TEST(difference_per_step(extension_model(), star(n, chirality), 0.1, 3) < 1e-9);
+    }
+  }
+  Model swirling = relaxation_model(0.1);
+  swirling.flow = BackgroundFlow{};
+  swirling.flow->gradient << -0.1, -0.3, 0.0, 0.3, -0.1, 0.0, 0.0, 0.0, 0.2;
+  BOOST_TEST(difference_per_step(swirling, prolate(kOrder), 0.1, 3) < 1e-9);
+}
+
+// 30 longitudes serve 3 and 5 turns. A mirror leaves the six azimuths 0, 1, ..., 5 of 3 turns, 0, ..., 3 of 5 turns;
+// mirror z leaves 7 of 13 latitudes.
+BOOST_AUTO_TEST_CASE(only_independent_targets_are_evaluated) {
+  const auto close = boost::test_tools::tolerance(1e-12);
+  BOOST_TEST(reduction(field_model(), star(3, 1.0)) == 1.0 / 3.0, close);
+  BOOST_TEST(reduction(field_model(), star(5, 1.0)) == 1.0 / 5.0, close);
+  BOOST_TEST(reduction(field_model(), star(3, 0.0)) == 6.0 / 30.0 * 7.0 / 13.0, close);
+  BOOST_TEST(reduction(field_model(), star(5, 0.0)) == 4.0 / 30.0 * 7.0 / 13.0, close);
+}
+
+BOOST_AUTO_TEST_CASE(contrast_of_viscosities_may_be_there) {
+  Model model = extension_model();
+  model.viscosity_ratio = 5.0;
+  BOOST_TEST(difference_per_step(model, star(3, 0.0), 0.1, 2) < 1e-9);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
