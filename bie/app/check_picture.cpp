@@ -37,6 +37,22 @@ std::string title_of(const std::string& column) {
   return column;
 }
 
+/// Equal ranges on the three axes: gnuplot fits a cube into its panel, but not every box.
+std::string cube_around(const std::string& quoted_data) {
+  std::string script = "half = 0\n";
+  const std::string axes = "xyz";
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    script += fmt::format(
+        "stats {0} using {1} name '{2}' nooutput\nhalf = {2}_max - {2}_min > 2*half ? 0.5*({2}_max - "
+        "{2}_min) : half\n",
+        quoted_data, i + 1, axes[i]);
+  }
+  for (const char axis : axes) {
+    script += fmt::format("set {0}range [0.5*({0}_min + {0}_max) - half : 0.5*({0}_min + {0}_max) + half]\n", axis);
+  }
+  return script;
+}
+
 }  // namespace
 
 std::filesystem::path differences_file(const std::filesystem::path& directory) { return directory / "differences.dat"; }
@@ -48,19 +64,22 @@ bool draw_differences(const std::filesystem::path& directory) {
   const auto n_fields = static_cast<int>(columns.size()) - coordinates;
   const int across = n_fields > 1 ? 2 : 1;
   const int down = (n_fields + across - 1) / across;
+  const std::string quoted_data = gnuplot_quoted(data.string());
   std::string script = fmt::format(
       "set terminal pngcairo size {},{} enhanced font 'Sans,16' background rgb 'white'\n"
       "set output {}\n"
-      "set multiplot layout {},{} title 'log_{{10}} of |FEM − BIE| over the largest value of the field'\n"
-      "set pm3d depthorder; unset key; set view 70,35,1.3; set view equal xyz; set xyplane at 0\n"
+      "set pm3d depthorder; unset key; set view 70,35,1.7; set view equal xyz; set xyplane at 0\n"
       "unset border; unset tics; set colorbox\n"
       "set cbtics in; set format cb '%g'\n"
       "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n",
-      across * panel_width, down * panel_height, gnuplot_quoted((directory / "differences.png").string()), down,
-      across);
+      across * panel_width, down * panel_height, gnuplot_quoted((directory / "differences.png").string()));
+  script += cube_around(quoted_data);
+  script +=
+      fmt::format("set multiplot layout {},{} title 'log_{{10}} of |FEM − BIE| over the largest value of the field'\n",
+                  down, across);
   for (int i = 0; i < n_fields; ++i) {
     script += fmt::format("set title '{}'\nsplot {} using 1:2:3:{} with pm3d\n", title_of(columns[coordinates + i]),
-                          gnuplot_quoted(data.string()), coordinates + i + 1);
+                          quoted_data, coordinates + i + 1);
   }
   run_gnuplot(script + "unset multiplot\n", directory);
   return true;

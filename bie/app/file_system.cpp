@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -46,6 +47,17 @@ void synchronise_file(const std::filesystem::path& path) {
 std::string write_problem(const std::filesystem::path& path) {
   return fmt::format("{}: cannot be written: {}", path.string(),
                      errno == 0 ? std::string("unknown reason") : std::string(std::strerror(errno)));
+}
+
+TemporaryFolder::TemporaryFolder(const std::string& stem) {
+  std::string pattern = (std::filesystem::temp_directory_path() / (stem + ".XXXXXX")).string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw OutputError(write_problem(pattern));
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace vehd

@@ -18,6 +18,20 @@ void rename_file(const std::filesystem::path& from, const std::filesystem::path&
 /// Waits until the file's data are on the disk. @throws OutputError
 void synchronise_file(const std::filesystem::path& path);
 
+/// A folder among the temporary files of the machine that ends with its owner. @throws OutputError
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& stem);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// "path: cannot be written: reason" with the reason of errno.
 std::string write_problem(const std::filesystem::path& path);
 

@@ -9,13 +9,15 @@
 #include <cmath>
 #include <functional>
 
+#include "bie/app/file_system.hpp"
+#include "bie/app/run_loop.hpp"
 #include "bie/app/step_plan.hpp"
 #include "bie/app/summary.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
+#include "bie/stepping/deferred_correction.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
-#include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -106,6 +108,7 @@ RunPlan plan_of(const Scene& scene) {
   const Discretisation::Tables& tables = discretisation.tables();
   plan.kernel_evaluations =
       evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections, symmetry.fold);
+  plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
   while (time < scene.numerics.end_time) {
@@ -117,35 +120,34 @@ RunPlan plan_of(const Scene& scene) {
   return plan;
 }
 
+namespace {
+
+/// Seconds of a real run of so many steps, files and all, in a folder that is gone afterwards.
+double seconds_of_trial(Scene scene, int n_steps) {
+  scene.numerics.end_time = n_steps * scene.numerics.dt;
+  const TemporaryFolder folder("vehd-plan");
+  const RunPaths paths{folder.path()};
+  make_run_directory(paths);
+  Interruption interruption;
+  const auto start = std::chrono::steady_clock::now();
+  const RunOutcome outcome = simulate({scene, paths, std::nullopt}, interruption);
+  if (!outcome.completed) throw ConvergenceError("no trial steps: " + outcome.reason);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
 void predict_cost(const Scene& scene, RunPlan& plan) {
   constexpr int kLargestTimed = 32;
   constexpr int kWarmUp = 2;
-  constexpr int kTimed = 3;
+  constexpr double kSlowStep = 0.3;
   Scene timed = scene;
   timed.numerics.order = std::min(scene.numerics.order, kLargestTimed);
-  const Problem problem = problem_of(timed);
-  const Model& model = problem.model;
-  const Discretisation discretisation(problem.settings, problem.symmetry);
-  const double dt = timed.numerics.dt;
-  const bool steady = timed.electric && timed.electric->initial_potential == InitialPotential::steady;
-  Instruments instruments;
-  State state = initial_state(model, discretisation, problem.position, steady, dt, instruments);
-  Evaluation evaluation = evaluate(model, discretisation, state, instruments);
-  std::vector<double> seconds;
-  for (int i = 0; i < kWarmUp + kTimed; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    const StepPlan step =
-        plan_step(state.time, dt, {timed.output.every, state.time + 1e3 * dt, next_corner(model, state.time)});
-    Advance advanced = advance(model, discretisation, state, evaluation, dt, step.dt_limit, instruments);
-    if (!advanced.accepted) throw ConvergenceError("no acceptable first step: " + advanced.reason);
-    state = std::move(advanced.state);
-    evaluation = evaluate(model, discretisation, state, instruments, &evaluation);
-    if (i >= kWarmUp)
-      seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  std::sort(seconds.begin(), seconds.end());
+  const double warm_up = seconds_of_trial(timed, kWarmUp);
+  const int n_timed = warm_up > kSlowStep * kWarmUp ? 3 : 16;
   const double ratio = double(scene.numerics.order) / timed.numerics.order;
-  plan.seconds_per_step = seconds[seconds.size() / 2] * std::pow(ratio, 5);
+  plan.seconds_per_step =
+      std::max(0.0, seconds_of_trial(timed, kWarmUp + n_timed) - warm_up) / n_timed * std::pow(ratio, 5);
   plan.memory_bytes = static_cast<std::int64_t>(static_cast<double>(peak_memory_bytes()) * std::pow(ratio, 4));
 }
 

@@ -26,8 +26,9 @@ struct RunPlan {
   std::string symmetry;
   std::vector<PlannedOperator> operators;
   std::uint64_t kernel_evaluations = 0;  ///< of each operator at each new shape
-  std::int64_t unknowns = 0;             ///< independent scalars that the solves of a step find
-  std::int64_t n_steps = 0;              ///< if none is rejected
+  int shapes_per_step = 1;
+  std::int64_t unknowns = 0;  ///< independent scalars that the solves of a step find
+  std::int64_t n_steps = 0;   ///< if none is rejected
   double seconds_per_step = 0.0;
   std::int64_t memory_bytes = 0;
 };
@@ -35,9 +36,9 @@ struct RunPlan {
 /// Everything that follows from the scene alone; costs are left at zero.
 RunPlan plan_of(const Scene& scene);
 
-/// Adds seconds per step and memory: a few steps from the scene's start are taken, in memory alone. Orders above 32
-/// are timed at 32 and scaled with the growth of assembly, p^5, and of operators, p^4.
-/// @throws ConvergenceError where the first step cannot be taken
+/// Adds seconds per step and memory from a short run of the scene, files included, in a temporary folder. Orders above
+/// 32 are timed at 32 and scaled with the growth of assembly, p^5, and of operators, p^4.
+/// @throws ConvergenceError where the first steps cannot be taken
 void predict_cost(const Scene& scene, RunPlan& plan);
 
 }  // namespace vehd

@@ -27,6 +27,7 @@ nlohmann::json json_of(const RunPlan& plan) {
   json["operators"] = nlohmann::json::array();
   for (const PlannedOperator& op : plan.operators) json["operators"].push_back({{"name", op.name}, {"why", op.why}});
   json["kernel_evaluations_per_shape"] = plan.kernel_evaluations;
+  json["shapes_per_step"] = plan.shapes_per_step;
   json["unknowns"] = plan.unknowns;
   json["steps"] = plan.n_steps;
   json["seconds_per_step"] = plan.seconds_per_step;
@@ -41,7 +42,8 @@ void print(const RunPlan& plan) {
   }
   fmt::print("absent     {}\n", fmt::join(plan.absent, ", "));
   fmt::print("symmetry   {}\n", plan.symmetry);
-  fmt::print("operators  ({} kernel evaluations each at every new shape)\n", plan.kernel_evaluations);
+  fmt::print("operators  ({} kernel evaluations each at every new shape, {} a step)\n", plan.kernel_evaluations,
+             plan.shapes_per_step);
   for (const PlannedOperator& op : plan.operators) fmt::print("  {:<22} {}\n", op.name, op.why);
   fmt::print("unknowns   {} a step\n", plan.unknowns);
   fmt::print("cost       {} steps of {:.2g} s: {}, {:.0f} MB\n", plan.n_steps, plan.seconds_per_step,
@@ -65,7 +67,7 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   const auto options = std::make_shared<PlanOptions>();
   command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
   add_common_options(*command, options->common);
-  command->footer("Seconds and memory come from a few trial steps; nothing is written.");
+  command->footer("Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.");
   command->callback([options, &exit_code] { exit_code = plan(*options); });
 }
 

@@ -30,7 +30,8 @@ EffectDescription LinearFlowEffect::description() const {
 }
 
 void LinearFlowEffect::add(const Situation& situation, Forcing& forcing) const {
-  forcing.velocity += flow_.waveform.at(situation.time, situation.limit) * situation.position * flow_.gradient.transpose();
+  forcing.velocity +=
+      flow_.waveform.at(situation.time, situation.limit) * situation.position * flow_.gradient.transpose();
 }
 
 bool LinearFlowEffect::allows(const Reflection& g) const {

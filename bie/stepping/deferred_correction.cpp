@@ -58,6 +58,8 @@ double change_of(const StageContext& context, const Stage& before, const Stage& 
 
 }  // namespace
 
+int evaluations_per_step(int order) { return 1 + (order - 1) * static_cast<int>(time_rule(order).nodes.size()); }
+
 CorrectedStep deferred_correction(const StageContext& context, double dt, int order) {
   const TimeRule rule = time_rule(order);
   const std::size_t last = rule.nodes.size() - 1;

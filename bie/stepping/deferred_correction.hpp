@@ -13,6 +13,9 @@ struct CorrectedStep {
 /// Highest order of deferred_correction.
 constexpr int highest_time_order = 4;
 
+/// New shapes that a step of this order evaluates, its end included.
+int evaluations_per_step(int order);
+
 /// One step of order 1 … highest_time_order by spectral deferred correction (Dutt, Greengard, Rokhlin 2000) of the
 /// first-order stage: with c_m the nodes of a quadrature rule on the step and q_mj its weights, each sweep takes
 ///   y_m ← y_m + (1 − c_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F(y_j) − y_m),   y = (x, V_m) on material points,

@@ -82,8 +82,8 @@ Matrix solve_velocity(const Model& model, const NumericalSettings& settings, con
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
                     Instruments& instruments, const Evaluation* previous, Limit limit) {
   const NumericalSettings& settings = discretisation.settings();
-  const bool asleep = model.electric && (limit == Limit::after ? electric_sleeps(model, state)
-                                                              : electric_is_silent(model, state));
+  const bool asleep =
+      model.electric && (limit == Limit::after ? electric_sleeps(model, state) : electric_is_silent(model, state));
   const bool reuse = !model.mobile && previous != nullptr && (asleep || !previous->electric_asleep);
   Evaluation evaluation;
   evaluation.electric_asleep = asleep;

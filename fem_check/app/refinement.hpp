@@ -16,7 +16,7 @@ struct Refinement {
   int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
 
   int potential_first = 4, potential_last = 9;  ///< degrees
-  int flow_first = 3, flow_last = 8;
+  int flow_first = 3, flow_last = 7;
   double potential_target = 5e-6;  ///< estimated relative error at which degrees stop rising before the last
   double flow_target = 5e-5;
   double potential_tolerance = 1e-11;  ///< of the linear solvers

@@ -37,8 +37,8 @@ BOOST_AUTO_TEST_CASE(methods_agree_on_a_shape_without_symmetry) {
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.output + result.errors);
   const nlohmann::json json = json_of(directory / "result.json");
   BOOST_TEST(json["verdict"].get<std::string>() == "agree");
-  for (const char* field : {"q", "Vm", "q_steady", "force", "velocity", "velocity_own_force",
-                            "potential_inside", "potential_near", "velocity_outside", "velocity_near"}) {
+  for (const char* field : {"q", "Vm", "q_steady", "force", "velocity", "velocity_own_force", "potential_inside",
+                            "potential_near", "velocity_outside", "velocity_near"}) {
     BOOST_TEST_REQUIRE(json["fields"].contains(field), field);
     const auto& values = json["fields"][field];
     BOOST_TEST(values["l2"].get<double>() > 0.0, field);

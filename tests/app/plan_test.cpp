@@ -22,12 +22,18 @@ struct PlannedRun {
   }
 };
 
+std::string with_numerics(const std::string& line) {
+  const std::string table = "[numerics]\n";
+  std::string scene = quick_scene("1.0");
+  return scene.insert(scene.find(table) + table.size(), line);
+}
+
 void plan_is_what_the_run_does(const PlannedRun& run) {
   BOOST_TEST(run.summary["steps"].get<int>() == run.plan["steps"].get<int>());
   BOOST_TEST(run.summary["rejected_steps"].get<int>() == 0);
   const auto& used = run.summary["kernel_evaluations"];
   BOOST_TEST(used.size() == run.plan["operators"].size());
-  const auto shapes = run.summary["steps"].get<std::uint64_t>() + 1;
+  const auto shapes = run.summary["steps"].get<std::uint64_t>() * run.plan["shapes_per_step"].get<std::uint64_t>() + 1;
   const auto per_shape = run.plan["kernel_evaluations_per_shape"].get<std::uint64_t>();
   for (const auto& op : run.plan["operators"]) {
     const std::string name = op["name"];
@@ -69,12 +75,14 @@ BOOST_AUTO_TEST_CASE(three_equal_turns_are_planned_and_used) {
   BOOST_TEST(run.plan["symmetry"].get<std::string>() == "3-fold about z, mirror y");
 }
 
+BOOST_AUTO_TEST_CASE(every_order_in_time_evaluates_as_many_shapes_as_planned) {
+  for (int order = 2; order <= 4; ++order) {
+    plan_is_what_the_run_does(PlannedRun(with_numerics("time_order = " + std::to_string(order) + "\n")));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(symmetry_can_be_switched_off) {
-  std::string scene = quick_scene();
-  const std::size_t at = scene.find("[numerics]\n");
-  BOOST_REQUIRE(at != std::string::npos);
-  scene.insert(at + 11, "symmetry = \"off\"\n");
-  const PlannedRun run(scene);
+  const PlannedRun run(with_numerics("symmetry = \"off\"\n"));
   plan_is_what_the_run_does(run);
   BOOST_TEST(run.plan["symmetry"].get<std::string>() == "none");
 }
