@@ -117,7 +117,7 @@ struct ReadVisitor {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   const std::filesystem::path fresh = temporary_of(path);
-  Hdf5Writer file(fresh, Hdf5Writer::Mode::create);
+  Hdf5Writer file(fresh, Hdf5Writer::Mode::create_at_once);
   file.attribute("/", "schema_version", checkpoint_schema_version);
   file.attribute("/", "n_rows", checkpoint.n_rows);
   file.attribute("/", "history_bytes", checkpoint.history_bytes);

@@ -34,7 +34,8 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode) : name_(pat
   silence_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  const hid_t id = mode == Mode::create
+  if (mode == Mode::create_at_once) H5Pset_fapl_core(access.id(), 1 << 20, true);
+  const hid_t id = mode == Mode::create || mode == Mode::create_at_once
                        ? H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id())
                        : H5Fopen(name_.c_str(), mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id());
   file_ = Hdf5Handle(id, H5Fclose);

@@ -20,8 +20,9 @@ struct DatasetLabel {
 /// @throws OutputError from every member
 class Hdf5Writer {
  public:
-  /// `read` is for the source of copies: it never touches the file.
-  enum class Mode { create, extend, read };
+  /// `read` is for the source of copies: it never touches the file. `create_at_once` keeps a small new file in memory
+  /// and writes it in one go when it is closed.
+  enum class Mode { create, create_at_once, extend, read };
   Hdf5Writer(const std::filesystem::path& path, Mode mode);
 
   void group(const std::string& path);

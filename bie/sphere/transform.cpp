@@ -17,7 +17,7 @@ constexpr int kKinds = 6;
 constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, true, false};
 
 /// Grid values below which waking a second thread costs more than it saves.
-constexpr Index kParallelValues = 200000;
+constexpr Index kParallelValues = 60000;
 
 }  // namespace
 
@@ -71,44 +71,57 @@ std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int
   Eigen::MatrixXcd spectrum = Eigen::MatrixXcd::Zero(n_theta, kinds * n_fields * n_modes);
   std::vector<Matrix> values(kinds, Matrix(grid.n_points(), n_fields));
 
-#pragma omp parallel if (kinds * n_fields * grid.n_points() > kParallelValues)
-  {
+  struct Work {
     Matrix gathered;
     Matrix product;
-#pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) {
-      const Index columns = (m == 0 ? 1 : 2) * n_fields;
-      gathered.resize(order + 1 - m, columns);
+  };
+  const auto sum_degrees = [&](int m, Work& work) {
+    const Index columns = (m == 0 ? 1 : 2) * n_fields;
+    work.gathered.resize(order + 1 - m, columns);
+    for (Index f = 0; f < n_fields; ++f) {
+      for (int n = m; n <= order; ++n) {
+        work.gathered(n - m, f) = coefficients(coefficient_index(n, m), f);
+        if (m > 0) work.gathered(n - m, n_fields + f) = coefficients(coefficient_index(n, -m), f);
+      }
+    }
+    work.product.noalias() = synthesis[m].topRows(kinds * n_theta) * work.gathered;
+    for (int kind = 0; kind < kinds; ++kind) {
       for (Index f = 0; f < n_fields; ++f) {
-        for (int n = m; n <= order; ++n) {
-          gathered(n - m, f) = coefficients(coefficient_index(n, m), f);
-          if (m > 0) gathered(n - m, n_fields + f) = coefficients(coefficient_index(n, -m), f);
+        const Index target = (kind * n_fields + f) * n_modes + m;
+        const auto from_cosine = work.product.col(f).segment(kind * n_theta, n_theta);
+        if (m == 0) {
+          if (!kPhiDerivative[kind]) spectrum.col(target).real() = from_cosine;
+          continue;
         }
-      }
-      product.noalias() = synthesis[m].topRows(kinds * n_theta) * gathered;
-      for (int kind = 0; kind < kinds; ++kind) {
-        for (Index f = 0; f < n_fields; ++f) {
-          const Index target = (kind * n_fields + f) * n_modes + m;
-          const auto from_cosine = product.col(f).segment(kind * n_theta, n_theta);
-          if (m == 0) {
-            if (!kPhiDerivative[kind]) spectrum.col(target).real() = from_cosine;
-            continue;
-          }
-          const auto from_sine = product.col(n_fields + f).segment(kind * n_theta, n_theta);
-          if (kPhiDerivative[kind]) {
-            spectrum.col(target).real() = from_sine;
-            spectrum.col(target).imag() = from_cosine;
-          } else {
-            spectrum.col(target).real() = from_cosine;
-            spectrum.col(target).imag() = -from_sine;
-          }
+        const auto from_sine = work.product.col(n_fields + f).segment(kind * n_theta, n_theta);
+        if (kPhiDerivative[kind]) {
+          spectrum.col(target).real() = from_sine;
+          spectrum.col(target).imag() = from_cosine;
+        } else {
+          spectrum.col(target).real() = from_cosine;
+          spectrum.col(target).imag() = -from_sine;
         }
       }
     }
+  };
+  const auto sum_orders = [&](Index i) {
+    fourier.synthesize(spectrum.middleCols(i * n_modes, n_modes), values[i / n_fields].col(i % n_fields).data());
+  };
+
+  // Even a team of one makes system calls: small transforms stay out of OpenMP altogether.
+  if (kinds * n_fields * grid.n_points() <= kParallelValues) {
+    Work work;
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(m, work);
+    for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
+    return values;
+  }
+#pragma omp parallel
+  {
+    Work work;
+#pragma omp for schedule(dynamic, 1)
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(m, work);
 #pragma omp for schedule(static)
-    for (Index i = 0; i < kinds * n_fields; ++i) {
-      fourier.synthesize(spectrum.middleCols(i * n_modes, n_modes), values[i / n_fields].col(i % n_fields).data());
-    }
+    for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
   }
   return values;
 }
@@ -151,8 +164,7 @@ Matrix SphereTransform::analyze(const Matrix& values) const {
   const Index n_fields = values.cols();
   Matrix coefficients(n_coefficients(t.order), n_fields);
   if (t.azimuthal_order < t.order) coefficients.setZero();
-#pragma omp parallel for schedule(static) if (values.size() > kParallelValues)
-  for (Index f = 0; f < n_fields; ++f) {
+  const auto analyze_field = [&](Index f) {
     const Eigen::MatrixXcd spectrum = t.fourier.analyze(values.col(f).data());
     for (int m = 0; m <= t.azimuthal_order; ++m) {
       const Vector cosine_part = t.analysis[m] * spectrum.col(m).real();
@@ -161,7 +173,13 @@ Matrix SphereTransform::analyze(const Matrix& values) const {
       const Vector sine_part = t.analysis[m] * spectrum.col(m).imag();
       for (int n = m; n <= t.order; ++n) coefficients(coefficient_index(n, -m), f) = -sine_part[n - m];
     }
+  };
+  if (values.size() <= kParallelValues) {
+    for (Index f = 0; f < n_fields; ++f) analyze_field(f);
+    return coefficients;
   }
+#pragma omp parallel for schedule(static)
+  for (Index f = 0; f < n_fields; ++f) analyze_field(f);
   return coefficients;
 }
 
