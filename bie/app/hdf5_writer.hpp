@@ -47,6 +47,8 @@ class Hdf5Writer {
   void close();
 
  private:
+  void create(hid_t creation, hid_t access);
+  void open(hid_t access, unsigned flags);
   [[noreturn]] void fail(const std::string& what) const;
   void write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
                      const std::vector<hsize_t>& extents, const DatasetLabel& label);

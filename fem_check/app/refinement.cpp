@@ -24,10 +24,14 @@ Meshes::Meshes(const meshes::FrozenShape& shape, const Refinement& refinement) {
   options.cells_per_edge = refinement.cells_per_edge;
   options.blend_layers = refinement.blend_layers;
   options.shell_layers = refinement.shell_layers;
+  options.shell_growth = refinement.shell_growth;
   options.outer_radius = refinement.outer_radius * shape.radius();
   near_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options));
   // Layers grow by a constant factor, so that the inner ones stay where they are.
-  options.outer_radius *= std::pow(refinement.outer_radius, 1.0 / refinement.shell_layers);
+  const auto thickness = [&](int layers) { return std::pow(refinement.shell_growth, layers) - 1.0; };
+  options.outer_radius =
+      shape.radius() * (1.0 + (refinement.outer_radius - 1.0) * thickness(refinement.shell_layers + 1) /
+                                  thickness(refinement.shell_layers));
   options.shell_layers += 1;
   far_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options));
 }

@@ -11,12 +11,15 @@ namespace vehd::fem_check {
 struct Refinement {
   int cells_per_edge = 3;
   int blend_layers = 1;
-  int shell_layers = 4;
+  int shell_layers = 2;
+  /// Of the layers' thickness. The inner one is thin, as fields of the membrane's fine structure end within it, and a
+  /// single layer of high degree carries the smooth rest.
+  double shell_growth = 6.0;
   double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape
   int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
 
   int potential_first = 4, potential_last = 9;  ///< degrees
-  int flow_first = 3, flow_last = 7;
+  int flow_first = 4, flow_last = 8;
   double potential_target = 5e-6;  ///< estimated relative error at which degrees stop rising before the last
   double flow_target = 5e-5;
   double potential_tolerance = 1e-11;  ///< of the linear solvers
