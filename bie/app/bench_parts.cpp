@@ -8,9 +8,7 @@
 #include <cmath>
 
 #include "bie/app/summary.hpp"
-#include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -30,36 +28,31 @@ struct StepCost {
 };
 
 StepCost time_steps(const Scene& scene, int repeats) {
+  const double no_end = 1e6 * *scene.numerics.dt;
   const Problem problem = problem_of(scene);
-  const Model& model = problem.model;
-  const Discretisation discretisation(problem.settings, problem.symmetry);
-  const double dt = scene.numerics.dt;
-  Instruments warm_up;
-  State state = initial_state(model, discretisation, problem.position, false, dt, warm_up);
-  Evaluation evaluation = evaluate(model, discretisation, state, warm_up);
-  Instruments timed;
+  Instruments instruments;
+  Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
+  evolution.evaluate_start();
+  for (int i = 0; i < kWarmUp; ++i) evolution.step({std::nullopt, no_end});
+  const std::map<std::string, double> before = instruments.seconds();
   StepCost cost;
-  for (int i = 0; i < kWarmUp + repeats; ++i) {
-    Instruments& instruments = i < kWarmUp ? warm_up : timed;
+  for (int i = 0; i < repeats; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    Advance advanced = advance(model, discretisation, state, evaluation, dt, dt, instruments);
-    if (!advanced.accepted)
-      throw ConvergenceError("order " + std::to_string(scene.numerics.order) + ": " + advanced.reason);
-    state = std::move(advanced.state);
-    evaluation = evaluate(model, discretisation, state, instruments, &evaluation);
-    if (i >= kWarmUp) {
-      cost.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    }
+    evolution.step({std::nullopt, no_end});
+    cost.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  for (const auto& [name, seconds] : timed.seconds()) cost.parts[name] = seconds / repeats;
+  for (const auto& [name, seconds] : instruments.seconds()) {
+    const auto earlier = before.find(name);
+    cost.parts[name] = (seconds - (earlier == before.end() ? 0.0 : earlier->second)) / repeats;
+  }
   return cost;
 }
 
 }  // namespace
 
 nlohmann::json bench_parts(Scene scene, const std::vector<int>& orders, int repeats) {
-  nlohmann::json result = {{"threads", omp_get_max_threads()}, {"repeats", repeats}, {"dt", scene.numerics.dt}};
-  fmt::print("{} threads, dt = {}, {} timed steps\n", omp_get_max_threads(), scene.numerics.dt, repeats);
+  nlohmann::json result = {{"threads", omp_get_max_threads()}, {"repeats", repeats}, {"dt", *scene.numerics.dt}};
+  fmt::print("{} threads, dt = {}, {} timed steps\n", omp_get_max_threads(), *scene.numerics.dt, repeats);
   fmt::print("{:>6} {:>11} {:>9} {:>9} {:>7} {:>9}   parts of a step in seconds (mean)\n", "order", "s per step", "min",
              "max", "growth", "MB");
   double last_seconds = 0.0;

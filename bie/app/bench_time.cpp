@@ -6,12 +6,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "bie/app/step_plan.hpp"
-#include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/composition.hpp"
 #include "bie/stepping/laboratory.hpp"
-#include "bie/stepping/stepper.hpp"
+#include "bie/stepping/resolution.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -35,27 +32,17 @@ struct TimedRun {
   double seconds;
 };
 
-TimedRun run_to(const Scene& scene, double dt, double end_time) {
+TimedRun run_to(const Scene& scene, double end_time) {
   const Problem problem = problem_of(scene);
-  const Model& model = problem.model;
-  const Discretisation discretisation(problem.settings, problem.symmetry);
-  const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
-  State state = initial_state(model, discretisation, problem.position, steady, dt, instruments);
-  Evaluation evaluation = evaluate(model, discretisation, state, instruments);
-  while (state.time < end_time) {
-    const StepPlan plan =
-        plan_step(state.time, state.dt_next, {std::nullopt, end_time, next_corner(model, state.time)});
-    Advance advanced = advance(model, discretisation, state, evaluation, dt, plan.dt_limit, instruments);
-    if (!advanced.accepted)
-      throw ConvergenceError(fmt::format("dt = {}, time {}: {}", dt, state.time, advanced.reason));
-    state = std::move(advanced.state);
-    if (plan.reaches_event && advanced.dt == plan.dt_limit) state.time = plan.event_time;
-    evaluation = evaluate(model, discretisation, state, instruments, &evaluation);
-  }
-  const Laboratory laboratory(problem.frame, discretisation.settings());
-  return {laboratory.diagnostics(evaluation.diagnostics, state, evaluation.fields),
+  Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
+  evolution.evaluate_start();
+  while (evolution.state().time < end_time) evolution.step({std::nullopt, end_time});
+  const Laboratory laboratory(problem.frame, problem.settings);
+  const State state = resized(evolution.state(), problem.settings.order);
+  const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
+  return {laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields),
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
@@ -73,7 +60,9 @@ nlohmann::json bench_time(const Scene& scene, const std::vector<double>& steps, 
   fmt::print("\n");
   std::vector<TimedRun> runs;
   for (const double dt : steps) {
-    runs.push_back(run_to(scene, dt, at));
+    Scene stepped = scene;
+    stepped.numerics.dt = dt;
+    runs.push_back(run_to(stepped, at));
     fmt::print("{:>10g} {:>9.2f}", dt, runs.back().seconds);
     nlohmann::json row = {{"dt", dt}, {"seconds", runs.back().seconds}};
     for (const Quantity& quantity : kQuantities) {

@@ -33,10 +33,9 @@ FrozenState start_of_scene(const std::filesystem::path& file) {
   frozen.model = model_of(scene);
   const Problem problem = problem_of(scene);
   const Discretisation discretisation(problem.settings, problem.symmetry);
-  const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   Instruments instruments;
   const State start =
-      initial_state(problem.model, discretisation, problem.position, steady, scene.numerics.dt, instruments);
+      initial_state(problem.model, discretisation, problem.position, problem.steady_potential, 0.0, instruments);
   const Matrix3& to_laboratory = problem.frame.axes;
   frozen.fields = turned(to_laboratory, evaluate(problem.model, discretisation, start, instruments).fields);
   frozen.state = turned(to_laboratory, start);

@@ -40,7 +40,7 @@ constexpr std::array diagnostic_columns = {
 std::string header() {
   std::string line = "time,dt";
   for (const DiagnosticColumn& column : diagnostic_columns) line += fmt::format(",{}", column.name);
-  return line + ",iterations_flow,iterations_electric,rejected\n";
+  return line + ",iterations_flow,iterations_electric,rejected,order,truncation,change\n";
 }
 
 std::vector<std::string> split(const std::string& line) {
@@ -79,11 +79,13 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_by
 }
 
 void HistoryFile::append(const HistoryRow& row) {
-  std::string line = fmt::format("{:.17g},{:.17g}", row.time, row.dt);
+  std::string line = fmt::format("{:.17g},{:.17g}", row.time, row.step.dt);
   for (const DiagnosticColumn& column : diagnostic_columns) {
     line += fmt::format(",{:.17g}", row.diagnostics.*column.member);
   }
-  write(line + fmt::format(",{},{},{}\n", row.iterations_flow, row.iterations_electric, row.rejected));
+  const EvolutionStep& step = row.step;
+  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g}\n", step.iterations_flow, step.iterations_electric,
+                           step.rejected, row.order, row.truncation, step.change));
 }
 
 void HistoryFile::write(const std::string& text) {

@@ -6,18 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "bie/stepping/fields.hpp"
+#include "bie/stepping/evolution.hpp"
 
 namespace vehd {
 
-/// One row of history.csv: the state at `time`, reached by a step of size `dt`.
+/// One row of history.csv: the state at `time` and the step that led to it.
 struct HistoryRow {
   double time = 0.0;
-  double dt = 0.0;
+  EvolutionStep step;
   Diagnostics diagnostics;
-  int iterations_flow = 0;
-  int iterations_electric = 0;
-  int rejected = 0;  ///< attempts thrown away before the step was accepted
+  int order = 0;            ///< p of the state
+  double truncation = 0.0;  ///< see Evolution::truncation
 };
 
 /// Appends rows to history.csv; each is in the file when `append` returns.

@@ -11,7 +11,7 @@
 
 #include "bie/app/file_system.hpp"
 #include "bie/app/run_loop.hpp"
-#include "bie/app/step_plan.hpp"
+#include "bie/stepping/step_plan.hpp"
 #include "bie/app/summary.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
@@ -113,7 +113,7 @@ RunPlan plan_of(const Scene& scene) {
   double time = 0.0;
   while (time < scene.numerics.end_time) {
     const EventTimes events{scene.output.every, scene.numerics.end_time, next_corner(model, time)};
-    const StepPlan step = plan_step(time, scene.numerics.dt, events);
+    const StepPlan step = plan_step(time, *scene.numerics.dt, events);
     plan.n_steps += std::lround((step.event_time - time) / step.dt_limit);
     time = step.event_time;
   }
@@ -124,7 +124,7 @@ namespace {
 
 /// Seconds of a real run of so many steps, files and all, in a folder that is gone afterwards.
 double seconds_of_trial(Scene scene, int n_steps) {
-  scene.numerics.end_time = n_steps * scene.numerics.dt;
+  scene.numerics.end_time = n_steps * *scene.numerics.dt;
   const TemporaryFolder folder("vehd-plan");
   const RunPaths paths{folder.path()};
   make_run_directory(paths);

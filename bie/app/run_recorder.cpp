@@ -3,6 +3,7 @@
 #include "bie/app/file_system.hpp"
 #include "bie/app/run_file.hpp"
 #include "bie/scene/hdf5_reader.hpp"
+#include "bie/stepping/resolution.hpp"
 
 namespace vehd {
 namespace {
@@ -39,15 +40,16 @@ RunRecorder::RunRecorder(const RunPaths& paths, const Discretisation& discretisa
   }
 }
 
-void RunRecorder::record(HistoryRow row, const State& state, const Evaluation& evaluation, bool with_snapshot,
-                         const RunTotals& totals) {
-  row.diagnostics = laboratory_.diagnostics(row.diagnostics, state, evaluation.fields);
+void RunRecorder::record(HistoryRow row, const State& state, const Fields& fields, const RunTotals& totals) {
+  const State full_state = resized(state, discretisation_.order());
+  const Fields full_fields = resized(fields, discretisation_.order());
+  row.diagnostics = laboratory_.diagnostics(row.diagnostics, full_state, full_fields);
   history_.append(row);
-  if (with_snapshot) {
+  if (row.step.at_snapshot) {
     snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
-      write_snapshot(file, name, discretisation_, laboratory_.state(state), laboratory_.fields(evaluation.fields));
+      write_snapshot(file, name, discretisation_, laboratory_.state(full_state), laboratory_.fields(full_fields));
     });
-    write_xdmf(state, evaluation.fields);
+    write_xdmf(state, fields);
   }
   last_.state = state;
   ++last_.n_rows;

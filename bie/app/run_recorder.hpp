@@ -23,8 +23,7 @@ class RunRecorder {
   RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Frame& frame, const Checkpoint& start);
 
   /// Records one accepted state.
-  void record(HistoryRow row, const State& state, const Evaluation& evaluation, bool with_snapshot,
-              const RunTotals& totals);
+  void record(HistoryRow row, const State& state, const Fields& fields, const RunTotals& totals);
 
   /// Work that a session has done after its last row.
   void update_totals(const RunTotals& totals);

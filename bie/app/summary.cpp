@@ -14,12 +14,12 @@ namespace vehd {
 namespace {
 
 /// A run that exceeds one of these is reported as not trustworthy.
-struct Limit {
+struct TrustLimit {
   const char* column;
   double largest;
 };
-constexpr std::array limits = {Limit{"area_drift", 1e-6}, Limit{"volume_drift", 1e-6}, Limit{"strain_max", 0.05},
-                               Limit{"spectrum_tail", 5e-3}};
+constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6}, TrustLimit{"strain_max", 0.05},
+                               TrustLimit{"spectrum_tail", 5e-3}};
 
 double largest_magnitude(const std::vector<double>& values) {
   double largest = 0.0;
@@ -36,7 +36,7 @@ double last(const std::vector<double>& values) { return values.empty() ? 0.0 : v
 
 std::string verdict_of(const HistoryTable& history) {
   std::string findings;
-  for (const Limit& limit : limits) {
+  for (const TrustLimit& limit : limits) {
     const std::vector<double>& values = history.column(limit.column);
     const auto first =
         std::find_if(values.begin(), values.end(), [&](double value) { return !(std::abs(value) <= limit.largest); });
@@ -63,7 +63,7 @@ nlohmann::json summary_of(const HistoryTable& history, const RunTotals& totals, 
   json["seconds_per_step"] = steps == 0 ? 0.0 : totals.seconds / static_cast<double>(steps);
   json["seconds_of_parts"] = totals.seconds_of_parts;
   json["peak_memory_bytes"] = peak_memory_bytes();
-  for (const Limit& limit : limits) json[limit.column] = largest_magnitude(history.column(limit.column));
+  for (const TrustLimit& limit : limits) json[limit.column] = largest_magnitude(history.column(limit.column));
   json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
   json["kernel_evaluations"] = totals.kernel_evaluations;
   json["version"] = program_version();

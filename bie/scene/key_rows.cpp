@@ -196,13 +196,24 @@ void add_electric_keys(KeyTable& table) {
 
 void add_numerics_keys(KeyTable& table) {
   table.begin("numerics");
-  table.add("order", {4, 64}, {"p", "1", "degree of the spherical harmonics"}, numerics, &NumericsScene::order);
-  table.add("dt", positive, {"Δt", "time", "largest time step"}, numerics, &NumericsScene::dt).required = true;
-  table.add("time_order", {1, highest_time_order},
+  table.add("tolerance", {1e-9, 0.1},
             {"", "1",
-             "order of a step in Δt: 1 the paper's scheme; 2, 3, 4 its deferred correction at 2, 5, 7 times the "
-             "work"},
-            numerics, &NumericsScene::time_order);
+             "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they are "
+             "fixed"},
+            numerics, &NumericsScene::tolerance);
+  table.add("order", {4, 64},
+            {"p", "1",
+             "degree of the spherical harmonics; with a tolerance the highest and that of the files, by default "
+             "8 (1 − log₁₀ tolerance) up to 64"},
+            numerics, &NumericsScene::order);
+  table.add("dt", positive, {"Δt", "time", "largest time step; required without a tolerance"}, numerics,
+            &NumericsScene::dt);
+  table.add(
+      "time_order", {1, highest_time_order},
+      {"", "1",
+       "order of a step in Δt: 1 the paper's scheme; 2 … 5 its deferred correction at 2, 5, 10, 13 times the work; "
+       "with a tolerance at least 2, by default 3 down to 1e-3, 5 below"},
+      numerics, &NumericsScene::time_order);
   table
       .add("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone"}, numerics,
            &NumericsScene::end_time)

@@ -1,5 +1,8 @@
 #include "bie/scene/model_of.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "bie/physics/gravity.hpp"
 #include "bie/physics/poiseuille_flow.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
@@ -91,10 +94,39 @@ Model model_of(const Scene& scene) {
   return model;
 }
 
+namespace {
+
+/// Of whatever alternates: steps near a whole period would see nothing change.
+double eighth_of_period(const Scene& scene) {
+  double result = std::numeric_limits<double>::infinity();
+  const auto add = [&](const std::optional<WaveformScene>& waveform) {
+    if (waveform && waveform->kind == WaveformKind::ac) result = std::min(result, 1.0 / (8.0 * waveform->frequency));
+  };
+  if (scene.flow) add(scene.flow->waveform);
+  if (scene.electric) add(scene.electric->waveform);
+  return result;
+}
+
+}  // namespace
+
+StepControl step_control_of(const Scene& scene) {
+  const NumericsScene& numerics = scene.numerics;
+  if (!numerics.tolerance) return fixed_steps(*numerics.dt);
+  constexpr double kSmallestFraction = 1e-9;
+  const double longest = std::max(numerics.end_time, std::numeric_limits<double>::min());
+  return {std::min({numerics.dt.value_or(longest), longest, eighth_of_period(scene)}), kSmallestFraction * longest,
+          *numerics.tolerance};
+}
+
 NumericalSettings settings_of(const Scene& scene) {
   NumericalSettings settings;
   settings.order = scene.numerics.order;
   settings.time_order = scene.numerics.time_order;
+  if (const std::optional<double> tolerance = scene.numerics.tolerance) {
+    // Far enough below what is asked for that solvers cost no digit, and no further.
+    settings.flow_tolerance = std::clamp(1e-3 * *tolerance, 1e-11, 1e-6);
+    settings.electric_tolerance = std::clamp(1e-3 * *tolerance, 1e-12, 1e-7);
+  }
   return settings;
 }
 

@@ -3,6 +3,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/stepping/discretisation.hpp"
 #include "bie/stepping/model.hpp"
+#include "bie/stepping/stepper.hpp"
 
 namespace vehd {
 
@@ -10,5 +11,8 @@ namespace vehd {
 Model model_of(const Scene& scene);
 
 NumericalSettings settings_of(const Scene& scene);
+
+/// Fixed steps, or those that a tolerance rules.
+StepControl step_control_of(const Scene& scene);
 
 }  // namespace vehd

@@ -5,6 +5,10 @@
 
 namespace vehd {
 
+EvolutionSetup setup_of(const Problem& problem) {
+  return {problem.model, problem.settings, problem.symmetry, problem.control};
+}
+
 Problem problem_of(const Scene& scene) { return problem_of(scene, model_of(scene)); }
 
 Problem problem_of(const Scene& scene, const Model& model) {
@@ -18,6 +22,8 @@ Problem problem_of(const Scene& scene, const Model& model) {
   start = turned(to_frame, std::move(start));
   const Symmetry found = find_symmetry(problem.model, start);
   problem.settings = settings_of(scene);
+  problem.steady_potential = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
+  problem.control = step_control_of(scene);
   problem.settings.longitude_fold = found.fold;
   if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = found;
   problem.position = std::move(start.position);

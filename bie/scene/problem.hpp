@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bie/scene/scene.hpp"
-#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/evolution.hpp"
 #include "bie/stepping/frame.hpp"
 #include "bie/stepping/symmetry.hpp"
 
@@ -12,9 +12,14 @@ struct Problem {
   Frame frame;
   Model model;
   NumericalSettings settings;
-  Symmetry symmetry;  ///< that the run uses: that of its start, or none where the scene says "off"
-  Matrix position;    ///< of the initial membrane, coefficients [n_coefficients x 3]
+  StepControl control;
+  Symmetry symmetry;              ///< that the run uses: that of its start, or none where the scene says "off"
+  Matrix position;                ///< of the initial membrane, coefficients [n_coefficients x 3]
+  bool steady_potential = false;  ///< V_m at time 0, otherwise zero
 };
+
+/// For an Evolution.
+EvolutionSetup setup_of(const Problem& problem);
 
 /// @throws InputError if the shape file cannot be used
 Problem problem_of(const Scene& scene);

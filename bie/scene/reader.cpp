@@ -147,6 +147,20 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
   }
 }
 
+/// What a tolerance makes the default, where the scene says nothing itself.
+void apply_tolerance(NumericsScene& numerics, const toml::table& file) {
+  if (!numerics.tolerance) return;
+  constexpr double kDegreesPerDigit = 8.0;
+  constexpr int kHighest = 64;
+  constexpr double kCoarse = 1e-3;
+  const toml::table& table = *find_table(file, "numerics");
+  if (!table.contains("time_order")) numerics.time_order = *numerics.tolerance >= kCoarse ? 3 : 5;
+  if (!table.contains("order")) {
+    numerics.order =
+        std::min(kHighest, static_cast<int>(std::ceil(kDegreesPerDigit * (1.0 - std::log10(*numerics.tolerance)))));
+  }
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& path) {
@@ -178,6 +192,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   }
   if (scene.flow && scene.flow->waveform) read_waveform_table(*scene.flow->waveform, folder);
   if (scene.electric && scene.electric->waveform) read_waveform_table(*scene.electric->waveform, folder);
+  apply_tolerance(scene.numerics, file);
   check_scene(scene, file, name);
   if (scene.shape.kind == ShapeKind::file) {
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();

@@ -111,8 +111,9 @@ struct ElectricScene {
 };
 
 struct NumericsScene {
-  int order = 16;
-  double dt = 0.0;
+  std::optional<double> tolerance;  ///< absent: fixed degree and steps
+  int order = 16;                   ///< with a tolerance: the highest degree
+  std::optional<double> dt;         ///< with a tolerance: the largest step, or none; without: always present
   int time_order = 1;
   double end_time = 0.0;
   SymmetryUse symmetry = SymmetryUse::automatic;

@@ -28,6 +28,7 @@ class Checks {
       : scene_(scene), table_(table), file_(file) {}
 
   void run() const {
+    check_steps();
     check_placement();
     if (scene_.shape.kind == ShapeKind::radial) check_radial_shape();
     if (scene_.flow && scene_.flow->kind == FlowKind::gradient) check_gradient();
@@ -84,7 +85,8 @@ class Checks {
       case WaveformKind::pulse:
         break;
       case WaveformKind::ac: {
-        const double steps = 1.0 / (waveform.frequency * scene_.numerics.dt);
+        if (!scene_.numerics.dt) break;
+        const double steps = 1.0 / (waveform.frequency * *scene_.numerics.dt);
         if (steps >= fewest_steps_a_period) break;
         refuse(table, "frequency",
                fmt::format("\"dt\" in [numerics] takes {:.3g} steps a period of [{}]; accepted: at least {:g}", steps,
@@ -167,12 +169,24 @@ class Checks {
     }
   }
 
+  void check_steps() const {
+    const NumericsScene& numerics = scene_.numerics;
+    if (!numerics.dt && !numerics.tolerance) {
+      refuse("numerics", "dt",
+             "missing key \"dt\" in [numerics] (largest time step); accepted: > 0, or a \"tolerance\"");
+    }
+    if (numerics.tolerance && numerics.time_order < 2) {
+      refuse("numerics", "time_order",
+             "\"time_order\" in [numerics] is 1, which has no error estimate; accepted with a tolerance: 2 to 5");
+    }
+  }
+
   void check_counts() const {
     const NumericsScene& numerics = scene_.numerics;
-    if (numerics.end_time / numerics.dt > most_steps) {
+    if (numerics.dt && numerics.end_time / *numerics.dt > most_steps) {
       refuse("numerics", "dt",
              fmt::format("end_time / dt in [numerics] asks for {:.3g} steps; accepted: at most {:g}",
-                         numerics.end_time / numerics.dt, most_steps));
+                         numerics.end_time / *numerics.dt, most_steps));
     }
     if (scene_.output.every && numerics.end_time / *scene_.output.every > most_snapshots) {
       refuse("output", "every",

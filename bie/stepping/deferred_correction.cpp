@@ -4,23 +4,13 @@
 #include <vector>
 
 #include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/time_rule.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
-
-/// Nodes c_1 … c_M = 1 and weights of ∫_0^{c_m} over the points 0, c_1, …, c_M.
-struct TimeRule {
-  std::vector<double> nodes;
-  Matrix weights;
-};
-
-TimeRule time_rule(int order) {
-  if (order == 1) return {{1.0}, Matrix::Zero(1, 2)};
-  if (order == 2) return {{1.0}, Matrix{{0.5, 0.5}}};
-  return {{0.5, 1.0}, Matrix{{5.0 / 24.0, 1.0 / 3.0, -1.0 / 24.0}, {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0}}};
-}
 
 /// F at one point.
 struct Rate {
@@ -42,18 +32,16 @@ StageResidual residual_of(const State& start, const Stage& stage, const std::vec
   return residual;
 }
 
+/// Largest change of x over the radius and of V_m over its scale.
 double change_of(const StageContext& context, const Stage& before, const Stage& after) {
-  const double radius = context.evaluation.parts->membrane.radius;
   const SphereTransform& fine = context.discretisation.fine_transform();
+  const double radius = context.evaluation.parts->membrane.radius;
   const Matrix moved = fine.synthesize(after.move.position - before.move.position);
-  double change = moved.rowwise().norm().maxCoeff() / radius;
+  const double change = moved.rowwise().norm().maxCoeff() / radius;
   if (!context.model.electric) return change;
-  const double scale =
-      std::max(context.model.electric->field.norm() * radius, fine.synthesize(after.potential).cwiseAbs().maxCoeff());
-  if (scale > 0.0) {
-    change = std::max(change, fine.synthesize(after.potential - before.potential).cwiseAbs().maxCoeff() / scale);
-  }
-  return change;
+  const double largest = fine.synthesize(after.potential).cwiseAbs().maxCoeff();
+  const double scale = potential_scale(*context.model.electric, radius, largest);
+  return std::max(change, fine.synthesize(after.potential - before.potential).cwiseAbs().maxCoeff() / scale);
 }
 
 }  // namespace
@@ -93,7 +81,8 @@ CorrectedStep deferred_correction(const StageContext& context, double dt, int or
           residual_of(context.state, stages[m], rates, rule.weights.row(static_cast<Index>(m)), dt);
       Stage corrected;
       const StageEnd end = finishes ? StageEnd::reparametrised : StageEnd::material;
-      if (!keep(corrected, corrected_stage(context, stages[m], residual, rule.nodes[m] * dt, end))) return {corrected};
+      if (!keep(corrected, corrected_stage(context, stages[m], residual, rule.implicit_sizes[m] * dt, end)))
+        return {corrected};
       if (finishes) result.change = change_of(context, stages[m], corrected);
       stages[m] = std::move(corrected);
     }

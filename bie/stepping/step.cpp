@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,32 +22,6 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
     if (result.accepted) result.state = arrived_state(context, corrected.stage);
   } catch (const ConvergenceError& error) {
     result.reason = error.what();
-  }
-  return result;
-}
-
-Advance advance(const Model& model, const Discretisation& discretisation, const State& state,
-                const Evaluation& evaluation, double dt_nominal, double dt_limit, Instruments& instruments) {
-  constexpr double kSmallestFraction = 1.0 / 1024.0;
-  constexpr double kRounding = 1e-9;
-  Advance result;
-  double wanted = std::min(state.dt_next, dt_nominal);
-  while (wanted >= kSmallestFraction * dt_nominal) {
-    // A limit that is the wanted step up to rounding is taken exactly: the caller has an appointment there.
-    const double dt = dt_limit <= wanted * (1.0 + kRounding) ? dt_limit : wanted;
-    const StepResult attempt = step(model, discretisation, state, evaluation, dt, instruments);
-    result.iterations_flow += attempt.iterations_flow;
-    result.iterations_electric += attempt.iterations_electric;
-    if (attempt.accepted) {
-      result.accepted = true;
-      result.state = attempt.state;
-      result.dt = dt;
-      result.state.dt_next = std::min(dt_nominal, result.rejected == 0 ? 2.0 * wanted : wanted);
-      return result;
-    }
-    result.reason = attempt.reason;
-    ++result.rejected;
-    wanted = 0.5 * dt;
   }
   return result;
 }

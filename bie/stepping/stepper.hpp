@@ -46,21 +46,33 @@ struct StepResult {
 StepResult step(const Model& model, const Discretisation& discretisation, const State& state,
                 const Evaluation& evaluation, double dt, Instruments& instruments);
 
+/// What rules the size of steps.
+struct StepControl {
+  double largest = 0.0;    ///< step size
+  double smallest = 0.0;   ///< below it no more attempts are made
+  double tolerance = 0.0;  ///< of StepResult::change; 0: the largest steps, smaller ones only where they fail
+};
+
+/// Steps of size dt, halved ten times at most where they fail.
+StepControl fixed_steps(double dt);
+
 /// One accepted step of size at most dt_limit, or the reason why there is none.
 struct Advance {
   bool accepted = false;
-  std::string reason;  ///< of the last rejection
-  State state;         ///< with dt_next set
-  double dt = 0.0;     ///< step size that was accepted
-  int rejected = 0;    ///< attempts that were thrown away
+  std::string reason;   ///< of the last rejection
+  State state;          ///< with dt_next set
+  double dt = 0.0;      ///< step size that was accepted
+  double change = 0.0;  ///< of the accepted step, see StepResult
+  int rejected = 0;     ///< attempts that were thrown away
   int iterations_flow = 0;
   int iterations_electric = 0;
 };
 
-/// Tries min(state.dt_next, dt_limit); halves after every rejection, down to dt_nominal / 1024; doubles dt_next
-/// back towards dt_nominal after every success.
+/// Tries min(state.dt_next, dt_limit); halves after every failure. With a tolerance, an attempt that changed by more is
+/// repeated with the step that its order makes just good enough, and dt_next follows the same law; without one, dt_next
+/// doubles back towards the largest after every success.
 Advance advance(const Model& model, const Discretisation& discretisation, const State& state,
-                const Evaluation& evaluation, double dt_nominal, double dt_limit, Instruments& instruments);
+                const Evaluation& evaluation, const StepControl& control, double dt_limit, Instruments& instruments);
 
 /// State at time 0 on the given shape: strain zero, V_m zero or steady (needs the electric model).
 State initial_state(const Model& model, const Discretisation& discretisation, const Matrix& position,

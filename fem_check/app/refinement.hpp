@@ -11,10 +11,10 @@ namespace vehd::fem_check {
 struct Refinement {
   int cells_per_edge = 3;
   int blend_layers = 1;
-  int shell_layers = 2;
+  int shell_layers = 3;
   /// Of the layers' thickness. The inner one is thin, as fields of the membrane's fine structure end within it, and a
   /// single layer of high degree carries the smooth rest.
-  double shell_growth = 6.0;
+  double shell_growth = 3.0;
   double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape
   int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
 
@@ -23,7 +23,7 @@ struct Refinement {
   double potential_target = 5e-6;  ///< estimated relative error at which degrees stop rising before the last
   double flow_target = 5e-5;
   double potential_tolerance = 1e-11;  ///< of the linear solvers
-  double flow_tolerance = 1e-9;
+  double flow_tolerance = 1e-7;
 
   static Refinement finest() { return {}; }
   /// Three levels each, ten seconds in all.

@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(values_are_divided_by_their_scale) {
   BOOST_TEST(scene.electric->field[2] == 1e4 / (1e-3 / 1e-5), tolerance);
   BOOST_TEST(scene.electric->conductivity_in == 0.01 / (energy / 1e-6 / 0.5 / 1e-5), tolerance);
   BOOST_TEST(scene.electric->permittivity == 80.0 * 8.8541878188e-12 / (energy / 1e-6 / 1e-5), tolerance);
-  BOOST_TEST(scene.numerics.dt == 0.02, tolerance);
+  BOOST_TEST(*scene.numerics.dt == 0.02, tolerance);
   BOOST_TEST(scene.numerics.end_time == 2.0, tolerance);
 }
 

@@ -38,7 +38,7 @@ CountedRun counted_run(const Model& model, const Matrix& position, double dt, do
   while (result.state.time < end_time - 1e-9) {
     const double target = std::min(end_time, next_corner(model, result.state.time).value_or(end_time));
     const double limit = std::min(dt, target - result.state.time);
-    Advance advanced = advance(model, discretisation, result.state, evaluation, dt, limit, instruments);
+    Advance advanced = advance(model, discretisation, result.state, evaluation, fixed_steps(dt), limit, instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     result.state = std::move(advanced.state);
     evaluation = evaluate(model, discretisation, result.state, instruments, &evaluation);

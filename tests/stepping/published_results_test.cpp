@@ -45,7 +45,7 @@ Diagnostics result_of(const Model& model, int order, const Matrix& position, dou
   Instruments instruments;
   while (state.time < end_time - 1e-9) {
     const Evaluation evaluation = evaluate(model, discretisation, state, instruments);
-    const Advance advanced = advance(model, discretisation, state, evaluation, dt, end_time - state.time, instruments);
+    const Advance advanced = advance(model, discretisation, state, evaluation, fixed_steps(dt), end_time - state.time, instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     state = advanced.state;
   }

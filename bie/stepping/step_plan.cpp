@@ -1,4 +1,4 @@
-#include "bie/app/step_plan.hpp"
+#include "bie/stepping/step_plan.hpp"
 
 #include <cmath>
 

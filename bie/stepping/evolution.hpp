@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+
+#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/step_plan.hpp"
+#include "bie/stepping/stepper.hpp"
+
+namespace vehd {
+
+/// What a run needs to know but for its start.
+struct EvolutionSetup {
+  Model model;
+  NumericalSettings settings;  ///< the degree is the highest that a run with a tolerance may take
+  Symmetry symmetry;
+  StepControl control;
+};
+
+/// What became of one step.
+struct EvolutionStep {
+  double dt = 0.0;
+  double change = 0.0;  ///< see StepResult
+  int rejected = 0;     ///< attempts that were thrown away
+  int iterations_flow = 0;
+  int iterations_electric = 0;
+  bool at_snapshot = false;
+};
+
+/// A membrane on its way through time. With a tolerance the degree follows the spectrum of the state: it rises, and the
+/// step is taken again, where the degrees left out would matter, and falls where they have long ceased to.
+class Evolution {
+ public:
+  /// From a shape at time 0, V_m zero or steady. @throws ConvergenceError
+  Evolution(EvolutionSetup setup, const Matrix& position, bool steady_potential, Instruments& instruments);
+  /// From a state of such a run.
+  Evolution(EvolutionSetup setup, State state, Instruments& instruments);
+  ~Evolution();
+
+  /// Solves everything at the start; before the first step. @throws ConvergenceError
+  void evaluate_start();
+
+  /// One accepted step towards the next of the given times.
+  /// @throws ConvergenceError where no step is acceptable; the state is the last good one
+  EvolutionStep step(const EventTimes& events);
+
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] const Evaluation& evaluation() const { return evaluation_; }
+  [[nodiscard]] int order() const { return discretisation_->order(); }
+  /// Estimated share of what the degree leaves out, see Resolution.
+  [[nodiscard]] double truncation() const;
+
+ private:
+  [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
+  void change_order(int order);
+  Advance advance_within(const StepPlan& plan, EvolutionStep& record);
+  bool raise_order_for(const State& reached);
+  void lower_order_if_idle();
+
+  EvolutionSetup setup_;
+  Instruments& instruments_;
+  std::unique_ptr<Discretisation> discretisation_;
+  State state_;
+  Evaluation evaluation_;
+};
+
+}  // namespace vehd

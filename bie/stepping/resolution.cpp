@@ -1,0 +1,91 @@
+#include "bie/stepping/resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// max |f_n| ≤ |coefficients of degree n| √((2n+1)/4π), by the addition theorem.
+Vector degree_bounds(const Matrix& coefficients) {
+  const int order = order_of(coefficients.rows());
+  Vector bounds(order + 1);
+  for (int n = 0; n <= order; ++n) {
+    const double norm = coefficients.middleRows(coefficient_index(n, -n), 2 * n + 1).norm();
+    bounds[n] = norm * std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi));
+  }
+  return bounds;
+}
+
+}  // namespace
+
+double potential_scale(const ElectricParameters& electric, double radius, double largest) {
+  constexpr double kLeastShare = 0.1;
+  constexpr double kTiny = 1e-300;
+  return std::max({largest, kLeastShare * electric.field.norm() * radius, kTiny});
+}
+
+Resolution::Resolution(const Model& model, const State& state) {
+  const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
+  bound_ = degree_bounds(state.position) / radius;
+  bound_[0] = 0.0;  // where the vesicle is
+  if (model.electric && state.transmembrane_potential.size() > 0) {
+    const Vector potential = degree_bounds(state.transmembrane_potential);
+    bound_ = bound_.cwiseMax(potential / potential_scale(*model.electric, radius, potential.maxCoeff()));
+  }
+  // Symmetry can silence every other degree.
+  for (Index n = bound_.size() - 2; n >= 0; --n) bound_[n] = std::max(bound_[n], bound_[n + 1]);
+  constexpr double kSlowest = 0.97;
+  constexpr double kFloor = 1e-16;
+  const Index last = bound_.size() - 1;
+  const Index middle = last / 2;
+  const double end = std::max({bound_[last], bound_[last - 1], kFloor});
+  decay_ =
+      std::min(kSlowest, std::pow(end / std::max(bound_[middle], kFloor), 1.0 / static_cast<double>(last - middle)));
+}
+
+double Resolution::remainder_at(int order) const {
+  const int last = static_cast<int>(bound_.size()) - 1;
+  const double beyond = bound_[std::max(0, last - 1)] * decay_ / (1.0 - decay_);
+  if (order >= last) return beyond * std::pow(decay_, order - last);
+  return beyond + bound_.tail(last - order).sum();
+}
+
+double Resolution::remainder() const { return remainder_at(static_cast<int>(bound_.size()) - 1); }
+
+int Resolution::order_for(double target, int lowest, int highest) const {
+  int order = lowest + lowest % 2;
+  while (order < highest && remainder_at(order) > target) order += 2;
+  return std::min(order, highest);
+}
+
+Matrix resized(const Matrix& coefficients, int order) {
+  if (coefficients.size() == 0) return coefficients;
+  const Index rows = n_coefficients(order);
+  Matrix result = Matrix::Zero(rows, coefficients.cols());
+  const Index kept = std::min(rows, coefficients.rows());
+  result.topRows(kept) = coefficients.topRows(kept);
+  return result;
+}
+
+State resized(State state, int order) {
+  state.position = resized(state.position, order);
+  for (Vector* field : {&state.transmembrane_potential, &state.tension, &state.area_strain}) {
+    *field = resized(Matrix(*field), order);
+  }
+  return state;
+}
+
+Fields resized(Fields fields, int order) {
+  for (Matrix* field : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric}) {
+    *field = resized(*field, order);
+  }
+  for (Vector* field : {&fields.charge, &fields.tension}) *field = resized(Matrix(*field), order);
+  return fields;
+}
+
+}  // namespace vehd

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Nodes of one step of size 1 and how deferred correction works on them.
+struct TimeRule {
+  std::vector<double> nodes;  ///< c_1 < … < c_M = 1
+  Matrix weights;             ///< q_mj of ∫_0^{c_m} over the points 0, c_1, …, c_M, [M x M+1]
+  /// d_m: a correction at node m is an implicit step of size d_m. They make I − D⁻¹Q nilpotent: what is infinitely
+  /// stiff is settled after M sweeps, while steps of the sizes c_m leave a part of it (0.67 for M = 2) at every sweep.
+  std::vector<double> implicit_sizes;
+};
+
+/// Order 1: the implicit Euler method. Order 2: the trapezoidal rule. Order 3: Radau IIA with two nodes. Orders 4 and
+/// 5: Radau IIA with three, whose own order is 5. Radau methods forget what is infinitely stiff within the step.
+TimeRule time_rule(int order);
+
+/// Highest order that has a rule.
+constexpr int highest_time_order = 5;
+
+}  // namespace vehd
