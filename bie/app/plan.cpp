@@ -11,13 +11,13 @@
 
 #include "bie/app/file_system.hpp"
 #include "bie/app/run_loop.hpp"
-#include "bie/stepping/step_plan.hpp"
 #include "bie/app/summary.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
 #include "bie/stepping/deferred_correction.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/step_plan.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

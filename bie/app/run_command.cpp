@@ -70,10 +70,10 @@ void plot_if_possible(const RunPaths& paths) {
   }
 }
 
-nlohmann::json summarise(const RunPaths& paths, const RunOutcome& outcome) {
+nlohmann::json summarise(const RunPaths& paths, const Scene& scene, const RunOutcome& outcome) {
   const Checkpoint checkpoint = read_checkpoint(paths.checkpoint());
-  const nlohmann::json summary =
-      summary_of(HistoryTable(paths.history()), checkpoint.totals, outcome.completed, outcome.reason);
+  const nlohmann::json summary = summary_of(HistoryTable(paths.history()), scene.numerics.tolerance, checkpoint.totals,
+                                            outcome.completed, outcome.reason);
   replace_file(paths.summary(), summary.dump(2) + "\n");
   return summary;
 }
@@ -104,7 +104,7 @@ ExitCode run(const RunOptions& options) {
   interruption.reset();
   nlohmann::json summary;
   try {
-    summary = summarise(paths, outcome);
+    summary = summarise(paths, scene, outcome);
   } catch (const OutputError& error) {
     // With a full disk there is no summary either; what matters is that the run can be continued.
     if (outcome.completed) throw;

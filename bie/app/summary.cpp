@@ -18,8 +18,8 @@ struct TrustLimit {
   const char* column;
   double largest;
 };
-constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6}, TrustLimit{"strain_max", 0.05},
-                               TrustLimit{"spectrum_tail", 5e-3}};
+constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6},
+                               TrustLimit{"strain_max", 0.05}, TrustLimit{"spectrum_tail", 5e-3}};
 
 double largest_magnitude(const std::vector<double>& values) {
   double largest = 0.0;
@@ -34,9 +34,12 @@ double last(const std::vector<double>& values) { return values.empty() ? 0.0 : v
 
 }  // namespace
 
-std::string verdict_of(const HistoryTable& history) {
+std::string verdict_of(const HistoryTable& history, std::optional<double> tolerance) {
   std::string findings;
-  for (const TrustLimit& limit : limits) {
+  std::vector<TrustLimit> all(limits.begin(), limits.end());
+  // The highest degree that the scene allows was not enough.
+  if (tolerance) all.push_back({"truncation", *tolerance});
+  for (const TrustLimit& limit : all) {
     const std::vector<double>& values = history.column(limit.column);
     const auto first =
         std::find_if(values.begin(), values.end(), [&](double value) { return !(std::abs(value) <= limit.largest); });
@@ -48,13 +51,13 @@ std::string verdict_of(const HistoryTable& history) {
   return findings.empty() ? "trustworthy" : findings;
 }
 
-nlohmann::json summary_of(const HistoryTable& history, const RunTotals& totals, bool completed,
-                          const std::string& reason) {
+nlohmann::json summary_of(const HistoryTable& history, std::optional<double> tolerance, const RunTotals& totals,
+                          bool completed, const std::string& reason) {
   const auto& rejected = history.column("rejected");
   const std::int64_t steps = std::max<std::int64_t>(0, static_cast<std::int64_t>(history.n_rows()) - 1);
   nlohmann::json json;
   json["completed"] = completed;
-  json["verdict"] = verdict_of(history);
+  json["verdict"] = verdict_of(history, tolerance);
   if (!reason.empty()) json["reason"] = reason;
   json["time"] = last(history.column("time"));
   json["steps"] = steps;
@@ -64,6 +67,8 @@ nlohmann::json summary_of(const HistoryTable& history, const RunTotals& totals, 
   json["seconds_of_parts"] = totals.seconds_of_parts;
   json["peak_memory_bytes"] = peak_memory_bytes();
   for (const TrustLimit& limit : limits) json[limit.column] = largest_magnitude(history.column(limit.column));
+  json["order_max"] = largest_magnitude(history.column("order"));
+  json["truncation"] = largest_magnitude(history.column("truncation"));
   json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
   json["kernel_evaluations"] = totals.kernel_evaluations;
   json["version"] = program_version();

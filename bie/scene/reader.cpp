@@ -152,9 +152,9 @@ void apply_tolerance(NumericsScene& numerics, const toml::table& file) {
   if (!numerics.tolerance) return;
   constexpr double kDegreesPerDigit = 8.0;
   constexpr int kHighest = 64;
-  constexpr double kCoarse = 1e-3;
+  constexpr double kCoarse = 1e-4;
   const toml::table& table = *find_table(file, "numerics");
-  if (!table.contains("time_order")) numerics.time_order = *numerics.tolerance >= kCoarse ? 3 : 5;
+  if (!table.contains("time_order")) numerics.time_order = *numerics.tolerance >= kCoarse ? 4 : 5;
   if (!table.contains("order")) {
     numerics.order =
         std::min(kHighest, static_cast<int>(std::ceil(kDegreesPerDigit * (1.0 - std::log10(*numerics.tolerance)))));

@@ -15,7 +15,7 @@ namespace vehd {
 
 namespace {
 
-constexpr int kMaxPasses = 16;
+constexpr int kMaxPasses = 24;
 /// Every pass starts from the full residual, so it needs no more digits than its linearisation is worth.
 constexpr double kPassTolerance = 1e-2;
 /// Smaller changes of H, relative to H, are those of a shape at rest.
@@ -60,6 +60,12 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
   Vector normal_divergence;
   if (model.inextensible) {
     normal_divergence = weighted_divergence(membrane, membrane.fine.synthesize_gradient(normal));
+  }
+
+  // A compression would soften the implicit response.
+  Vector held_tension;
+  if (start.held_tension.size() > 0) {
+    held_tension = membrane.fine.synthesize(start.held_tension).col(0).cwiseMax(0.0);
   }
 
   ConstrainedMove move;
@@ -121,14 +127,14 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
       rhs.divergence = -weighted_strain / dt - push * normal_divergence;
     }
     MembraneUnknowns increment;
-    const SolveReport report = solve_flow(model, membrane, dt, rhs, {kPassTolerance, false}, increment);
+    const SolveReport report = solve_flow(model, membrane, dt, rhs, {kPassTolerance, false, held_tension}, increment);
     move.iterations += report.iterations;
     if (!report.converged) {
       move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations", report.residual,
                                 report.iterations);
       return move;
     }
-    velocity += push * normal + membrane_velocity(model, membrane, increment);
+    velocity += push * normal + membrane_velocity(model, membrane, increment, held_tension);
     if (bending) curvature += increment.curvature;
     if (model.inextensible) move.tension += increment.tension;
   }

@@ -25,6 +25,7 @@ struct MoveStart {
   Matrix position;  ///< coefficients
   Matrix velocity;  ///< before the implicit increments
   Vector tension;
+  Vector held_tension{};  ///< coefficients, of which the positive part counts; empty: none, see membrane_velocity
 };
 
 /// Turns a move into the fields of the new state, coefficients with x in the first three columns.

@@ -1,5 +1,6 @@
 #include "bie/stepping/flow_solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -15,12 +16,19 @@ VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficient
           hessian ? membrane.fine.synthesize_hessian(coefficients) : membrane.fine.synthesize_gradient(coefficients)};
 }
 
-Matrix membrane_velocity(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns) {
+Matrix membrane_velocity(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns,
+                         const Vector& held_tension) {
   if (unknowns.curvature.size() == 0 && unknowns.tension.size() == 0) {
     return Matrix::Zero(n_coefficients(membrane.fine.order()), 3);
   }
   Matrix force = Matrix::Zero(membrane.surface.n_points(), 3);
-  if (unknowns.curvature.size() > 0) force += linearised_bending_force(*model.bending, membrane, unknowns.curvature);
+  if (unknowns.curvature.size() > 0) {
+    force += linearised_bending_force(*model.bending, membrane, unknowns.curvature);
+    if (held_tension.size() > 0) {
+      const Vector increment = membrane.fine.synthesize(unknowns.curvature).col(0);
+      force += 2.0 * held_tension.cwiseProduct(increment).asDiagonal() * membrane.surface.normal;
+    }
+  }
   if (unknowns.tension.size() > 0) force += tension_force(membrane, unknowns.tension);
   return membrane.velocity(membrane.layers.stokes_single.apply(membrane.weighted(force)) / model.viscosity);
 }
@@ -53,7 +61,8 @@ SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, 
       0.1 * sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0, model.viscosity_ratio}, 2)(1, 1);
   const bool pinned = n_tension > 0 && options.pin_uniform_tension;
   const LinearMap map = [&](const Vector& v) {
-    const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, unpack(v)), bending);
+    const VelocityField u =
+        velocity_field(membrane, membrane_velocity(model, membrane, unpack(v), options.held_tension), bending);
     Vector result(size);
     if (bending) result.head(n) = v.head(n) - dt * curvature_increment(membrane, u.derivatives);
     if (n_tension > 0) result.tail(n) = weighted_divergence(membrane, u.derivatives);
@@ -61,8 +70,10 @@ SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, 
     return result;
   };
 
-  const SphereFlow sphere{membrane.radius, model.viscosity, bending ? model.bending->modulus : 0.0, dt,
-                          model.viscosity_ratio};
+  const Vector& area = membrane.surface.quadrature;
+  const double mean_tension = options.held_tension.size() > 0 ? options.held_tension.dot(area) / area.sum() : 0.0;
+  const SphereFlow sphere{membrane.radius,       model.viscosity, bending ? model.bending->modulus : 0.0, dt,
+                          model.viscosity_ratio, mean_tension};
   std::vector<Eigen::Matrix2d> inverse;
   for (int degree = 0; degree <= membrane.fine.order(); ++degree) {
     Eigen::Matrix2d block = sphere_flow_block(sphere, degree);

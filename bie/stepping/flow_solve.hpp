@@ -6,9 +6,11 @@
 
 namespace vehd {
 
-/// Response of the membrane forces that depend on the unknowns: velocity u = S[F h + T λ]/μ, through the velocity map
-/// of a viscosity contrast if there is one, of a curvature increment h (F of Eq. (28a)) and a tension λ (T of Eq.
-/// (28c)). Scalars of degree p replace the three components of x^{n+1}: (27a) needs x^{n+1} only through H^{n+1}.
+/// Response of the membrane forces that depend on the unknowns: velocity u = S[F h + 2 λ_0 h n + T λ]/μ, through the
+/// velocity map of a viscosity contrast if there is one, of a curvature increment h (F of Eq. (28a)) and a tension λ (T
+/// of Eq. (28c)). Scalars of degree p replace the three components of x^{n+1}: (27a) needs x^{n+1} only through
+/// H^{n+1}. The held tension λ_0 is what the change of H does to a tension that is there already; the paper's scheme
+/// leaves it out, deferred corrections converge the better the more of the true response is implicit.
 struct MembraneUnknowns {
   Vector curvature;  ///< h; empty without bending
   Vector tension;    ///< λ; empty unless inextensible
@@ -23,7 +25,9 @@ struct VelocityField {
 VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficients, bool hessian);
 
 /// u of the unknowns, coefficients.
-Matrix membrane_velocity(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns);
+/// @param held_tension  λ_0 ≥ 0 on the upsampled grid; empty: zero
+Matrix membrane_velocity(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns,
+                         const Vector& held_tension = {});
 
 /// Right-hand side of the coupled system: h − dt Hop(u) = curvature, J ∇_γ·u = divergence for u = membrane_velocity.
 struct FlowRightHandSide {
@@ -35,6 +39,7 @@ struct FlowOptions {
   double tolerance = 1e-9;
   /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
   bool pin_uniform_tension = false;
+  Vector held_tension{};  ///< see membrane_velocity
 };
 
 /// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and

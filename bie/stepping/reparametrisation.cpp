@@ -1,5 +1,6 @@
 #include "bie/stepping/reparametrisation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bie/sphere/harmonics.hpp"
@@ -35,34 +36,89 @@ SphereVectors smoothing_gradient(const SphereTransform& fine, const Surface& s, 
   return {values.cwiseProduct(s.dual_1).rowwise().sum(), values.cwiseProduct(s.dual_2).rowwise().sum()};
 }
 
+/// Unit vectors to points of the parameter sphere, [n x 3].
+using Directions = Matrix;
+
+struct Angles {
+  Vector theta, phi;
+};
+
+Angles angles_of(const Directions& r) {
+  Angles angles{Vector(r.rows()), Vector(r.rows())};
+  for (Index i = 0; i < r.rows(); ++i) {
+    angles.theta[i] = std::atan2(std::hypot(r(i, 0), r(i, 1)), r(i, 2));
+    angles.phi[i] = std::atan2(r(i, 1), r(i, 0));
+  }
+  return angles;
+}
+
+/// The nodes r̂ and vectors given along e_θ and e_φ there, both as [n x 3] in Cartesian components.
+struct NodeVectors {
+  Directions r;
+  Matrix vectors;
+};
+
+NodeVectors cartesian(const SphereGrid& grid, const SphereVectors& field) {
+  NodeVectors result{Directions(grid.n_points(), 3), Matrix(grid.n_points(), 3)};
+  for (Index i = 0; i < grid.n_points(); ++i) {
+    const double theta = grid.theta[i / grid.n_phi];
+    const double phi = grid.phi[i % grid.n_phi];
+    const Vector3 meridian(std::cos(phi), std::sin(phi), 0.0);
+    const Vector3 along_theta = std::cos(theta) * meridian - std::sin(theta) * Vector3::UnitZ();
+    const Vector3 along_phi(-meridian.y(), meridian.x(), 0.0);
+    result.r.row(i) = std::sin(theta) * meridian + std::cos(theta) * Vector3::UnitZ();
+    result.vectors.row(i) = field.d1[i] * along_theta + field.d2[i] * along_phi;
+  }
+  return result;
+}
+
+/// r̂ moved by −vector, of which the tangential part counts, along great circles.
+Directions moved_back(const Directions& r, const Matrix& vectors) {
+  Directions result(r.rows(), 3);
+  for (Index i = 0; i < r.rows(); ++i) {
+    const Vector3 from = r.row(i);
+    const Vector3 way = Vector3(vectors.row(i)) - from.dot(Vector3(vectors.row(i))) * from;
+    const double length = way.norm();
+    const double sinc = length < 1e-8 ? 1.0 : std::sin(length) / length;
+    result.row(i) = std::cos(length) * from - sinc * way;
+  }
+  return result;
+}
+
+/// Cartesian components of the sliding at the middle of the way, which keeps areas to third order: [n x 3]. Degrees
+/// whose wavelength the step slides past fade out.
+Matrix midway_sliding(const SphereTransform& fine, const SphereVectors& sliding) {
+  constexpr double kLargestPhase = 1.5;
+  const NodeVectors at_nodes = cartesian(fine.grid(), sliding);
+  const double length = at_nodes.vectors.rowwise().norm().maxCoeff();
+  const auto share = [&](int degree) { return 1.0 / (1.0 + std::pow(degree * length / kLargestPhase, 8)); };
+  Matrix series = fine.analyze(at_nodes.vectors);
+  const Matrix beyond = at_nodes.vectors - fine.synthesize(series);
+  for (int n = 1; n <= fine.order(); ++n) {
+    series.middleRows(coefficient_index(n, -n), 2 * n + 1) *= share(n);
+  }
+  const Matrix start = fine.synthesize(series);
+  const Angles middle = angles_of(moved_back(at_nodes.r, 0.5 * start));
+  return evaluate_harmonics(series, middle.theta, middle.phi) + share(fine.order() + 1) * beyond;
+}
+
+Matrix carried(const SphereTransform& fine, const Matrix& fields, const Directions& from) {
+  const Angles angles = angles_of(from);
+  return fine.analyze(evaluate_harmonics(fields, angles.theta, angles.phi));
+}
+
 }  // namespace
 
-Matrix reparametrise(const SphereTransform& fine, const Surface& surface, const Matrix& position,
-                     const Matrix& displacement, const Matrix& fields) {
-  const SphereVectors sliding = sliding_part(fine, surface, displacement);
-  const SphereVectors smoothing = smoothing_gradient(fine, surface, position);
-  const SphereGrid& grid = fine.grid();
-  Vector theta(grid.n_points());
-  Vector phi(grid.n_points());
-  for (int j = 0; j < grid.n_theta; ++j) {
-    const double cos_theta = std::cos(grid.theta[j]);
-    const double sin_theta = std::sin(grid.theta[j]);
-    for (int k = 0; k < grid.n_phi; ++k) {
-      const Index i = Index{j} * grid.n_phi + k;
-      const double d1 = -sliding.d1[i] - smoothing.d1[i];
-      const double d2 = -sliding.d2[i] - smoothing.d2[i];
-      // Great circle from the node in the direction d; along the meridian frame (r̂, e_θ, e_φ) of the node.
-      const double length = std::hypot(d1, d2);
-      const double sinc = length < 1e-8 ? 1.0 : std::sin(length) / length;
-      const double radial = std::cos(length);
-      const double x = radial * sin_theta + sinc * d1 * cos_theta;
-      const double y = sinc * d2;
-      const double z = radial * cos_theta - sinc * d1 * sin_theta;
-      theta[i] = std::atan2(std::hypot(x, y), z);
-      phi[i] = grid.phi[k] + std::atan2(y, x);
-    }
-  }
-  return fine.analyze(evaluate_harmonics(fields, theta, phi));
+Matrix reparametrise(const SphereTransform& fine, const Surface& surface, const Matrix& displacement,
+                     const Matrix& fields) {
+  const Matrix sliding = midway_sliding(fine, sliding_part(fine, surface, displacement));
+  const SphereVectors none{Vector::Zero(sliding.rows()), Vector::Zero(sliding.rows())};
+  const Directions nodes = cartesian(fine.grid(), none).r;
+  // Smoothing answers to the shape at its new nodes. Taken at the old ones it would be out of phase with modes whose
+  // wavelength the sliding of one step passes, and would feed them.
+  const Matrix slid = carried(fine, fields.leftCols(3), moved_back(nodes, sliding));
+  const SphereVectors smoothing = smoothing_gradient(fine, make_surface(fine, slid), slid);
+  return carried(fine, fields, moved_back(nodes, sliding + cartesian(fine.grid(), smoothing).vectors));
 }
 
 }  // namespace vehd

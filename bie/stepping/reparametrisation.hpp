@@ -18,13 +18,12 @@ SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, 
 /// for every column of `fields` by spectral evaluation. Φ undoes the part of the last displacement that only slides
 /// points along the surface (the divergence-free part of the tangential velocity, which shears a grid without end
 /// in tank-treading while area elements stay), and descends the energy of the high degrees of x (Veerapaneni et al.
-/// 2011) by one step.
+/// 2011) by one step. Sliding of degrees whose wavelength one step passes is left: undoing it would feed them.
 /// @param fine     degree p ↔ upsampled grid
 /// @param surface  on the upsampled grid, at the material nodes
-/// @param position coefficients of x at the material nodes
 /// @param displacement  dt u, coefficients: the last move of the material
-/// @param fields   coefficients of whatever rides on the material, x among them
-Matrix reparametrise(const SphereTransform& fine, const Surface& surface, const Matrix& position,
-                     const Matrix& displacement, const Matrix& fields);
+/// @param fields   coefficients of whatever rides on the material, x in the first three columns
+Matrix reparametrise(const SphereTransform& fine, const Surface& surface, const Matrix& displacement,
+                     const Matrix& fields);
 
 }  // namespace vehd

@@ -13,7 +13,9 @@ Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
   const double mobility = 1.0 / (sphere.viscosity * sphere.radius);
 
   // Coefficients of u on V and W for unit h and unit λ.
-  const double bending = sphere.bending_modulus * n * (n + 1.0) / odd * mobility;
+  const double stiffness =
+      sphere.bending_modulus * n * (n + 1.0) + 2.0 * sphere.held_tension * sphere.radius * sphere.radius;
+  const double bending = stiffness / odd * mobility;
   const double bending_v = -bending * layer_v;
   const double bending_w = bending * layer_w;
   const double tension = sphere.radius / odd * mobility;

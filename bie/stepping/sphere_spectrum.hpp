@@ -11,6 +11,7 @@ struct SphereFlow {
   double bending_modulus;  ///< 0 without bending
   double dt;
   double viscosity_ratio = 1.0;
+  double held_tension = 0.0;  ///< of the force 2 held_tension h n, see membrane_velocity
 };
 
 /// The coupled system of solve_flow on a sphere, degree n: rows curvature and divergence, columns h and λ.

@@ -37,8 +37,7 @@ Landing landing_of(const StageContext& context, const Vector& potential, StageEn
     if (end == StageEnd::material) return fields;
     const auto timer = context.instruments.time("reparametrisation");
     const SphereTransform& fine = context.discretisation.fine_transform();
-    return reparametrise(fine, make_surface(fine, move.position), move.position, move.position - context.state.position,
-                         fields);
+    return reparametrise(fine, make_surface(fine, move.position), move.position - context.state.position, fields);
   };
 }
 
@@ -65,6 +64,12 @@ void keep(Stage& stage, ConstrainedMove move) {
   if (!move.accepted) stage.reason = move.reason;
   stage.move = std::move(move);
   require_finite(stage);
+}
+
+/// The first-order scheme is the paper's and holds none.
+Vector held_tension(const StageContext& context) {
+  const bool corrected = context.discretisation.settings().time_order > 1;
+  return corrected && context.model.inextensible ? context.evaluation.fields.tension : Vector();
 }
 
 bool charges(const StageContext& context) {
@@ -110,9 +115,11 @@ Stage first_order_stage(const StageContext& context, double dt, StageEnd end) {
   const Evaluation::Parts& parts = *context.evaluation.parts;
   const Vector& tension = context.evaluation.fields.tension;
   const Landing landing = landing_of(context, stage.potential, end);
-  keep(stage, parts.is_sphere ? rigid_sphere_move(context.state, parts, tension, dt, landing)
-                              : constrained_move(context.model, context.discretisation, context.state, parts,
-                                                 {context.state.position, parts.velocity, tension}, dt, landing));
+  keep(stage,
+       parts.is_sphere
+           ? rigid_sphere_move(context.state, parts, tension, dt, landing)
+           : constrained_move(context.model, context.discretisation, context.state, parts,
+                              {context.state.position, parts.velocity, tension, held_tension(context)}, dt, landing));
   return stage;
 }
 
@@ -139,8 +146,10 @@ Stage corrected_stage(const StageContext& context, const Stage& stage, const Sta
   if (parts.is_sphere) {
     keep(result, rigid_sphere_move(context.state, parts, stage.move.tension, dt, landing));
   } else {
-    keep(result, constrained_move(context.model, context.discretisation, context.state, parts,
-                                  {stage.move.position, residual.position / dt, stage.move.tension}, dt, landing));
+    keep(result,
+         constrained_move(context.model, context.discretisation, context.state, parts,
+                          {stage.move.position, residual.position / dt, stage.move.tension, held_tension(context)}, dt,
+                          landing));
   }
   return result;
 }

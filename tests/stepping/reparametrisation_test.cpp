@@ -17,7 +17,7 @@ struct Tables {
   [[nodiscard]] Surface surface(const Matrix& position) const { return make_surface(fine, position); }
   /// x after one reparametrisation that follows the given displacement.
   [[nodiscard]] Matrix moved(const Matrix& position, const Matrix& displacement, const Matrix& fields) const {
-    return reparametrise(fine, surface(position), position, displacement, fields);
+    return reparametrise(fine, surface(position), displacement, fields);
   }
 };
 

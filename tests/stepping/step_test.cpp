@@ -15,8 +15,8 @@ Matrix example_3_shape(int order) { return ellipsoid(order, {2.0, 1.0, 1.0}); }
 Advance advanced(const Model& model, const Discretisation& discretisation, const State& state, double dt_nominal,
                  double dt_limit) {
   Instruments instruments;
-  return advance(model, discretisation, state, evaluate(model, discretisation, state, instruments), fixed_steps(dt_nominal),
-                 dt_limit, instruments);
+  return advance(model, discretisation, state, evaluate(model, discretisation, state, instruments),
+                 fixed_steps(dt_nominal), dt_limit, instruments);
 }
 
 }  // namespace

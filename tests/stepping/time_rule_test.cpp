@@ -1,0 +1,51 @@
+#include "bie/stepping/time_rule.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+using namespace vehd;
+
+BOOST_AUTO_TEST_SUITE(time_rules)
+
+BOOST_AUTO_TEST_CASE(weights_integrate_polynomials_from_the_start_to_every_node) {
+  for (int order = 2; order <= highest_time_order; ++order) {
+    const TimeRule rule = time_rule(order);
+    const int n_nodes = static_cast<int>(rule.nodes.size());
+    BOOST_TEST(rule.nodes.back() == 1.0);
+    for (int degree = 0; degree < n_nodes; ++degree) {
+      for (int m = 0; m < n_nodes; ++m) {
+        double sum = degree == 0 ? rule.weights(m, 0) : 0.0;
+        for (int j = 0; j < n_nodes; ++j) sum += rule.weights(m, j + 1) * std::pow(rule.nodes[j], degree);
+        BOOST_TEST(std::abs(sum - std::pow(rule.nodes[m], degree + 1) / (degree + 1)) < 1e-14, order << " " << m);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(whole_step_is_integrated_to_the_order_of_radau) {
+  for (const int order : {3, 4, 5}) {
+    const TimeRule rule = time_rule(order);
+    const int n_nodes = static_cast<int>(rule.nodes.size());
+    for (int degree = 0; degree <= 2 * n_nodes - 2; ++degree) {
+      double sum = 0.0;
+      for (int j = 0; j < n_nodes; ++j) sum += rule.weights(n_nodes - 1, j + 1) * std::pow(rule.nodes[j], degree);
+      BOOST_TEST(std::abs(sum - 1.0 / (degree + 1)) < 1e-14, order << " " << degree);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(as_many_sweeps_as_nodes_settle_what_is_infinitely_stiff) {
+  for (const int order : {3, 4, 5}) {
+    const TimeRule rule = time_rule(order);
+    const Index n_nodes = static_cast<Index>(rule.nodes.size());
+    const Vector sizes = Eigen::Map<const Vector>(rule.implicit_sizes.data(), n_nodes);
+    const Matrix error =
+        Matrix::Identity(n_nodes, n_nodes) - sizes.cwiseInverse().asDiagonal() * rule.weights.rightCols(n_nodes);
+    Matrix power = Matrix::Identity(n_nodes, n_nodes);
+    for (Index sweep = 0; sweep < n_nodes; ++sweep) power = power * error;
+    BOOST_TEST(power.cwiseAbs().maxCoeff() < 1e-13);
+    BOOST_TEST(error.cwiseAbs().maxCoeff() > 0.1);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
