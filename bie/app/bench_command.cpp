@@ -20,7 +20,7 @@ struct PartsOptions {
 
 struct TimeOptions {
   std::string scene_file;
-  std::vector<double> steps;
+  std::vector<double> steps, tolerances;
   double at = 0.0;
   CommonOptions common;
 };
@@ -50,19 +50,26 @@ void add_parts(CLI::App& bench, ExitCode& exit_code) {
 }
 
 void add_time(CLI::App& bench, ExitCode& exit_code) {
-  CLI::App* command = bench.add_subcommand("time", "Values, seconds and observed order against the step size");
+  CLI::App* command =
+      bench.add_subcommand("time", "Values or errors and seconds against the step size or the tolerance");
   const auto options = std::make_shared<TimeOptions>();
   command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
-  command->add_option("--dt", options->steps, "Step sizes, each half of the one before")
+  auto* choice = command->add_option_group("what varies");
+  choice->add_option("--dt", options->steps, "Step sizes, each half of the one before")
       ->delimiter(',')
-      ->required()
       ->check(CLI::PositiveNumber);
+  choice->add_option("--tolerance", options->tolerances, "Tolerances, falling; the last is the reference")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-9, 0.1));
+  choice->require_option(1);
   command->add_option("--at", options->at, "Time at which the values are taken")
       ->required()
       ->check(CLI::PositiveNumber);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
-    write_json(options->common, bench_time(read_scene(options->scene_file), options->steps, options->at));
+    const Scene scene = read_scene(options->scene_file);
+    write_json(options->common, options->steps.empty() ? bench_tolerance(scene, options->tolerances, options->at)
+                                                       : bench_time(scene, options->steps, options->at));
     exit_code = ExitCode::done;
   });
 }

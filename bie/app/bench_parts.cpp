@@ -51,6 +51,8 @@ StepCost time_steps(const Scene& scene, int repeats) {
 }  // namespace
 
 nlohmann::json bench_parts(Scene scene, const std::vector<int>& orders, int repeats) {
+  if (!scene.numerics.dt) throw InputError("bench parts needs a scene with \"dt\" in [numerics]");
+  scene.numerics.tolerance.reset();
   nlohmann::json result = {{"threads", omp_get_max_threads()}, {"repeats", repeats}, {"dt", *scene.numerics.dt}};
   fmt::print("{} threads, dt = {}, {} timed steps\n", omp_get_max_threads(), *scene.numerics.dt, repeats);
   fmt::print("{:>6} {:>11} {:>9} {:>9} {:>7} {:>9}   parts of a step in seconds (mean)\n", "order", "s per step", "min",

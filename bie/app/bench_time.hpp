@@ -12,4 +12,8 @@ namespace vehd {
 /// @param steps  each half of the one before
 nlohmann::json bench_time(const Scene& scene, const std::vector<double>& steps, double at);
 
+/// Runs the scene to time `at` with falling tolerances and prints the error of each against the last, beside the
+/// seconds that it took. @throws InputError, ConvergenceError
+nlohmann::json bench_tolerance(const Scene& scene, const std::vector<double>& tolerances, double at);
+
 }  // namespace vehd

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "bie/app/file_system.hpp"
+#include "bie/app/menu.hpp"
 #include "bie/app/run_loop.hpp"
 #include "bie/app/summary.hpp"
 #include "bie/scene/model_of.hpp"
@@ -111,7 +112,7 @@ RunPlan plan_of(const Scene& scene) {
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
-  while (time < scene.numerics.end_time) {
+  while (!scene.numerics.tolerance && time < scene.numerics.end_time) {
     const EventTimes events{scene.output.every, scene.numerics.end_time, next_corner(model, time)};
     const StepPlan step = plan_step(time, *scene.numerics.dt, events);
     plan.n_steps += std::lround((step.event_time - time) / step.dt_limit);
@@ -135,9 +136,25 @@ double seconds_of_trial(Scene scene, int n_steps) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// A tolerance finds its own steps and degrees, so runs with looser ones have to tell.
+void predict_from_looser_runs(const Scene& scene, RunPlan& plan) {
+  constexpr double kBudget = 8.0;
+  constexpr double kLoosest = 0.1;
+  std::vector<double> tolerances;
+  for (double tolerance = kLoosest; tolerance > 1.001 * *scene.numerics.tolerance; tolerance /= 10.0) {
+    tolerances.push_back(tolerance);
+  }
+  tolerances.push_back(*scene.numerics.tolerance);
+  const MenuRow row = menu_of(scene, tolerances, kBudget).back();
+  plan.n_steps = std::lround(row.steps);
+  plan.seconds_per_step = row.steps > 0.0 ? row.seconds / row.steps : 0.0;
+  plan.memory_bytes = row.memory_bytes;
+}
+
 }  // namespace
 
 void predict_cost(const Scene& scene, RunPlan& plan) {
+  if (scene.numerics.tolerance) return predict_from_looser_runs(scene, plan);
   constexpr int kLargestTimed = 32;
   constexpr int kWarmUp = 2;
   constexpr double kSlowStep = 0.3;

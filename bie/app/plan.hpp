@@ -28,7 +28,7 @@ struct RunPlan {
   std::uint64_t kernel_evaluations = 0;  ///< of each operator at each new shape
   int shapes_per_step = 1;
   std::int64_t unknowns = 0;  ///< independent scalars that the solves of a step find
-  std::int64_t n_steps = 0;   ///< if none is rejected
+  std::int64_t n_steps = 0;   ///< if none is rejected; with a tolerance known after predict_cost
   double seconds_per_step = 0.0;
   std::int64_t memory_bytes = 0;
 };
@@ -36,8 +36,9 @@ struct RunPlan {
 /// Everything that follows from the scene alone; costs are left at zero.
 RunPlan plan_of(const Scene& scene);
 
-/// Adds seconds per step and memory from a short run of the scene, files included, in a temporary folder. Orders above
+/// Adds cost. Without a tolerance: seconds per step and memory from a short run of the scene, files included, in a temporary folder. Orders above
 /// 32 are timed at 32 and scaled with the growth of assembly, p^5, and of operators, p^4.
+/// With a tolerance: steps, seconds and memory that whole runs with looser tolerances lead to expect, see menu_of.
 /// @throws ConvergenceError where the first steps cannot be taken
 void predict_cost(const Scene& scene, RunPlan& plan);
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
+#include "bie/app/menu.hpp"
 #include "bie/app/plan.hpp"
 #include "bie/app/progress.hpp"
 #include "bie/scene/reader.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 struct PlanOptions {
   std::string scene_file;
+  bool menu = false;
   CommonOptions common;
 };
 
@@ -51,8 +53,31 @@ void print(const RunPlan& plan) {
              static_cast<double>(plan.memory_bytes) / 1e6);
 }
 
+/// Seconds in which the menu's own runs have to be done.
+constexpr double menu_budget = 9.0;
+
+ExitCode menu(const Scene& scene, const CommonOptions& common) {
+  const std::vector<MenuRow> rows = menu_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, menu_budget);
+  nlohmann::json json = nlohmann::json::array();
+  fmt::print("{:>9} {:>8} {:>7} {:>9} {:>7}\n", "tolerance", "degree", "steps", "time", "MB");
+  for (const MenuRow& row : rows) {
+    fmt::print("{:>9.0e} {:>8.0f} {:>7.0f} {:>9} {:>7.0f}{}\n", row.tolerance, row.order, row.steps,
+               duration_text(row.seconds), static_cast<double>(row.memory_bytes) / 1e6,
+               row.measured ? "  measured" : "");
+    json.push_back({{"tolerance", row.tolerance},
+                    {"order", row.order},
+                    {"steps", row.steps},
+                    {"seconds", row.seconds},
+                    {"memory_bytes", row.memory_bytes},
+                    {"measured", row.measured}});
+  }
+  write_json(common, json);
+  return ExitCode::done;
+}
+
 ExitCode plan(const PlanOptions& options) {
   const Scene scene = read_scene(options.scene_file);
+  if (options.menu) return menu(scene, options.common);
   RunPlan result = plan_of(scene);
   predict_cost(scene, result);
   print(result);
@@ -66,6 +91,7 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "Say what a run of a scene will do and cost");
   const auto options = std::make_shared<PlanOptions>();
   command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
+  command->add_flag("--menu", options->menu, "Only a table of what each tolerance from 1e-1 to 1e-7 would cost");
   add_common_options(*command, options->common);
   command->footer("Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.");
   command->callback([options, &exit_code] { exit_code = plan(*options); });

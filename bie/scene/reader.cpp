@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "bie/scene/accuracy.hpp"
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/reference_scales.hpp"
 #include "bie/scene/scene_checks.hpp"
@@ -150,15 +151,10 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
 /// What a tolerance makes the default, where the scene says nothing itself.
 void apply_tolerance(NumericsScene& numerics, const toml::table& file) {
   if (!numerics.tolerance) return;
-  constexpr double kDegreesPerDigit = 8.0;
-  constexpr int kHighest = 64;
-  constexpr double kCoarse = 1e-4;
   const toml::table& table = *find_table(file, "numerics");
-  if (!table.contains("time_order")) numerics.time_order = *numerics.tolerance >= kCoarse ? 4 : 5;
-  if (!table.contains("order")) {
-    numerics.order =
-        std::min(kHighest, static_cast<int>(std::ceil(kDegreesPerDigit * (1.0 - std::log10(*numerics.tolerance)))));
-  }
+  const AccuracyDefaults defaults = accuracy_defaults(*numerics.tolerance);
+  if (!table.contains("time_order")) numerics.time_order = defaults.time_order;
+  if (!table.contains("order")) numerics.order = defaults.order;
 }
 
 }  // namespace

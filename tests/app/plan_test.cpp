@@ -87,4 +87,45 @@ BOOST_AUTO_TEST_CASE(symmetry_can_be_switched_off) {
   BOOST_TEST(run.plan["symmetry"].get<std::string>() == "none");
 }
 
+BOOST_AUTO_TEST_CASE(plan_of_a_tolerance_comes_from_whole_runs) {
+  std::string scene = with_numerics("tolerance = 0.01\n");
+  scene.erase(scene.find("dt ="), scene.find('\n', scene.find("dt =")) - scene.find("dt ="));
+  scene.erase(scene.find("order ="), scene.find('\n', scene.find("order =")) - scene.find("order ="));
+  const PlannedRun run(scene);
+  BOOST_TEST(run.summary["steps"].get<int>() == run.plan["steps"].get<int>());
+  BOOST_TEST(run.plan["seconds_per_step"].get<double>() > 0.0);
+  BOOST_TEST(run.summary["verdict"].get<std::string>() == "trustworthy");
+}
+
+BOOST_AUTO_TEST_CASE(menu_has_a_price_for_every_digit) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", quick_scene("1.0"));
+  const ProgramResult result =
+      run_vehd({"plan", "--menu", directory / "scene.toml", "--json", directory / "menu.json"});
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  const auto menu = json_of(directory / "menu.json");
+  BOOST_TEST(menu.size() == 7);
+  BOOST_TEST(menu[0]["measured"].get<bool>());
+  for (std::size_t i = 1; i < menu.size(); ++i) {
+    BOOST_TEST(menu[i]["tolerance"].get<double>() < menu[i - 1]["tolerance"].get<double>());
+    BOOST_TEST(menu[i]["order"].get<double>() >= menu[i - 1]["order"].get<double>());
+    BOOST_TEST(menu[i]["memory_bytes"].get<double>() > 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_tolerances_are_printed_against_the_tightest) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", quick_scene("1.0"));
+  const ProgramResult result = run_vehd({"bench", "time", directory / "scene.toml", "--tolerance", "1e-1,1e-2,1e-4",
+                                         "--at", "1", "--json", directory / "bench.json"});
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  const auto runs = json_of(directory / "bench.json")["runs"];
+  BOOST_TEST(runs.size() == 3);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const auto& [name, error] : runs[i]["errors"].items()) {
+      BOOST_TEST(error.get<double>() < 3.0 * runs[i]["tolerance"].get<double>(), name);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

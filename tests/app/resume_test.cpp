@@ -52,8 +52,8 @@ struct ReferenceRun {
   std::vector<std::string> command = vehd_command({"run", scene, "-o", output, "--resume", "--no-plot"});
   double seconds = 0.0;
 
-  ReferenceRun() {
-    write_text(scene, quick_scene());
+  explicit ReferenceRun(const std::string& text = quick_scene()) {
+    write_text(scene, text);
     const auto start = std::chrono::steady_clock::now();
     const ProgramResult result = run_vehd({"run", scene, "-o", reference, "--no-plot"});
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -71,6 +71,22 @@ struct ReferenceRun {
     while (!program.ended() && file_text(output + "/history.csv").size() < 1000) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+  }
+};
+
+/// Long enough to be met while it runs.
+struct LongRun : ReferenceRun {
+  LongRun() : ReferenceRun(quick_scene("60.0")) {}
+};
+
+/// Steps and degrees of its own choice.
+struct AdaptiveRun : ReferenceRun {
+  AdaptiveRun() : ReferenceRun(scene_text()) {}
+
+  static std::string scene_text() {
+    std::string text = quick_scene("6.0");
+    const std::string fixed = "order = 6\ndt = 0.25";
+    return text.replace(text.find(fixed), fixed.size(), "tolerance = 1e-3");
   }
 };
 
@@ -96,6 +112,18 @@ BOOST_FIXTURE_TEST_CASE(killed_at_random_moments_reproduces_every_bit, Reference
   }
 }
 
+BOOST_FIXTURE_TEST_CASE(killed_run_with_a_tolerance_reproduces_every_bit, AdaptiveRun) {
+  for (const double part : {0.3, 0.6, 0.9}) {
+    std::filesystem::remove_all(output);
+    RunningProgram program(command);
+    std::this_thread::sleep_for(std::chrono::duration<double>(part * seconds));
+    program.send(SIGKILL);
+    program.wait();
+    finish();
+    check_same_run(output, reference);
+  }
+}
+
 BOOST_FIXTURE_TEST_CASE(killed_while_files_are_written_reproduces_every_bit, ReferenceRun) {
   for (const char* moment : {"/.run.h5.old", "/.checkpoint.h5.new", "/.run.xdmf.new", "/.run.h5.new"}) {
     std::filesystem::remove_all(output);
@@ -109,7 +137,7 @@ BOOST_FIXTURE_TEST_CASE(killed_while_files_are_written_reproduces_every_bit, Ref
   }
 }
 
-BOOST_FIXTURE_TEST_CASE(interrupt_leaves_a_resumable_run, ReferenceRun) {
+BOOST_FIXTURE_TEST_CASE(interrupt_leaves_a_resumable_run, LongRun) {
   for (const int signal : {SIGINT, SIGTERM}) {
     std::filesystem::remove_all(output);
     RunningProgram program(command);
@@ -137,7 +165,7 @@ BOOST_FIXTURE_TEST_CASE(interrupt_of_a_radial_scene_is_orderly, ReferenceRun) {
   BOOST_TEST(program.wait().exit_code == 3);
 }
 
-BOOST_FIXTURE_TEST_CASE(two_runs_in_one_directory_are_refused, ReferenceRun) {
+BOOST_FIXTURE_TEST_CASE(two_runs_in_one_directory_are_refused, LongRun) {
   RunningProgram first(command);
   wait_for_rows(first);
   const ProgramResult second = run_command(command);
