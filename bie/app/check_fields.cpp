@@ -12,6 +12,7 @@
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/membrane_at.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -21,21 +22,6 @@ Discretisation discretisation_at(const FrozenState& frozen, int order) {
   NumericalSettings settings;
   settings.order = order;
   return Discretisation(settings, frozen.symmetry);
-}
-
-Membrane membrane_of(const Discretisation& discretisation, const Matrix& position, const LayerSelection& selection,
-                     double viscosity_ratio, Instruments& instruments) {
-  const Discretisation::Tables& tables = discretisation.tables();
-  Surface surface = make_surface(tables.fine, position);
-  const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
-  LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments,
-                                                   tables.symmetry.reflections);
-  std::optional<ViscosityContrast> contrast;
-  if (selection.stokes_double) {
-    contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, tables.fine, surface, layers.stokes_double,
-                     tables.symmetry.reflections);
-  }
-  return {tables.fine, std::move(surface), std::move(layers), radius, std::move(contrast)};
 }
 
 LayerSelection layers_for(const CheckContents& contents, const Model& model) {
@@ -53,7 +39,7 @@ class FrozenSolver {
       : frozen_(frozen),
         discretisation_(discretisation_at(frozen, order)),
         position_(resize_order(frozen.state.position, order)),
-        membrane_(membrane_of(discretisation_, position_, layers_for(contents, frozen.model),
+        membrane_(membrane_at(discretisation_, position_, layers_for(contents, frozen.model),
                               frozen.model.viscosity_ratio, instruments_)) {
     result.order = order;
     if (contents.electric) electric_ = frozen.model.electric->at(frozen.state.time, Limit::after);
@@ -186,7 +172,7 @@ Matrix given_force(const FrozenState& frozen) {
   // The run file stores no other forces: they follow from the shape and the time.
   Instruments instruments;
   const Discretisation discretisation = discretisation_at(frozen, order_of(position.rows()));
-  const Membrane membrane = membrane_of(discretisation, position, {}, 1.0, instruments);
+  const Membrane membrane = membrane_at(discretisation, position, {}, 1.0, instruments);
   for (const auto& effect : frozen.model.effects) {
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};
     effect->add({membrane, position, frozen.state.time}, forcing);

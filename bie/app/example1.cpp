@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bie/scene/initial_shape.hpp"
-#include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/membrane_at.hpp"
 
 namespace vehd {
 
@@ -42,17 +42,12 @@ Example1Result solve_example1(int order, int upsampling) {
   settings.order = order;
   settings.upsampling = upsampling;
   const Discretisation discretisation(settings);
-  const Discretisation::Tables& tables = discretisation.tables();
   const Matrix position = example1_position(order);
 
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
-  Surface surface = make_surface(tables.fine, position);
-  const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   const LayerSelection selection{true, true, true, false};
-  const Membrane membrane{tables.fine, std::move(surface),
-                          assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments),
-                          radius};
+  const Membrane membrane = membrane_at(discretisation, position, selection, 1.0, instruments);
   const PointSourceErrors errors = point_source_errors(example1_electric(), example1_sources(), membrane, 1e-10);
   require_converged(errors.report, "charge density, Eq. (35)");
   return {order, errors, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};

@@ -36,9 +36,9 @@ struct RunPlan {
 /// Everything that follows from the scene alone; costs are left at zero.
 RunPlan plan_of(const Scene& scene);
 
-/// Adds cost. Without a tolerance: seconds per step and memory from a short run of the scene, files included, in a temporary folder. Orders above
-/// 32 are timed at 32 and scaled with the growth of assembly, p^5, and of operators, p^4.
-/// With a tolerance: steps, seconds and memory that whole runs with looser tolerances lead to expect, see menu_of.
+/// Adds cost. Without a tolerance: seconds per step and memory from a short run of the scene, files included, in a
+/// temporary folder. Orders above 32 are timed at 32 and scaled with the growth of assembly, p^5, and of operators,
+/// p^4. With a tolerance: steps, seconds and memory that whole runs with looser tolerances lead to expect, see menu_of.
 /// @throws ConvergenceError where the first steps cannot be taken
 void predict_cost(const Scene& scene, RunPlan& plan);
 

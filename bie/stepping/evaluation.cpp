@@ -1,6 +1,3 @@
-#include <cmath>
-#include <numbers>
-
 #include "bie/physics/bending.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/physics/tension.hpp"
@@ -9,26 +6,16 @@
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/evaluation_parts.hpp"
 #include "bie/stepping/flow_solve.hpp"
+#include "bie/stepping/membrane_at.hpp"
 
 namespace vehd {
 
 namespace {
 
-Membrane make_membrane(const Discretisation& discretisation, const Matrix& position, const LayerSelection& selection,
-                       double viscosity_ratio, Instruments& instruments) {
-  const Discretisation::Tables& tables = discretisation.tables();
-  Surface surface = make_surface(tables.fine, position);
-  const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
+Membrane assembled(const Discretisation& discretisation, const Matrix& position, const LayerSelection& selection,
+                   double viscosity_ratio, Instruments& instruments) {
   const auto timer = instruments.time("operator assembly");
-  LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments,
-                                                   tables.symmetry.reflections, tables.symmetry.fold);
-  std::optional<ViscosityContrast> contrast;
-  if (selection.stokes_double) {
-    contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, tables.fine, surface, layers.stokes_double,
-                     tables.symmetry.reflections);
-    layers.stokes_double = {};  // its factor replaces it
-  }
-  return {tables.fine, std::move(surface), std::move(layers), radius, std::move(contrast)};
+  return membrane_at(discretisation, position, selection, viscosity_ratio, instruments);
 }
 
 /// dV_m/dt = −(σ_i ∂φ_i/∂n + G_m V_m)/C_m, Eq. (4e). No net current leaves a closed membrane, which the quadrature
@@ -89,11 +76,10 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
   evaluation.electric_asleep = asleep;
   std::shared_ptr<Evaluation::Parts> made;
   if (!reuse) {
-    made = std::make_shared<Evaluation::Parts>(
-        Evaluation::Parts{make_membrane(discretisation, state.position, needed_layers(model, !asleep),
-                                        model.viscosity_ratio, instruments),
-                          {},
-                          false});
+    made = std::make_shared<Evaluation::Parts>(Evaluation::Parts{
+        assembled(discretisation, state.position, needed_layers(model, !asleep), model.viscosity_ratio, instruments),
+        {},
+        false});
   }
   const Membrane& membrane = reuse ? previous->parts->membrane : made->membrane;
   Fields& fields = evaluation.fields;

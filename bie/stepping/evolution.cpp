@@ -57,7 +57,7 @@ Evolution::Evolution(EvolutionSetup setup, const Matrix& position, bool steady_p
     : setup_(std::move(setup)),
       instruments_(instruments),
       discretisation_(discretisation_of(setup_, starting_order(setup_, position))),
-      state_(initial_state(setup_.model, *discretisation_, resized(position, discretisation_->order()),
+      state_(initial_state(setup_.model, *discretisation_, resize_order(position, discretisation_->order()),
                            steady_potential, adapts() ? 0.0 : setup_.control.largest, instruments)) {}
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)

@@ -21,6 +21,11 @@ Vector degree_bounds(const Matrix& coefficients) {
   return bounds;
 }
 
+/// Absent fields stay absent.
+Matrix resized(const Matrix& coefficients, int order) {
+  return coefficients.size() == 0 ? coefficients : resize_order(coefficients, order);
+}
+
 }  // namespace
 
 double potential_scale(const ElectricParameters& electric, double radius, double largest) {
@@ -61,15 +66,6 @@ int Resolution::order_for(double target, int lowest, int highest) const {
   int order = lowest + lowest % 2;
   while (order < highest && remainder_at(order) > target) order += 2;
   return std::min(order, highest);
-}
-
-Matrix resized(const Matrix& coefficients, int order) {
-  if (coefficients.size() == 0) return coefficients;
-  const Index rows = n_coefficients(order);
-  Matrix result = Matrix::Zero(rows, coefficients.cols());
-  const Index kept = std::min(rows, coefficients.rows());
-  result.topRows(kept) = coefficients.topRows(kept);
-  return result;
 }
 
 State resized(State state, int order) {

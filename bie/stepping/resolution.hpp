@@ -29,7 +29,6 @@ class Resolution {
 };
 
 /// The same fields in degrees up to `order`: cut, or continued by zeros.
-Matrix resized(const Matrix& coefficients, int order);
 State resized(State state, int order);
 Fields resized(Fields fields, int order);
 

@@ -1,9 +1,7 @@
-#include <cmath>
-#include <numbers>
-
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/deferred_correction.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/membrane_at.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -34,19 +32,14 @@ State initial_state(const Model& model, const Discretisation& discretisation, co
   state.position = position;
   state.area_strain = Vector::Zero(position.rows());
   state = symmetric_part(tables.symmetry, std::move(state));
-  Surface surface = make_surface(tables.fine, position);
+  const Surface surface = make_surface(tables.fine, position);
   state.reference_area = surface_area(surface);
   state.reference_volume = enclosed_volume(surface);
   if (model.inextensible) state.tension = Vector::Zero(position.rows());
   if (!model.electric) return state;
   state.transmembrane_potential = Vector::Zero(position.rows());
   if (steady_start) {
-    const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
-    const LayerSelection selection{true, true, true, false};
-    const Membrane membrane{tables.fine, std::move(surface),
-                            assemble_layer_operators(tables.quadrature, tables.targets, position, selection,
-                                                     instruments, tables.symmetry.reflections, tables.symmetry.fold),
-                            radius};
+    const Membrane membrane = membrane_at(discretisation, position, {true, true, true, false}, 1.0, instruments);
     require_converged(steady_potential(*model.electric, *model.charging, membrane, tables.settings.electric_tolerance,
                                        state.transmembrane_potential),
                       "steady membrane potential");
