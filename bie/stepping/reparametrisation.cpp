@@ -89,8 +89,11 @@ Directions moved_back(const Directions& r, const Matrix& vectors) {
 /// whose wavelength the step slides past fade out.
 Matrix midway_sliding(const SphereTransform& fine, const SphereVectors& sliding) {
   constexpr double kLargestPhase = 1.5;
+  constexpr double kNoSliding = 1e-13;
   const NodeVectors at_nodes = cartesian(fine.grid(), sliding);
   const double length = at_nodes.vectors.rowwise().norm().maxCoeff();
+  // Without swirl, as in most axisymmetric runs, it is rounding.
+  if (length < kNoSliding) return Matrix::Zero(at_nodes.vectors.rows(), 3);
   const auto share = [&](int degree) { return 1.0 / (1.0 + std::pow(degree * length / kLargestPhase, 8)); };
   Matrix series = fine.analyze(at_nodes.vectors);
   const Matrix beyond = at_nodes.vectors - fine.synthesize(series);
@@ -116,7 +119,8 @@ Matrix reparametrise(const SphereTransform& fine, const Surface& surface, const 
   const Directions nodes = cartesian(fine.grid(), none).r;
   // Smoothing answers to the shape at its new nodes. Taken at the old ones it would be out of phase with modes whose
   // wavelength the sliding of one step passes, and would feed them.
-  const Matrix slid = carried(fine, fields.leftCols(3), moved_back(nodes, sliding));
+  const Matrix slid =
+      sliding.isZero(0.0) ? Matrix(fields.leftCols(3)) : carried(fine, fields.leftCols(3), moved_back(nodes, sliding));
   const SphereVectors smoothing = smoothing_gradient(fine, make_surface(fine, slid), slid);
   return carried(fine, fields, moved_back(nodes, sliding + cartesian(fine.grid(), smoothing).vectors));
 }

@@ -12,8 +12,8 @@ struct Refinement {
   int cells_per_edge = 3;
   int blend_layers = 1;
   int shell_layers = 3;
-  /// Of the layers' thickness. The inner one is thin, as fields of the membrane's fine structure end within it, and a
-  /// single layer of high degree carries the smooth rest.
+  /// Of the layers' thickness: the fine structure of the fields ends in a thin inner layer, and the layers outside
+  /// carry the smooth rest at high degree.
   double shell_growth = 3.0;
   double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape
   int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
