@@ -1,0 +1,156 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/resolution.hpp"
+#include "bie/support/errors.hpp"
+#include "tests/support/runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr int kHighestOrder = 32;
+
+EvolutionSetup setup_of(const Model& model, const Matrix& position, double tolerance, double end_time) {
+  State start;
+  start.position = position;
+  start.area_strain = Vector::Zero(position.rows());
+  EvolutionSetup setup;
+  setup.model = model;
+  setup.settings.order = kHighestOrder;
+  setup.settings.time_order = 4;
+  setup.symmetry = find_symmetry(model, start);
+  setup.control = {end_time, 1e-9 * end_time, tolerance};
+  return setup;
+}
+
+/// The same in steps of dt at the degree of the position.
+EvolutionSetup fixed_setup(const Model& model, const Matrix& position, double dt) {
+  EvolutionSetup setup = setup_of(model, position, 0.0, 1.0);
+  setup.settings.order = order_of(position.rows());
+  setup.control = fixed_steps(dt);
+  return setup;
+}
+
+struct Result {
+  Diagnostics diagnostics;
+  int lowest_order, highest_order, n_steps;
+};
+
+Result run_to(const Model& model, const Matrix& position, double tolerance, double end_time) {
+  Instruments instruments;
+  Evolution evolution(setup_of(model, position, tolerance, end_time), position, false, instruments);
+  evolution.evaluate_start();
+  Result result{{}, evolution.order(), evolution.order(), 0};
+  while (evolution.state().time < end_time) {
+    evolution.step({std::nullopt, end_time});
+    result.lowest_order = std::min(result.lowest_order, evolution.order());
+    result.highest_order = std::max(result.highest_order, evolution.order());
+    ++result.n_steps;
+  }
+  BOOST_TEST(evolution.state().time == end_time);
+  result.diagnostics = evolution.evaluation().diagnostics;
+  return result;
+}
+
+double difference(const Diagnostics& a, const Diagnostics& b) {
+  double largest = 0.0;
+  for (const auto member : {&Diagnostics::extent_x, &Diagnostics::extent_z, &Diagnostics::bending_energy_scaled,
+                            &Diagnostics::tension_integral, &Diagnostics::Vm_max, &Diagnostics::Vm_north}) {
+    largest = std::max(largest, std::abs(a.*member / (b.*member) - 1.0));
+  }
+  return largest;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(adaptive_evolution)
+
+BOOST_AUTO_TEST_CASE(tolerance_is_what_a_field_driven_vesicle_gets) {
+  constexpr double kEnd = 6.0;
+  const Matrix position = prolate(kHighestOrder);
+  const Diagnostics reference = run_to(field_model(), position, 1e-6, kEnd).diagnostics;
+  int steps_before = 0;
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    const Result result = run_to(field_model(), position, tolerance, kEnd);
+    const double error = difference(result.diagnostics, reference);
+    BOOST_TEST_MESSAGE("tolerance " << tolerance << ": error " << error << ", " << result.n_steps << " steps, degrees "
+                                    << result.lowest_order << " to " << result.highest_order);
+    BOOST_TEST(error < 3.0 * tolerance);
+    BOOST_TEST(result.n_steps > steps_before);
+    BOOST_TEST(result.highest_order < kHighestOrder);
+    steps_before = result.n_steps;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(degree_follows_the_spectrum_up_and_down) {
+  // The prolate starts smooth; the field makes it change fast, and what is left at the end is smooth again.
+  const Result result = run_to(field_model(), prolate(kHighestOrder), 1e-3, 70.0);
+  BOOST_TEST(result.lowest_order < 16);
+  BOOST_TEST(result.highest_order > 20);
+}
+
+BOOST_AUTO_TEST_CASE(step_of_a_fixed_size_never_changes_the_degree) {
+  const Matrix position = prolate(12);
+  Instruments instruments;
+  Evolution evolution(fixed_setup(field_model(), position, 0.25), position, false, instruments);
+  evolution.evaluate_start();
+  for (int i = 0; i < 4; ++i) BOOST_TEST(evolution.step({std::nullopt, 1.0}).dt == 0.25);
+  BOOST_TEST(evolution.order() == 12);
+  BOOST_TEST(evolution.state().time == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(state_of_an_evolution_continues_to_the_same_bits) {
+  const Matrix position = prolate(kHighestOrder);
+  const EvolutionSetup setup = setup_of(field_model(), position, 1e-2, 5.0);
+  Instruments instruments;
+  Evolution whole(setup, position, false, instruments);
+  whole.evaluate_start();
+  for (int i = 0; i < 4; ++i) whole.step({std::nullopt, 5.0});
+  Evolution resumed(setup, whole.state(), instruments);
+  resumed.evaluate_start();
+  for (int i = 0; i < 3; ++i) {
+    whole.step({std::nullopt, 5.0});
+    resumed.step({std::nullopt, 5.0});
+  }
+  BOOST_TEST(whole.state().time == resumed.state().time);
+  BOOST_TEST((whole.state().position - resumed.state().position).isZero(0.0));
+}
+
+BOOST_AUTO_TEST_CASE(tank_treading_in_long_steps_leaves_high_degrees_alone) {
+  // Undoing the sliding of a step must not feed modes that slide past their own wavelength.
+  const Matrix position = ellipsoid(20, {2.0, 1.0, 1.0});
+  EvolutionSetup setup = fixed_setup(shear_model(), position, 0.25);
+  setup.settings.time_order = 1;
+  Instruments instruments;
+  Evolution evolution(setup, position, false, instruments);
+  evolution.evaluate_start();
+  for (int i = 0; i < 12; ++i) BOOST_TEST(evolution.step({std::nullopt, 3.0}).rejected == 0);
+  BOOST_TEST(evolution.truncation() < 3e-6);
+}
+
+BOOST_AUTO_TEST_CASE(remainder_of_a_geometric_spectrum_is_its_sum) {
+  constexpr double kDecay = 0.5;
+  State state;
+  state.reference_area = 4.0 * std::acos(-1.0);
+  const int order = 12;
+  state.position = Matrix::Zero(n_coefficients(order), 3);
+  const auto bound = [&](int n) { return std::pow(kDecay, n); };
+  for (int n = 1; n <= order; ++n) {
+    state.position(coefficient_index(n, 0), 0) = bound(n) / std::sqrt((2.0 * n + 1.0) / state.reference_area);
+  }
+  const Resolution resolution(Model{}, state);
+  const double beyond = bound(order) * kDecay / (1.0 - kDecay);
+  BOOST_TEST(resolution.remainder() > 0.9 * beyond);
+  BOOST_TEST(resolution.remainder() < 3.0 * beyond);
+  const int enough = resolution.order_for(1e-6, 4, 64);
+  BOOST_TEST(enough >= 20);
+  BOOST_TEST(enough <= 24);
+  BOOST_TEST(resolution.order_for(1e-2, 4, 64) <= 8);
+  BOOST_TEST(resolution.order_for(1e-12, 4, 32) == 32);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
