@@ -52,24 +52,28 @@ Angles angles_of(const Directions& r) {
   return angles;
 }
 
-/// The nodes r̂ and vectors given along e_θ and e_φ there, both as [n x 3] in Cartesian components.
-struct NodeVectors {
-  Directions r;
-  Matrix vectors;
-};
+Directions node_directions(const SphereGrid& grid) {
+  Directions r(grid.n_points(), 3);
+  for (Index i = 0; i < grid.n_points(); ++i) {
+    const double theta = grid.theta[i / grid.n_phi];
+    const double phi = grid.phi[i % grid.n_phi];
+    r.row(i) << std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta);
+  }
+  return r;
+}
 
-NodeVectors cartesian(const SphereGrid& grid, const SphereVectors& field) {
-  NodeVectors result{Directions(grid.n_points(), 3), Matrix(grid.n_points(), 3)};
+/// Cartesian components, [n x 3], of vectors given along e_θ and e_φ at the nodes.
+Matrix cartesian(const SphereGrid& grid, const SphereVectors& field) {
+  Matrix vectors(grid.n_points(), 3);
   for (Index i = 0; i < grid.n_points(); ++i) {
     const double theta = grid.theta[i / grid.n_phi];
     const double phi = grid.phi[i % grid.n_phi];
     const Vector3 meridian(std::cos(phi), std::sin(phi), 0.0);
     const Vector3 along_theta = std::cos(theta) * meridian - std::sin(theta) * Vector3::UnitZ();
     const Vector3 along_phi(-meridian.y(), meridian.x(), 0.0);
-    result.r.row(i) = std::sin(theta) * meridian + std::cos(theta) * Vector3::UnitZ();
-    result.vectors.row(i) = field.d1[i] * along_theta + field.d2[i] * along_phi;
+    vectors.row(i) = field.d1[i] * along_theta + field.d2[i] * along_phi;
   }
-  return result;
+  return vectors;
 }
 
 /// r̂ moved by −vector, of which the tangential part counts, along great circles.
@@ -87,21 +91,21 @@ Directions moved_back(const Directions& r, const Matrix& vectors) {
 
 /// Cartesian components of the sliding at the middle of the way, which keeps areas to third order: [n x 3]. Degrees
 /// whose wavelength the step slides past fade out.
-Matrix midway_sliding(const SphereTransform& fine, const SphereVectors& sliding) {
+Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, const SphereVectors& sliding) {
   constexpr double kLargestPhase = 1.5;
   constexpr double kNoSliding = 1e-13;
-  const NodeVectors at_nodes = cartesian(fine.grid(), sliding);
-  const double length = at_nodes.vectors.rowwise().norm().maxCoeff();
+  const Matrix at_nodes = cartesian(fine.grid(), sliding);
+  const double length = at_nodes.rowwise().norm().maxCoeff();
   // Without swirl, as in most axisymmetric runs, it is rounding.
-  if (length < kNoSliding) return Matrix::Zero(at_nodes.vectors.rows(), 3);
+  if (length < kNoSliding) return Matrix::Zero(at_nodes.rows(), 3);
   const auto share = [&](int degree) { return 1.0 / (1.0 + std::pow(degree * length / kLargestPhase, 8)); };
-  Matrix series = fine.analyze(at_nodes.vectors);
-  const Matrix beyond = at_nodes.vectors - fine.synthesize(series);
+  Matrix series = fine.analyze(at_nodes);
+  const Matrix beyond = at_nodes - fine.synthesize(series);
   for (int n = 1; n <= fine.order(); ++n) {
     series.middleRows(coefficient_index(n, -n), 2 * n + 1) *= share(n);
   }
   const Matrix start = fine.synthesize(series);
-  const Angles middle = angles_of(moved_back(at_nodes.r, 0.5 * start));
+  const Angles middle = angles_of(moved_back(nodes, 0.5 * start));
   return evaluate_harmonics(series, middle.theta, middle.phi) + share(fine.order() + 1) * beyond;
 }
 
@@ -114,15 +118,14 @@ Matrix carried(const SphereTransform& fine, const Matrix& fields, const Directio
 
 Matrix reparametrise(const SphereTransform& fine, const Surface& surface, const Matrix& displacement,
                      const Matrix& fields) {
-  const Matrix sliding = midway_sliding(fine, sliding_part(fine, surface, displacement));
-  const SphereVectors none{Vector::Zero(sliding.rows()), Vector::Zero(sliding.rows())};
-  const Directions nodes = cartesian(fine.grid(), none).r;
+  const Directions nodes = node_directions(fine.grid());
+  const Matrix sliding = midway_sliding(fine, nodes, sliding_part(fine, surface, displacement));
   // Smoothing answers to the shape at its new nodes. Taken at the old ones it would be out of phase with modes whose
   // wavelength the sliding of one step passes, and would feed them.
   const Matrix slid =
       sliding.isZero(0.0) ? Matrix(fields.leftCols(3)) : carried(fine, fields.leftCols(3), moved_back(nodes, sliding));
   const SphereVectors smoothing = smoothing_gradient(fine, make_surface(fine, slid), slid);
-  return carried(fine, fields, moved_back(nodes, sliding + cartesian(fine.grid(), smoothing).vectors));
+  return carried(fine, fields, moved_back(nodes, sliding + cartesian(fine.grid(), smoothing)));
 }
 
 }  // namespace vehd
