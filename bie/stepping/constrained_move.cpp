@@ -9,7 +9,6 @@
 #include "bie/physics/bending.hpp"
 #include "bie/physics/tension.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
-#include "bie/stepping/flow_solve.hpp"
 
 namespace vehd {
 
@@ -47,7 +46,7 @@ Measure measure(const SphereTransform& fine, const Matrix& position) {
 }  // namespace
 
 ConstrainedMove constrained_move(const Model& model, const Discretisation& discretisation, const State& state,
-                                 const Evaluation::Parts& parts, const MoveStart& start, double dt,
+                                 const Evaluation::Parts& parts, const MoveStart& start, double dt, FlowSystem& flow,
                                  const Landing& landing) {
   const Membrane& membrane = parts.membrane;
   const NumericalSettings& settings = discretisation.settings();
@@ -60,12 +59,6 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
   Vector normal_divergence;
   if (model.inextensible) {
     normal_divergence = weighted_divergence(membrane, membrane.fine.synthesize_gradient(normal));
-  }
-
-  // A compression would soften the implicit response.
-  Vector held_tension;
-  if (start.held_tension.size() > 0) {
-    held_tension = membrane.fine.synthesize(start.held_tension).col(0).cwiseMax(0.0);
   }
 
   ConstrainedMove move;
@@ -126,17 +119,16 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
       weighted_strain[0] = area_error * state.reference_area / std::sqrt(4.0 * std::numbers::pi);
       rhs.divergence = -weighted_strain / dt - push * normal_divergence;
     }
-    MembraneUnknowns increment;
-    const SolveReport report = solve_flow(model, membrane, dt, rhs, {kPassTolerance, false, held_tension}, increment);
-    move.iterations += report.iterations;
-    if (!report.converged) {
-      move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations", report.residual,
-                                report.iterations);
+    const FlowSystem::Solution increment = flow.solve(rhs, {}, kPassTolerance);
+    move.iterations += increment.report.iterations;
+    if (!increment.report.converged) {
+      move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
+                                increment.report.residual, increment.report.iterations);
       return move;
     }
-    velocity += push * normal + membrane_velocity(model, membrane, increment, held_tension);
-    if (bending) curvature += increment.curvature;
-    if (model.inextensible) move.tension += increment.tension;
+    velocity += push * normal + increment.velocity;
+    if (bending) curvature += increment.unknowns.curvature;
+    if (model.inextensible) move.tension += increment.unknowns.tension;
   }
   return move;
 }

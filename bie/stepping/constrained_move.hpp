@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bie/stepping/evaluation_parts.hpp"
+#include "bie/stepping/flow_solve.hpp"
 
 namespace vehd {
 
@@ -25,7 +26,6 @@ struct MoveStart {
   Matrix position;  ///< coefficients
   Matrix velocity;  ///< before the implicit increments
   Vector tension;
-  Vector held_tension{};  ///< coefficients, of which the positive part counts; empty: none, see membrane_velocity
 };
 
 /// Turns a move into the fields of the new state, coefficients with x in the first three columns.
@@ -37,8 +37,9 @@ using Landing = std::function<Matrix(const ConstrainedMove&)>;
 /// constraint, zero in (27b), is iterated until the step as a whole (not only its tangent) keeps the area of every
 /// membrane element; a uniform normal velocity of the size of the step's volume error accompanies it. Area and volume
 /// are those of the landed shape, so that what truncation costs in `landing` is answered for as well.
+/// @param flow  the linearised system of these parts and this dt
 ConstrainedMove constrained_move(const Model& model, const Discretisation& discretisation, const State& state,
-                                 const Evaluation::Parts& parts, const MoveStart& start, double dt,
+                                 const Evaluation::Parts& parts, const MoveStart& start, double dt, FlowSystem& flow,
                                  const Landing& landing);
 
 }  // namespace vehd

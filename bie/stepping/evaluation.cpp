@@ -51,16 +51,15 @@ Matrix solve_velocity(const Model& model, const NumericalSettings& settings, con
   velocity = membrane.velocity(std::move(velocity));
   if (!model.inextensible) return velocity;
   const VelocityField driven = velocity_field(membrane, velocity, false);
-  MembraneUnknowns unknowns;
-  unknowns.tension = tension;
   const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
   is_sphere = uniform_tension_is_free(model, membrane);
-  const SolveReport report = solve_flow(model, membrane, 0.0, rhs, {settings.flow_tolerance, is_sphere}, unknowns);
-  require_converged(report, "tension, Eq. (27b)");
-  evaluation.iterations_flow = report.iterations;
-  velocity += membrane_velocity(model, membrane, unknowns);
-  evaluation.fields.tension = unknowns.tension;
-  evaluation.fields.force_tension = membrane.fine.analyze(tension_force(membrane, unknowns.tension));
+  const FlowSystem::Solution solution =
+      FlowSystem(model, membrane, 0.0, {is_sphere}).solve(rhs, {{}, tension}, settings.flow_tolerance);
+  require_converged(solution.report, "tension, Eq. (27b)");
+  evaluation.iterations_flow = solution.report.iterations;
+  velocity += solution.velocity;
+  evaluation.fields.tension = solution.unknowns.tension;
+  evaluation.fields.force_tension = membrane.fine.analyze(tension_force(membrane, solution.unknowns.tension));
   return velocity;
 }
 

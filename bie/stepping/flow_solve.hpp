@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/linear/gmres.hpp"
+#include "bie/linear/recycled_gcr.hpp"
 #include "bie/physics/membrane.hpp"
 #include "bie/stepping/model.hpp"
 
@@ -36,7 +36,6 @@ struct FlowRightHandSide {
 };
 
 struct FlowOptions {
-  double tolerance = 1e-9;
   /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
   bool pin_uniform_tension = false;
   Vector held_tension{};  ///< see membrane_velocity
@@ -46,9 +45,29 @@ struct FlowOptions {
 /// the area cannot change at constant volume.
 bool uniform_tension_is_free(const Model& model, const Membrane& membrane);
 
-/// Solves the semi-implicit system (27) with (28) for the increments (h, λ), preconditioned with its exact inverse
-/// on the sphere of the same area for the actual κ_B, both viscosities and dt. dt = 0 leaves the tension problem alone.
-SolveReport solve_flow(const Model& model, const Membrane& membrane, double dt, const FlowRightHandSide& rhs,
-                       const FlowOptions& options, MembraneUnknowns& unknowns);
+/// The semi-implicit system (27) with (28) for the increments (h, λ) on one frozen membrane, preconditioned with its
+/// exact inverse on the sphere of the same area for the actual κ_B, both viscosities and dt. dt = 0 leaves the tension
+/// problem alone. What one solve learns of the operator serves the next.
+class FlowSystem {
+ public:
+  /// @param model, membrane  must outlive the system
+  FlowSystem(const Model& model, const Membrane& membrane, double dt, FlowOptions options = {});
+
+  struct Solution {
+    SolveReport report;
+    MembraneUnknowns unknowns;
+    Matrix velocity;  ///< membrane_velocity of the unknowns, [n_coefficients x 3]
+  };
+  /// @param start      unknowns from which the solve starts; those that are empty are zero
+  /// @param tolerance  of the preconditioned residual, relative to the preconditioned right-hand side
+  Solution solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance);
+
+ private:
+  Index n_ = 0;  // coefficients of a scalar
+  Index n_curvature_ = 0;
+  Index n_tension_ = 0;
+  bool pinned_;
+  RecycledGcr solver_;
+};
 
 }  // namespace vehd

@@ -66,12 +66,6 @@ void keep(Stage& stage, ConstrainedMove move) {
   require_finite(stage);
 }
 
-/// The first-order scheme is the paper's and holds none.
-Vector held_tension(const StageContext& context) {
-  const bool corrected = context.discretisation.settings().time_order > 1;
-  return corrected && context.model.inextensible ? context.evaluation.fields.tension : Vector();
-}
-
 bool charges(const StageContext& context) {
   return context.model.electric.has_value() && !context.evaluation.electric_asleep;
 }
@@ -97,6 +91,24 @@ void forget_decayed(const StageContext& context, Stage& stage) {
 
 }  // namespace
 
+FlowSystems::FlowSystems(const Model& model, const Membrane& membrane, Vector held_tension)
+    : model_(model), membrane_(membrane), held_tension_(std::move(held_tension)) {}
+
+FlowSystem& FlowSystems::of(double dt) {
+  const auto known = systems_.find(dt);
+  if (known != systems_.end()) return known->second;
+  return systems_.emplace(dt, FlowSystem(model_, membrane_, dt, {false, held_tension_})).first->second;
+}
+
+FlowSystems flow_systems(const Model& model, const Discretisation& discretisation, const Evaluation& evaluation) {
+  const Membrane& membrane = evaluation.parts->membrane;
+  // The first-order scheme is the paper's and holds none.
+  const bool holds = discretisation.settings().time_order > 1 && model.inextensible && model.mobile;
+  // A compression would soften the implicit response.
+  return {model, membrane,
+          holds ? Vector(membrane.fine.synthesize(evaluation.fields.tension).col(0).cwiseMax(0.0)) : Vector()};
+}
+
 Stage first_order_stage(const StageContext& context, double dt, StageEnd end) {
   Stage stage;
   stage.time = context.state.time + dt;
@@ -115,11 +127,10 @@ Stage first_order_stage(const StageContext& context, double dt, StageEnd end) {
   const Evaluation::Parts& parts = *context.evaluation.parts;
   const Vector& tension = context.evaluation.fields.tension;
   const Landing landing = landing_of(context, stage.potential, end);
-  keep(stage,
-       parts.is_sphere
-           ? rigid_sphere_move(context.state, parts, tension, dt, landing)
-           : constrained_move(context.model, context.discretisation, context.state, parts,
-                              {context.state.position, parts.velocity, tension, held_tension(context)}, dt, landing));
+  keep(stage, parts.is_sphere ? rigid_sphere_move(context.state, parts, tension, dt, landing)
+                              : constrained_move(context.model, context.discretisation, context.state, parts,
+                                                 {context.state.position, parts.velocity, tension}, dt,
+                                                 context.flow.of(dt), landing));
   return stage;
 }
 
@@ -146,10 +157,9 @@ Stage corrected_stage(const StageContext& context, const Stage& stage, const Sta
   if (parts.is_sphere) {
     keep(result, rigid_sphere_move(context.state, parts, stage.move.tension, dt, landing));
   } else {
-    keep(result,
-         constrained_move(context.model, context.discretisation, context.state, parts,
-                          {stage.move.position, residual.position / dt, stage.move.tension, held_tension(context)}, dt,
-                          landing));
+    keep(result, constrained_move(context.model, context.discretisation, context.state, parts,
+                                  {stage.move.position, residual.position / dt, stage.move.tension}, dt,
+                                  context.flow.of(dt), landing));
   }
   return result;
 }

@@ -1,10 +1,25 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "bie/stepping/constrained_move.hpp"
 
 namespace vehd {
+
+/// The linearised systems of one step, one for each implicit size; sweeps return to the same sizes.
+class FlowSystems {
+ public:
+  /// @param held_tension  see membrane_velocity
+  FlowSystems(const Model& model, const Membrane& membrane, Vector held_tension);
+  [[nodiscard]] FlowSystem& of(double dt);
+
+ private:
+  const Model& model_;
+  const Membrane& membrane_;
+  Vector held_tension_;
+  std::map<double, FlowSystem> systems_;
+};
 
 /// One frozen evaluation from which stages start.
 struct StageContext {
@@ -12,8 +27,12 @@ struct StageContext {
   const Discretisation& discretisation;
   const State& state;
   const Evaluation& evaluation;
+  FlowSystems& flow;
   Instruments& instruments;
 };
+
+/// The systems of a step from this evaluation.
+FlowSystems flow_systems(const Model& model, const Discretisation& discretisation, const Evaluation& evaluation);
 
 /// Where one implicit solve arrives, at the material points of the step's start.
 struct Stage {

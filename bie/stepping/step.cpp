@@ -8,7 +8,8 @@ namespace vehd {
 
 StepResult step(const Model& model, const Discretisation& discretisation, const State& state,
                 const Evaluation& evaluation, double dt, Instruments& instruments) {
-  const StageContext context{model, discretisation, state, evaluation, instruments};
+  FlowSystems flow = flow_systems(model, discretisation, evaluation);
+  const StageContext context{model, discretisation, state, evaluation, flow, instruments};
   StepResult result;
   try {
     const CorrectedStep corrected = deferred_correction(context, dt, discretisation.settings().time_order);

@@ -66,10 +66,9 @@ BOOST_AUTO_TEST_CASE(solution_satisfies_the_coupled_system) {
   const Space space(kOrder);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 101), smooth_coefficients(kOrder, 6, 1, 102)};
-  MembraneUnknowns unknowns;
-  const SolveReport report = solve_flow(model, membrane, kDt, rhs, {1e-11}, unknowns);
-  const MembraneUnknowns reached = left_side(model, membrane, unknowns);
-  BOOST_TEST(report.converged);
+  const FlowSystem::Solution solution = FlowSystem(model, membrane, kDt).solve(rhs, {}, 1e-11);
+  const MembraneUnknowns reached = left_side(model, membrane, solution.unknowns);
+  BOOST_TEST(solution.report.converged);
   BOOST_TEST(max_difference(reached.curvature, rhs.curvature) < 1e-8);
   BOOST_TEST(max_difference(reached.tension, rhs.divergence) < 1e-8);
 }
@@ -80,8 +79,7 @@ BOOST_AUTO_TEST_CASE(preconditioner_is_the_inverse_on_a_sphere) {
   const Membrane membrane = make_membrane(space, sphere(kOrder), kStokesLayer);
   FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 103), smooth_coefficients(kOrder, 6, 1, 104)};
   rhs.divergence[0] = 0.0;
-  MembraneUnknowns unknowns;
-  const SolveReport report = solve_flow(model, membrane, kDt, rhs, {1e-8}, unknowns);
+  const SolveReport report = FlowSystem(model, membrane, kDt).solve(rhs, {}, 1e-8).report;
   BOOST_TEST(report.converged);
   BOOST_TEST(report.iterations <= 2);
 }
@@ -91,8 +89,8 @@ BOOST_AUTO_TEST_CASE(iterations_are_bounded_from_soft_to_stiff_steps) {
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 105), smooth_coefficients(kOrder, 6, 1, 106)};
   for (const double modulus : {1e-3, 1.0, 10.0}) {
-    MembraneUnknowns unknowns;
-    const SolveReport report = solve_flow(relaxation_model(modulus), membrane, kDt, rhs, {1e-9}, unknowns);
+    const Model model = relaxation_model(modulus);
+    const SolveReport report = FlowSystem(model, membrane, kDt).solve(rhs, {}, 1e-9).report;
     BOOST_TEST_CONTEXT("bending modulus " << modulus) {
       BOOST_TEST(report.converged);
       BOOST_TEST(report.iterations <= 100);
@@ -109,13 +107,43 @@ BOOST_AUTO_TEST_CASE(iterations_are_bounded_at_every_viscosity_ratio) {
     const Membrane membrane = make_membrane(space, ellipsoid(kOrder, {2.0, 1.0, 0.9}), kStokesLayers, ratio);
     // Without and with bending: the solve of the state and that of the step.
     for (const double dt : {0.0, kDt}) {
-      MembraneUnknowns unknowns;
-      const SolveReport report = solve_flow(model, membrane, dt, rhs, {1e-9}, unknowns);
+      const SolveReport report = FlowSystem(model, membrane, dt).solve(rhs, {}, 1e-9).report;
       BOOST_TEST_CONTEXT("viscosity ratio " << ratio << ", dt " << dt) {
         BOOST_TEST(report.converged);
         BOOST_TEST(report.iterations <= 40);
       }
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_rough_solve_takes_at_most_ten_iterations_at_every_degree_and_stiffness) {
+  // The passes of a step ask for two digits each; the figure is for κ_B dt from 1e-4 to 10.
+  constexpr double kPassTolerance = 1e-2;
+  for (const int order : {8, 16}) {
+    const Space space(order);
+    const Membrane membrane = make_membrane(space, asymmetric_shape(order), kStokesLayer);
+    const FlowRightHandSide rhs{smooth_coefficients(order, 6, 1, 111), smooth_coefficients(order, 6, 1, 112)};
+    for (const double stiffness : {1e-4, 1e-2, 1.0, 10.0}) {
+      const Model model = relaxation_model(stiffness);
+      const SolveReport report = FlowSystem(model, membrane, 1.0).solve(rhs, {}, kPassTolerance).report;
+      BOOST_TEST_CONTEXT("degree " << order << ", bending modulus times dt " << stiffness) {
+        BOOST_TEST(report.converged);
+        BOOST_TEST(report.iterations <= 10);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(velocity_of_a_solution_is_that_of_its_unknowns) {
+  const Model model = stiff_model();
+  const Space space(kOrder);
+  const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
+  FlowSystem system(model, membrane, kDt);
+  for (const int seed : {121, 123}) {
+    const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, seed), smooth_coefficients(kOrder, 6, 1, seed + 1)};
+    const FlowSystem::Solution solution = system.solve(rhs, {}, 1e-6);
+    const Matrix expected = membrane_velocity(model, membrane, solution.unknowns);
+    BOOST_TEST((solution.velocity - expected).norm() < 1e-11 * expected.norm());
   }
 }
 

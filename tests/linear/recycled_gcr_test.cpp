@@ -1,0 +1,116 @@
+#include "bie/linear/recycled_gcr.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <limits>
+
+using namespace vehd;
+
+namespace {
+
+/// Unsymmetric with eigenvalues from 1 to 20, and far from normal.
+Matrix test_matrix(Index size) {
+  Matrix matrix = Vector::LinSpaced(size, 1.0, 20.0).asDiagonal();
+  matrix.diagonal(1).setConstant(2.0);
+  matrix.diagonal(-3).setConstant(-1.0);
+  return matrix;
+}
+
+Vector right_hand_side(Index size, double phase) { return (Vector::LinSpaced(size, -1.0, 2.0).array() + phase).cos(); }
+
+LinearMap map_of(const Matrix& matrix) {
+  return [&matrix](const Vector& x) -> Vector { return matrix * x; };
+}
+
+Vector identity(const Vector& x) { return x; }
+
+constexpr Index kSize = 60;
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(recycled_gcr)
+
+BOOST_AUTO_TEST_CASE(takes_as_many_iterations_as_gmres_for_the_first_right_hand_side) {
+  const Matrix matrix = test_matrix(kSize);
+  const Vector rhs = right_hand_side(kSize, 0.0);
+  Vector x = Vector::Zero(kSize);
+  const SolveReport expected = gmres(map_of(matrix), identity, rhs, x, {1e-10, 60});
+  const RecycledGcr::Solution solution = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-10, 60});
+  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(std::abs(solution.report.iterations - expected.iterations) <= 1);
+  BOOST_TEST((matrix * solution.x - rhs).norm() <= 1.1e-10 * rhs.norm());
+}
+
+BOOST_AUTO_TEST_CASE(later_right_hand_sides_profit_from_former_ones) {
+  const Matrix matrix = test_matrix(kSize);
+  RecycledGcr solver(map_of(matrix), identity, kSize);
+  const Vector rhs = right_hand_side(kSize, 0.0);
+  const int first = solver.solve(rhs, {}, {1e-8, 60}).report.iterations;
+  // In the span of what is known.
+  BOOST_TEST(solver.solve(-3.0 * rhs, {}, {1e-7, 60}).report.iterations == 0);
+  const Vector other = right_hand_side(kSize, 0.3);
+  const RecycledGcr::Solution solution = solver.solve(other, {}, {1e-8, 60});
+  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(2 * solution.report.iterations < first);
+  BOOST_TEST((matrix * solution.x - other).norm() <= 1.1e-8 * other.norm());
+}
+
+BOOST_AUTO_TEST_CASE(start_counts_and_the_tolerance_stays_that_of_the_right_hand_side) {
+  const Matrix matrix = test_matrix(kSize);
+  const Vector exact = right_hand_side(kSize, 1.0);
+  const Vector start = exact + 1e-6 * right_hand_side(kSize, 2.0);
+  const RecycledGcr::Solution solution =
+      RecycledGcr(map_of(matrix), identity, kSize).solve(matrix * exact, start, {1e-3, 60});
+  BOOST_TEST(solution.report.iterations == 0);
+  BOOST_TEST((solution.x - start).norm() == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(further_entries_belong_to_the_solution) {
+  const Matrix matrix = test_matrix(kSize);
+  const Matrix other = Matrix::Random(4, kSize);
+  const LinearMap map = [&](const Vector& x) {
+    Vector result(kSize + 4);
+    result << matrix * x, other * x;
+    return result;
+  };
+  RecycledGcr solver(map, identity, kSize, 4);
+  for (const double phase : {0.0, 0.5}) {
+    const RecycledGcr::Solution solution =
+        solver.solve(right_hand_side(kSize, phase), right_hand_side(kSize, 3.0), {1e-6, 60});
+    BOOST_TEST((solution.further - other * solution.x).norm() < 1e-12 * solution.further.norm());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_operator_that_turns_by_a_right_angle_is_solved) {
+  // Residual and image are orthogonal, so the residual alone would be a blind direction.
+  Matrix matrix = Matrix::Zero(2, 2);
+  matrix << 0.0, -1.0, 1.0, 0.0;
+  const Vector rhs{{1.0, 0.0}};
+  const RecycledGcr::Solution solution = RecycledGcr(map_of(matrix), identity, 2).solve(rhs, {}, {1e-12, 10});
+  BOOST_TEST(solution.report.converged);
+  BOOST_TEST((matrix * solution.x - rhs).norm() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_reported) {
+  Matrix singular = test_matrix(kSize);
+  singular.row(7).setZero();
+  const RecycledGcr::Solution solution =
+      RecycledGcr(map_of(singular), identity, kSize).solve(right_hand_side(kSize, 0.0), {}, {1e-10, 100});
+  BOOST_TEST(!solution.report.converged);
+  BOOST_TEST(solution.report.residual > 1e-10);
+
+  const LinearMap broken = [](const Vector& x) -> Vector {
+    return Vector::Constant(x.size(), std::numeric_limits<double>::quiet_NaN());
+  };
+  BOOST_TEST(
+      !RecycledGcr(broken, identity, kSize).solve(right_hand_side(kSize, 0.0), {}, {1e-10, 100}).report.converged);
+}
+
+BOOST_AUTO_TEST_CASE(zero_right_hand_side_costs_nothing) {
+  const Matrix matrix = test_matrix(5);
+  const RecycledGcr::Solution solution =
+      RecycledGcr(map_of(matrix), identity, 5).solve(Vector::Zero(5), Vector::Ones(5), {1e-10, 10});
+  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.x.isZero(0.0));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
