@@ -13,7 +13,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t checkpoint_schema_version = 2;
+constexpr std::int64_t checkpoint_schema_version = 3;
 
 /// The members of a state with the names under which they are stored.
 template <typename StateType, typename Visitor>
@@ -21,6 +21,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("time", state.time);
   visit("step", state.step);
   visit("dt_next", state.dt_next);
+  visit("quadrature_level", state.quadrature_level);
   visit("position", state.position);
   visit("transmembrane_potential", state.transmembrane_potential);
   visit("tension", state.tension);

@@ -35,6 +35,8 @@ constexpr std::array diagnostic_columns = {
     DiagnosticColumn{"volume_drift", &Diagnostics::volume_drift},
     DiagnosticColumn{"strain_max", &Diagnostics::strain_max},
     DiagnosticColumn{"spectrum_tail", &Diagnostics::spectrum_tail},
+    DiagnosticColumn{"quadrature_error", &Diagnostics::quadrature_error},
+    DiagnosticColumn{"separation", &Diagnostics::separation},
 };
 
 std::string header() {

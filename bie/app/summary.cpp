@@ -18,8 +18,11 @@ struct TrustLimit {
   const char* column;
   double largest;
 };
+/// Parts of the membrane that are nearer to each other, in grid spacings, are one to the grid.
+constexpr double least_separation = 1.0;
 constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6},
-                               TrustLimit{"strain_max", 0.05}, TrustLimit{"spectrum_tail", 5e-3}};
+                               TrustLimit{"strain_max", 0.05}, TrustLimit{"spectrum_tail", 5e-3},
+                               TrustLimit{"quadrature_error", 1e-3}};
 
 double largest_magnitude(const std::vector<double>& values) {
   double largest = 0.0;
@@ -48,6 +51,14 @@ std::string verdict_of(const HistoryTable& history, std::optional<double> tolera
     findings += fmt::format("{}{} above {:g} since time {:g} (worst {:.3g})", findings.empty() ? "" : "; ",
                             limit.column, limit.largest, time, largest_magnitude(values));
   }
+  const std::vector<double>& separation = history.column("separation");
+  const auto near =
+      std::find_if(separation.begin(), separation.end(), [](double value) { return !(value >= least_separation); });
+  if (near != separation.end()) {
+    const double time = history.column("time")[static_cast<std::size_t>(near - separation.begin())];
+    findings += fmt::format("{}separation below {:g} since time {:g} (worst {:.3g})", findings.empty() ? "" : "; ",
+                            least_separation, time, *std::min_element(separation.begin(), separation.end()));
+  }
   return findings.empty() ? "trustworthy" : findings;
 }
 
@@ -69,6 +80,12 @@ nlohmann::json summary_of(const HistoryTable& history, std::optional<double> tol
   for (const TrustLimit& limit : limits) json[limit.column] = largest_magnitude(history.column(limit.column));
   json["order_max"] = largest_magnitude(history.column("order"));
   json["truncation"] = largest_magnitude(history.column("truncation"));
+  const auto& separation = history.column("separation");
+  // JSON has no infinity: absent where no part of the membrane faces another.
+  if (const auto least = std::min_element(separation.begin(), separation.end());
+      least != separation.end() && std::isfinite(*least)) {
+    json["separation"] = *least;
+  }
   json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
   json["kernel_evaluations"] = totals.kernel_evaluations;
   json["version"] = program_version();

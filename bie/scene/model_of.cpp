@@ -126,6 +126,7 @@ NumericalSettings settings_of(const Scene& scene) {
     // Far enough below what is asked for that solvers cost no digit, and no further.
     settings.flow_tolerance = std::clamp(1e-3 * *tolerance, 1e-11, 1e-6);
     settings.electric_tolerance = std::clamp(1e-3 * *tolerance, 1e-12, 1e-7);
+    settings.quadrature_tolerance = 0.1 * *tolerance;
   }
   return settings;
 }

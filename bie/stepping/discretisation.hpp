@@ -14,6 +14,7 @@ struct NumericalSettings {
   int upsampling = 2;                     ///< nonlinear terms live on the grid of order upsampling * p
   int longitude_fold = 1;                 ///< every grid is its own image under turns by 2π/fold about z
   double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
+  double quadrature_tolerance = 1e-4;     ///< of LayerCheck::error, above which finer quadrature is taken
   double flow_tolerance = 1e-9;           ///< of the tension and velocity solves
   double electric_tolerance = 1e-10;      ///< of the charge-density and charging solves
   double constraint_tolerance = 1e-9;     ///< of area and volume, relative, at the end of a step

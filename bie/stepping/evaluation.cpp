@@ -6,6 +6,7 @@
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/evaluation_parts.hpp"
 #include "bie/stepping/flow_solve.hpp"
+#include "bie/stepping/health.hpp"
 #include "bie/stepping/membrane_at.hpp"
 
 namespace vehd {
@@ -65,6 +66,21 @@ Matrix solve_velocity(const Model& model, const NumericalSettings& settings, con
 
 }  // namespace
 
+namespace {
+
+void watch(const Discretisation& discretisation, const State& state, const Membrane& membrane, Evaluation& evaluation) {
+  // Truncation hides what is this close above it.
+  constexpr double kAboveTruncation = 3.0;
+  const LayerCheck check = check_layers(membrane);
+  evaluation.diagnostics.quadrature_error = check.error;
+  evaluation.quadrature_is_coarse =
+      check.error > discretisation.settings().quadrature_tolerance && check.error > kAboveTruncation * check.truncation;
+  evaluation.diagnostics.separation =
+      separation(discretisation.transform(), state.position, discretisation.symmetry().axisymmetric);
+}
+
+}  // namespace
+
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
                     Instruments& instruments, const Evaluation* previous, Limit limit) {
   const NumericalSettings& settings = discretisation.settings();
@@ -109,6 +125,13 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
     made->velocity = fields.velocity;
   }
   evaluation.diagnostics = diagnose(state, membrane, fields);
+  if (reuse) {
+    evaluation.diagnostics.quadrature_error = previous->diagnostics.quadrature_error;
+    evaluation.diagnostics.separation = previous->diagnostics.separation;
+    evaluation.quadrature_is_coarse = previous->quadrature_is_coarse;
+  } else {
+    watch(discretisation, state, membrane, evaluation);
+  }
   evaluation.parts = reuse ? previous->parts : std::move(made);
   return evaluation;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -19,10 +20,33 @@ namespace {
 constexpr double kTruncationShare = 0.3;
 constexpr int kLowestOrder = 8;
 
-std::unique_ptr<Discretisation> discretisation_of(const EvolutionSetup& setup, int order) {
+/// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
+/// falls by two digits and more.
+constexpr std::array kQuadratureLevels = {1.0, 1.75, 2.6};
+constexpr std::int64_t kHighestLevel = kQuadratureLevels.size() - 1;
+
+/// Distance of two parts of the membrane, in grid spacings, at which D has lost all but two digits on the finest level.
+constexpr double kContact = 0.1;
+/// Two parts may come nearer by this factor in one step once they are closer than the grid spacing: with larger steps
+/// they could pass through each other unseen.
+constexpr double kLeastApproach = 0.5;
+
+std::unique_ptr<Discretisation> discretisation_of(const EvolutionSetup& setup, int order, std::int64_t level) {
   NumericalSettings settings = setup.settings;
   settings.order = order;
+  settings.quadrature_oversampling *= kQuadratureLevels.at(static_cast<std::size_t>(level));
   return std::make_unique<Discretisation>(settings, setup.symmetry);
+}
+
+void require_apart(double separation, double before) {
+  if (separation < kContact) {
+    throw ConvergenceError(fmt::format(
+        "two parts of the membrane are {:.2g} grid spacings from each other, too near for any quadrature", separation));
+  }
+  if (separation < std::min(1.0, kLeastApproach * before)) {
+    throw ConvergenceError(fmt::format(
+        "two parts of the membrane come within {:.2g} grid spacings of each other in one step", separation));
+  }
 }
 
 int lowest_order(const EvolutionSetup& setup) { return std::min(kLowestOrder, setup.settings.order); }
@@ -56,29 +80,58 @@ double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, con
 Evolution::Evolution(EvolutionSetup setup, const Matrix& position, bool steady_potential, Instruments& instruments)
     : setup_(std::move(setup)),
       instruments_(instruments),
-      discretisation_(discretisation_of(setup_, starting_order(setup_, position))),
+      discretisation_(discretisation_of(setup_, starting_order(setup_, position), 0)),
       state_(initial_state(setup_.model, *discretisation_, resize_order(position, discretisation_->order()),
                            steady_potential, adapts() ? 0.0 : setup_.control.largest, instruments)) {}
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)
     : setup_(std::move(setup)),
       instruments_(instruments),
-      discretisation_(discretisation_of(setup_, order_of(state.position.rows()))),
+      discretisation_(discretisation_of(setup_, order_of(state.position.rows()), state.quadrature_level)),
       state_(std::move(state)) {}
 
 Evolution::~Evolution() = default;
 
 void Evolution::evaluate_start() {
-  evaluation_ = evaluate(setup_.model, *discretisation_, state_, instruments_);
+  arrive(state_);
   if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);
 }
 
 double Evolution::truncation() const { return Resolution(setup_.model, state_).remainder(); }
 
-void Evolution::change_order(int order) {
-  discretisation_ = discretisation_of(setup_, order);
+void Evolution::change_discretisation(int order, std::int64_t quadrature_level) {
+  discretisation_ = discretisation_of(setup_, order, quadrature_level);
   state_ = resized(std::move(state_), order);
+  state_.quadrature_level = quadrature_level;
   evaluation_ = evaluate(setup_.model, *discretisation_, state_, instruments_);
+}
+
+/// Makes this the state, with a quadrature that resolves it. @throws ConvergenceError, and the former state stays
+void Evolution::arrive(State state) {
+  std::unique_ptr<Discretisation> finer;
+  const auto evaluated = [&](const Evaluation* previous) {
+    return evaluate(setup_.model, finer ? *finer : *discretisation_, state, instruments_, previous);
+  };
+  const bool has_former = evaluation_.parts != nullptr;
+  Evaluation evaluation = evaluated(has_former ? &evaluation_ : nullptr);
+  while (evaluation.quadrature_is_coarse && state.quadrature_level < kHighestLevel) {
+    ++state.quadrature_level;
+    finer = discretisation_of(setup_, order(), state.quadrature_level);
+    evaluation = evaluated(nullptr);
+  }
+  const double separation = evaluation.diagnostics.separation;
+  require_apart(separation, has_former ? evaluation_.diagnostics.separation : separation);
+  // The former evaluation refers to the former tables.
+  evaluation_ = std::move(evaluation);
+  if (finer) discretisation_ = std::move(finer);
+  state_ = std::move(state);
+}
+
+void Evolution::lower_quadrature_if_idle() {
+  constexpr double kIdle = 1e-2;
+  if (state_.quadrature_level == 0) return;
+  if (evaluation_.diagnostics.quadrature_error > kIdle * setup_.settings.quadrature_tolerance) return;
+  change_discretisation(order(), state_.quadrature_level - 1);
 }
 
 bool Evolution::raise_order_for(const State& reached) {
@@ -86,8 +139,9 @@ bool Evolution::raise_order_for(const State& reached) {
   const Resolution resolution(setup_.model, reached);
   const double target = kTruncationShare * setup_.control.tolerance;
   if (resolution.remainder() <= target) return false;
-  change_order(
-      std::min(setup_.settings.order, std::max(resolution.order_for(target, order(), order() + 8), order() + 2)));
+  change_discretisation(
+      std::min(setup_.settings.order, std::max(resolution.order_for(target, order(), order() + 8), order() + 2)),
+      state_.quadrature_level);
   return true;
 }
 
@@ -98,7 +152,7 @@ void Evolution::lower_order_if_idle() {
   if (!adapts() || order() <= lowest_order(setup_)) return;
   const int enough = Resolution(setup_.model, state_)
                          .order_for(kIdle * kTruncationShare * setup_.control.tolerance, lowest_order(setup_), order());
-  if (enough <= order() - kWorthwhile) change_order(enough);
+  if (enough <= order() - kWorthwhile) change_discretisation(enough, state_.quadrature_level);
 }
 
 Advance Evolution::advance_within(const StepPlan& plan, EvolutionStep& record) {
@@ -129,16 +183,15 @@ EvolutionStep Evolution::step(const EventTimes& events) {
       continue;
     }
     try {
-      Evaluation evaluation = evaluate(setup_.model, *discretisation_, advanced.state, instruments_, &evaluation_);
+      const bool at_event = plan.reaches_event && advanced.dt == plan.dt_limit;
+      State reached = advanced.state;
+      if (at_event) reached.time = plan.event_time;
+      arrive(std::move(reached));
       record.dt = advanced.dt;
       record.change = advanced.change;
-      record.iterations_flow += evaluation.iterations_flow;
-      record.iterations_electric += evaluation.iterations_electric;
-      const bool at_event = plan.reaches_event && advanced.dt == plan.dt_limit;
-      if (at_event) advanced.state.time = plan.event_time;
+      record.iterations_flow += evaluation_.iterations_flow;
+      record.iterations_electric += evaluation_.iterations_electric;
       record.at_snapshot = at_event && plan.is_snapshot;
-      state_ = std::move(advanced.state);
-      evaluation_ = std::move(evaluation);
     } catch (const ConvergenceError&) {
       // The new state cannot be solved for, so the step that led there is rejected as well.
       ++record.rejected;
@@ -148,6 +201,7 @@ EvolutionStep Evolution::step(const EventTimes& events) {
       continue;
     }
     lower_order_if_idle();
+    lower_quadrature_if_idle();
     return record;
   }
 }

@@ -27,7 +27,9 @@ struct EvolutionStep {
 };
 
 /// A membrane on its way through time. With a tolerance the degree follows the spectrum of the state: it rises, and the
-/// step is taken again, where the degrees left out would matter, and falls where they have long ceased to.
+/// step is taken again, where the degrees left out would matter, and falls where they have long ceased to. The singular
+/// quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves, parts of the
+/// membrane much closer to each other than the grid spacing, ends the way.
 class Evolution {
  public:
   /// From a shape at time 0, V_m zero or steady. @throws ConvergenceError
@@ -51,10 +53,12 @@ class Evolution {
 
  private:
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
-  void change_order(int order);
+  void change_discretisation(int order, std::int64_t quadrature_level);
+  void arrive(State state);
   Advance advance_within(const StepPlan& plan, EvolutionStep& record);
   bool raise_order_for(const State& reached);
   void lower_order_if_idle();
+  void lower_quadrature_if_idle();
 
   EvolutionSetup setup_;
   Instruments& instruments_;

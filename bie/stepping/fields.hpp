@@ -26,6 +26,8 @@ struct Diagnostics {
   double area_drift = 0, volume_drift = 0;  ///< relative, signed
   double strain_max = 0;                    ///< max |W/W_ref − 1|
   double spectrum_tail = 0;                 ///< see docs/conventions.md
+  double quadrature_error = 0;              ///< LayerCheck::error
+  double separation = 0;                    ///< see separation()
 };
 
 }  // namespace vehd

@@ -20,7 +20,9 @@ struct Evaluation {
   int iterations_flow = 0;       ///< GMRES iterations of the tension solve
   int iterations_electric = 0;   ///< GMRES iterations of Eq. (12)
   bool electric_asleep = false;  ///< see electric_sleeps
-  Vector potential_rate;         ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
+  /// The layers are less exact than NumericalSettings::quadrature_tolerance, and finer quadrature would help.
+  bool quadrature_is_coarse = false;
+  Vector potential_rate;  ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
   struct Parts;
   std::shared_ptr<const Parts> parts;  ///< surface and operators, for the step alone
 };

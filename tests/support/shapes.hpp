@@ -35,6 +35,18 @@ inline Matrix shape_33(int order) {
   return transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
 }
 
+/// A disc of radius 1 that is 2 c thick around its middle and some 0.6 thicker further out: x = (sin θ cos φ,
+/// sin θ sin φ, cos θ (c + 2.5 sin⁴θ − 1.9 sin⁶θ)). Exact from order 7 up.
+inline Matrix dimpled_disc(int order, double c) {
+  const SphereTransform transform(order, make_grid(2 * order));
+  Matrix points = grid_directions(transform.grid());
+  for (Index i = 0; i < points.rows(); ++i) {
+    const double r2 = 1.0 - points(i, 2) * points(i, 2);
+    points(i, 2) *= c + 2.5 * r2 * r2 - 1.9 * r2 * r2 * r2;
+  }
+  return transform.analyze(points);
+}
+
 constexpr int kAsymmetricDegree = 5;
 
 /// A shape without any symmetry: ρ of degrees up to 4, then stretched, turned and moved off the origin. Of degree

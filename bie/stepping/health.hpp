@@ -1,0 +1,28 @@
+#pragma once
+
+#include "bie/physics/membrane.hpp"
+
+namespace vehd {
+
+/// What the discretised layers make of densities whose image is known.
+struct LayerCheck {
+  /// Largest of |S[n]|/radius, which is zero on a closed surface because n drives no incompressible flow, and of
+  /// |D[1] + ½|; of the layers that are there, 0 if neither is.
+  double error = 0.0;
+  /// Share of |S[n]|/radius that the degrees of J n above p account for, by their size and the order of S. Finer
+  /// quadrature does not help against that.
+  double truncation = 0.0;
+};
+
+LayerCheck check_layers(const Membrane& membrane);
+
+/// Least distance of two parts of the membrane that face each other, in grid spacings: over pairs of nodes of order p,
+/// poles included, with n_i·n_j < −½ that lie within one spacing of each other's normal line, the distance along the
+/// normals over the spacing √(4π J/N). Below 1 the grid does not see that they are two; it is infinite where no node
+/// faces another.
+/// @param nodes     of order p and all longitudes
+/// @param position  coefficients of x
+/// @param one_meridian_suffices  true where every meridian is the image of the first
+double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices);
+
+}  // namespace vehd
