@@ -1,6 +1,6 @@
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 
+#include "bie/potentials/translating_prolate.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -8,20 +8,6 @@ using namespace vehd;
 using namespace vehd::testing;
 
 namespace {
-
-/// Speed of the 2:1 prolate under the density (x·n) e, total force 3V e = 8π e, from its resistance 6πμ·2·factor
-/// (Oberbeck; Kim & Karrila, Microhydrodynamics, Table 3.4).
-struct ProlateSpeeds {
-  double along, across;
-};
-
-ProlateSpeeds exact_speeds() {
-  const double e = std::sqrt(0.75);
-  const double logarithm = std::log((1.0 + e) / (1.0 - e));
-  const double along = 8.0 / 3.0 * e * e * e / (-2.0 * e + (1.0 + e * e) * logarithm);
-  const double across = 16.0 / 3.0 * e * e * e / (2.0 * e + (3.0 * e * e - 1.0) * logarithm);
-  return {2.0 / (3.0 * along), 2.0 / (3.0 * across)};
-}
 
 /// Largest deviation of the velocity from the exact constant, relative to it.
 double translation_error(const Space& space, const Matrix& position, const Matrix& values, const Vector3& axis,
@@ -44,7 +30,7 @@ double prolate_error(int order, const Vector3& axis, double speed, bool poles_on
 BOOST_AUTO_TEST_SUITE(translating_prolate)
 
 BOOST_AUTO_TEST_CASE(support_function_density_moves_it_at_the_exact_constant_velocity) {
-  const ProlateSpeeds exact = exact_speeds();
+  const ProlateSpeeds exact = translating_prolate_speeds();
   for (const bool poles_on_axis : {true, false}) {
     BOOST_TEST_CONTEXT((poles_on_axis ? "poles on the axis" : "poles elsewhere")) {
       BOOST_TEST(prolate_error(16, Vector3::UnitZ(), exact.along, poles_on_axis) < 1e-7);

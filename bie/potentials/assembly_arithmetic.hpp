@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bie/potentials/layer_operators.hpp"
+
+namespace vehd {
+
+/// Floating-point operations of one assembly: its matrix products, a multiplication and an addition each counting one,
+/// and its kernels, where a square root or a division counts one as well. Arguments as in assemble_layer_operators.
+double operations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
+                               const LayerSelection& selection, const std::vector<Reflection>& reflections, int fold);
+
+}  // namespace vehd
