@@ -17,4 +17,13 @@ AccuracyDefaults accuracy_defaults(double tolerance) {
   return {std::min(kHighest, order), tolerance >= kCoarse ? highest_time_order - 1 : highest_time_order};
 }
 
+Scene at_tolerance(Scene scene, double tolerance) {
+  const AccuracyDefaults defaults = accuracy_defaults(tolerance);
+  if (!scene.numerics.tolerance) scene.numerics.dt.reset();
+  scene.numerics.tolerance = tolerance;
+  scene.numerics.order = defaults.order;
+  scene.numerics.time_order = defaults.time_order;
+  return scene;
+}
+
 }  // namespace vehd

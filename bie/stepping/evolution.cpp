@@ -16,10 +16,6 @@ namespace vehd {
 
 namespace {
 
-/// Share of the tolerance that the degrees left out may make up.
-constexpr double kTruncationShare = 0.3;
-constexpr int kLowestOrder = 8;
-
 /// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
 /// falls by two digits and more.
 constexpr std::array kQuadratureLevels = {1.0, 1.75, 2.6};
@@ -49,7 +45,7 @@ void require_apart(double separation, double before) {
   }
 }
 
-int lowest_order(const EvolutionSetup& setup) { return std::min(kLowestOrder, setup.settings.order); }
+int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_order, setup.settings.order); }
 
 int starting_order(const EvolutionSetup& setup, const Matrix& position) {
   if (setup.control.tolerance == 0.0) return setup.settings.order;
@@ -58,7 +54,7 @@ int starting_order(const EvolutionSetup& setup, const Matrix& position) {
   // Exact for a sphere, and only a scale.
   shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
   return Resolution(setup.model, shape)
-      .order_for(kTruncationShare * setup.control.tolerance, lowest_order(setup), setup.settings.order);
+      .order_for(truncation_share * setup.control.tolerance, lowest_order(setup), setup.settings.order);
 }
 
 /// A first step small against the time in which the start changes.
@@ -137,7 +133,7 @@ void Evolution::lower_quadrature_if_idle() {
 bool Evolution::raise_order_for(const State& reached) {
   if (!adapts() || order() >= setup_.settings.order) return false;
   const Resolution resolution(setup_.model, reached);
-  const double target = kTruncationShare * setup_.control.tolerance;
+  const double target = truncation_share * setup_.control.tolerance;
   if (resolution.remainder() <= target) return false;
   change_discretisation(
       std::min(setup_.settings.order, std::max(resolution.order_for(target, order(), order() + 8), order() + 2)),
@@ -151,7 +147,7 @@ void Evolution::lower_order_if_idle() {
   constexpr int kWorthwhile = 4;
   if (!adapts() || order() <= lowest_order(setup_)) return;
   const int enough = Resolution(setup_.model, state_)
-                         .order_for(kIdle * kTruncationShare * setup_.control.tolerance, lowest_order(setup_), order());
+                         .order_for(kIdle * truncation_share * setup_.control.tolerance, lowest_order(setup_), order());
   if (enough <= order() - kWorthwhile) change_discretisation(enough, state_.quadrature_level);
 }
 

@@ -43,6 +43,14 @@ BOOST_AUTO_TEST_CASE(steps_stay_well_below_a_period) {
   BOOST_TEST(vehd::step_control_of(scene).largest == 0.0625);
 }
 
+BOOST_AUTO_TEST_CASE(scene_at_a_tolerance_is_that_of_a_file_with_it) {
+  const vehd::Scene fixed = parsed(with_numerics("dt = 0.5\norder = 12\n"));
+  BOOST_TEST((vehd::at_tolerance(fixed, 1e-5) == parsed(with_numerics("tolerance = 1e-5\n"))));
+  // A dt beside a tolerance is a bound and stays.
+  const vehd::Scene bounded = parsed(with_numerics("tolerance = 1e-2\ndt = 0.5\n"));
+  BOOST_TEST((vehd::at_tolerance(bounded, 1e-3) == parsed(with_numerics("tolerance = 1e-3\ndt = 0.5\n"))));
+}
+
 BOOST_AUTO_TEST_CASE(neither_step_nor_tolerance_is_an_error_as_is_a_tolerance_without_estimate) {
   BOOST_TEST(message_of(with_numerics("")) ==
              "scene.toml:4: missing key \"dt\" in [numerics] (largest time step); accepted: > 0, or a \"tolerance\"");
