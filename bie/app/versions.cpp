@@ -5,14 +5,29 @@
 
 #include <Eigen/Core>
 
+#include "commit.hpp"
+
 namespace vehd {
+namespace {
+
+std::string compiler() {
+#ifdef __clang__
+  return __VERSION__;
+#else
+  return "g++ " __VERSION__;
+#endif
+}
+
+}  // namespace
 
 std::string program_version() { return VEHD_VERSION; }
+
+std::string program_commit() { return VEHD_COMMIT; }
 
 std::map<std::string, std::string> library_versions() {
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
-  return {{"compiler", __VERSION__},
+  return {{"compiler", compiler()},
           {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"hdf5", fmt::format("{}.{}.{}", major, minor, release)}};
 }
