@@ -1,96 +1,184 @@
 #include "bie/app/menu.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
-#include "bie/app/summary.hpp"
+#include "bie/app/cost_model.hpp"
+#include "bie/app/file_system.hpp"
+#include "bie/app/pilot.hpp"
 #include "bie/scene/accuracy.hpp"
-#include "bie/scene/problem.hpp"
-#include "bie/stepping/evolution.hpp"
+#include "bie/scene/effective_scene.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/stepping/deferred_correction.hpp"
 
 namespace vehd {
 namespace {
 
-/// Least factor of the number of steps and least number of degrees that a digit costs: loose runs may be ruled by
-/// snapshots and by the lowest degree, tight ones are not.
-constexpr double kStepGrowth = 1.5;
-constexpr double kDegreesPerDigit = 3.0;
-/// Growth of a step with its degree, solver iterations included.
-constexpr double kCostExponent = 3.0;
-/// Memory of the program before it knows a scene.
-constexpr double kProgramBytes = 20e6;
+constexpr const char* kEntry = "menu";
+/// Seconds in which everything has to be done, and those that the cost model may take of them.
+constexpr double kBudget = 9.0, kModelBudget = 3.5;
 
-/// The whole run, without files.
-MenuRow pilot(Scene scene, double tolerance) {
-  const auto start = std::chrono::steady_clock::now();
-  const AccuracyDefaults defaults = accuracy_defaults(tolerance);
-  // The step of a scene without a tolerance is its accuracy, not a bound.
-  if (!scene.numerics.tolerance) scene.numerics.dt.reset();
-  scene.numerics.tolerance = tolerance;
-  scene.numerics.order = defaults.order;
-  scene.numerics.time_order = defaults.time_order;
-  const Problem problem = problem_of(scene);
-  Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
-  evolution.evaluate_start();
-  MenuRow row;
-  row.tolerance = tolerance;
-  row.measured = true;
-  row.order = evolution.order();
-  while (evolution.state().time < scene.numerics.end_time) {
-    evolution.step({scene.output.every, scene.numerics.end_time});
-    row.steps += 1.0;
-    row.order = std::max(row.order, static_cast<double>(evolution.order()));
+/// What decides the menu: every key of the scene but those that a tolerance decides, and the shape that it may read.
+std::string identity_of(const Scene& scene, const std::vector<double>& tolerances) {
+  std::string text = effective_scene(at_tolerance(scene, tolerances.front()));
+  for (const double tolerance : tolerances) text += fmt::format("# {:g}\n", tolerance);
+  if (scene.shape.path.empty()) return text;
+  std::error_code ignored;
+  const auto written = std::filesystem::last_write_time(scene.shape.path, ignored).time_since_epoch().count();
+  return text + fmt::format("# {} bytes, {}\n", std::filesystem::file_size(scene.shape.path, ignored), written);
+}
+
+nlohmann::json json_of(const std::vector<MenuRow>& rows) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const MenuRow& row : rows) {
+    json.push_back({row.tolerance, row.order, row.steps, row.seconds, row.memory_bytes, row.measured});
   }
-  row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  row.memory_bytes = peak_memory_bytes();
+  return json;
+}
+
+/// Empty where the entry is not what is expected.
+std::vector<MenuRow> rows_of(const nlohmann::json& entry, std::size_t count) {
+  std::vector<MenuRow> rows;
+  try {
+    for (const auto& row : entry) {
+      rows.push_back({row.at(0), row.at(1), row.at(2), row.at(3), row.at(4), row.at(5)});
+    }
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+  return rows.size() == count ? rows : std::vector<MenuRow>();
+}
+
+/// Seconds that the model gives to the steps that a pilot took.
+double model_seconds(const Pilot& pilot, const CostModel& model) {
+  double seconds = 0.0;
+  for (const PilotStep& step : pilot.steps) {
+    seconds += step.attempts * evaluations_per_step(pilot.time_order) * model.seconds_per_shape(step.order);
+  }
+  return seconds;
+}
+
+/// The menu's row for the tolerance of that index, from the steps of a pilot with a looser one.
+/// @param degree_share  of the degrees that the spectrum asks for beyond those of the pilot
+MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<double>& tolerances, std::size_t index,
+                 const CostModel& model, double degree_share) {
+  constexpr double kSafety = 0.85;  // as steps are chosen
+  constexpr double kLongest = 4.0;  // beyond that a change says nothing any more
+  MenuRow row;
+  row.tolerance = tolerances[index];
+  const int time_order = accuracy_defaults(row.tolerance).time_order;
+  const double largest = step_control_of(at_tolerance(scene, row.tolerance)).largest;
+  const double gain = std::pow(row.tolerance / pilot.tolerance, 1.0 / time_order);
+  const double attempts =
+      static_cast<double>(std::accumulate(pilot.steps.begin(), pilot.steps.end(), 0,
+                                          [](int sum, const PilotStep& step) { return sum + step.attempts; })) /
+      static_cast<double>(std::max<std::size_t>(1, pilot.steps.size()));
+  double steps = 0.0, seconds = 0.0;
+  struct {
+    double steps = 0.0, seconds = 0.0;
+  } interval;  // since the last snapshot
+  const auto close = [&] {
+    // Snapshots end a step, and the steps up to there are equal.
+    const double whole = std::ceil(interval.steps);
+    steps += whole;
+    seconds += interval.steps > 0.0 ? interval.seconds * whole / interval.steps : 0.0;
+    interval = {};
+  };
+  for (const PilotStep& step : pilot.steps) {
+    const double room = step.change > 0.0 ? std::pow(pilot.tolerance / step.change, 1.0 / pilot.time_order) : kLongest;
+    const double size = std::min(largest, step.dt * kSafety * std::min(room, kLongest) * gain);
+    const double share = step.dt / size;
+    const int more = std::max(0, step.orders[index] - step.order);
+    const int order = step.order + static_cast<int>(std::lround(degree_share * more));
+    interval.steps += share;
+    interval.seconds += share * attempts * evaluations_per_step(time_order) * model.seconds_per_shape(order);
+    row.order = std::max(row.order, order);
+    if (step.at_snapshot) close();
+  }
+  close();
+  const double covered = pilot.steps.empty() ? 1.0 : pilot.steps.back().time / scene.numerics.end_time;
+  row.steps = std::llround(steps / covered);
+  row.seconds = seconds / covered;
   return row;
 }
 
-/// The row that continues measured ones. @param before  null where there is only one
-MenuRow continued(const MenuRow* before, const MenuRow& last, double tolerance) {
-  const double digits = std::log10(last.tolerance / tolerance);
-  double growth = kStepGrowth;
-  double degrees = kDegreesPerDigit;
-  if (before != nullptr) {
-    const double known = std::log10(before->tolerance / last.tolerance);
-    growth = std::max(growth, std::pow(last.steps / before->steps, 1.0 / known));
-    degrees = std::max(degrees, (last.order - before->order) / known);
+/// Files of a run beside its steps: each snapshot is written in the highest degree. Measured once, 2.5 ms a snapshot at
+/// p = 16 and 6.5 ms at p = 40: a small share of any run.
+double file_seconds(const Scene& scene, const MenuRow& row) {
+  constexpr double kPerRow = 2e-4, kPerSnapshot = 2e-3, kPerPoint = 1.4e-6;
+  const double snapshots = 2.0 + (scene.output.every ? scene.numerics.end_time / *scene.output.every : 0.0);
+  const double order = accuracy_defaults(row.tolerance).order;
+  return kPerRow * static_cast<double>(row.steps) + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
+}
+
+/// The tail of a spectrum that is cut early falls more slowly than the degrees beyond it: of the degrees that a pilot
+/// foretold, the share that the next one took.
+double degree_share(const Pilot& pilot, const Pilot& next, std::size_t index_of_next) {
+  constexpr double kLeast = 0.4;
+  int expected = 0;
+  for (const PilotStep& step : pilot.steps) expected = std::max(expected, step.orders[index_of_next]);
+  if (expected <= pilot.highest_order) return 1.0;
+  const double share = double(next.highest_order - pilot.highest_order) / (expected - pilot.highest_order);
+  return std::clamp(share, kLeast, 1.0);
+}
+
+std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto left = [&] {
+    return kBudget - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const CostModel model = cost_model_of(scene, kModelBudget, cache);
+  std::vector<MenuRow> rows;
+  Pilot pilot;
+  double ratio = 1.0;   // of this scene to others of its kind
+  double share = 0.75;  // of degrees, as long as one pilot has to tell
+  bool running = true;
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    if (running && i > 0) running = foretold(scene, pilot, tolerances, i, model, share).seconds * ratio < left();
+    if (running) {
+      Pilot next = run_pilot(scene, tolerances[i], tolerances, left());
+      running = next.completed;
+      if (i > 0 && next.completed) share = degree_share(pilot, next, i);
+      if (i == 0 || next.completed) pilot = std::move(next);
+      if (const double expected = model_seconds(pilot, model); expected > 0.0) ratio = pilot.seconds / expected;
+    }
+    MenuRow row;
+    if (running) {
+      row.tolerance = tolerances[i];
+      row.measured = true;
+      row.seconds = pilot.seconds;
+      row.steps = static_cast<std::int64_t>(pilot.steps.size());
+      row.order = pilot.highest_order;
+    } else {
+      row = foretold(scene, pilot, tolerances, i, model, share);
+      row.seconds *= ratio;
+      // A tighter tolerance is never cheaper.
+      if (i > 0) {
+        row.order = std::max(row.order, rows.back().order);
+        row.steps = std::max(row.steps, rows.back().steps);
+        row.seconds = std::max(row.seconds, rows.back().seconds);
+      }
+    }
+    row.memory_bytes = static_cast<std::int64_t>(model.bytes(row.order));
+    rows.push_back(row);
   }
-  MenuRow row;
-  row.tolerance = tolerance;
-  row.order = std::min(static_cast<double>(accuracy_defaults(tolerance).order), last.order + degrees * digits);
-  row.steps = last.steps * std::pow(growth, digits);
-  row.seconds = last.seconds * row.steps / last.steps * std::pow(row.order / last.order, kCostExponent);
-  // Operators have p^4 entries.
-  const double operators =
-      (static_cast<double>(last.memory_bytes) - kProgramBytes) * std::pow(row.order / last.order, 4);
-  row.memory_bytes = static_cast<std::int64_t>(kProgramBytes + operators);
-  return row;
+  for (MenuRow& row : rows) row.seconds += file_seconds(scene, row);
+  return rows;
 }
 
 }  // namespace
 
-std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, double seconds) {
-  std::vector<MenuRow> rows;
-  double spent = 0.0;
-  std::size_t n_measured = 0;
-  for (const double tolerance : tolerances) {
-    if (n_measured == rows.size()) {
-      const bool affordable =
-          rows.empty() ||
-          spent + continued(n_measured > 1 ? &rows[n_measured - 2] : nullptr, rows.back(), tolerance).seconds <=
-              seconds;
-      if (affordable) {
-        rows.push_back(pilot(scene, tolerance));
-        spent += rows.back().seconds;
-        ++n_measured;
-        continue;
-      }
-    }
-    rows.push_back(continued(n_measured > 1 ? &rows[n_measured - 2] : nullptr, rows[n_measured - 1], tolerance));
+std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
+  const std::string identity = identity_of(scene, tolerances);
+  if (const auto entry = cache.find(kEntry, identity)) {
+    if (std::vector<MenuRow> rows = rows_of(*entry, tolerances.size()); !rows.empty()) return rows;
   }
+  std::vector<MenuRow> rows = measured_menu(scene, tolerances, cache);
+  cache.keep(kEntry, identity, json_of(rows));
   return rows;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bie/app/cost_cache.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
@@ -10,19 +11,19 @@ namespace vehd {
 /// What one accuracy costs.
 struct MenuRow {
   double tolerance = 0.0;
-  double order = 0.0;  ///< highest degree that the run takes
-  double steps = 0.0;
-  double seconds = 0.0;
+  int order = 0;           ///< highest degree that the run takes
+  std::int64_t steps = 0;  ///< accepted ones
+  double seconds = 0.0;    ///< of `vehd run`, without pictures
   std::int64_t memory_bytes = 0;
-  bool measured = false;  ///< by a whole run; otherwise carried on from those
+  bool measured = false;  ///< degree and steps are those of a whole run
 };
 
-/// Cost of a scene at the given tolerances, falling. The loosest ones are run to the end as long as the next one can be
-/// expected to fit into the budget. The others follow from the last two: steps by a power law, degrees by a straight
-/// line in the number of digits, seconds as steps times p³, memory as p⁴. Degree and time order of the scene are left
-/// to each tolerance.
-/// @param seconds  budget; the first run is made in any case
+/// Cost of a scene at the given tolerances, falling, in less than ten seconds; at once if the cache has it. The loosest
+/// ones are run to the end, as long as time allows. The last of these foretells the others: where one step of it was
+/// changed by its last correction by e, a tolerance T allows a step of (T/e)^(1/order) its size, and the spectrum
+/// there says which degree T needs; each step costs what the cost model says at that degree. Degree and time order of
+/// the scene are left to each tolerance.
 /// @throws ConvergenceError
-std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, double seconds);
+std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache);
 
 }  // namespace vehd

@@ -137,24 +137,23 @@ double seconds_of_trial(Scene scene, int n_steps) {
 }
 
 /// A tolerance finds its own steps and degrees, so runs with looser ones have to tell.
-void predict_from_looser_runs(const Scene& scene, RunPlan& plan) {
-  constexpr double kBudget = 8.0;
+void predict_from_looser_runs(const Scene& scene, RunPlan& plan, CostCache& cache) {
   constexpr double kLoosest = 0.1;
   std::vector<double> tolerances;
   for (double tolerance = kLoosest; tolerance > 1.001 * *scene.numerics.tolerance; tolerance /= 10.0) {
     tolerances.push_back(tolerance);
   }
   tolerances.push_back(*scene.numerics.tolerance);
-  const MenuRow row = menu_of(scene, tolerances, kBudget).back();
-  plan.n_steps = std::lround(row.steps);
-  plan.seconds_per_step = row.steps > 0.0 ? row.seconds / row.steps : 0.0;
+  const MenuRow row = menu_of(scene, tolerances, cache).back();
+  plan.n_steps = row.steps;
+  plan.seconds_per_step = row.steps > 0 ? row.seconds / static_cast<double>(row.steps) : 0.0;
   plan.memory_bytes = row.memory_bytes;
 }
 
 }  // namespace
 
-void predict_cost(const Scene& scene, RunPlan& plan) {
-  if (scene.numerics.tolerance) return predict_from_looser_runs(scene, plan);
+void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache) {
+  if (scene.numerics.tolerance) return predict_from_looser_runs(scene, plan, cache);
   constexpr int kLargestTimed = 32;
   constexpr int kWarmUp = 2;
   constexpr double kSlowStep = 0.3;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/app/cost_cache.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
@@ -40,6 +41,6 @@ RunPlan plan_of(const Scene& scene);
 /// temporary folder. Orders above 32 are timed at 32 and scaled with the growth of assembly, p^5, and of operators,
 /// p^4. With a tolerance: steps, seconds and memory that whole runs with looser tolerances lead to expect, see menu_of.
 /// @throws ConvergenceError where the first steps cannot be taken
-void predict_cost(const Scene& scene, RunPlan& plan);
+void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache);
 
 }  // namespace vehd

@@ -53,15 +53,13 @@ void print(const RunPlan& plan) {
              static_cast<double>(plan.memory_bytes) / 1e6);
 }
 
-/// Seconds in which the menu's own runs have to be done.
-constexpr double menu_budget = 9.0;
-
 ExitCode menu(const Scene& scene, const CommonOptions& common) {
-  const std::vector<MenuRow> rows = menu_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, menu_budget);
+  CostCache cache;
+  const std::vector<MenuRow> rows = menu_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, cache);
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:>9} {:>8} {:>7} {:>9} {:>7}\n", "tolerance", "degree", "steps", "time", "MB");
   for (const MenuRow& row : rows) {
-    fmt::print("{:>9.0e} {:>8.0f} {:>7.0f} {:>9} {:>7.0f}{}\n", row.tolerance, row.order, row.steps,
+    fmt::print("{:>9.0e} {:>8} {:>7} {:>9} {:>7.0f}{}\n", row.tolerance, row.order, row.steps,
                duration_text(row.seconds), static_cast<double>(row.memory_bytes) / 1e6,
                row.measured ? "  measured" : "");
     json.push_back({{"tolerance", row.tolerance},
@@ -79,7 +77,8 @@ ExitCode plan(const PlanOptions& options) {
   const Scene scene = read_scene(options.scene_file);
   if (options.menu) return menu(scene, options.common);
   RunPlan result = plan_of(scene);
-  predict_cost(scene, result);
+  CostCache cache;
+  predict_cost(scene, result, cache);
   print(result);
   write_json(options.common, json_of(result));
   return ExitCode::done;
@@ -93,7 +92,10 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
   command->add_flag("--menu", options->menu, "Only a table of what each tolerance from 1e-1 to 1e-7 would cost");
   add_common_options(*command, options->common);
-  command->footer("Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.");
+  command->footer(
+      "Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.\n"
+      "Those of a tolerance come from runs with looser ones, in less than 10 s; what these found is kept in\n"
+      "vehd/costs.json in $XDG_CACHE_HOME (~/.cache) for the next time.");
   command->callback([options, &exit_code] { exit_code = plan(*options); });
 }
 

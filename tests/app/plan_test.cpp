@@ -9,6 +9,7 @@ nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(f
 
 /// Plan and summary of one scene.
 struct PlannedRun {
+  OwnCache cache;
   TemporaryDirectory directory;
   nlohmann::json plan, summary;
 
@@ -95,37 +96,6 @@ BOOST_AUTO_TEST_CASE(plan_of_a_tolerance_comes_from_whole_runs) {
   BOOST_TEST(run.summary["steps"].get<int>() == run.plan["steps"].get<int>());
   BOOST_TEST(run.plan["seconds_per_step"].get<double>() > 0.0);
   BOOST_TEST(run.summary["verdict"].get<std::string>() == "trustworthy");
-}
-
-BOOST_AUTO_TEST_CASE(menu_has_a_price_for_every_digit) {
-  const TemporaryDirectory directory;
-  write_text(directory / "scene.toml", quick_scene("1.0"));
-  const ProgramResult result =
-      run_vehd({"plan", "--menu", directory / "scene.toml", "--json", directory / "menu.json"});
-  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
-  const auto menu = json_of(directory / "menu.json");
-  BOOST_TEST(menu.size() == 7);
-  BOOST_TEST(menu[0]["measured"].get<bool>());
-  for (std::size_t i = 1; i < menu.size(); ++i) {
-    BOOST_TEST(menu[i]["tolerance"].get<double>() < menu[i - 1]["tolerance"].get<double>());
-    BOOST_TEST(menu[i]["order"].get<double>() >= menu[i - 1]["order"].get<double>());
-    BOOST_TEST(menu[i]["memory_bytes"].get<double>() > 0.0);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(errors_of_tolerances_are_printed_against_the_tightest) {
-  const TemporaryDirectory directory;
-  write_text(directory / "scene.toml", quick_scene("1.0"));
-  const ProgramResult result = run_vehd({"bench", "time", directory / "scene.toml", "--tolerance", "1e-1,1e-2,1e-4",
-                                         "--at", "1", "--json", directory / "bench.json"});
-  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
-  const auto runs = json_of(directory / "bench.json")["runs"];
-  BOOST_TEST(runs.size() == 3);
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (const auto& [name, error] : runs[i]["errors"].items()) {
-      BOOST_TEST(error.get<double>() < 3.0 * runs[i]["tolerance"].get<double>(), name);
-    }
-  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

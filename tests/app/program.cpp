@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <regex>
 #include <stdexcept>
 
 namespace {
@@ -77,4 +78,11 @@ std::string quick_scene(const std::string& end_time) {
          "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
          "[numerics]\norder = 6\ndt = 0.25\nend_time = " +
          end_time + "\n[output]\nevery = 0.5\n";
+}
+
+std::string shortened_scene(std::string scene) {
+  scene = std::regex_replace(scene, std::regex("order = \\d+"), "order = 6");
+  scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
+  scene = std::regex_replace(scene, std::regex("\nend_time = [0-9.e-]+"), "\nend_time = 0.3");
+  return std::regex_replace(scene, std::regex("\nevery = [0-9.e-]+"), "\nevery = 0.1");
 }

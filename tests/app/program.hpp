@@ -41,5 +41,21 @@ ProgramResult run_vehd(const std::vector<std::string>& arguments);
 ProgramResult run_command(const std::vector<std::string>& command);
 std::vector<std::string> vehd_command(const std::vector<std::string>& arguments);
 
+/// While alive, the program keeps its measured costs in a folder of its own, which starts empty.
+class OwnCache {
+ public:
+  OwnCache() { ::setenv("XDG_CACHE_HOME", (directory_ / "cache").c_str(), 1); }
+  ~OwnCache() { ::unsetenv("XDG_CACHE_HOME"); }
+  OwnCache(const OwnCache&) = delete;
+  OwnCache& operator=(const OwnCache&) = delete;
+  [[nodiscard]] std::string file() const { return directory_ / "cache/vehd/costs.json"; }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
 /// A quick scene: order 6, bending, a field, 12 steps of 0.25, a snapshot every 0.5.
 std::string quick_scene(const std::string& end_time = "3.0");
+
+/// A scene of docs/scenes at a low order and with few steps.
+std::string shortened_scene(std::string scene);

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// One accepted step of a pilot run and what it foretells.
+struct PilotStep {
+  double time = 0.0;  ///< at its end
+  double dt = 0.0;
+  double change = 0.0;  ///< see StepResult
+  int attempts = 1;
+  int order = 0;
+  bool at_snapshot = false;
+  std::vector<int> orders;  ///< degree that each of the tolerances asked for would need here
+};
+
+/// A run with one tolerance, without files.
+struct Pilot {
+  double tolerance = 0.0;
+  int time_order = 0;
+  int highest_order = 0;
+  bool completed = false;  ///< reached the end of the scene
+  double seconds = 0.0;
+  std::vector<PilotStep> steps;
+};
+
+/// @param tolerances  for which degrees are foretold from the spectrum of each state
+/// @param seconds     budget; the run stops where it is then
+/// @throws ConvergenceError
+Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, double seconds);
+
+}  // namespace vehd
