@@ -6,8 +6,8 @@
 #                                          two methods on the first shape of Example 2
 #   cmake -DSTEP=callgrind -P bie/setup.cmake  installs valgrind, counts the instructions of a run without electricity:
 #                                              none in electric code, next to none in bookkeeping
-#   cmake -DSTEP=docs -P bie/setup.cmake   the same, then runs every scene of docs/scenes for the pictures in docs/images
-# With -DVEHD_FEM_CHECK=ON before -P, test and build include the finite-element check and install what it needs; without
+#   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture and table of the pages that the program measures itself
+# With -DVEHD_FEM_CHECK=ON before -P, test, build and docs include the finite-element check and install what it needs; without
 # it they include the check where deal.II and gmsh are there already.
 cmake_minimum_required(VERSION 3.25)
 
@@ -59,7 +59,7 @@ if(STEP STREQUAL "check")
 elseif(NOT DEFINED VEHD_FEM_CHECK)
   find_missing_packages(missing ${fem_packages})
   set(VEHD_FEM_CHECK OFF)
-  if(NOT missing AND STEP MATCHES "^(test|build)$")
+  if(NOT missing AND STEP MATCHES "^(test|build|docs)$")
     set(VEHD_FEM_CHECK ON)
   endif()
 endif()
@@ -101,7 +101,7 @@ set(options -DCMAKE_BUILD_TYPE=Release)
 if(STEP STREQUAL "callgrind")
   list(APPEND options -DVEHD_NATIVE=OFF)
 endif()
-if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build)$")
+if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|docs)$")
   # The other steps leave a build with the check as it is.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
 endif()
@@ -136,12 +136,5 @@ if(STEP STREQUAL "callgrind")
               "${source}/tests/app/absent_effects.cmake")
 endif()
 if(STEP STREQUAL "docs")
-  file(GLOB scenes "${source}/docs/scenes/*.toml")
-  foreach(scene IN LISTS scenes)
-    get_filename_component(name "${scene}" NAME_WE)
-    run_or_stop("${build}/vehd" run "${scene}" -o out/${name} --resume)
-    foreach(picture shapes history)
-      configure_file("${source}/out/${name}/plots/${picture}.png" "${source}/docs/images/${name}_${picture}.png" COPYONLY)
-    endforeach()
-  endforeach()
+  run_or_stop("${build}/vehd" bench all)
 endif()

@@ -2,58 +2,92 @@
 
 #include <memory>
 
+#include "bie/app/bench_all.hpp"
 #include "bie/app/bench_methods.hpp"
 #include "bie/app/bench_parts.hpp"
+#include "bie/app/bench_space.hpp"
+#include "bie/app/bench_threads.hpp"
 #include "bie/app/bench_time.hpp"
 #include "bie/app/commands.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/stepping/time_rule.hpp"
 
 namespace vehd {
 namespace {
 
-struct PartsOptions {
-  std::string scene_file;
-  std::vector<int> orders{8, 12, 16, 24, 32};
+/// What every bench has.
+struct BenchOptions {
+  std::string directory = "out/bench";
+  bool no_plot = false;
   int repeats = 5;
   CommonOptions common;
+
+  [[nodiscard]] BenchOutput output() const { return {directory, !no_plot}; }
 };
 
-struct TimeOptions {
+struct SceneOptions {
   std::string scene_file;
+  std::vector<int> orders, threads, time_orders;
   std::vector<double> steps, tolerances;
+  int order = 0;
   double at = 0.0;
-  CommonOptions common;
+  bool quick = false;
+  std::string docs = "docs";
+  BenchOptions bench;
 };
 
-struct MethodsOptions {
-  MethodsTask task{"out/bench_methods"};
-  bool no_plot = false;
-  CommonOptions common;
-};
+void add_output_options(CLI::App& command, BenchOptions& options) {
+  command.add_option("-o,--output", options.directory, "Directory for tables and pictures; created if missing")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command.add_flag("--no-plot", options.no_plot, "Draw no picture");
+  add_common_options(command, options.common);
+}
 
-void add_parts(CLI::App& bench, ExitCode& exit_code) {
-  CLI::App* command = bench.add_subcommand("parts", "Seconds and memory of each part of a step against the order");
-  const auto options = std::make_shared<PartsOptions>();
-  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
-  command->add_option("--orders", options->orders, "Orders, ascending")
+CLI::Option* add_repeats(CLI::App& command, BenchOptions& options, int repeats) {
+  options.repeats = repeats;
+  return command.add_option("--repeats", options.repeats, "Of each timing, fewer of long ones; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+void add_scene(CLI::App& command, SceneOptions& options) {
+  command.add_option("SCENE", options.scene_file, "Scene file (TOML)")->required();
+}
+
+void add_orders(CLI::App& command, SceneOptions& options, std::vector<int> orders) {
+  options.orders = std::move(orders);
+  command.add_option("--orders", options.orders, "Degrees p, ascending")
       ->delimiter(',')
       ->check(CLI::Range(4, 64))
       ->capture_default_str();
-  command->add_option("--repeats", options->repeats, "Timed steps; the median counts")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  add_common_options(*command, options->common);
-  command->callback([options, &exit_code] {
-    write_json(options->common, bench_parts(read_scene(options->scene_file), options->orders, options->repeats));
+}
+
+/// Adds `vehd bench NAME`; `measure` gives its result.
+template <typename Measure>
+void add_bench(CLI::App& command, const std::shared_ptr<SceneOptions>& options, ExitCode& exit_code,
+               const Measure& measure) {
+  add_output_options(command, options->bench);
+  command.callback([options, &exit_code, measure] {
+    make_bench_directory(options->bench.output());
+    write_json(options->bench.common, write_bench(measure(*options), options->bench.output()));
     exit_code = ExitCode::done;
   });
 }
 
+void add_space(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command = bench.add_subcommand("space", "Errors of q, f_E and velocity against the degree and the seconds");
+  const auto options = std::make_shared<SceneOptions>();
+  add_orders(*command, *options, {8, 12, 16, 20, 24, 32});
+  add_repeats(*command, options->bench, 5);
+  add_bench(*command, options, exit_code, [](const SceneOptions& o) { return bench_space(o.orders, o.bench.repeats); });
+}
+
 void add_time(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command =
-      bench.add_subcommand("time", "Values or errors and seconds against the step size or the tolerance");
-  const auto options = std::make_shared<TimeOptions>();
-  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
+      bench.add_subcommand("time", "Errors against step size, steps and seconds, and against the tolerance");
+  const auto options = std::make_shared<SceneOptions>();
+  add_scene(*command, *options);
   auto* choice = command->add_option_group("what varies");
   choice->add_option("--dt", options->steps, "Step sizes, each half of the one before")
       ->delimiter(',')
@@ -61,39 +95,74 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
   choice->add_option("--tolerance", options->tolerances, "Tolerances, falling; the last is the reference")
       ->delimiter(',')
       ->check(CLI::Range(1e-9, 0.1));
-  choice->require_option(1);
+  choice->require_option(1, 2);
+  command->add_option("--time-orders", options->time_orders, "Integrators for --dt; that of the scene if not given")
+      ->delimiter(',')
+      ->check(CLI::Range(1, highest_time_order));
+  command->add_option("--order", options->order, "Degree p for --dt; that of the scene if not given")
+      ->check(CLI::Range(4, 64));
   command->add_option("--at", options->at, "Time at which the values are taken")
       ->required()
       ->check(CLI::PositiveNumber);
-  add_common_options(*command, options->common);
-  command->callback([options, &exit_code] {
-    const Scene scene = read_scene(options->scene_file);
-    write_json(options->common, options->steps.empty() ? bench_tolerance(scene, options->tolerances, options->at)
-                                                       : bench_time(scene, options->steps, options->at));
-    exit_code = ExitCode::done;
+  add_repeats(*command, options->bench, 1);
+  add_bench(*command, options, exit_code, [](const SceneOptions& o) {
+    Scene scene = read_scene(o.scene_file);
+    if (o.order > 0) scene.numerics.order = o.order;
+    return bench_time({scene, o.at, o.steps, o.time_orders, o.tolerances, o.bench.repeats});
+  });
+}
+
+void add_parts(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command = bench.add_subcommand("parts", "Seconds and memory of each part of a step against the degree");
+  const auto options = std::make_shared<SceneOptions>();
+  add_scene(*command, *options);
+  add_orders(*command, *options, {8, 12, 16, 24, 32});
+  add_repeats(*command, options->bench, 5);
+  add_bench(*command, options, exit_code,
+            [](const SceneOptions& o) { return bench_parts(read_scene(o.scene_file), o.orders, o.bench.repeats); });
+}
+
+void add_threads(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command = bench.add_subcommand("threads", "Seconds of each part of a step against the number of threads");
+  const auto options = std::make_shared<SceneOptions>();
+  add_scene(*command, *options);
+  options->threads = thread_counts();
+  command->add_option("--threads", options->threads, "Numbers of threads; speed-up is over the first")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--order", options->order, "Degree p; that of the scene if not given")->check(CLI::Range(4, 64));
+  add_repeats(*command, options->bench, 5);
+  add_bench(*command, options, exit_code, [](const SceneOptions& o) {
+    Scene scene = read_scene(o.scene_file);
+    if (o.order > 0) scene.numerics.order = o.order;
+    return bench_threads(scene, o.threads, o.bench.repeats);
   });
 }
 
 void add_methods(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command =
       bench.add_subcommand("methods", "Boundary integrals against finite elements on an exact solution");
-  const auto options = std::make_shared<MethodsOptions>();
-  MethodsTask& task = options->task;
-  command->add_option("-o,--output", task.directory, "Directory for table and picture")
+  const auto options = std::make_shared<SceneOptions>();
+  command->add_flag("--quick", options->quick, "Two levels of each, one repeat");
+  const CLI::Option* repeats = add_repeats(*command, options->bench, 3);
+  command->footer("Needs the finite-element program (VEHD_FEM_CHECK). See docs/two_methods.md.");
+  add_bench(*command, options, exit_code, [repeats](const SceneOptions& o) {
+    return bench_methods({o.quick, o.quick && repeats->count() == 0 ? 1 : o.bench.repeats}, o.bench.directory);
+  });
+}
+
+void add_all(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command =
+      bench.add_subcommand("all", "Run every scene and every bench, and renew the tables and pictures of the pages");
+  const auto options = std::make_shared<SceneOptions>();
+  command->add_option("--docs", options->docs, "Folder of the pages, with scenes/")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_flag("--quick", task.quick, "Two levels of each, one repeat");
-  command->add_option("--repeats", task.repeats, "Timed solves of each level, fewer of long ones; the median counts")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_flag("--no-plot", options->no_plot, "Draw no picture");
-  add_common_options(*command, options->common);
-  command->footer("Needs the finite-element program (VEHD_FEM_CHECK). See docs/two_methods.md.");
-  command->callback([options, &exit_code, repeats = command->get_option("--repeats")] {
-    MethodsTask methods = options->task;
-    methods.plot = !options->no_plot;
-    if (methods.quick && repeats->count() == 0) methods.repeats = 1;
-    write_json(options->common, bench_methods(methods));
+  command->add_flag("--quick", options->quick, "Little of each, to see that it works");
+  add_output_options(*command, options->bench);
+  command->callback([options, &exit_code] {
+    write_json(options->bench.common, bench_all({options->docs, options->bench.output(), options->quick}));
     exit_code = ExitCode::done;
   });
 }
@@ -101,11 +170,14 @@ void add_methods(CLI::App& bench, ExitCode& exit_code) {
 }  // namespace
 
 void add_bench_command(CLI::App& program, ExitCode& exit_code) {
-  CLI::App* command = program.add_subcommand("bench", "What accuracy costs: tables of error and seconds");
+  CLI::App* command = program.add_subcommand("bench", "What accuracy costs: tables and pictures of error and seconds");
   command->require_subcommand(1);
-  add_parts(*command, exit_code);
+  add_space(*command, exit_code);
   add_time(*command, exit_code);
+  add_parts(*command, exit_code);
+  add_threads(*command, exit_code);
   add_methods(*command, exit_code);
+  add_all(*command, exit_code);
 }
 
 }  // namespace vehd

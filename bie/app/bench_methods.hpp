@@ -1,9 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "bie/app/bench_result.hpp"
 
 namespace vehd {
 
@@ -25,18 +26,13 @@ struct MethodLevel {
 };
 
 struct MethodsTask {
-  std::filesystem::path directory;
-  bool quick = false;
-  bool plot = true;
+  bool quick = false;  ///< two levels of each
   int repeats = 3;
 };
 
-/// Boundary integrals against finite elements: prints a table; writes methods.csv, methods.json and methods.png.
-/// @return the content of methods.json
+/// Boundary integrals against finite elements, both on one thread.
+/// @param folder  for files that are gone at the end
 /// @throws InputError if the finite-element program is not there
-nlohmann::json bench_methods(const MethodsTask& task);
-
-/// Error of q against seconds and against unknowns, from methods.csv.
-void draw_methods(const std::filesystem::path& directory, const std::vector<MethodCurve>& curves);
+BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder);
 
 }  // namespace vehd

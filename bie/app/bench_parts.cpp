@@ -1,86 +1,154 @@
 #include "bie/app/bench_parts.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
+#include "bie/app/bench_progress.hpp"
+#include "bie/app/machine_peak.hpp"
+#include "bie/app/step_timer.hpp"
 #include "bie/app/summary.hpp"
-#include "bie/scene/problem.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
 
-/// Steps before the clock starts: the first ones charge the membrane and settle the grid.
-constexpr int kWarmUp = 3;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-struct StepCost {
-  std::vector<double> seconds;
-  std::map<std::string, double> parts;  ///< mean per step
+/// Everything known about one part.
+struct PartCurve {
+  std::vector<double> orders, seconds, memory_orders, bytes;
+  double operations = 0.0;
 };
 
-StepCost time_steps(const Scene& scene, int repeats) {
-  const double no_end = 1e6 * *scene.numerics.dt;
-  const Problem problem = problem_of(scene);
-  Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
-  evolution.evaluate_start();
-  for (int i = 0; i < kWarmUp; ++i) evolution.step({std::nullopt, no_end});
-  const std::map<std::string, double> before = instruments.seconds();
-  StepCost cost;
-  for (int i = 0; i < repeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    evolution.step({std::nullopt, no_end});
-    cost.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+std::string key_of(std::string part) {
+  std::replace(part.begin(), part.end(), ' ', '_');
+  return part;
+}
+
+BenchTable empty_table(const std::vector<std::string>& parts) {
+  BenchTable table{"rows", {{"order", "p"}}};
+  for (const std::string& part : parts) table.columns.push_back({"seconds_" + key_of(part), part, "{:.2g}", true});
+  for (const std::string& part : parts) table.columns.push_back({"bytes_" + key_of(part), ""});
+  for (const std::string& part : parts) table.columns.push_back({"peak_fraction_" + key_of(part), ""});
+  table.columns.push_back({"peak_memory_bytes", ""});
+  return table;
+}
+
+BenchCell exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  if (x.size() < 2) return {};
+  return fitted_exponent(x, y);
+}
+
+BenchTable growth_table(const std::vector<std::string>& parts, const std::map<std::string, PartCurve>& curves,
+                        double peak) {
+  BenchTable table{"growth",
+                   {{"part", "part", "{}", false, 18},
+                    {"exponent_seconds", "seconds grow like p^", "{:.1f}"},
+                    {"exponent_bytes", "memory grows like p^", "{:.1f}"},
+                    {"order", "at p ="},
+                    {"seconds", "seconds", "{:.2g}"},
+                    {"bytes", ""},
+                    {"megabytes", "MB", "{:.0f}"},
+                    {"peak_fraction", "share of peak", "{:.2f}"}}};
+  announce(table);
+  for (const std::string& part : parts) {
+    const PartCurve& curve = curves.at(part);
+    BenchCell bytes, megabytes, fraction;
+    if (!curve.bytes.empty()) {
+      bytes = static_cast<std::int64_t>(curve.bytes.back());
+      megabytes = curve.bytes.back() / 1e6;
+    }
+    if (curve.operations > 0.0) fraction = curve.operations / curve.seconds.back() / peak;
+    add_row(table, {part, exponent(curve.orders, curve.seconds), exponent(curve.memory_orders, curve.bytes),
+                    static_cast<std::int64_t>(curve.orders.back()), curve.seconds.back(), bytes, megabytes, fraction});
   }
-  for (const auto& [name, seconds] : instruments.seconds()) {
-    const auto earlier = before.find(name);
-    cost.parts[name] = (seconds - (earlier == before.end() ? 0.0 : earlier->second)) / repeats;
+  return table;
+}
+
+std::vector<BenchPanel> panels_of(const std::vector<std::string>& parts, const std::vector<int>& orders) {
+  const std::vector<double> ticks(orders.begin(), orders.end());
+  BenchPanel seconds{
+      .x_label = "degree p", .y_label = "seconds of a step", .curves = {}, .x_ticks = ticks, .key_place = "top left"};
+  BenchPanel memory{.x_label = "degree p", .y_label = "memory, bytes", .curves = {}, .x_ticks = ticks, .key_place = ""};
+  int colour = 0;
+  for (const std::string& part : parts) {
+    const bool whole = part == "step";
+    seconds.curves.push_back(
+        {.label = part, .x = "order", .y = "seconds_" + key_of(part), .colour = colour, .dashed = !whole});
+    if (part != "other") {
+      memory.curves.push_back(
+          {.label = part, .x = "order", .y = "bytes_" + key_of(part), .colour = colour, .dashed = !whole});
+    }
+    ++colour;
   }
-  return cost;
+  return {seconds, memory};
 }
 
 }  // namespace
 
-nlohmann::json bench_parts(Scene scene, const std::vector<int>& orders, int repeats) {
+BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats) {
   if (!scene.numerics.dt) throw InputError("bench parts needs a scene with \"dt\" in [numerics]");
+  if (!std::is_sorted(orders.begin(), orders.end())) {
+    throw InputError(fmt::format("--orders: {} after a higher one; accepted: ascending", orders.back()));
+  }
   scene.numerics.tolerance.reset();
-  nlohmann::json result = {{"threads", omp_get_max_threads()}, {"repeats", repeats}, {"dt", *scene.numerics.dt}};
-  fmt::print("{} threads, dt = {}, {} timed steps\n", omp_get_max_threads(), *scene.numerics.dt, repeats);
-  fmt::print("{:>6} {:>11} {:>9} {:>9} {:>7} {:>9}   parts of a step in seconds (mean)\n", "order", "s per step", "min",
-             "max", "growth", "MB");
-  double last_seconds = 0.0;
-  int last_order = 0;
+  const MachineRecord machine = machine_record();
+  const double peak = measured_peak(machine.threads);
+  BenchResult result{"parts", machine, repeats, {}, {}, {}};
+  result.facts = {{"dt", *scene.numerics.dt},
+                  {"time_order", scene.numerics.time_order},
+                  {"peak_operations_per_second", peak},
+                  {"peak_is_of", "products of matrices of 256 rows in double precision"},
+                  {"bytes_are", "most memory beyond what was held when the part began"}};
+  fmt::print("{} threads, {:.1f} Gflop/s in matrix products, dt = {}; seconds\n", machine.threads, peak / 1e9,
+             *scene.numerics.dt);
+  BenchProgress progress(static_cast<int>(orders.size()) * (repeats + 1));
+  std::vector<std::string> parts;
+  std::map<std::string, PartCurve> curves;
   for (const int order : orders) {
     scene.numerics.order = order;
-    const StepCost cost = time_steps(scene, repeats);
-    const double seconds = median(cost.seconds);
-    const auto [low, high] = std::minmax_element(cost.seconds.begin(), cost.seconds.end());
-    const std::string growth =
-        last_order > 0 && order != last_order
-            ? fmt::format("p^{:.1f}", std::log(seconds / last_seconds) / std::log(double(order) / last_order))
-            : "";
-    std::string parts;
-    for (const auto& [name, value] : cost.parts) parts += fmt::format("{} {:.4f}  ", name, value);
-    fmt::print("{:>6} {:>11.4f} {:>9.4f} {:>9.4f} {:>7} {:>9.0f}   {}\n", order, seconds, *low, *high, growth,
-               static_cast<double>(peak_memory_bytes()) / 1e6, parts);
-    result["orders"].push_back({{"order", order},
-                                {"seconds", seconds},
-                                {"seconds_min", *low},
-                                {"seconds_max", *high},
-                                {"parts", cost.parts},
-                                {"peak_memory_bytes", peak_memory_bytes()}});
-    last_seconds = seconds;
-    last_order = order;
+    progress.next(fmt::format("p = {}: memory", order));
+    StepTimer timer(scene);
+    timer.metered_step();
+    for (int i = 0; i < repeats; ++i) {
+      progress.next(fmt::format("p = {}: step {} of {}", order, i + 1, repeats));
+      timer.timed_step();
+    }
+    if (parts.empty()) {
+      parts = timer.parts();
+      result.tables.push_back(empty_table(parts));
+      progress.clear();
+      announce(result.tables.front());
+    }
+    const std::map<std::string, double> operations = timer.operations();
+    std::vector<BenchCell> seconds_cells, byte_cells, fraction_cells;
+    for (const std::string& part : parts) {
+      PartCurve& curve = curves[part];
+      const Spread seconds = spread_of(timer.seconds().at(part));
+      seconds_cells.emplace_back(seconds);
+      curve.orders.push_back(order);
+      curve.seconds.push_back(seconds.median);
+      const auto bytes = timer.bytes().find(part);
+      byte_cells.emplace_back();
+      if (bytes != timer.bytes().end() && bytes->second > 0) {
+        byte_cells.back() = bytes->second;
+        curve.memory_orders.push_back(order);
+        curve.bytes.push_back(static_cast<double>(bytes->second));
+      }
+      const auto counted = operations.find(part);
+      curve.operations = counted == operations.end() ? 0.0 : counted->second;
+      fraction_cells.emplace_back();
+      if (curve.operations > 0.0) fraction_cells.back() = curve.operations / seconds.median / peak;
+    }
+    std::vector<BenchCell> row{std::int64_t{order}};
+    for (const auto* cells : {&seconds_cells, &byte_cells, &fraction_cells}) {
+      row.insert(row.end(), cells->begin(), cells->end());
+    }
+    row.emplace_back(peak_memory_bytes());
+    progress.clear();
+    add_row(result.tables.front(), std::move(row));
   }
+  result.tables.push_back(growth_table(parts, curves, peak));
+  result.panels = panels_of(parts, orders);
   return result;
 }
 

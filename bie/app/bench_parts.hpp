@@ -1,15 +1,16 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bie/app/bench_result.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
 
-/// Prints and returns, per order, the median seconds of a whole step of the scene (evaluation and reparametrisation
-/// included), the mean seconds of its parts, the growth exponent against the order before, and the peak memory of
-/// the process so far.
-nlohmann::json bench_parts(Scene scene, const std::vector<int>& orders, int repeats);
+/// Seconds and memory of each part of a step of the scene against the degree, the exponents with which they grow, and
+/// the fraction of the machine's measured peak at which their counted operations run, see StepTimer.
+/// @param orders  ascending
+/// @throws InputError for a scene without dt
+BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats);
 
 }  // namespace vehd

@@ -1,12 +1,12 @@
 #include "bie/app/bench_record.hpp"
 
+#include <fmt/format.h>
+#include <omp.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <filesystem>
+#include <cmath>
 #include <fstream>
-#include <memory>
-#include <string>
+#include <numeric>
 #include <thread>
 
 #include "bie/app/versions.hpp"
@@ -19,45 +19,52 @@ std::string processor() {
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
   }
-  return "unknown";
-}
-
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char letter : text) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return quoted + "'";
-}
-
-/// Empty without git or outside a work tree.
-std::string commit() {
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return {};
-  const std::string command =
-      "git -C " + shell_quoted(self.parent_path().string()) + " describe --always --dirty --exclude '*' 2>/dev/null";
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
-  std::array<char, 128> line{};
-  if (!pipe || std::fgets(line.data(), line.size(), pipe.get()) == nullptr) return {};
-  std::string text = line.data();
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
+  return "unknown processor";
 }
 
 }  // namespace
 
-nlohmann::json machine_record() {
-  nlohmann::json record = {{"processor", processor()},
-                           {"hardware_threads", std::thread::hardware_concurrency()},
-                           {"compiler", library_versions().at("compiler")},
-                           {"version", program_version()}};
-  if (const std::string name = commit(); !name.empty()) record["commit"] = name;
-  return record;
+MachineRecord machine_record() {
+  return {processor(),           std::thread::hardware_concurrency(),
+          omp_get_max_threads(), library_versions().at("compiler"),
+          program_version(),     program_commit()};
+}
+
+nlohmann::ordered_json json_of(const MachineRecord& machine) {
+  return {{"processor", machine.processor}, {"hardware_threads", machine.hardware_threads},
+          {"threads", machine.threads},     {"compiler", machine.compiler},
+          {"version", machine.version},     {"commit", machine.commit}};
+}
+
+std::string text_of(const MachineRecord& machine) {
+  return fmt::format("{}, {} hardware thread{}, {}, vehd {}{}", machine.processor, machine.hardware_threads,
+                     machine.hardware_threads == 1 ? "" : "s", machine.compiler, machine.version,
+                     machine.commit.empty() ? "" : " at commit " + machine.commit);
 }
 
 Spread spread_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const double median = 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
-  return {median, values.front(), values.back()};
+  return {median, values.front(), values.back(), static_cast<std::int64_t>(values.size())};
+}
+
+bool wants_repeat(const std::vector<double>& seconds, int repeats) {
+  constexpr double kEnough = 4.0;
+  return static_cast<int>(seconds.size()) < repeats && std::accumulate(seconds.begin(), seconds.end(), 0.0) < kEnough;
+}
+
+double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  const double n = static_cast<double>(x.size());
+  double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean_x += std::log(x[i]) / n;
+    mean_y += std::log(y[i]) / n;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (std::log(x[i]) - mean_x) * (std::log(x[i]) - mean_x);
+    xy += (std::log(x[i]) - mean_x) * (std::log(y[i]) - mean_y);
+  }
+  return xy / xx;
 }
 
 }  // namespace vehd

@@ -6,13 +6,14 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
+#include "bie/app/progress.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/laboratory.hpp"
 #include "bie/stepping/resolution.hpp"
+#include "bie/stepping/time_rule.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -32,28 +33,56 @@ constexpr std::array kQuantities = {
 };
 
 struct TimedRun {
-  Diagnostics diagnostics;
-  double seconds;
-  std::int64_t n_steps;
-  int highest_order;
+  std::string integrator, setting;
+  BenchCell dt{}, tolerance{};
+  Diagnostics diagnostics{};
+  std::vector<double> seconds{};
+  std::int64_t n_steps = 0;
+  int highest_order = 0;
 };
 
-TimedRun run_to(const Scene& scene, double end_time) {
+void run_once(const Scene& scene, double end_time, TimedRun& run) {
+  Progress progress(Progress::suitable_style(), 0.0, end_time);
   const Problem problem = problem_of(scene);
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
   evolution.evaluate_start();
-  int highest_order = evolution.order();
+  run.highest_order = evolution.order();
   while (evolution.state().time < end_time) {
-    evolution.step({std::nullopt, end_time});
-    highest_order = std::max(highest_order, evolution.order());
+    const EvolutionStep step = evolution.step({std::nullopt, end_time});
+    run.highest_order = std::max(run.highest_order, evolution.order());
+    const Diagnostics& now = evolution.evaluation().diagnostics;
+    progress.update({evolution.state().step, evolution.state().time, step.dt,
+                     std::max(std::abs(now.area_drift), std::abs(now.volume_drift))});
   }
   const Laboratory laboratory(problem.frame, problem.settings);
   const State state = resized(evolution.state(), problem.settings.order);
   const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
-  return {laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields),
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), state.step, highest_order};
+  run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields);
+  run.n_steps = state.step;
+  run.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void run_to(const Scene& scene, double end_time, int repeats, TimedRun& run) {
+  while (wants_repeat(run.seconds, repeats)) run_once(scene, end_time, run);
+}
+
+TimedRun fixed_run(Scene scene, double dt, int time_order, double at, int repeats) {
+  scene.numerics.tolerance.reset();
+  scene.numerics.dt = dt;
+  scene.numerics.time_order = time_order;
+  TimedRun run{fmt::format("order {}", time_order), fmt::format("{:g}", dt), dt};
+  run_to(scene, at, repeats, run);
+  return run;
+}
+
+TimedRun adaptive_run(const Scene& scene, double tolerance, double at, int repeats) {
+  Scene asked = at_tolerance(scene, tolerance);
+  asked.numerics.end_time = at;
+  TimedRun run{"tolerance", fmt::format("{:.0e}", tolerance), {}, tolerance};
+  run_to(asked, at, repeats, run);
+  return run;
 }
 
 /// Difference of one quantity over its size; angles over a radian.
@@ -67,92 +96,166 @@ double relative_error(const Quantity& quantity, const Diagnostics& d, const Diag
   return difference == 0.0 ? 0.0 : difference / std::abs(value);
 }
 
-}  // namespace
-
-nlohmann::json bench_time(const Scene& scene, const std::vector<double>& steps, double at) {
-  for (std::size_t i = 1; i < steps.size(); ++i) {
-    if (std::abs(steps[i] - 0.5 * steps[i - 1]) > 1e-12 * steps[i - 1]) {
-      throw InputError(fmt::format("--dt: {} is not half of {}", steps[i], steps[i - 1]));
-    }
-  }
-  nlohmann::json result = {{"order", scene.numerics.order}, {"time", at}};
-  fmt::print("order {}, values at time {}\n{:>10} {:>9}", scene.numerics.order, at, "dt", "seconds");
-  for (const Quantity& quantity : kQuantities) fmt::print(" {:>22}", quantity.name);
-  fmt::print("\n");
-  std::vector<TimedRun> runs;
-  for (const double dt : steps) {
-    Scene stepped = scene;
-    stepped.numerics.tolerance.reset();
-    stepped.numerics.dt = dt;
-    runs.push_back(run_to(stepped, at));
-    fmt::print("{:>10g} {:>9.2f}", dt, runs.back().seconds);
-    nlohmann::json row = {{"dt", dt}, {"seconds", runs.back().seconds}};
-    for (const Quantity& quantity : kQuantities) {
-      fmt::print(" {:>22.6f}", runs.back().diagnostics.*quantity.member);
-      row[quantity.name] = runs.back().diagnostics.*quantity.member;
-    }
-    fmt::print("\n");
-    std::fflush(stdout);
-    result["runs"].push_back(row);
-  }
-  for (std::size_t i = 2; i < runs.size(); ++i) {
-    std::string orders = fmt::format("{:>20}", "observed order");
-    std::string limits = fmt::format("{:>20}", "extrapolated");
-    for (const Quantity& quantity : kQuantities) {
-      const double coarse = runs[i - 2].diagnostics.*quantity.member;
-      const double middle = runs[i - 1].diagnostics.*quantity.member;
-      const double fine = runs[i].diagnostics.*quantity.member;
-      const double ratio = (coarse - middle) / (middle - fine);
-      // Values that do not move monotonically, or not at all, have no order.
-      const bool converging = std::isfinite(ratio) && ratio > 1.0 && std::abs(middle - fine) > 1e-9 * std::abs(fine);
-      orders += converging ? fmt::format(" {:>22.2f}", std::log2(ratio)) : fmt::format(" {:>22}", "-");
-      limits +=
-          converging ? fmt::format(" {:>22.6f}", fine + (fine - middle) / (ratio - 1.0)) : fmt::format(" {:>22}", "-");
-    }
-    fmt::print("{}\n{}\n", orders, limits);
-  }
-  return result;
+BenchTable empty_table() {
+  BenchTable table{"rows",
+                   {{"integrator", "integrator", "{}", false, 20},
+                    {"setting", "dt, tolerance"},
+                    {"dt", ""},
+                    {"tolerance", ""},
+                    {"seconds", "seconds", "{:.2g}", true},
+                    {"steps", "steps"},
+                    {"order", "degree"},
+                    {"error", "error", "{:.1e}"},
+                    {"error_over_tolerance", "error/tolerance", "{:.2f}"}}};
+  for (const Quantity& quantity : kQuantities) table.columns.push_back({std::string("error_") + quantity.name, ""});
+  for (const Quantity& quantity : kQuantities) table.columns.push_back({quantity.name, ""});
+  return table;
 }
 
-nlohmann::json bench_tolerance(const Scene& scene, const std::vector<double>& tolerances, double at) {
-  for (std::size_t i = 1; i < tolerances.size(); ++i) {
-    if (!(tolerances[i] < tolerances[i - 1])) {
-      throw InputError(fmt::format("--tolerance: {} is not below {}", tolerances[i], tolerances[i - 1]));
+std::vector<BenchCell> row_of(const TimedRun& run, const TimedRun& reference) {
+  double largest = 0.0;
+  std::vector<BenchCell> errors;
+  for (const Quantity& quantity : kQuantities) {
+    const double error = relative_error(quantity, run.diagnostics, reference.diagnostics);
+    largest = std::max(largest, error);
+    errors.emplace_back(error);
+  }
+  BenchCell error, over_tolerance;
+  // The reference has none that could be known.
+  if (&run != &reference) {
+    error = largest;
+    if (const double* tolerance = std::get_if<double>(&run.tolerance)) over_tolerance = largest / *tolerance;
+  }
+  std::vector<BenchCell> row{run.integrator,
+                             run.setting,
+                             run.dt,
+                             run.tolerance,
+                             spread_of(run.seconds),
+                             run.n_steps,
+                             std::int64_t{run.highest_order},
+                             error,
+                             over_tolerance};
+  row.insert(row.end(), errors.begin(), errors.end());
+  for (const Quantity& quantity : kQuantities) row.emplace_back(run.diagnostics.*quantity.member);
+  return row;
+}
+
+/// Values at each step size of one integrator; below them the order and the limit that the last three suggest.
+void add_values(BenchTable& table, const std::vector<TimedRun>& runs) {
+  for (const TimedRun& run : runs) {
+    std::vector<BenchCell> row{run.integrator, run.setting};
+    for (const Quantity& quantity : kQuantities) row.emplace_back(run.diagnostics.*quantity.member);
+    add_row(table, std::move(row));
+  }
+  if (runs.size() < 3) return;
+  std::vector<BenchCell> orders{runs.front().integrator, "observed order"};
+  std::vector<BenchCell> limits{runs.front().integrator, "dt → 0"};
+  for (const Quantity& quantity : kQuantities) {
+    const auto value = [&](std::size_t from_end) { return runs[runs.size() - from_end].diagnostics.*quantity.member; };
+    const double coarse = value(3), middle = value(2), fine = value(1);
+    const double ratio = (coarse - middle) / (middle - fine);
+    // Values that do not move monotonically, or not at all, have no order.
+    const bool converging = std::isfinite(ratio) && ratio > 1.0 && std::abs(middle - fine) > 1e-9 * std::abs(fine);
+    orders.emplace_back();
+    limits.emplace_back();
+    if (converging) {
+      orders.back() = std::log2(ratio);
+      limits.back() = fine + (fine - middle) / (ratio - 1.0);
     }
   }
-  std::vector<TimedRun> runs;
-  for (const double tolerance : tolerances) {
-    Scene asked = scene;
-    const AccuracyDefaults defaults = accuracy_defaults(tolerance);
-    asked.numerics.tolerance = tolerance;
-    asked.numerics.dt.reset();
-    asked.numerics.order = defaults.order;
-    asked.numerics.time_order = defaults.time_order;
-    asked.numerics.end_time = at;
-    runs.push_back(run_to(asked, at));
-    fmt::print(stderr, "tolerance {:.0e}: {:.1f} s\n", tolerance, runs.back().seconds);
-  }
-  nlohmann::json result = {{"time", at}, {"reference", tolerances.back()}};
-  fmt::print("time {}, errors against the last row\n{:>9} {:>9} {:>7} {:>7} {:>10}", at, "tolerance", "seconds",
-             "steps", "degree", "error/tol");
-  for (const Quantity& quantity : kQuantities) fmt::print(" {:>22}", quantity.name);
-  fmt::print("\n");
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const TimedRun& run = runs[i];
-    nlohmann::json row = {
-        {"tolerance", tolerances[i]}, {"seconds", run.seconds}, {"steps", run.n_steps}, {"order", run.highest_order}};
-    std::string errors;
-    double largest = 0.0;
-    for (const Quantity& quantity : kQuantities) {
-      const double error = relative_error(quantity, run.diagnostics, runs.back().diagnostics);
-      largest = std::max(largest, error);
-      errors += fmt::format(" {:>22.1e}", error);
-      row["errors"][quantity.name] = error;
+  add_row(table, std::move(orders));
+  add_row(table, std::move(limits));
+}
+
+BenchTable values_table() {
+  BenchTable table{"values", {{"integrator", "integrator", "{}", false, 20}, {"setting", "dt", "{}", false, 14}}};
+  for (const Quantity& quantity : kQuantities) table.columns.push_back({quantity.name, quantity.name, "{:.6g}"});
+  return table;
+}
+
+void require_falling(const TimeTask& task) {
+  for (std::size_t i = 1; i < task.steps.size(); ++i) {
+    if (std::abs(task.steps[i] - 0.5 * task.steps[i - 1]) > 1e-12 * task.steps[i - 1]) {
+      throw InputError(fmt::format("--dt: {} is not half of {}", task.steps[i], task.steps[i - 1]));
     }
-    fmt::print("{:>9.0e} {:>9.2f} {:>7} {:>7} {:>10.2f}{}\n", tolerances[i], run.seconds, run.n_steps,
-               run.highest_order, largest / tolerances[i], errors);
-    result["runs"].push_back(row);
   }
+  for (std::size_t i = 1; i < task.tolerances.size(); ++i) {
+    if (!(task.tolerances[i] < task.tolerances[i - 1])) {
+      throw InputError(fmt::format("--tolerance: {} is not below {}", task.tolerances[i], task.tolerances[i - 1]));
+    }
+  }
+}
+
+TimedRun reference_of_steps(const TimeTask& task, const std::vector<int>& time_orders) {
+  constexpr int kLowOrder = 2;
+  const bool high = *std::max_element(time_orders.begin(), time_orders.end()) > kLowOrder;
+  const double dt = high ? 0.5 * task.steps.back() : task.steps[task.steps.size() / 2];
+  return fixed_run(task.scene, dt, highest_time_order, task.at, 1);
+}
+
+std::vector<BenchPanel> panels_of(const std::vector<std::string>& integrators) {
+  BenchPanel seconds{"seconds", "largest relative error of the history quantities", {}};
+  for (const std::string& integrator : integrators) {
+    seconds.curves.push_back({.label = integrator,
+                              .x = "seconds",
+                              .y = "error",
+                              .key = "integrator",
+                              .value = integrator,
+                              .note = "setting",
+                              .colour = static_cast<int>(seconds.curves.size())});
+  }
+  BenchPanel steps = seconds;
+  steps.x_label = "steps";
+  steps.y_label.clear();
+  steps.key_place.clear();
+  for (BenchCurve& curve : steps.curves) {
+    curve.x = "steps";
+    curve.note.clear();
+  }
+  return {seconds, steps};
+}
+
+}  // namespace
+
+BenchResult bench_time(const TimeTask& task) {
+  require_falling(task);
+  std::vector<int> time_orders = task.time_orders;
+  if (time_orders.empty()) time_orders.push_back(task.scene.numerics.time_order);
+  if (task.steps.empty()) time_orders.clear();
+  std::vector<std::vector<TimedRun>> runs;
+  std::vector<std::string> integrators;
+  for (const int order : time_orders) {
+    std::vector<TimedRun>& of_order = runs.emplace_back();
+    for (const double dt : task.steps) of_order.push_back(fixed_run(task.scene, dt, order, task.at, task.repeats));
+    integrators.push_back(of_order.front().integrator);
+  }
+  if (!task.tolerances.empty()) {
+    std::vector<TimedRun>& adaptive = runs.emplace_back();
+    for (const double tolerance : task.tolerances) {
+      adaptive.push_back(adaptive_run(task.scene, tolerance, task.at, task.repeats));
+    }
+    integrators.push_back(adaptive.front().integrator);
+  } else {
+    runs.push_back({reference_of_steps(task, time_orders)});
+    runs.back().front().integrator = "reference (" + runs.back().front().integrator + ")";
+  }
+  const TimedRun& reference = runs.back().back();
+
+  BenchResult result{"time", machine_record(), task.repeats, {}, {empty_table()}, {}};
+  result.facts = {{"time", task.at},
+                  {"order", task.scene.numerics.order},
+                  {"reference", reference.integrator + " " + reference.setting}};
+  fmt::print("time {}, errors against {} {}\n", task.at, reference.integrator, reference.setting);
+  announce(result.tables.front());
+  for (const auto& of_integrator : runs) {
+    for (const TimedRun& run : of_integrator) add_row(result.tables.front(), row_of(run, reference));
+  }
+  if (!task.steps.empty()) {
+    result.tables.push_back(values_table());
+    announce(result.tables.back());
+    for (std::size_t i = 0; i < time_orders.size(); ++i) add_values(result.tables.back(), runs[i]);
+  }
+  result.panels = panels_of(integrators);
   return result;
 }
 

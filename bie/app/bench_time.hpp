@@ -1,19 +1,26 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bie/app/bench_result.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
 
-/// Runs the scene to time `at` with every step size, prints the history quantities there with the seconds, then the
-/// order observed from each three successive step sizes and the value extrapolated to dt = 0 at that order.
-/// @param steps  each half of the one before
-nlohmann::json bench_time(const Scene& scene, const std::vector<double>& steps, double at);
+struct TimeTask {
+  Scene scene;
+  double at = 0.0;                   ///< time at which the history quantities are compared
+  std::vector<double> steps{};       ///< fixed step sizes, each half of the one before
+  std::vector<int> time_orders{};    ///< integrators that take them; empty: the scene's own
+  std::vector<double> tolerances{};  ///< falling
+  int repeats = 1;
+};
 
-/// Runs the scene to time `at` with falling tolerances and prints the error of each against the last, beside the
-/// seconds that it took. @throws InputError, ConvergenceError
-nlohmann::json bench_tolerance(const Scene& scene, const std::vector<double>& tolerances, double at);
+/// Error of the history quantities against the step size, the steps and the seconds, for each integrator and for a
+/// tolerance; with fixed steps also the values, the order observed from the last three and the limit that follows.
+/// The reference is the last tolerance; without any, a run of the highest order with half the smallest step where
+/// orders above 2 are compared, otherwise with the middle one. Errors are relative, those of angles in radians.
+/// @throws InputError, ConvergenceError
+BenchResult bench_time(const TimeTask& task);
 
 }  // namespace vehd

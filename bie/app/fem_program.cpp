@@ -24,8 +24,10 @@ std::filesystem::path program_beside_this_one() {
 
 }  // namespace
 
+bool fem_program_is_built() { return ::access(program_beside_this_one().c_str(), X_OK) == 0; }
+
 FemProgram::FemProgram() : path_(program_beside_this_one()) {
-  if (::access(path_.c_str(), X_OK) == 0) return;
+  if (fem_program_is_built()) return;
   throw InputError(
       fmt::format("{}: the finite-element program is not built; configure with VEHD_FEM_CHECK=ON "
                   "(cmake -DSTEP=check -P bie/setup.cmake)",

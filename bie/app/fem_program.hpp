@@ -8,6 +8,9 @@
 
 namespace vehd {
 
+/// Whether it stands beside the running program.
+bool fem_program_is_built();
+
 /// The separate executable of the finite-element side. deal.II brings the OpenMPI build of HDF5, which must not meet
 /// the serial one in one process.
 class FemProgram {

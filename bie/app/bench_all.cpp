@@ -1,0 +1,217 @@
+#include "bie/app/bench_all.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "bie/app/bench_methods.hpp"
+#include "bie/app/bench_parts.hpp"
+#include "bie/app/bench_scenes.hpp"
+#include "bie/app/bench_space.hpp"
+#include "bie/app/bench_threads.hpp"
+#include "bie/app/bench_time.hpp"
+#include "bie/app/doc_tables.hpp"
+#include "bie/app/fem_program.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is measured, in full and as a trial.
+struct Extent {
+  std::vector<int> space, parts;
+  int threads_order;  ///< 0: that of the scene
+  int time_order;     ///< degree of the comparison of integrators, likewise
+  int n_steps;        ///< step sizes
+  std::vector<double> tolerances;
+  int repeats;
+};
+
+Extent extent_of(bool quick) {
+  if (quick) return {{6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, 2};
+  return {{8, 12, 16, 20, 24, 32}, {8, 12, 16, 24, 32}, 24, 24, 5, {1e-2, 1e-3, 1e-4, 1e-5}, 9};
+}
+
+/// Successive halves.
+std::vector<double> steps_from(double first, int count) {
+  std::vector<double> steps{first};
+  while (static_cast<int>(steps.size()) < count) steps.push_back(0.5 * steps.back());
+  return steps;
+}
+
+std::vector<fs::path> scenes_in(const fs::path& folder) {
+  std::vector<fs::path> scenes;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+  }
+  if (scenes.empty()) {
+    throw InputError(
+        fmt::format("{}: no scenes; accepted: --docs with the folder docs of the source tree", folder.string()));
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+/// The whole of what bench all does, one bench after the other.
+class AllBenches {
+ public:
+  explicit AllBenches(const AllTask& task) : task_(task), extent_(extent_of(task.quick)) {
+    scenes_ = scenes_in(task.docs / "scenes");
+    make_bench_directory(task.output);
+    fs::create_directories(task.docs / "images");
+    wanted_ = wanted_tables(task.docs);
+  }
+
+  nlohmann::ordered_json run() {
+    begin("every scene");
+    keep(bench_scenes(scenes_, task_.docs / "images"));
+    begin("space");
+    keep(bench_space(extent_.space, extent_.repeats));
+    time();
+    tolerances();
+    parts_and_threads();
+    methods();
+    report();
+    return record_;
+  }
+
+ private:
+  void begin(const std::string& what) const {
+    fmt::print("\n== {}\n", what);
+    std::fflush(stdout);
+  }
+
+  [[nodiscard]] Scene scene(const std::string& name) const {
+    return read_scene(task_.docs / "scenes" / (name + ".toml"));
+  }
+
+  void keep(const BenchResult& result) {
+    record_[result.name] = write_bench(result, task_.output);
+    for (std::size_t i = 0; i < result.tables.size(); ++i) {
+      const std::string name = i == 0 ? result.name : result.name + "_" + result.tables[i].name;
+      const std::string text =
+          fmt::format("{}\n*{}{}; medians of up to {} repeats.*\n", markdown_of(result.tables[i]),
+                      text_of(result.machine), task_.quick ? "; a trial, not for comparison" : "", result.repeats);
+      if (put_table(task_.docs, name, text) > 0) wanted_.erase(name);
+    }
+    const std::string picture = "bench_" + result.name + ".png";
+    if (!task_.output.plot || !pages_mention(task_.docs, "images/" + picture)) return;
+    std::error_code error;
+    fs::copy_file(task_.output.directory / (result.name + ".png"), task_.docs / "images" / picture,
+                  fs::copy_options::overwrite_existing, error);
+    if (error) spdlog::warn("no new picture of {}: {}", result.name, error.message());
+  }
+
+  /// Example 2 on its way through the tube-like phase, and where it moves fastest.
+  void time() {
+    const Scene figure2 = scene("figure2");
+    for (const int share : {4, 2}) {
+      begin(fmt::format("time: figure2.toml, the paper's scheme, at 1/{} of its end", share));
+      BenchResult result = bench_time({.scene = figure2,
+                                       .at = figure2.numerics.end_time / share,
+                                       .steps = steps_from(*figure2.numerics.dt, extent_.n_steps)});
+      result.name = fmt::format("time_figure2_{}", share == 4 ? "quarter" : "half");
+      keep(result);
+    }
+    begin("time: figure2.toml, integrators and tolerance");
+    Scene resolved = figure2;
+    if (extent_.time_order > 0) resolved.numerics.order = extent_.time_order;
+    keep(bench_time({.scene = resolved,
+                     .at = figure2.numerics.end_time / 4,
+                     .steps = steps_from(*figure2.numerics.dt, extent_.n_steps),
+                     .time_orders = {1, 2, 4},
+                     .tolerances = extent_.tolerances}));
+  }
+
+  void tolerances() {
+    BenchResult all{"tolerances",
+                    machine_record(),
+                    1,
+                    {{"reference", extent_.tolerances.back()}},
+                    {{"rows",
+                      {{"scene", "scene", "{}", false, 24},
+                       {"tolerance", "tolerance", "{:.0e}"},
+                       {"steps", "steps"},
+                       {"order", "highest degree"},
+                       {"error_over_tolerance", "error/tolerance", "{:.2f}"},
+                       {"seconds", "seconds", "{:.2g}", true}}}},
+                    {}};
+    for (const fs::path& file : scenes_) {
+      begin("tolerances: " + file.filename().string());
+      const Scene asked = read_scene(file);
+      const BenchResult one =
+          bench_time({.scene = asked, .at = asked.numerics.end_time, .tolerances = extent_.tolerances});
+      const BenchTable& rows = one.tables.front();
+      const auto cell = [&](const std::vector<BenchCell>& row, const std::string& key) {
+        const auto column = std::find_if(rows.columns.begin(), rows.columns.end(),
+                                         [&](const BenchColumn& candidate) { return candidate.key == key; });
+        return row[static_cast<std::size_t>(column - rows.columns.begin())];
+      };
+      for (const auto& row : rows.rows) {
+        std::vector<BenchCell> cells{file.filename().string()};
+        for (std::size_t i = 1; i < all.tables.front().columns.size(); ++i) {
+          cells.push_back(cell(row, all.tables.front().columns[i].key));
+        }
+        all.tables.front().rows.push_back(std::move(cells));
+      }
+    }
+    all.panels = {
+        {.x_label = "seconds", .y_label = "error over tolerance", .curves = {}, .key_place = "outside right top"}};
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      const std::string name = scenes_[i].filename().string();
+      all.panels.front().curves.push_back({.label = name,
+                                           .x = "seconds",
+                                           .y = "error_over_tolerance",
+                                           .key = "scene",
+                                           .value = name,
+                                           .note = "tolerance",
+                                           .colour = static_cast<int>(i)});
+    }
+    keep(all);
+  }
+
+  void parts_and_threads() {
+    Scene sheared = scene("figure5_no_field");
+    begin("parts: figure5_no_field.toml");
+    keep(bench_parts(sheared, extent_.parts, extent_.repeats));
+    begin("threads: figure5_no_field.toml");
+    if (extent_.threads_order > 0) sheared.numerics.order = extent_.threads_order;
+    keep(bench_threads(sheared, thread_counts(), extent_.repeats));
+  }
+
+  void methods() {
+    begin("methods");
+    if (!fem_program_is_built()) {
+      without_.emplace_back("methods (the finite elements are not built: cmake -DSTEP=check -P bie/setup.cmake)");
+      fmt::print("left out: the finite elements are not built\n");
+      return;
+    }
+    keep(bench_methods({task_.quick, task_.quick ? 1 : 3}, task_.output.directory));
+  }
+
+  void report() const {
+    fmt::print("\npages and pictures in {} are renewed", task_.docs.string());
+    if (!without_.empty()) fmt::print(", without {}", fmt::join(without_, ", "));
+    if (!wanted_.empty()) fmt::print("; tables left as they were: {}", fmt::join(wanted_, ", "));
+    fmt::print("\n");
+  }
+
+  const AllTask& task_;
+  Extent extent_;
+  std::vector<fs::path> scenes_;
+  std::set<std::string> wanted_;
+  std::vector<std::string> without_;
+  nlohmann::ordered_json record_;
+};
+
+}  // namespace
+
+nlohmann::ordered_json bench_all(const AllTask& task) { return AllBenches(task).run(); }
+
+}  // namespace vehd

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "bie/app/bench_result.hpp"
+
+namespace vehd {
+
+struct AllTask {
+  std::filesystem::path docs;  ///< folder with the pages, images/ and scenes/
+  BenchOutput output;
+  bool quick = false;  ///< few degrees and tolerances, one repeat: shows that it works, measures little
+};
+
+/// Runs every scene and every bench and renews the pictures and the tables of the pages from what they give. What needs
+/// the finite elements is left as it is where they are not built, and said.
+/// @return name and machine of every bench
+/// @throws InputError if there are no pages
+nlohmann::ordered_json bench_all(const AllTask& task);
+
+}  // namespace vehd

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bie/app/bench_result.hpp"
+
+namespace vehd {
+
+/// Runs the scenes as they are, files and pictures included: where they end and what that takes. Pictures go to the
+/// folder as SCENE_shapes.png and SCENE_history.png; nothing else is left of the runs.
+/// @throws ConvergenceError where a run does not reach its end
+BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const std::filesystem::path& pictures);
+
+}  // namespace vehd

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace vehd {
+
+/// A 2:1 prolate pulled through a viscous fluid: the Stokes single layer on a density with known velocity.
+struct ProlateResult {
+  double error = 0.0;    ///< largest deviation from the exact velocity over the nodes and both directions, over the speed
+  double seconds = 0.0;  ///< operator and both velocities; tables of the order excluded
+};
+
+/// The poles of the grid are off the axis of the prolate, which nothing but the truncation can see.
+ProlateResult solve_translating_prolate(int order);
+
+}  // namespace vehd

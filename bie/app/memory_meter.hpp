@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bie/support/instruments.hpp"
+
+namespace vehd {
+
+/// Most memory that each part of the work takes beyond what the process held when the part began, to a page, from the
+/// resident size that Linux keeps. Costs milliseconds a part, so that what is metered should not be timed.
+class MemoryMeter : public PartObserver {
+ public:
+  /// Until then nothing is metered. Freed memory goes back to the system at each begin of a part.
+  void start() { active_ = true; }
+  void stop() { active_ = false; }
+
+  void begin(const std::string& part) override;
+  void end() override;
+
+  /// Bytes of each part so far; empty where the system does not say.
+  [[nodiscard]] const std::map<std::string, std::int64_t>& peaks() const { return peaks_; }
+
+ private:
+  struct OpenPart {
+    std::string name;
+    std::int64_t held, peak;
+  };
+  void look();
+
+  bool active_ = false;
+  std::vector<OpenPart> open_;
+  std::map<std::string, std::int64_t> peaks_;
+};
+
+}  // namespace vehd
