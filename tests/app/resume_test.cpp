@@ -94,6 +94,19 @@ struct AdaptiveRun : ReferenceRun {
 
 BOOST_AUTO_TEST_SUITE(resume)
 
+BOOST_AUTO_TEST_CASE(a_chain_of_fifty_runs_is_one_run) {
+  // Every link takes one step of 0.25 and ends; its end is a snapshot of its own, so histories are compared.
+  constexpr int kLinks = 50;
+  const ReferenceRun one(quick_scene("12.5"));
+  for (int link = 1; link <= kLinks; ++link) {
+    write_text(one.scene, quick_scene(std::to_string(0.25 * link)));
+    one.finish();
+  }
+  BOOST_TEST((file_text(one.output + "/history.csv") == file_text(one.reference + "/history.csv")));
+  BOOST_TEST(
+      (snapshot_data(one.output + "/run.h5").back().second == snapshot_data(one.reference + "/run.h5").back().second));
+}
+
 BOOST_FIXTURE_TEST_CASE(killed_at_random_moments_reproduces_every_bit, ReferenceRun) {
   std::mt19937 random(20240607);
   for (int trial = 0; trial < 6; ++trial) {

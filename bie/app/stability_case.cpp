@@ -1,0 +1,110 @@
+#include "bie/app/stability_case.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "bie/scene/reader.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// The criterion as TOML, with every other line empty so that line numbers are those of the file.
+std::string criterion_text(const std::filesystem::path& path) {
+  constexpr std::string_view mark = "#:";
+  std::ifstream stream(path);
+  std::string text;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(mark)) text += line.substr(mark.size());
+    text += '\n';
+  }
+  return text;
+}
+
+class Criterion {
+ public:
+  explicit Criterion(const std::filesystem::path& path) : file_(path.string()) {
+    try {
+      table_ = toml::parse(criterion_text(path), file_);
+    } catch (const toml::parse_error& error) {
+      throw InputError(fmt::format("{}:{}: {}", file_, error.source().begin.line, error.description()));
+    }
+    for (const auto& [key, node] : table_) {
+      static constexpr std::array keys = {"family", "expect", "short_end_time", "most", "falls", "steady"};
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
+        refuse(node, fmt::format("unknown key \"{}\"; accepted: {}", key.str(), fmt::join(keys, ", ")));
+      }
+    }
+  }
+
+  [[nodiscard]] std::string text(const char* key) const {
+    const auto value = table_[key].value<std::string>();
+    if (!value) throw InputError(fmt::format("{}: the criterion lacks a text \"{}\"", file_, key));
+    return *value;
+  }
+  [[nodiscard]] double number(const char* key) const {
+    const auto value = table_[key].value<double>();
+    if (!value) throw InputError(fmt::format("{}: the criterion lacks a number \"{}\"", file_, key));
+    return *value;
+  }
+  [[nodiscard]] std::vector<ColumnBound> bounds(const char* key) const {
+    std::vector<ColumnBound> result;
+    if (const toml::table* table = table_[key].as_table()) {
+      for (const auto& [column, node] : *table) {
+        const auto bound = node.value<double>();
+        if (!bound) refuse(node, fmt::format("\"{}\" is no number", column.str()));
+        result.push_back({std::string(column.str()), *bound});
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] std::vector<std::string> names(const char* key) const {
+    std::vector<std::string> result;
+    if (const toml::array* array = table_[key].as_array()) {
+      for (const toml::node& node : *array) result.push_back(node.value_or<std::string>(""));
+    }
+    return result;
+  }
+  [[nodiscard]] ExpectedEnd expected_end() const {
+    const std::string word = text("expect");
+    if (word == "completed") return ExpectedEnd::completed;
+    if (word == "doubted") return ExpectedEnd::doubted;
+    if (word == "stops") return ExpectedEnd::stops;
+    refuse(*table_.get("expect"), fmt::format("\"{}\"; accepted: completed, doubted, stops", word));
+  }
+
+ private:
+  [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", file_, node.source().begin.line, what));
+  }
+
+  std::string file_;
+  toml::table table_;
+};
+
+}  // namespace
+
+StabilityCase read_stability_case(const std::filesystem::path& path) {
+  StabilityCase result;
+  result.scene = read_scene(path);
+  const Criterion criterion(path);
+  result.name = path.stem().string();
+  result.family = criterion.text("family");
+  result.short_end_time = criterion.number("short_end_time");
+  result.expect = criterion.expected_end();
+  result.most = criterion.bounds("most");
+  result.falls = criterion.names("falls");
+  result.steady = criterion.bounds("steady");
+  constexpr double largest_drift = 1e-6;
+  for (const char* drift : {"area_drift", "volume_drift"}) {
+    const auto same = [&](const ColumnBound& bound) { return bound.column == drift; };
+    if (std::none_of(result.most.begin(), result.most.end(), same)) result.most.push_back({drift, largest_drift});
+  }
+  return result;
+}
+
+}  // namespace vehd
