@@ -10,6 +10,7 @@
 #include "bie/app/bench_parts.hpp"
 #include "bie/app/bench_scenes.hpp"
 #include "bie/app/bench_space.hpp"
+#include "bie/app/bench_stability.hpp"
 #include "bie/app/bench_threads.hpp"
 #include "bie/app/bench_time.hpp"
 #include "bie/app/doc_tables.hpp"
@@ -44,25 +45,11 @@ std::vector<double> steps_from(double first, int count) {
   return steps;
 }
 
-std::vector<fs::path> scenes_in(const fs::path& folder) {
-  std::vector<fs::path> scenes;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
-  }
-  if (scenes.empty()) {
-    throw InputError(
-        fmt::format("{}: no scenes; accepted: --docs with the folder docs of the source tree", folder.string()));
-  }
-  std::sort(scenes.begin(), scenes.end());
-  return scenes;
-}
-
 /// The whole of what bench all does, one bench after the other.
 class AllBenches {
  public:
   explicit AllBenches(const AllTask& task) : task_(task), extent_(extent_of(task.quick)) {
-    scenes_ = scenes_in(task.docs / "scenes");
+    scenes_ = scene_files(task.docs / "scenes");
     make_bench_directory(task.output);
     fs::create_directories(task.docs / "images");
     wanted_ = wanted_tables(task.docs);
@@ -77,6 +64,7 @@ class AllBenches {
     tolerances();
     parts_and_threads();
     methods();
+    stability();
     report();
     return record_;
   }
@@ -193,6 +181,21 @@ class AllBenches {
       return;
     }
     keep(bench_methods({task_.quick, task_.quick ? 1 : 3}, task_.output.directory));
+  }
+
+  void stability() {
+    const fs::path scenes = task_.docs.parent_path() / "tests/hard/scenes";
+    if (!fs::is_directory(scenes)) {
+      without_.emplace_back("stability (no scenes in " + scenes.string() + ")");
+      return;
+    }
+    begin("stability");
+    const BenchOutput output{task_.output.directory / "stability", task_.output.plot};
+    Interruption interruption;
+    keep(bench_stability({scene_files(scenes), output, task_.quick}, interruption).result);
+    if (!task_.output.plot) return;
+    fs::create_directories(task_.docs / "images/hard_cases");
+    fs::copy(output.directory / "shapes", task_.docs / "images/hard_cases", fs::copy_options::overwrite_existing);
   }
 
   void report() const {

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "bie/app/bench_all.hpp"
 #include "bie/app/bench_methods.hpp"
 #include "bie/app/bench_parts.hpp"
+#include "bie/app/bench_scenes.hpp"
 #include "bie/app/bench_space.hpp"
 #include "bie/app/bench_stability.hpp"
 #include "bie/app/bench_threads.hpp"
@@ -14,7 +13,6 @@
 #include "bie/app/commands.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/stepping/time_rule.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -171,18 +169,6 @@ void add_all(CLI::App& bench, ExitCode& exit_code) {
   });
 }
 
-/// The scenes of a folder by name, or the one scene file.
-std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& place) {
-  if (!std::filesystem::is_directory(place)) return {place};
-  std::vector<std::filesystem::path> scenes;
-  for (const auto& entry : std::filesystem::directory_iterator(place)) {
-    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
-  }
-  std::sort(scenes.begin(), scenes.end());
-  if (scenes.empty()) throw InputError(fmt::format("{}: holds no scene (*.toml)", place.string()));
-  return scenes;
-}
-
 void add_stability(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command = bench.add_subcommand("stability", "Hard cases, each against its criterion");
   const auto options = std::make_shared<SceneOptions>();
@@ -197,7 +183,7 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
     Interruption interruption;
     make_bench_directory(options->bench.output());
     const StabilityOutcome outcome =
-        bench_stability({scenes_in(options->scene_file), options->bench.output(), options->quick}, interruption);
+        bench_stability({scene_files(options->scene_file), options->bench.output(), options->quick}, interruption);
     write_json(options->bench.common, write_bench(outcome.result, options->bench.output()));
     exit_code = outcome.n_failed == 0 ? ExitCode::done : ExitCode::stopped_early;
   });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 
@@ -64,6 +65,21 @@ BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const
     draw(paths, file.stem().string(), pictures);
   }
   return result;
+}
+
+std::vector<std::filesystem::path> scene_files(const std::filesystem::path& place) {
+  if (std::filesystem::is_regular_file(place)) return {place};
+  std::vector<std::filesystem::path> scenes;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(place, error)) {
+    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+  }
+  if (scenes.empty()) {
+    throw InputError(
+        fmt::format("{}: no scenes; accepted: a folder of the source tree with scenes (*.toml)", place.string()));
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
 }
 
 }  // namespace vehd

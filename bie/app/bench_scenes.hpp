@@ -12,4 +12,8 @@ namespace vehd {
 /// @throws ConvergenceError where a run does not reach its end
 BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const std::filesystem::path& pictures);
 
+/// The scene files of a folder by name, or the one scene file that is given.
+/// @throws InputError if there are none
+std::vector<std::filesystem::path> scene_files(const std::filesystem::path& place);
+
 }  // namespace vehd

@@ -138,7 +138,13 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
   }
   std::stable_sort(cases.begin(), cases.end(),
                    [](const StabilityCase& a, const StabilityCase& b) { return a.family < b.family; });
-  StabilityOutcome outcome{{"stability", machine_record(), 1, {{"brief", task.brief}}, {empty_table()}, {}}};
+  StabilityOutcome outcome{
+      {"stability",
+       machine_record(),
+       1,
+       {{"brief", task.brief}},
+       {empty_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}},
+       {}}};
   BenchTable& table = outcome.result.tables.front();
   BenchProgress progress(static_cast<int>(cases.size()));
   announce(table);
@@ -156,7 +162,14 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
     progress.clear();
     add_row(table, row);
     outcome.n_failed += failed ? 1 : 0;
-    if (task.output.plot && !task.brief) plot_run({paths, {}, paths.plots()});
+    if (task.output.plot) {
+      const std::filesystem::path folder = task.output.directory / "shapes";
+      std::filesystem::create_directories(folder);
+      constexpr int shape_width = 120;
+      plot_shapes({paths, {}, folder, shape_width}, folder / (hard.name + ".png"));
+      outcome.result.tables.back().rows.push_back(
+          {hard.name, fmt::format("![{0}](images/hard_cases/{0}.png)", hard.name)});
+    }
   }
   outcome.result.facts["failed"] = outcome.n_failed;
   return outcome;

@@ -20,7 +20,6 @@ namespace {
 constexpr std::size_t most_shapes = 6;
 constexpr int picture_grid_order = 95;
 constexpr int widest_picture = 2400;
-constexpr int largest_cell = 520;
 constexpr int label_height = 56;
 constexpr int bar_room = 190;
 constexpr int bar_width = 28;
@@ -172,7 +171,7 @@ struct Row {
   int cell_width = 0;
 };
 
-Row render_row(const std::vector<Shape>& shapes, const ColourMap& colours) {
+Row render_row(const std::vector<Shape>& shapes, const ColourMap& colours, int shape_width) {
   double radius = 0.0;
   for (const Shape& shape : shapes) radius = std::max(radius, shape.mesh.points.rowwise().norm().maxCoeff());
   const Camera camera = camera_for(radius);
@@ -180,7 +179,7 @@ Row render_row(const std::vector<Shape>& shapes, const ColourMap& colours) {
   for (const Shape& shape : shapes) extent = extent.cwiseMax(projected_extent(shape.mesh, camera));
   const int n_shapes = static_cast<int>(shapes.size());
   Row row;
-  row.cell_width = std::min(largest_cell, (widest_picture - bar_room) / n_shapes);
+  row.cell_width = std::min(shape_width, (widest_picture - bar_room) / n_shapes);
   const double scale = row.cell_width / (2.0 * cell_margin * extent.x());
   const int height = static_cast<int>(std::ceil(2.0 * cell_margin_up * extent.y() * scale));
   row.image = {row.cell_width * n_shapes, height, {}};
@@ -215,7 +214,7 @@ void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
     shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
   }
   const ColourMap colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
-  const Row row = render_row(shapes, colours);
+  const Row row = render_row(shapes, colours, task.shape_width);
 
   const TemporaryFile row_file(task.output / ".shapes.rgb");
   const TemporaryFile bar_file(task.output / ".colours.rgb");

@@ -11,6 +11,7 @@ struct PlotTask {
   RunPaths paths;
   std::vector<double> times;     ///< of the shapes, nearest snapshots are taken; empty: evenly spread
   std::filesystem::path output;  ///< directory for the pictures
+  int shape_width = 520;         ///< pixels of one shape, at most
 };
 
 /// Draws all pictures of a run through gnuplot; needs no display.
