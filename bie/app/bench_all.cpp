@@ -195,7 +195,8 @@ class AllBenches {
     keep(bench_stability({scene_files(scenes), output, task_.quick}, interruption).result);
     if (!task_.output.plot) return;
     fs::create_directories(task_.docs / "images/hard_cases");
-    fs::copy(output.directory / "shapes", task_.docs / "images/hard_cases", fs::copy_options::overwrite_existing);
+    fs::copy(output.directory / "shapes", task_.docs / "images/hard_cases",
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
 
   void report() const {

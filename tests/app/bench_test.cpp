@@ -113,7 +113,9 @@ BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
     BOOST_TEST(number(row, "seconds_electric") > 0.0);
     BOOST_TEST(number(row, "peak_fraction_operator_assembly") > 0.0);
     BOOST_TEST(number(row, "peak_fraction_operator_assembly") < 1.0);
-    BOOST_TEST(number(row, "bytes_step") >= number(row, "bytes_operator_assembly"));
+    // Both are counted in pages from beginnings of their own.
+    constexpr double kPage = 4096.0;
+    BOOST_TEST(number(row, "bytes_step") >= number(row, "bytes_operator_assembly") - kPage);
   }
   bool has_step = false;
   for (const auto& row : bench.json["growth"]) {
@@ -191,6 +193,7 @@ BOOST_AUTO_TEST_CASE(one_command_renews_every_table_and_picture_of_the_pages) {
   const TemporaryDirectory directory;
   const fs::path docs = directory / "docs";
   copy_docs(docs);
+  copy_some_hard_cases(directory / "");
   write_text(docs / "extra.md",
              "before\n<!-- table space -->\nold\n<!-- end of table -->\nafter\n"
              "<!-- table unknown -->\nkept\n<!-- end of table -->\n");

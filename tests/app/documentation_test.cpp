@@ -42,7 +42,7 @@ std::string shortened(std::string command) {
   command = std::regex_replace(command, std::regex("--dt [0-9.,]+"), "--dt 0.1,0.05,0.025");
   command = std::regex_replace(command, std::regex("--tolerance [0-9e.,-]+"), "--tolerance 1e-1,1e-2");
   command = std::regex_replace(command, std::regex("--at [0-9.]+"), "--at 0.3");
-  return std::regex_replace(command, std::regex("bench (all|methods)"), "bench $1 --quick");
+  return std::regex_replace(command, std::regex("bench (all|methods|stability)"), "bench $1 --quick");
 }
 
 bool needs_finite_elements(const std::string& command) {
@@ -63,6 +63,7 @@ struct ReaderFolder {
       write_text(directory / ("docs/scenes/" + entry.path().filename().string()),
                  shortened_scene(file_text(entry.path())));
     }
+    copy_some_hard_cases(directory / "");
   }
 };
 

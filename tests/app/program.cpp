@@ -80,6 +80,14 @@ std::string quick_scene(const std::string& end_time) {
          end_time + "\n[output]\nevery = 0.5\n";
 }
 
+void copy_some_hard_cases(const std::filesystem::path& tree) {
+  const std::filesystem::path folder = "tests/hard/scenes";
+  std::filesystem::create_directories(tree / folder);
+  for (const char* name : {"contrast_1e8.toml", "thin_middle.toml"}) {
+    std::filesystem::copy_file(VEHD_SOURCE_DIR / folder / name, tree / folder / name);
+  }
+}
+
 std::string shortened_scene(std::string scene) {
   scene = std::regex_replace(scene, std::regex("order = \\d+"), "order = 6");
   scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
