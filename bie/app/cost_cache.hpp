@@ -18,6 +18,8 @@ class CostCache {
 
   /// Entry of a name, e.g. "menu" of a scene. @param what  anything that identifies it
   [[nodiscard]] std::optional<nlohmann::json> find(const std::string& name, const std::string& what) const;
+  /// Everything is to be measured again.
+  void forget() { content_["entries"] = nlohmann::json::object(); }
   void keep(const std::string& name, const std::string& what, const nlohmann::json& entry);
 
  private:

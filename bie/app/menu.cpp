@@ -21,6 +21,8 @@ namespace {
 constexpr const char* kEntry = "menu";
 /// Seconds in which everything has to be done, and those that the cost model may take of them.
 constexpr double kBudget = 9.0, kModelBudget = 3.5;
+/// What the first pilot has in any case: without it there is no menu.
+constexpr double kFirstPilot = 2.0;
 
 /// What decides the menu: every key of the scene but those that a tolerance decides, and the shape that it may read.
 std::string identity_of(const Scene& scene, const std::vector<double>& tolerances) {
@@ -140,7 +142,7 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     if (running && i > 0) running = foretold(scene, pilot, tolerances, i, model, share).seconds * ratio < left();
     if (running) {
-      Pilot next = run_pilot(scene, tolerances[i], tolerances, left());
+      Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left() : std::max(left(), kFirstPilot));
       running = next.completed;
       if (i > 0 && next.completed) share = degree_share(pilot, next, i);
       if (i == 0 || next.completed) pilot = std::move(next);

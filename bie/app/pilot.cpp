@@ -23,7 +23,7 @@ Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>&
   pilot.time_order = asked.numerics.time_order;
   pilot.highest_order = evolution.order();
   const double end = asked.numerics.end_time;
-  while (evolution.state().time < end && spent() < seconds) {
+  while (evolution.state().time < end && (pilot.steps.empty() || spent() < seconds)) {
     const EvolutionStep step = evolution.step({asked.output.every, end});
     PilotStep record{evolution.state().time, step.dt,          step.change, step.rejected + 1,
                      evolution.order(),      step.at_snapshot, {}};

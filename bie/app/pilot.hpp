@@ -28,7 +28,7 @@ struct Pilot {
 };
 
 /// @param tolerances  for which degrees are foretold from the spectrum of each state
-/// @param seconds     budget; the run stops where it is then
+/// @param seconds     budget; the run stops where it is then, after one step at the earliest
 /// @throws ConvergenceError
 Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, double seconds);
 

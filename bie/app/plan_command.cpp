@@ -15,6 +15,7 @@ namespace {
 struct PlanOptions {
   std::string scene_file;
   bool menu = false;
+  bool fresh = false;
   CommonOptions common;
 };
 
@@ -53,8 +54,7 @@ void print(const RunPlan& plan) {
              static_cast<double>(plan.memory_bytes) / 1e6);
 }
 
-ExitCode menu(const Scene& scene, const CommonOptions& common) {
-  CostCache cache;
+ExitCode menu(const Scene& scene, CostCache& cache, const CommonOptions& common) {
   const std::vector<MenuRow> rows = menu_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, cache);
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:>9} {:>8} {:>7} {:>9} {:>7}\n", "tolerance", "degree", "steps", "time", "MB");
@@ -75,9 +75,10 @@ ExitCode menu(const Scene& scene, const CommonOptions& common) {
 
 ExitCode plan(const PlanOptions& options) {
   const Scene scene = read_scene(options.scene_file);
-  if (options.menu) return menu(scene, options.common);
-  RunPlan result = plan_of(scene);
   CostCache cache;
+  if (options.fresh) cache.forget();
+  if (options.menu) return menu(scene, cache, options.common);
+  RunPlan result = plan_of(scene);
   predict_cost(scene, result, cache);
   print(result);
   write_json(options.common, json_of(result));
@@ -91,6 +92,7 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   const auto options = std::make_shared<PlanOptions>();
   command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
   command->add_flag("--menu", options->menu, "Only a table of what each tolerance from 1e-1 to 1e-7 would cost");
+  command->add_flag("--fresh", options->fresh, "Measure again what is kept from former calls");
   add_common_options(*command, options->common);
   command->footer(
       "Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.\n"

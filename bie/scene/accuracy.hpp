@@ -12,8 +12,8 @@ struct AccuracyDefaults {
 
 AccuracyDefaults accuracy_defaults(double tolerance);
 
-/// The scene at a tolerance: degree and time order are those of the tolerance. A dt stays where it bounds the steps of a
-/// tolerance; where it was the accuracy of the scene it is dropped.
+/// The scene at a tolerance: degree and time order are those of the tolerance. A dt stays where it bounds the steps of
+/// a tolerance; where it was the accuracy of the scene it is dropped.
 Scene at_tolerance(Scene scene, double tolerance);
 
 }  // namespace vehd

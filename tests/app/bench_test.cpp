@@ -109,6 +109,8 @@ BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
       if (part && key != "seconds_step") sum += value.get<double>();
     }
     BOOST_TEST(sum == number(row, "seconds_step"), boost::test_tools::tolerance(1e-9));
+    // Negative where a part within another counted twice.
+    BOOST_TEST(number(row, "seconds_other") >= 0.0);
     BOOST_TEST(number(row, "seconds_operator_assembly") > 0.0);
     BOOST_TEST(number(row, "seconds_electric") > 0.0);
     BOOST_TEST(number(row, "peak_fraction_operator_assembly") > 0.0);

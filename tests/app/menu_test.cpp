@@ -14,9 +14,10 @@ struct Menu {
 
   Menu() { write_text(directory / "scene.toml", quick_scene("1.0")); }
 
-  nlohmann::json read() {
-    const ProgramResult result =
-        run_vehd({"plan", "--menu", directory / "scene.toml", "--json", directory / "menu.json"});
+  nlohmann::json read(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"plan", "--menu", directory / "scene.toml", "--json", directory / "menu.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_vehd(arguments);
     BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
     BOOST_TEST(result.errors.empty(), result.errors);
     return json_of(directory / "menu.json");
@@ -59,6 +60,7 @@ BOOST_AUTO_TEST_CASE(second_call_reads_what_the_first_has_kept) {
   BOOST_TEST((menu.read() == rows));
   menu.change_kept_steps();
   BOOST_TEST(menu.read()[0]["steps"].get<int>() == Menu::kForged);
+  BOOST_TEST(menu.read({"--fresh"})[0]["steps"].get<int>() == rows[0]["steps"].get<int>());
 }
 
 BOOST_AUTO_TEST_CASE(another_scene_is_another_menu) {

@@ -1,6 +1,7 @@
+#include "bie/potentials/translating_prolate.hpp"
+
 #include <boost/test/unit_test.hpp>
 
-#include "bie/potentials/translating_prolate.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/shapes.hpp"
 
