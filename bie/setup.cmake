@@ -6,6 +6,11 @@
 #                                          two methods on the first shape of Example 2
 #   cmake -DSTEP=callgrind -P bie/setup.cmake  installs valgrind, counts the instructions of a run without electricity:
 #                                              none in electric code, next to none in bookkeeping
+#   cmake -DSTEP=faults -P bie/setup.cmake    kills a run 200 times and breaks its files and its disk in every other way
+#   cmake -DSTEP=sanitize -P bie/setup.cmake  installs clang, runs all tests under address and undefined-behaviour
+#                                             sanitizers
+#   cmake -DSTEP=fuzz -P bie/setup.cmake      installs clang, fuzzes each reader of files for 10 minutes; -DSECONDS=60
+#                                             before -P for another time
 #   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture and table of the pages that the program measures itself
 # With -DVEHD_FEM_CHECK=ON before -P, test, build and docs include the finite-element check and install what it needs; without
 # it they include the check where deal.II and gmsh are there already.
@@ -16,13 +21,17 @@ set(build "${source}/build")
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
-if(NOT STEP MATCHES "^(run|test|build|check|callgrind|docs)$")
-  message(FATAL_ERROR "STEP is \"${STEP}\"; accepted: run, test, build, check, callgrind, docs")
+if(NOT STEP MATCHES "^(run|test|build|check|callgrind|faults|sanitize|fuzz|docs)$")
+  message(FATAL_ERROR
+          "STEP is \"${STEP}\"; accepted: run, test, build, check, callgrind, faults, sanitize, fuzz, docs")
+endif()
+if(NOT DEFINED SECONDS)
+  set(SECONDS 600)
 endif()
 
-set(packages ninja-build pkg-config libeigen3-dev libfftw3-dev libhdf5-dev libboost-test-dev libtomlplusplus-dev
+set(packages ninja-build pkg-config libeigen3-dev libfftw3-dev libhdf5-dev zlib1g-dev libboost-test-dev libtomlplusplus-dev
              libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev gnuplot-nox fonts-dejavu-core)
-if(STEP STREQUAL "test")
+if(STEP MATCHES "^(test|sanitize)$")
   # The tests open run.xdmf as ParaView does and render it on a virtual display.
   list(APPEND packages python3-paraview xvfb xauth)
 endif()
@@ -30,6 +39,10 @@ if(STEP STREQUAL "callgrind")
   list(APPEND packages valgrind)
   # Valgrind does not know the instructions of every new processor.
   set(build "${source}/build-callgrind")
+endif()
+if(STEP MATCHES "^(sanitize|fuzz)$")
+  list(APPEND packages clang libclang-rt-dev libomp-dev)
+  set(build "${source}/build-sanitize")
 endif()
 # libdeal.ii-dev brings Trilinos and Open MPI.
 set(fem_packages libdeal.ii-dev libgmsh-dev)
@@ -105,16 +118,39 @@ if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|docs)$")
   # The other steps leave a build with the check as it is.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
 endif()
-run_or_stop("${CMAKE_COMMAND}" ${generator} -S "${source}" -B "${build}" ${options})
-if(STEP STREQUAL "test")
+if(STEP MATCHES "^(sanitize|fuzz)$")
+  run_or_stop("${CMAKE_COMMAND}" --preset sanitize)
+else()
+  run_or_stop("${CMAKE_COMMAND}" ${generator} -S "${source}" -B "${build}" ${options})
+endif()
+if(STEP MATCHES "^(test|sanitize)$")
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs})
   run_or_stop("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" --output-on-failure)
 else()
   set(targets vehd)
+  set(fuzzers scene tables files edits)
+  if(STEP STREQUAL "faults")
+    list(APPEND targets test_faults)
+  elseif(STEP STREQUAL "fuzz")
+    list(TRANSFORM fuzzers PREPEND fuzz_ OUTPUT_VARIABLE targets)
+  endif()
   if(VEHD_FEM_CHECK)
     list(APPEND targets vehd_fem_program)
   endif()
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs} --target ${targets})
+endif()
+if(STEP STREQUAL "faults")
+  run_or_stop("${build}/test_faults" -- 200)
+endif()
+if(STEP STREQUAL "fuzz")
+  foreach(fuzzer IN LISTS fuzzers)
+    # New finds go to the first folder; the second holds the seeds that the tests replay. Leaks of HDF5 on damaged files
+    # are not this program's to mend.
+    file(MAKE_DIRECTORY "${build}/corpus/${fuzzer}")
+    run_or_stop("${build}/fuzz_${fuzzer}" -max_total_time=${SECONDS} -timeout=20 -rss_limit_mb=2048 -detect_leaks=0
+                -max_len=8192 -use_value_profile=1 -print_final_stats=1 "-artifact_prefix=${build}/corpus/"
+                "${build}/corpus/${fuzzer}" "${source}/tests/fuzz/seeds/${fuzzer}" "${source}/docs/scenes")
+  endforeach()
 endif()
 if(STEP STREQUAL "check")
   run_or_stop("${build}/vehd" check docs/scenes/figure2.toml --quick -o out/figure2_check)

@@ -13,6 +13,7 @@
 #include "bie/app/commands.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/stepping/time_rule.hpp"
+#include "bie/scene/scene.hpp"
 
 namespace vehd {
 namespace {
@@ -61,7 +62,7 @@ void add_orders(CLI::App& command, SceneOptions& options, std::vector<int> order
   options.orders = std::move(orders);
   command.add_option("--orders", options.orders, "Degrees p, ascending")
       ->delimiter(',')
-      ->check(CLI::Range(4, 64))
+      ->check(CLI::Range(lowest_order, highest_order))
       ->capture_default_str();
 }
 

@@ -9,6 +9,7 @@
 #include "bie/app/check_picture.hpp"
 #include "bie/app/commands.hpp"
 #include "bie/app/fem_program.hpp"
+#include "bie/scene/scene.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 
@@ -30,7 +31,6 @@ struct CheckOptions {
   CommonOptions common;
 };
 
-constexpr int highest_order = 64;
 /// Beyond it the quick check would not be quick; an order above it is kept.
 constexpr int highest_quick_order = 28;
 

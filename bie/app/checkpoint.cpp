@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "bie/app/file_system.hpp"
 #include "bie/app/hdf5_writer.hpp"
+#include "bie/app/sealed_file.hpp"
 #include "bie/scene/hdf5_reader.hpp"
+#include "bie/scene/scene.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -30,30 +33,6 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("reference_volume", state.reference_volume);
 }
 
-/// 64-bit FNV-1a: HDF5 notices a truncated file but not altered numbers.
-class Fingerprint {
- public:
-  void add(const void* data, std::size_t bytes) {
-    for (const unsigned char byte : std::string_view(static_cast<const char*>(data), bytes)) {
-      hash_ = (hash_ ^ byte) * 1099511628211ULL;
-    }
-  }
-  [[nodiscard]] std::int64_t value() const { return static_cast<std::int64_t>(hash_); }
-
- private:
-  std::uint64_t hash_ = 14695981039346656037ULL;
-};
-
-struct FingerprintVisitor {
-  Fingerprint& fingerprint;
-  void operator()(const char*, const double& value) { fingerprint.add(&value, sizeof value); }
-  void operator()(const char*, const std::int64_t& value) { fingerprint.add(&value, sizeof value); }
-  template <typename Derived>
-  void operator()(const char*, const Eigen::PlainObjectBase<Derived>& values) {
-    fingerprint.add(values.data(), static_cast<std::size_t>(values.size()) * sizeof(double));
-  }
-};
-
 std::string totals_text(const RunTotals& totals) {
   const nlohmann::json json = {{"seconds", totals.seconds},
                                {"kernel_evaluations", totals.kernel_evaluations},
@@ -71,17 +50,15 @@ RunTotals totals_of(const std::string& text, const Hdf5Reader& file) {
   }
 }
 
-std::int64_t fingerprint_of(const Checkpoint& checkpoint) {
-  Fingerprint fingerprint;
-  visit_state(checkpoint.state, FingerprintVisitor{fingerprint});
-  for (const std::int64_t value :
-       {checkpoint.n_rows, checkpoint.history_bytes, checkpoint.n_snapshots, checkpoint.threads}) {
-    fingerprint.add(&value, sizeof value);
-  }
-  const std::string totals = totals_text(checkpoint.totals);
-  fingerprint.add(checkpoint.scene.data(), checkpoint.scene.size());
-  fingerprint.add(totals.data(), totals.size());
-  return fingerprint.value();
+/// Whole numbers of a checkpoint besides those of its state.
+template <typename CheckpointType, typename Visitor>
+void visit_counts(CheckpointType& checkpoint, Visitor&& visit) {
+  visit("n_rows", checkpoint.n_rows);
+  visit("history_bytes", checkpoint.history_bytes);
+  visit("history_checksum", checkpoint.history_checksum);
+  visit("n_snapshots", checkpoint.n_snapshots);
+  visit("snapshots_checksum", checkpoint.snapshots_checksum);
+  visit("threads", checkpoint.threads);
 }
 
 struct WriteVisitor {
@@ -114,43 +91,60 @@ struct ReadVisitor {
   }
 };
 
+/// What no run could have written, though it is sealed.
+void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) file.refuse(fmt::format("{} is not that of a run", what));
+  };
+  visit_counts(checkpoint, [&](const char* name, std::int64_t value) { require(value >= 0, name); });
+  const State& state = checkpoint.state;
+  require(state.position.cols() == 3 && state.position.allFinite(), "/state/position");
+  require(state.position.rows() <= n_coefficients(highest_order), "/state/position");
+  try {
+    order_of(state.position.rows());
+  } catch (const ShapeError&) {
+    require(false, "/state/position");
+  }
+  for (const Vector* values : {&state.transmembrane_potential, &state.tension}) {
+    require((values->size() == 0 || values->size() == state.position.rows()) && values->allFinite(), "/state");
+  }
+  require(state.area_strain.allFinite(), "/state/area_strain");
+  for (const double value : {state.time, state.dt_next, state.reference_area, state.reference_volume}) {
+    require(std::isfinite(value), "/state");
+  }
+}
+
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-  const std::filesystem::path fresh = temporary_of(path);
-  Hdf5Writer file(fresh, Hdf5Writer::Mode::create_at_once);
+  Hdf5Writer file(path, Hdf5Writer::Mode::in_memory);
   file.attribute("/", "schema_version", checkpoint_schema_version);
-  file.attribute("/", "n_rows", checkpoint.n_rows);
-  file.attribute("/", "history_bytes", checkpoint.history_bytes);
-  file.attribute("/", "n_snapshots", checkpoint.n_snapshots);
-  file.attribute("/", "threads", checkpoint.threads);
-  file.attribute("/", "fingerprint", fingerprint_of(checkpoint));
+  visit_counts(checkpoint, [&](const char* name, std::int64_t value) { file.attribute("/", name, value); });
   file.text("/scene", checkpoint.scene);
   file.text("/totals", totals_text(checkpoint.totals));
   file.group("/state");
   visit_state(checkpoint.state, WriteVisitor{file});
-  file.close();
-  rename_file(fresh, path);
+  replace_file(path, sealed(file.image()));
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& path) {
-  const Hdf5Reader file(path);
+Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
+  const Hdf5Reader file(image, name);
   const std::int64_t version = file.integer_attribute("/", "schema_version");
   if (version != checkpoint_schema_version) {
     file.refuse(fmt::format("has schema version {}; accepted: {}", version, checkpoint_schema_version));
   }
   Checkpoint checkpoint;
-  checkpoint.n_rows = file.integer_attribute("/", "n_rows");
-  checkpoint.history_bytes = file.integer_attribute("/", "history_bytes");
-  checkpoint.n_snapshots = file.integer_attribute("/", "n_snapshots");
-  checkpoint.threads = file.integer_attribute("/", "threads");
+  visit_counts(checkpoint, [&](const char* count, std::int64_t& value) { value = file.integer_attribute("/", count); });
   checkpoint.scene = file.text("/scene");
   checkpoint.totals = totals_of(file.text("/totals"), file);
   visit_state(checkpoint.state, ReadVisitor{file});
-  if (fingerprint_of(checkpoint) != file.integer_attribute("/", "fingerprint")) {
-    file.refuse("is damaged: its values do not match their checksum");
-  }
+  require_sound(checkpoint, file);
   return checkpoint;
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+  // HDF5 can crash on damaged bytes, so it never sees them.
+  return checkpoint_of(read_sealed_file(path), path.string());
 }
 
 }  // namespace vehd

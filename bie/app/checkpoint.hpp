@@ -22,7 +22,9 @@ struct Checkpoint {
   State state;
   std::int64_t n_rows = 0;  ///< rows of history.csv; 0: the state itself is not written yet
   std::int64_t history_bytes = 0;
+  std::int64_t history_checksum = 0;  ///< of these bytes
   std::int64_t n_snapshots = 0;
+  std::int64_t snapshots_checksum = 0;  ///< of the checksums of these snapshots
   std::int64_t threads = 1;
   RunTotals totals;
 };
@@ -32,5 +34,8 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 
 /// @throws InputError if the file is truncated, altered or of another schema version
 Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+/// The same from the HDF5 image that its seal has vouched for. @throws InputError
+Checkpoint checkpoint_of(const std::string& image, const std::string& name);
 
 }  // namespace vehd

@@ -24,7 +24,12 @@ void replace_file(const std::filesystem::path& path, const std::string& text) {
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     stream << text;
     stream.close();
-    if (!stream) throw OutputError(write_problem(path));
+    if (!stream) {
+      const std::string problem = write_problem(path);
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      throw OutputError(problem);
+    }
   }
   rename_file(temporary, path);
 }

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "bie/app/run_reader.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/scene/run_reader.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 

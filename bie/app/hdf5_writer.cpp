@@ -46,8 +46,10 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode) : name_(pat
   silence_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V110);
-  if (mode == Mode::create_at_once) {
-    H5Pset_fapl_core(access.id(), 1 << 20, true);
+  if (mode == Mode::in_memory) {
+    // Of the later formats the library alters a byte in the image that it returns, and not the checksum over it.
+    H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
+    H5Pset_fapl_core(access.id(), 1 << 20, false);
     create(H5P_DEFAULT, access.id());
   } else if (mode == Mode::create) {
     const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -57,11 +59,12 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode) : name_(pat
   } else {
     open(access.id(), mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY);
   }
-  if (!file_.valid()) fail("cannot be opened");
 }
 
 void Hdf5Writer::create(hid_t creation, hid_t access) {
   file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
+  // Here, as any further call would forget the reason.
+  if (!file_.valid()) fail("cannot be opened");
 }
 
 void Hdf5Writer::open(hid_t access, unsigned flags) {
@@ -72,6 +75,7 @@ void Hdf5Writer::open(hid_t access, unsigned flags) {
   // A file that was not made in pages is refused with a page buffer.
   H5Pset_page_buffer_size(access, 0, 0, 0);
   attempt();
+  if (!file_.valid()) fail("cannot be opened");
 }
 
 void Hdf5Writer::fail(const std::string& what) const {
@@ -159,6 +163,14 @@ std::vector<std::string> Hdf5Writer::members(const std::string& group_path) cons
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+std::string Hdf5Writer::image() const {
+  if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) fail("cannot be completed");
+  const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
+  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  if (size <= 0 || H5Fget_file_image(file_.id(), bytes.data(), bytes.size()) != size) fail("cannot be completed");
+  return bytes;
 }
 
 void Hdf5Writer::close() {

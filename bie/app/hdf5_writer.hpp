@@ -20,9 +20,9 @@ struct DatasetLabel {
 /// @throws OutputError from every member
 class Hdf5Writer {
  public:
-  /// `read` is for the source of copies: it never touches the file. `create_at_once` keeps a small new file in memory
-  /// and writes it in one go when it is closed.
-  enum class Mode { create, create_at_once, extend, read };
+  /// `read` is for the source of copies: it never touches the file. `in_memory` writes no file:
+  /// its path only names it in messages.
+  enum class Mode { create, in_memory, extend, read };
   Hdf5Writer(const std::filesystem::path& path, Mode mode);
 
   void group(const std::string& path);
@@ -40,6 +40,9 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   void attribute(const std::string& object, const std::string& name, const std::string& value);
+
+  /// All bytes of the file so far.
+  [[nodiscard]] std::string image() const;
 
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
 

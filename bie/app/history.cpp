@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 #include "bie/app/errors.hpp"
 #include "bie/app/file_system.hpp"
@@ -45,6 +47,16 @@ std::string header() {
   return line + ",iterations_flow,iterations_electric,rejected,order,truncation,change\n";
 }
 
+Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
+  Checksum checksum;
+  std::string block(std::size_t{1} << 16, '\0');
+  while (bytes > 0 && stream.read(block.data(), std::min<std::int64_t>(bytes, std::ssize(block)))) {
+    checksum.add(std::string_view(block.data(), static_cast<std::size_t>(stream.gcount())));
+    bytes -= stream.gcount();
+  }
+  return checksum;
+}
+
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells(1);
   for (const char letter : line) {
@@ -59,21 +71,33 @@ std::vector<std::string> split(const std::string& line) {
 
 }  // namespace
 
-HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes) : path_(path) {
-  if (kept_bytes == 0) {
-    stream_.open(path, std::ios::binary | std::ios::trunc);
-    write(header());
-    return;
-  }
+void require_history(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum) {
+  if (kept_bytes == 0) return;
   std::error_code error;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
   if (error || size < kept_bytes) {
     throw InputError(fmt::format("{}: is missing or shorter than the {} bytes that the checkpoint counts",
                                  path.string(), kept_bytes));
   }
+  std::ifstream kept(path, std::ios::binary);
   std::string first_line;
-  std::getline(std::ifstream(path), first_line);
+  std::getline(kept, first_line);
   if (first_line + "\n" != header()) throw InputError(fmt::format("{}:1: has other columns", path.string()));
+  kept.seekg(0);
+  if (checksum_of(kept, kept_bytes).value() != checksum) {
+    throw InputError(fmt::format("{}: was altered: its first {} bytes do not match the checksum in checkpoint.h5",
+                                 path.string(), kept_bytes));
+  }
+}
+
+HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum)
+    : path_(path), checksum_(checksum) {
+  if (kept_bytes == 0) {
+    stream_.open(path, std::ios::binary | std::ios::trunc);
+    write(header());
+    return;
+  }
+  std::error_code error;
   std::filesystem::resize_file(path, static_cast<std::uintmax_t>(kept_bytes), error);
   if (error) throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
   stream_.open(path, std::ios::binary | std::ios::app);
@@ -92,12 +116,24 @@ void HistoryFile::append(const HistoryRow& row) {
 
 void HistoryFile::write(const std::string& text) {
   stream_ << text << std::flush;
-  if (!stream_) throw OutputError(write_problem(path_));
+  if (!stream_) {
+    const std::string problem = write_problem(path_);
+    // Closing tries once more to write what did not fit.
+    stream_.close();
+    std::error_code ignored;
+    std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(bytes_), ignored);
+    throw OutputError(problem);
+  }
   bytes_ += static_cast<std::int64_t>(text.size());
+  checksum_.add(text);
 }
 
-HistoryTable::HistoryTable(const std::filesystem::path& path) : file_(path.string()) {
+HistoryTable::HistoryTable(const std::filesystem::path& path) {
   std::ifstream stream(path);
+  *this = HistoryTable(stream, path.string());
+}
+
+HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::move(name)) {
   std::string line;
   if (!std::getline(stream, line)) throw InputError(fmt::format("{}: no such file or empty", file_));
   names_ = split(line);

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <istream>
 #include <string>
 #include <vector>
 
 #include "bie/stepping/evolution.hpp"
+#include "bie/support/checksum.hpp"
 
 namespace vehd {
 
@@ -19,15 +21,22 @@ struct HistoryRow {
   double truncation = 0.0;  ///< see Evolution::truncation
 };
 
+/// Checks the first bytes of a history.csv.
+/// @throws InputError if the file is shorter, was altered there or has other columns
+void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum);
+
 /// Appends rows to history.csv; each is in the file when `append` returns.
 class HistoryFile {
  public:
   /// Starts a file, or continues one after its first `kept_bytes` bytes when that is not 0.
-  /// @throws InputError if the existing file is shorter than that or has other columns; OutputError
-  HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes);
+  /// @param checksum  of these bytes, which `require_history` has found intact
+  /// @throws OutputError
+  HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum);
 
+  /// A row that the disk has no room for leaves nothing of itself behind. @throws OutputError
   void append(const HistoryRow& row);
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }
+  [[nodiscard]] std::int64_t checksum() const { return checksum_.value(); }
 
  private:
   void write(const std::string& text);
@@ -35,6 +44,7 @@ class HistoryFile {
   std::filesystem::path path_;
   std::ofstream stream_;
   std::int64_t bytes_ = 0;
+  Checksum checksum_;
 };
 
 /// A history.csv in memory.
@@ -42,6 +52,8 @@ class HistoryTable {
  public:
   /// @throws InputError "file:line: ..."
   explicit HistoryTable(const std::filesystem::path& path);
+  /// The same from any stream; `name` stands for the file in messages.
+  HistoryTable(std::istream& stream, std::string name);
 
   [[nodiscard]] std::size_t n_rows() const { return n_rows_; }
   /// @throws InputError if there is no such column

@@ -46,7 +46,8 @@ void require_same_scene(const Scene& scene, const Checkpoint& checkpoint, const 
 bool is_complete(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
   if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
   const nlohmann::json summary = nlohmann::json::parse(std::ifstream(paths.summary()), nullptr, false);
-  return summary.is_object() && summary.value("completed", false) && checkpoint.scene == effective_scene(scene);
+  return summary.is_object() && summary.value("completed", nlohmann::json()) == true &&
+         checkpoint.scene == effective_scene(scene);
 }
 
 void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
@@ -105,8 +106,8 @@ ExitCode run(const RunOptions& options) {
   nlohmann::json summary;
   try {
     summary = summarise(paths, scene, outcome);
-  } catch (const OutputError& error) {
-    // With a full disk there is no summary either; what matters is that the run can be continued.
+  } catch (const std::runtime_error& error) {
+    // With a full disk, or the directory gone, there is no summary either; what matters is why the run has stopped.
     if (outcome.completed) throw;
     fmt::print(stderr, "{}\n{}\n", outcome.reason, error.what());
     return ExitCode::stopped_early;

@@ -5,6 +5,7 @@
 #include "bie/app/surface_mesh.hpp"
 #include "bie/app/versions.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/checksum.hpp"
 
 namespace vehd {
 namespace {
@@ -63,25 +64,42 @@ class SnapshotWriter {
     if (coefficients.size() == 0) return;
     const Matrix values = discretisation_.transform().synthesize(coefficients);
     grid_field(name, values, label);
-    file_.numbers(group_ + "/coefficients/" + name, memory_of(coefficients),
-                  extents_of(coefficients.cols(), {static_cast<hsize_t>(coefficients.rows())}), label);
+    numbers("coefficients/" + name, coefficients,
+            extents_of(coefficients.cols(), {static_cast<hsize_t>(coefficients.rows())}), label);
     // Viewers want the components of a point together.
     const Matrix surface = with_poles(values, coefficients).transpose();
     std::vector<hsize_t> extents{static_cast<hsize_t>(surface.cols())};
     if (surface.rows() > 1) extents.push_back(static_cast<hsize_t>(surface.rows()));
-    file_.numbers(group_ + "/surface/" + name, memory_of(surface), extents, label);
+    numbers("surface/" + name, surface, extents, label);
   }
 
   void grid_field(const std::string& name, const Matrix& values, const DatasetLabel& label) {
     const SphereGrid& grid = discretisation_.transform().grid();
-    file_.numbers(group_ + "/" + name, memory_of(values),
-                  extents_of(values.cols(), {static_cast<hsize_t>(grid.n_theta), static_cast<hsize_t>(grid.n_phi)}),
-                  label);
+    numbers(name, values,
+            extents_of(values.cols(), {static_cast<hsize_t>(grid.n_theta), static_cast<hsize_t>(grid.n_phi)}), label);
   }
 
-  void attribute(const std::string& name, auto value) { file_.attribute(group_, name, value); }
+  void moment(double time, std::int64_t step) {
+    file_.attribute(group_, "time", time);
+    file_.attribute(group_, "step", step);
+    checksum_.add(std::span(&time, 1));
+    checksum_.add(step);
+  }
+
+  /// Nothing may follow it.
+  std::int64_t seal() {
+    file_.attribute(group_, "checksum", checksum_.value());
+    return checksum_.value();
+  }
 
  private:
+  void numbers(const std::string& name, const Matrix& values, const std::vector<hsize_t>& extents,
+               const DatasetLabel& label) {
+    file_.numbers(group_ + "/" + name, memory_of(values), extents, label);
+    checksum_.add(memory_of(values));
+  }
+
+  Checksum checksum_;
   Hdf5Writer& file_;
   std::string group_;
   const Discretisation& discretisation_;
@@ -115,11 +133,10 @@ void write_run_header(Hdf5Writer& file, const Discretisation& discretisation, co
   file.group("/snapshots");
 }
 
-void write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation, const State& state,
-                    const Fields& fields) {
+std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation,
+                            const State& state, const Fields& fields) {
   SnapshotWriter snapshot(file, name, discretisation);
-  snapshot.attribute("time", state.time);
-  snapshot.attribute("step", state.step);
+  snapshot.moment(state.time, state.step);
   snapshot.field("x", state.position, position_label);
   snapshot.field("velocity", fields.velocity, velocity_label);
   snapshot.field("force_bending", fields.force_bending, bending_label);
@@ -135,6 +152,7 @@ void write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisat
   }
   snapshot.grid_field("area_element", area_element(discretisation, state.position),
                       {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
+  return snapshot.seal();
 }
 
 }  // namespace vehd

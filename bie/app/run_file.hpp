@@ -3,14 +3,13 @@
 #include <string>
 
 #include "bie/app/hdf5_writer.hpp"
+#include "bie/scene/run_reader.hpp"
 #include "bie/stepping/discretisation.hpp"
 #include "bie/stepping/fields.hpp"
 #include "bie/stepping/state.hpp"
 
 /// Layout of run.h5. Stable: the finite-element side and users' scripts read it.
 namespace vehd {
-
-constexpr std::int64_t run_schema_version = 1;
 
 /// Everything of run.h5 that does not depend on time.
 struct RunHeader {
@@ -25,7 +24,8 @@ std::string snapshot_name(std::int64_t number);
 void write_run_header(Hdf5Writer& file, const Discretisation& discretisation, const RunHeader& header);
 
 /// Writes /snapshots/<name>: grid fields, coefficients/ and surface/.
-void write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation, const State& state,
-                    const Fields& fields);
+/// @return its checksum
+std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation,
+                            const State& state, const Fields& fields);
 
 }  // namespace vehd

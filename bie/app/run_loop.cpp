@@ -59,8 +59,8 @@ class Simulation {
           record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
         }
       }
-      outcome.completed = outcome.reason.empty();
       recorder_.update_totals(meter_.totals());
+      outcome.completed = outcome.reason.empty();
       if (outcome.completed) recorder_.finish();
     } catch (const ConvergenceError& error) {
       outcome.reason = error.what();

@@ -8,8 +8,11 @@
 namespace vehd {
 namespace {
 
-/// The checkpoint of a new run comes first: whatever a kill leaves behind can then be resumed.
+/// Nothing is touched before the files of the run to continue are known to be intact. Then the checkpoint comes first:
+/// whatever a kill leaves behind can be resumed.
 const Checkpoint& written(const RunPaths& paths, const Checkpoint& start) {
+  if (start.n_snapshots > 0) require_snapshots(paths.snapshots(), start.n_snapshots, start.snapshots_checksum);
+  require_history(paths.history(), start.history_bytes, start.history_checksum);
   write_checkpoint(paths.checkpoint(), start);
   replace_file(paths.scene(), start.scene);
   return start;
@@ -29,8 +32,8 @@ RunRecorder::RunRecorder(const RunPaths& paths, const Discretisation& discretisa
       discretisation_(discretisation),
       laboratory_(frame, discretisation.settings()),
       last_(written(paths, start)),
-      snapshots_(paths.snapshots(), header_writer(discretisation, start), start.n_snapshots),
-      history_(paths.history(), start.history_bytes) {
+      snapshots_(paths.snapshots(), header_writer(discretisation, start), start.n_snapshots, start.snapshots_checksum),
+      history_(paths.history(), start.history_bytes, start.history_checksum) {
   const SphereGrid& grid = discretisation.transform().grid();
   xdmf_.n_points = grid.n_points() + 2;
   xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
@@ -47,14 +50,17 @@ void RunRecorder::record(HistoryRow row, const State& state, const Fields& field
   history_.append(row);
   if (row.step.at_snapshot) {
     snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
-      write_snapshot(file, name, discretisation_, laboratory_.state(full_state), laboratory_.fields(full_fields));
+      return write_snapshot(file, name, discretisation_, laboratory_.state(full_state),
+                            laboratory_.fields(full_fields));
     });
     write_xdmf(state, fields);
   }
   last_.state = state;
   ++last_.n_rows;
   last_.history_bytes = history_.bytes();
+  last_.history_checksum = history_.checksum();
   last_.n_snapshots = snapshots_.size();
+  last_.snapshots_checksum = snapshots_.checksum();
   update_totals(totals);
 }
 

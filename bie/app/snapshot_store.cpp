@@ -14,38 +14,54 @@ namespace {
 
 std::string group_of(std::int64_t number) { return "/snapshots/" + snapshot_name(number); }
 
-void require_snapshots(const std::filesystem::path& path, std::int64_t count) {
-  const Hdf5Reader file(path);
-  if (file.integer_attribute("/", "schema_version") != run_schema_version) {
-    file.refuse(fmt::format("has schema version {}; accepted: {}", file.integer_attribute("/", "schema_version"),
-                            run_schema_version));
-  }
-  for (std::int64_t number = 0; number < count; ++number) {
-    if (!file.has(group_of(number)))
-      file.refuse(fmt::format("lacks {}, which the checkpoint counts", group_of(number)));
-  }
-}
-
 void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
   std::error_code error;
   std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, error);
   if (error) throw OutputError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
 }
 
+/// A file that could not be completed must not keep the room that a full disk lacks.
+template <typename Write>
+void or_remove(const std::filesystem::path& file, Write write) {
+  try {
+    write();
+  } catch (const OutputError&) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+    throw;
+  }
+}
+
 }  // namespace
 
-SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept)
+void require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t expected) {
+  const Hdf5Reader file(path);
+  require_run_schema(file);
+  Checksum all;
+  for (std::int64_t number = 0; number < count; ++number) {
+    const std::string group = group_of(number);
+    if (!file.has(group)) file.refuse(fmt::format("lacks {}, which the checkpoint counts", group));
+    const std::int64_t checksum = snapshot_checksum(file, group);
+    require_checksum(file, group, checksum);
+    all.add(checksum);
+  }
+  if (all.value() != expected) file.refuse("holds other snapshots than those that the checkpoint counts");
+}
+
+SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept,
+                             std::int64_t checksum)
     : path_(std::move(path)),
       spare_(path_.parent_path() / fmt::format(".{}.spare", path_.filename().string())),
       old_(path_.parent_path() / fmt::format(".{}.old", path_.filename().string())),
       size_(n_kept),
-      spare_size_(n_kept) {
-  if (n_kept > 0) require_snapshots(path_, n_kept);
+      spare_size_(n_kept),
+      checksum_(checksum) {
   // A kill can leave a torn spare or snapshots that the checkpoint does not know yet; both are written anew.
-  std::filesystem::remove(spare_);
-  std::filesystem::remove(old_);
+  std::error_code ignored;
+  std::filesystem::remove(spare_, ignored);
+  std::filesystem::remove(old_, ignored);
   const std::filesystem::path fresh = temporary_of(path_);
-  {
+  or_remove(fresh, [&] {
     Hdf5Writer file(fresh, Hdf5Writer::Mode::create);
     write_header(file);
     if (n_kept > 0) {
@@ -53,23 +69,24 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
       for (std::int64_t number = 0; number < n_kept; ++number) file.copy_from(kept, group_of(number));
     }
     file.close();
-  }
-  synchronise_file(fresh);
+    synchronise_file(fresh);
+  });
   rename_file(fresh, path_);
-  copy_whole(path_, spare_);
+  or_remove(spare_, [&] { copy_whole(path_, spare_); });
 }
 
 void SnapshotStore::add(const WriteSnapshot& write_snapshot) {
-  {
+  std::int64_t checksum = 0;
+  or_remove(spare_, [&] {
     Hdf5Writer spare(spare_, Hdf5Writer::Mode::extend);
     if (spare_size_ < size_) {
       Hdf5Writer current(path_, Hdf5Writer::Mode::read);
       for (; spare_size_ < size_; ++spare_size_) spare.copy_from(current, group_of(spare_size_));
     }
-    write_snapshot(spare, snapshot_name(size_));
+    checksum = write_snapshot(spare, snapshot_name(size_));
     spare.close();
-  }
-  synchronise_file(spare_);
+    synchronise_file(spare_);
+  });
   // The link keeps the present file reachable while its name moves to the new one; file systems without hard links
   // get a copy.
   if (::link(path_.c_str(), old_.c_str()) != 0) copy_whole(path_, old_);
@@ -77,8 +94,12 @@ void SnapshotStore::add(const WriteSnapshot& write_snapshot) {
   rename_file(old_, spare_);
   spare_size_ = size_;
   ++size_;
+  checksum_.add(checksum);
 }
 
-void SnapshotStore::finish() { std::filesystem::remove(spare_); }
+void SnapshotStore::finish() {
+  std::error_code ignored;
+  std::filesystem::remove(spare_, ignored);
+}
 
 }  // namespace vehd

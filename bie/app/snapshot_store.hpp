@@ -7,8 +7,14 @@
 #include <vector>
 
 #include "bie/app/hdf5_writer.hpp"
+#include "bie/support/checksum.hpp"
 
 namespace vehd {
+
+/// Checks every number of the first snapshots of a run.h5.
+/// @param checksum  of their checksums, in the order of time
+/// @throws InputError if the file is damaged, lacks some of these snapshots or has others in their place
+void require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t checksum);
 
 /// A growing run.h5 that is a complete, closed HDF5 file at every instant.
 ///
@@ -18,17 +24,22 @@ namespace vehd {
 class SnapshotStore {
  public:
   using WriteHeader = std::function<void(Hdf5Writer&)>;
-  using WriteSnapshot = std::function<void(Hdf5Writer&, const std::string& name)>;
+  /// Returns the checksum of the snapshot.
+  using WriteSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
 
   /// Starts a file without snapshots, or takes over the first `n_kept` snapshots of an existing one.
-  /// @throws InputError if the existing file is damaged or lacks some of these snapshots
-  SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept);
+  /// @param checksum  of the kept snapshots, which `require_snapshots` has found intact
+  /// @throws OutputError
+  SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept,
+                std::int64_t checksum);
 
   /// @throws OutputError
   void add(const WriteSnapshot& write_snapshot);
 
   /// Number of snapshots in the file.
   [[nodiscard]] std::int64_t size() const { return size_; }
+  /// Of their checksums, in the order of time.
+  [[nodiscard]] std::int64_t checksum() const { return checksum_.value(); }
 
   /// Removes the hidden second file: the run is complete.
   void finish();
@@ -37,6 +48,7 @@ class SnapshotStore {
   std::filesystem::path path_, spare_, old_;
   std::int64_t size_ = 0;
   std::int64_t spare_size_ = 0;
+  Checksum checksum_;
 };
 
 }  // namespace vehd

@@ -4,6 +4,7 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/app/example1.hpp"
+#include "bie/scene/scene.hpp"
 
 namespace vehd {
 namespace {
@@ -33,7 +34,7 @@ void add_verify_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("verify", "Solve Example 1 of the paper and print its errors");
   const auto options = std::make_shared<VerifyOptions>();
   command->add_option("--order", options->order, "Degree p of the harmonics")
-      ->check(CLI::Range(4, 64))
+      ->check(CLI::Range(lowest_order, highest_order))
       ->capture_default_str();
   add_common_options(*command, options->common);
   command->footer("Errors are relative maxima over the 2(p+1)^2 nodes against the exact solution.");

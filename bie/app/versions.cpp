@@ -1,11 +1,11 @@
 #include "bie/app/versions.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <Eigen/Core>
 
 #include "commit.hpp"
+#include "bie/scene/hdf5_handle.hpp"
 
 namespace vehd {
 namespace {
@@ -25,6 +25,7 @@ std::string program_version() { return VEHD_VERSION; }
 std::string program_commit() { return VEHD_COMMIT; }
 
 std::map<std::string, std::string> library_versions() {
+  silence_hdf5();
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
   return {{"compiler", compiler()},

@@ -268,7 +268,8 @@ OffSurfaceValues OffSurfaceLayers::evaluate(const Matrix& points, Side side, Ins
     for (Index i = 0; i < n; ++i) {
       if (!targets[i].resolved) groups[{targets[i].level, targets[i].azimuth}].push_back(i);
     }
-    for (const auto& [key, members] : groups) {
+    for (const auto& [key, group] : groups) {
+      const std::vector<Index>& members = group;  // OpenMP takes no structured binding
       std::vector<GradedRule> rules;
       if (stage == 1) rules.push_back(data.rule(key.first, key.second, 0));
       rules.push_back(data.rule(key.first, key.second, stage));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bie/scene/scene.hpp"
 #include "bie/stepping/time_rule.hpp"
 
 namespace vehd {
@@ -11,10 +12,9 @@ AccuracyDefaults accuracy_defaults(double tolerance) {
   // Harmonics of a membrane gain a digit every eight degrees or fewer; the degree that a state needs is found on the
   // way.
   constexpr double kDegreesPerDigit = 8.0;
-  constexpr int kHighest = 64;
   constexpr double kCoarse = 1e-4;
   const int order = static_cast<int>(std::ceil(kDegreesPerDigit * (1.0 - std::log10(tolerance))));
-  return {std::min(kHighest, order), tolerance >= kCoarse ? highest_time_order - 1 : highest_time_order};
+  return {std::min(highest_order, order), tolerance >= kCoarse ? highest_time_order - 1 : highest_time_order};
 }
 
 Scene at_tolerance(Scene scene, double tolerance) {

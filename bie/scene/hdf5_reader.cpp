@@ -9,6 +9,10 @@
 namespace vehd {
 namespace {
 
+/// No dataset or text of this program is larger, by far; what claims to be would only exhaust the memory.
+constexpr hsize_t most_values = hsize_t{1} << 21;
+constexpr std::size_t longest_text = std::size_t{1} << 24;
+
 herr_t keep_description(unsigned, const H5E_error2_t* error, void* data) {
   if (error->desc != nullptr) *static_cast<std::string*>(data) = error->desc;
   return 0;
@@ -24,6 +28,13 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
 std::string last_hdf5_error() {
   std::string description;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &description);
+  // Of a failed system call the reason alone, without time, descriptor and addresses, which fill several lines.
+  const std::string mark = "error message = '";
+  if (const std::size_t start = description.find(mark); start != std::string::npos) {
+    description = description.substr(start + mark.size());
+    description.erase(std::min(description.find('\''), description.size()));
+  }
+  std::replace(description.begin(), description.end(), '\n', ' ');
   return description.empty() ? "no details" : description;
 }
 
@@ -32,10 +43,26 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string())
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) refuse("no such file");
   file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  require_open();
+}
+
+Hdf5Reader::Hdf5Reader(const std::string& image, std::string name) : name_(std::move(name)) {
+  silence_hdf5();
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access.id(), 1 << 16, false);
+  // The library copies the image; its interface does not say so with a const.
+  H5Pset_file_image(access.id(), const_cast<char*>(image.data()), image.size());
+  // The library looks for a file of that name, which must not exist.
+  file_ = Hdf5Handle(H5Fopen((name_ + "/image").c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+  require_open();
+}
+
+void Hdf5Reader::require_open() {
   if (!file_.valid()) {
     const std::string detail = last_hdf5_error();
     refuse(fmt::format("no readable HDF5 file, it is truncated, damaged or of another kind ({})", detail));
   }
+  H5Fget_filesize(file_.id(), &bytes_);
 }
 
 void Hdf5Reader::refuse(const std::string& problem) const { throw InputError(fmt::format("{}: {}", name_, problem)); }
@@ -70,13 +97,17 @@ Hdf5Reader::OpenDataset Hdf5Reader::open_numbers(const std::string& dataset) con
   }
   result.extents.resize(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space.id(), result.extents.data(), nullptr);
-  const hsize_t stored = H5Dget_storage_size(result.handle.id()) / sizeof(double);
+  // A damaged layout may claim more than the file has.
+  const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(result.handle.id()), bytes_) / sizeof(double);
   for (const hsize_t extent : result.extents) {
     // Checked before each product so that it cannot overflow.
     if (extent == 0 || result.n_values > stored / extent) {
       refuse(fmt::format("dataset {} stores {} numbers, less than its size says", dataset, stored));
     }
     result.n_values *= extent;
+  }
+  if (result.n_values > most_values) {
+    refuse(fmt::format("dataset {} has {} numbers; accepted: at most {}", dataset, result.n_values, most_values));
   }
   return result;
 }
@@ -99,8 +130,12 @@ std::string Hdf5Reader::text(const std::string& dataset) const {
   const Hdf5Handle type(H5Dget_type(handle.id()), H5Tclose);
   const Hdf5Handle space(H5Dget_space(handle.id()), H5Sclose);
   if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0 ||
-      H5Sget_simple_extent_npoints(space.id()) != 1 || H5Dget_storage_size(handle.id()) < H5Tget_size(type.id())) {
+      H5Sget_simple_extent_npoints(space.id()) != 1 || H5Dget_storage_size(handle.id()) < H5Tget_size(type.id()) ||
+      bytes_ < H5Tget_size(type.id())) {
     refuse(fmt::format("{} is no text of fixed length", dataset));
+  }
+  if (H5Tget_size(type.id()) > longest_text) {
+    refuse(fmt::format("text {} has {} bytes; accepted: at most {}", dataset, H5Tget_size(type.id()), longest_text));
   }
   std::string value(H5Tget_size(type.id()), '\0');
   const Hdf5Handle memory_type(H5Tcopy(type.id()), H5Tclose);
@@ -118,6 +153,10 @@ void Hdf5Reader::read_attribute(const std::string& object, const std::string& na
   if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1 || H5Aread(attribute.id(), type, value) < 0) {
     refuse(fmt::format("attribute {} of {} is missing or damaged", name, object));
   }
+}
+
+bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
+  return H5Aexists_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 double Hdf5Reader::number_attribute(const std::string& object, const std::string& name) const {

@@ -15,16 +15,19 @@ namespace vehd {
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& path);
+  /// A file in memory; `name` stands for it in messages.
+  Hdf5Reader(const std::string& image, std::string name);
 
   [[nodiscard]] bool has(const std::string& object) const;
   /// Names of a group's members in ascending order.
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
-  /// Dataset of any rank as [last dimensions x first dimension], i.e. [n_points x 3] from [3, n_theta, n_phi];
-  /// rank 1 gives one column.
+  /// Dataset of up to 2²¹ numbers of any rank as [last dimensions x first dimension], i.e. [n_points x 3] from [3,
+  /// n_theta, n_phi]; rank 1 gives one column.
   [[nodiscard]] Matrix matrix(const std::string& dataset) const;
   /// All values of a dataset in the file's order.
   [[nodiscard]] Vector vector(const std::string& dataset) const;
   [[nodiscard]] std::string text(const std::string& dataset) const;
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
@@ -37,10 +40,12 @@ class Hdf5Reader {
     hsize_t n_values = 1;
   };
   [[nodiscard]] OpenDataset open_numbers(const std::string& dataset) const;
+  void require_open();
   void read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const;
 
   std::string name_;
   Hdf5Handle file_;
+  hsize_t bytes_ = 0;
 };
 
 }  // namespace vehd

@@ -201,7 +201,7 @@ void add_numerics_keys(KeyTable& table) {
              "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they are "
              "fixed"},
             numerics, &NumericsScene::tolerance);
-  table.add("order", {4, 64},
+  table.add("order", {lowest_order, highest_order},
             {"p", "1",
              "degree of the spherical harmonics; with a tolerance the highest and that of the files, by default "
              "8 (1 − log₁₀ tolerance) up to 64"},

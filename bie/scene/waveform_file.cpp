@@ -12,10 +12,43 @@
 namespace vehd {
 namespace {
 
-/// A waveform of more rows is some other file.
-constexpr std::size_t most_rows = 1000000;
+/// A waveform of more rows or bytes is some other file. The rows become part of the effective scene, which every
+/// checkpoint holds and which must not be too long for a scene file itself.
+constexpr std::size_t most_rows = 10000;
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 22;
+constexpr std::size_t longest_shown = 60;
+
+std::string shown(const std::string& line) {
+  std::string text = line.size() > longest_shown ? line.substr(0, longest_shown) + " ..." : line;
+  // Some other file may hold anything.
+  std::replace_if(
+      text.begin(), text.end(), [](char letter) { return letter >= 0 && letter < ' '; }, '?');
+  return text;
+}
 
 }  // namespace
+
+void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std::string& name) {
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    if (line.ends_with('\r')) line.pop_back();
+    std::string cells = line.substr(0, line.find('#'));
+    std::replace(cells.begin(), cells.end(), ',', ' ');
+    if (cells.find_first_not_of(" \t") == std::string::npos) continue;
+    std::istringstream words(cells);
+    double time = 0.0, value = 0.0;
+    std::string more;
+    if (!(words >> time >> value) || words >> more || !std::isfinite(time) || !std::isfinite(value)) {
+      throw InputError(
+          fmt::format("{}:{}: is \"{}\"; accepted: two finite numbers, time and factor", name, number, shown(line)));
+    }
+    if (waveform.times.size() == most_rows) {
+      throw InputError(fmt::format("{}:{}: more than {} rows", name, number, most_rows));
+    }
+    waveform.times.push_back(time);
+    waveform.values.push_back(value);
+  }
+}
 
 void read_waveform_table(WaveformScene& waveform, const std::filesystem::path& folder) {
   if (!waveform.path) return;
@@ -31,23 +64,12 @@ void read_waveform_table(WaveformScene& waveform, const std::filesystem::path& f
   if (!std::filesystem::is_regular_file(path, error) || !file) {
     throw InputError(fmt::format("{}: no such file (\"path\" of a waveform)", path.string()));
   }
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    line.erase(std::min(line.find('#'), line.size()));
-    std::replace(line.begin(), line.end(), ',', ' ');
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    std::istringstream words(line);
-    double time = 0.0, value = 0.0;
-    std::string more;
-    if (!(words >> time >> value) || words >> more || !std::isfinite(time) || !std::isfinite(value)) {
-      throw InputError(fmt::format("{}:{}: accepted: two numbers, time and factor", path.string(), number));
-    }
-    if (waveform.times.size() == most_rows) {
-      throw InputError(fmt::format("{}:{}: more than {} rows", path.string(), number, most_rows));
-    }
-    waveform.times.push_back(time);
-    waveform.values.push_back(value);
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (error || bytes > most_bytes) {
+    throw InputError(fmt::format("{}: {} bytes are too many for a waveform; accepted: at most {}", path.string(), bytes,
+                                 most_bytes));
   }
+  read_waveform_rows(waveform, file, path.string());
   waveform.path.reset();
 }
 

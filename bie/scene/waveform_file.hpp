@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
+#include <string>
 
 #include "bie/scene/scene.hpp"
 
@@ -11,5 +13,8 @@ namespace vehd {
 /// @param folder  where a relative path starts
 /// @throws InputError "file:line: …"
 void read_waveform_table(WaveformScene& waveform, const std::filesystem::path& folder);
+
+/// The rows of such a file; `name` stands for it in messages. @throws InputError "file:line: …"
+void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std::string& name);
 
 }  // namespace vehd

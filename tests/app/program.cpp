@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,11 +56,14 @@ bool RunningProgram::ended() {
 
 ProgramResult RunningProgram::wait() {
   collect(0);
-  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, file_text(output_), file_text(errors_)};
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, peak_kilobytes_, file_text(output_), file_text(errors_)};
 }
 
 void RunningProgram::collect(int options) {
-  if (!ended_) ended_ = ::waitpid(process_, &status_, options) == process_;
+  if (ended_) return;
+  rusage usage{};
+  ended_ = ::wait4(process_, &status_, options, &usage) == process_;
+  peak_kilobytes_ = usage.ru_maxrss;
 }
 
 std::vector<std::string> vehd_command(const std::vector<std::string>& arguments) {

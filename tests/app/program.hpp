@@ -11,6 +11,7 @@
 /// The real binary as users run it.
 struct ProgramResult {
   int exit_code = -1;  ///< -1: ended by a signal
+  long peak_kilobytes = 0;
   std::string output;
   std::string errors;
 };
@@ -33,6 +34,7 @@ class RunningProgram {
   pid_t process_ = 0;
   bool ended_ = false;
   int status_ = 0;
+  long peak_kilobytes_ = 0;
   std::filesystem::path output_, errors_;
 };
 

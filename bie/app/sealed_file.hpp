@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+/// Files whose every bit is checked before anything is made of them: the content, then a line with its size and
+/// checksum. HDF5 ignores what follows its own end, so a sealed HDF5 file stays readable by its tools.
+namespace vehd {
+
+/// The content with its seal.
+std::string sealed(const std::string& content);
+
+/// Content of a sealed file. @throws InputError if the file is missing, truncated, altered or has no seal
+std::string read_sealed_file(const std::filesystem::path& path);
+
+}  // namespace vehd

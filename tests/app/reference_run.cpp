@@ -1,0 +1,55 @@
+#include "tests/app/reference_run.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <thread>
+
+#include "bie/scene/run_reader.hpp"
+
+std::vector<std::pair<std::string, vehd::Vector>> snapshot_data(const std::string& path) {
+  const vehd::Hdf5Reader file(path);
+  std::vector<std::pair<std::string, vehd::Vector>> data;
+  for (const std::string& name : file.members("/snapshots")) {
+    const std::string group = "/snapshots/" + name;
+    data.emplace_back(group, vehd::Vector::Constant(1, file.number_attribute(group, "time")));
+    for (const std::string_view field : vehd::snapshot_fields) {
+      for (const std::string_view part : vehd::snapshot_parts) {
+        const std::string dataset = group + "/" + std::string(part) + std::string(field);
+        if (file.has(dataset)) data.emplace_back(dataset, file.vector(dataset));
+      }
+    }
+  }
+  return data;
+}
+
+void check_same_run(const std::string& actual, const std::string& expected) {
+  BOOST_TEST((file_text(actual + "/history.csv") == file_text(expected + "/history.csv")));
+  const auto data = snapshot_data(actual + "/run.h5"), reference = snapshot_data(expected + "/run.h5");
+  BOOST_TEST_REQUIRE(data.size() == reference.size());
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    BOOST_TEST_REQUIRE(data[i].first == reference[i].first);
+    BOOST_TEST((data[i].second.array() == reference[i].second.array()).all(), data[i].first);
+  }
+  BOOST_TEST((file_text(actual + "/run.xdmf") == file_text(expected + "/run.xdmf")));
+}
+
+ReferenceRun::ReferenceRun(const std::string& text) {
+  write_text(scene, text);
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramResult result = run_vehd({"run", scene, "-o", reference, "--no-plot"});
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+}
+
+void ReferenceRun::finish() const {
+  const ProgramResult result = run_command(command);
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  BOOST_TEST(!std::filesystem::exists(output + "/.run.h5.spare"));
+  check_same_run(output, reference);
+}
+
+void ReferenceRun::wait_for_rows(RunningProgram& program) const {
+  while (!program.ended() && file_text(output + "/history.csv").size() < 1000) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}

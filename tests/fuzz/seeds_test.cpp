@@ -1,0 +1,34 @@
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+
+#include "tests/fuzz/targets.hpp"
+#include "tests/support/files.hpp"
+
+namespace {
+
+std::vector<std::filesystem::path> seeds_of(std::string_view target) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(VEHD_SOURCE_DIR "/tests/fuzz/seeds") / target)) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(seeds)
+
+// Whatever a fuzzer found interesting or once broke a reader. That each ends soon is up to the time limit of CTest.
+BOOST_AUTO_TEST_CASE(every_seed_is_read_or_refused_in_order) {
+  for (const fuzz::Target& target : fuzz::targets) {
+    const auto files = seeds_of(target.name);
+    BOOST_TEST(files.size() >= 5U, target.name);
+    for (const std::filesystem::path& file : files) {
+      BOOST_TEST_CONTEXT(file) { BOOST_CHECK_NO_THROW(target.run(file_text(file))); }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,98 @@
+#include "tests/fuzz/targets.hpp"
+
+#include <sstream>
+#include <stdexcept>
+
+#include "bie/app/checkpoint.hpp"
+#include "bie/app/history.hpp"
+#include "bie/scene/effective_scene.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/scene/run_reader.hpp"
+#include "bie/scene/schema.hpp"
+#include "bie/scene/waveform_file.hpp"
+#include "bie/support/errors.hpp"
+#include "tests/fuzz/hdf5_edits.hpp"
+#include "tests/support/files.hpp"
+
+namespace fuzz {
+namespace {
+
+/// Runs one reader; only the program's own refusal is in order, and it is one line.
+template <typename Reader>
+void refuse_or_read(Reader reader) {
+  try {
+    reader();
+  } catch (const vehd::InputError& error) {
+    const std::string message = error.what();
+    if (message.empty() || message.find('\n') != std::string::npos) {
+      throw std::logic_error("not one line: " + message);
+    }
+  }
+}
+
+/// Everything that plot, mesh, check and a shape file read.
+void read_run(vehd::Hdf5Reader file) {
+  const vehd::RunReader run(std::move(file));
+  refuse_or_read([&] { (void)vehd::parse_scene(run.scene(), "run.h5 (scene)", "."); });
+  for (std::size_t snapshot = 0; snapshot < std::min<std::size_t>(run.times().size(), 3); ++snapshot) {
+    (void)run.at(run.times()[snapshot]);
+    for (const std::string_view field : vehd::snapshot_fields) {
+      const std::string name(field);
+      if (!run.has_field(snapshot, name)) continue;
+      refuse_or_read([&] {
+        const vehd::Matrix values = run.coefficients(snapshot, name);
+        if (!values.allFinite()) throw std::logic_error("accepted values that are not finite");
+      });
+      refuse_or_read([&] { (void)run.coefficients(snapshot, name, name == "Vm" ? 1 : 3); });
+    }
+  }
+}
+
+}  // namespace
+
+void scene(std::string_view bytes) {
+  refuse_or_read([&] {
+    const vehd::Scene scene = vehd::parse_scene(std::string(bytes), "scene.toml", "/nonexistent");
+    const std::string text = vehd::effective_scene(scene);
+    try {
+      const vehd::Scene again = vehd::parse_scene(text, "effective.toml", "/nonexistent");
+      const auto differing = vehd::differing_keys(scene, again);
+      if (!differing.empty()) throw std::logic_error("the effective scene differs in " + differing.front());
+    } catch (const vehd::InputError& error) {
+      throw std::logic_error(std::string("the effective scene is refused: ") + error.what());
+    }
+  });
+}
+
+void tables(std::string_view bytes) {
+  refuse_or_read([&] {
+    vehd::WaveformScene waveform;
+    std::istringstream stream{std::string(bytes)};
+    vehd::read_waveform_rows(waveform, stream, "waveform.txt");
+    if (waveform.times.size() != waveform.values.size()) throw std::logic_error("times and values differ in number");
+  });
+  refuse_or_read([&] {
+    std::istringstream stream{std::string(bytes)};
+    const vehd::HistoryTable history(stream, "history.csv");
+    (void)history.column("time");
+  });
+}
+
+void files(std::string_view bytes) {
+  static const TemporaryDirectory directory;
+  const std::string path = directory / "file.h5";
+  write_text(path, std::string(bytes));
+  refuse_or_read([&] { read_run(vehd::Hdf5Reader(std::filesystem::path(path))); });
+  refuse_or_read([&] { (void)vehd::read_checkpoint(path); });
+}
+
+void edits(std::string_view bytes) {
+  const EditedFile file = edited_file(bytes);
+  if (file.is_checkpoint) {
+    refuse_or_read([&] { (void)vehd::checkpoint_of(file.image, "checkpoint.h5"); });
+  } else {
+    refuse_or_read([&] { read_run(vehd::Hdf5Reader(file.image, "run.h5")); });
+  }
+}
+
+}  // namespace fuzz

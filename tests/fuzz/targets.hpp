@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+/// What the fuzzers feed with bytes. Each returns after accepting or refusing them; anything but the program's own
+/// InputError, and every result that contradicts itself, leaves as another exception.
+namespace fuzz {
+
+/// A scene file. One that is accepted must come back unchanged from the effective scene written of it.
+void scene(std::string_view bytes);
+
+/// The text files beside a scene: the table of a waveform, and a history.csv.
+void tables(std::string_view bytes);
+
+/// A run.h5 and a checkpoint as they are on disk.
+void files(std::string_view bytes);
+
+/// The bytes are edits of a good run.h5 or checkpoint, made by the HDF5 library: objects that are missing, of other
+/// sizes, kinds or values, with checksums that are right.
+void edits(std::string_view bytes);
+
+struct Target {
+  std::string_view name;
+  void (*run)(std::string_view bytes);
+};
+
+constexpr std::array<Target, 4> targets = {{{"scene", scene}, {"tables", tables}, {"files", files}, {"edits", edits}}};
+
+}  // namespace fuzz

@@ -1,0 +1,76 @@
+#include "tests/hard/faults/faulty_run.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <map>
+#include <sstream>
+
+#include "bie/app/checkpoint.hpp"
+#include "bie/scene/run_reader.hpp"
+
+namespace {
+
+/// Quick, and the same bits on every machine; with the policy set the program does not start itself anew.
+struct OneThread {
+  OneThread() {
+    ::setenv("OMP_NUM_THREADS", "1", 1);
+    ::setenv("OMP_WAIT_POLICY", "passive", 1);
+  }
+};
+
+}  // namespace
+
+BOOST_TEST_GLOBAL_FIXTURE(OneThread);
+
+std::vector<std::string> FaultyRun::command_with(const std::string& fault) const {
+  // The sanitizers want to be loaded first, but all that they need is to be there.
+  std::vector<std::string> result = {"env", "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0",
+                                     "LD_PRELOAD=" VEHD_FAULT_SHIM, "VEHD_FAULT=" + fault};
+  result.insert(result.end(), command.begin(), command.end());
+  return result;
+}
+
+FaultyRun::Work FaultyRun::count_work() const {
+  const ProgramResult result = run_command(command_with("count " + directory / "work"));
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  std::filesystem::remove_all(output);
+  Work work;
+  std::istringstream(file_text(directory / "work")) >> work.operations >> work.bytes;
+  BOOST_TEST_REQUIRE(work.operations > 0);
+  return work;
+}
+
+std::int64_t FaultyRun::check_files() const {
+  std::int64_t accepted = 0;
+  if (std::filesystem::exists(output + "/checkpoint.h5")) {
+    accepted = vehd::read_checkpoint(output + "/checkpoint.h5").n_snapshots;
+  }
+  if (std::filesystem::exists(output + "/history.csv")) {
+    BOOST_TEST(file_text(reference + "/history.csv").starts_with(file_text(output + "/history.csv")));
+  }
+  const std::string snapshots = output + "/run.h5";
+  if (!std::filesystem::exists(snapshots)) {
+    BOOST_TEST(accepted == 0);
+    return accepted;
+  }
+  const vehd::Hdf5Reader file(snapshots);
+  const std::vector<std::string> names = file.members("/snapshots");
+  BOOST_TEST(std::ssize(names) >= accepted);
+  for (const std::string& name : names) {
+    const std::string group = "/snapshots/" + name;
+    vehd::require_checksum(file, group, vehd::snapshot_checksum(file, group));
+  }
+  const auto expected = snapshot_data(reference + "/run.h5");
+  const auto actual = snapshot_data(snapshots);
+  BOOST_TEST_REQUIRE(actual.size() <= expected.size());
+  for (std::size_t i = 0; i < actual.size(); ++i) {
+    BOOST_TEST_REQUIRE(actual[i].first == expected[i].first);
+    BOOST_TEST((actual[i].second.array() == expected[i].second.array()).all(), actual[i].first);
+  }
+  return accepted;
+}
+
+std::string adaptive_scene() {
+  std::string text = quick_scene("6.0");
+  const std::string fixed = "order = 6\ndt = 0.25";
+  return text.replace(text.find(fixed), fixed.size(), "tolerance = 1e-3");
+}

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/app/reference_run.hpp"
+
+/// A run whose file operations fail or kill it, see shim/fault_shim.cpp.
+struct FaultyRun : ReferenceRun {
+  using ReferenceRun::ReferenceRun;
+
+  /// The command of the run under a fault such as "kill 17"; "" for none.
+  [[nodiscard]] std::vector<std::string> command_with(const std::string& fault) const;
+
+  struct Work {
+    std::int64_t operations = 0, bytes = 0;
+  };
+  /// File operations and bytes of the run from its start to its end; leaves no files.
+  [[nodiscard]] Work count_work() const;
+
+  /// Snapshots that the last checkpoint counts; 0 if there is none. Checks that what the directory holds is true: every
+  /// snapshot intact and that of the reference, no counted one missing, the history a beginning of the reference's.
+  [[nodiscard]] std::int64_t check_files() const;
+};
+
+/// `tolerance` instead of `dt`: steps and degrees of its own choice.
+std::string adaptive_scene();
