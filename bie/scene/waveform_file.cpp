@@ -19,11 +19,7 @@ constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 22;
 constexpr std::size_t longest_shown = 60;
 
 std::string shown(const std::string& line) {
-  std::string text = line.size() > longest_shown ? line.substr(0, longest_shown) + " ..." : line;
-  // Some other file may hold anything.
-  std::replace_if(
-      text.begin(), text.end(), [](char letter) { return letter >= 0 && letter < ' '; }, '?');
-  return text;
+  return line.size() > longest_shown ? line.substr(0, longest_shown) + " ..." : line;
 }
 
 }  // namespace

@@ -2,7 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace vehd {
+namespace {
+
+std::string one_line(std::string text) {
+  const auto is_control = [](char letter) { return (letter >= 0 && letter < ' ') || letter == '\x7f'; };
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
+  return text;
+}
+
+}  // namespace
+
+InputError::InputError(std::string message) : std::runtime_error(one_line(std::move(message))) {}
 
 void require_size(const char* what, long actual, long expected) {
   if (actual != expected) {

@@ -5,10 +5,11 @@
 
 namespace vehd {
 
-/// What the user gave cannot be used: scene, command line or input file. Exit code 1.
+/// What the user gave cannot be used: scene, command line or input file. Exit code 1. The message is one line, whatever
+/// it quotes: control characters become blanks.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(std::string message);
 };
 
 /// Sizes of arguments that do not belong together: a mistake of the caller, never of the user.

@@ -10,6 +10,7 @@
 #include "bie/app/sealed_file.hpp"
 #include "bie/scene/hdf5_handle.hpp"
 #include "bie/scene/run_reader.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
 
@@ -181,9 +182,11 @@ void put_attribute(hid_t file, Bytes& bytes) {
 void correct_checksums(const std::string& image, hid_t file) {
   for (const char* group : {"/snapshots/000000", "/snapshots/000001"}) {
     try {
-      const std::int64_t checksum = vehd::snapshot_checksum(vehd::Hdf5Reader(image, "run.h5"), group);
+      // An edited attribute may be an array of up to three.
+      std::array<std::int64_t, 3> checksum{};
+      checksum.fill(vehd::snapshot_checksum(vehd::Hdf5Reader(image, "run.h5"), group));
       const vehd::Hdf5Handle attribute(H5Aopen_by_name(file, group, "checksum", H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-      H5Awrite(attribute.id(), H5T_NATIVE_INT64, &checksum);
+      H5Awrite(attribute.id(), H5T_NATIVE_INT64, checksum.data());
     } catch (const vehd::InputError&) {
     }
   }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include "bie/scene/schema.hpp"
@@ -42,7 +44,7 @@ std::string value_of(const vehd::KeyDescription& key, const std::string& number)
     case vehd::ValueType::modes:
       return "[{n = 2, m = 0, a = " + number + "}]";
     case vehd::ValueType::quantity:
-      return "\"" + number + " m\"";
+      return fmt::format("\"{} m\"", number);
     default:
       return "";
   }
@@ -64,7 +66,7 @@ BOOST_AUTO_TEST_CASE(no_key_takes_what_is_not_a_finite_number) {
       if (value.empty()) continue;
       const std::string text = scene_with(key, value);
       const std::string message = message_of(text);
-      const std::string name = "\"" + std::string(key.name) + "\" in [" + std::string(key.table) + "]";
+      const std::string name = fmt::format("\"{}\" in [{}]", key.name, key.table);
       BOOST_TEST_CONTEXT(text << message) {
         BOOST_TEST(message.starts_with("scene.toml:"));
         BOOST_TEST(message.find(name) != std::string::npos);
