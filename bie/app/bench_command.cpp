@@ -12,8 +12,8 @@
 #include "bie/app/bench_time.hpp"
 #include "bie/app/commands.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/stepping/time_rule.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/stepping/time_rule.hpp"
 
 namespace vehd {
 namespace {

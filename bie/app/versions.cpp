@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "commit.hpp"
 #include "bie/scene/hdf5_handle.hpp"
+#include "commit.hpp"
 
 namespace vehd {
 namespace {
