@@ -133,7 +133,8 @@ class Checks {
 
   void check_radial_shape() const {
     const ShapeScene& shape = scene_.shape;
-    if (!shape.amplitude && table_["shape"]["exponent"]) {
+    // The effective scene spells out every default.
+    if (!shape.amplitude && shape.exponent != ShapeScene{}.exponent) {
       refuse("shape", "exponent", "\"exponent\" in [shape] has no effect without \"amplitude\"");
     }
     for (std::size_t i = 0; i < shape.modes.size(); ++i) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -23,11 +25,11 @@ struct Diagnostics {
   double Vm_north = 0, q_north = 0, Vm_max = 0;
   double extent_x = 0, extent_y = 0, extent_z = 0;
   double inclination_deg = 0;
-  double area_drift = 0, volume_drift = 0;  ///< relative, signed
-  double strain_max = 0;                    ///< max |W/W_ref − 1|
-  double spectrum_tail = 0;                 ///< see docs/conventions.md
-  double quadrature_error = 0;              ///< LayerCheck::error
-  double separation = 0;                    ///< see separation()
+  double area_drift = 0, volume_drift = 0;                      ///< relative, signed
+  double strain_max = 0;                                        ///< max |W/W_ref − 1|
+  double spectrum_tail = 0;                                     ///< see docs/conventions.md
+  double quadrature_error = 0;                                  ///< LayerCheck::error
+  double separation = std::numeric_limits<double>::infinity();  ///< see separation()
 };
 
 }  // namespace vehd

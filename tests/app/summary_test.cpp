@@ -10,7 +10,7 @@ namespace {
 /// Verdict of a run whose rows are these.
 std::string verdict(const std::vector<vehd::HistoryRow>& rows, std::optional<double> tolerance = std::nullopt) {
   const TemporaryDirectory directory;
-  vehd::HistoryFile file(directory / "history.csv", 0);
+  vehd::HistoryFile file(directory / "history.csv", 0, 0);
   for (const vehd::HistoryRow& row : rows) file.append(row);
   return vehd::verdict_of(vehd::HistoryTable(directory / "history.csv"), tolerance);
 }

@@ -27,7 +27,8 @@ BOOST_AUTO_TEST_CASE(reads_back_to_the_same_scene) {
   const std::string placed =
       "[shape]\nkind='biconcave'\nreduced_volume=0.6\narea=2\nrotation=[0,1,0.5,30]\ncentre=[0.1,0,-1]\n"
       "[numerics]\ndt=0.1\nend_time=1\n";
-  for (const std::string& text : {with_appended(""), every_table, radial, placed, si_scene()}) {
+  const std::string wavy = "[shape]\nkind='radial'\nmodes=[{n=2,m=0,a=0.1}]\n[numerics]\ndt=0.1\nend_time=1\n";
+  for (const std::string& text : {with_appended(""), every_table, radial, wavy, placed, si_scene()}) {
     const vehd::Scene scene = parsed(text);
     const std::string written = vehd::effective_scene(scene);
     BOOST_TEST((parsed(written) == scene), written);
