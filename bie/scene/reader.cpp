@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -42,7 +43,35 @@ std::string file_text(const std::filesystem::path& path) {
   return text.str();
 }
 
+/// The parser limits nested values but builds a table for every part of a dotted key, whose destruction recurses.
+/// @throws InputError at the first key with too many parts
+void require_short_keys(const std::string& text, const std::string& name) {
+  constexpr int most_parts = 16;
+  int line = 1;
+  int dots = 0;
+  char quote = '\0';
+  for (const char letter : text) {
+    if (letter == '\n') {
+      ++line;
+      dots = 0;
+      quote = '\0';
+    } else if (quote != '\0') {
+      if (letter == quote) quote = '\0';
+    } else if (letter == '"' || letter == '\'') {
+      quote = letter;
+    } else if (letter == '.') {
+      if (++dots >= most_parts) {
+        throw InputError(fmt::format("{}:{}: a key of too many parts; accepted: at most {}", name, line, most_parts));
+      }
+    } else if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '_' && letter != '-' &&
+               letter != ' ' && letter != '\t') {
+      dots = 0;
+    }
+  }
+}
+
 toml::table parse_toml(const std::string& text, const std::string& name) {
+  require_short_keys(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

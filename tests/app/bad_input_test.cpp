@@ -156,7 +156,7 @@ BOOST_FIXTURE_TEST_CASE(truncated_checkpoint, FinishedRun) {
     std::filesystem::resize_file(checkpoint, size);
     const ProgramResult result = run_vehd({"run", scene, "-o", output, "--resume"});
     BOOST_TEST(result.exit_code == 1);
-    BOOST_TEST(result.errors.find(checkpoint + ": no readable HDF5 file, it is truncated") == 0, result.errors);
+    BOOST_TEST(result.errors.find(checkpoint + ": has no seal at its end: it is truncated") == 0, result.errors);
     BOOST_TEST((file_text(output + "/history.csv") == history));
   }
 }

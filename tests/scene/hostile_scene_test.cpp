@@ -23,7 +23,11 @@ std::string scene_with(const vehd::KeyDescription& key, const std::string& value
     add_unless_own("electric", "field = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 1\n");
   }
   text += "[" + table + "]\n";
-  if (!key.kinds.empty()) text += "kind = '" + std::string(key.kinds.front()) + "'\n";
+  if (!key.kinds.empty()) {
+    text += "kind = '" + std::string(key.kinds.front()) + "'\n";
+  } else if (table == "shape") {
+    text += "kind = 'ellipsoid'\naxes = [1, 1, 2]\n";
+  }
   return text + std::string(key.name) + " = " + value + "\n";
 }
 
@@ -34,7 +38,7 @@ std::string value_of(const vehd::KeyDescription& key, const std::string& number)
     case vehd::ValueType::number:
       return number;
     case vehd::ValueType::triple:
-      return "[0, " + number + ", 1]";
+      return "[1, " + number + ", 1]";
     case vehd::ValueType::matrix:
       return "[[0, 0, 0], [0, 0, " + number + "], [0, 0, 0]]";
     case vehd::ValueType::axis_angle:
@@ -126,7 +130,7 @@ BOOST_AUTO_TEST_CASE(files_of_a_terabyte_are_refused_unread) {
 }
 
 BOOST_AUTO_TEST_CASE(deep_nesting_is_refused) {
-  for (const std::string part : {"a.", "[", "{a="}) {
+  for (const std::string part : {"a.", "\"a,\".", "[", "{a="}) {
     std::string text;
     for (int depth = 0; depth < 100000; ++depth) text += part;
     BOOST_TEST(message_of("x = " + text + "\n").starts_with("scene.toml:1: "));
