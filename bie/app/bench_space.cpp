@@ -67,7 +67,7 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats) {
   }
   const std::vector<BenchCurve> against_seconds{
       {.label = "q, Example 1", .x = "seconds", .y = "error_q", .note = "order", .colour = 0},
-      {.label = "f_E, Example 1", .x = "seconds", .y = "error_force", .note = "order", .colour = 1},
+      {.label = "f_E, Example 1", .x = "seconds", .y = "error_force", .colour = 1},
       {.label = "v, prolate", .x = "seconds_velocity", .y = "error_velocity", .note = "order", .colour = 2}};
   std::vector<BenchCurve> against_degree = against_seconds;
   for (BenchCurve& curve : against_degree) {
