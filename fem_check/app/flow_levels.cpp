@@ -25,20 +25,16 @@ FlowLevels solve_flow_levels(const CheckInput& input, const Meshes& meshes, cons
 
   FlowLevels result;
   const auto solve = [&](const Discretisation& discretisation) {
-    const auto start = std::chrono::steady_clock::now();
     const FlowSolution solution = solve_flow(discretisation, problem);
     const FlowTraces traces = solution.on_surface(discretisation.quadrature_points(refinement.points_per_edge));
-    FieldValues samples;
+    Solved solved{solution.cost(), {{"velocity", traces.velocity}, {"divergence", traces.divergence.transpose()}}, {}};
     if (input.bie.sample_velocity.size() > 0) {
-      samples["velocity"] = solution.velocity(discretisation.locate(input.samples.points));
+      solved.samples["velocity"] = solution.velocity(discretisation.locate(input.samples.points));
     }
     result.solutions.push_back(solution);
-    Level level = level_of("flow", discretisation, solution.cost(), start);
-    level.surface = {{"velocity", traces.velocity}, {"divergence", traces.divergence.transpose()}};
-    level.samples = std::move(samples);
-    return level;
+    return solved;
   };
-  const LevelPlan plan{{refinement.flow_first, refinement.flow_last}, refinement.flow_target, {"velocity"}};
+  const LevelPlan plan{"flow", {refinement.flow_first, refinement.flow_last}, refinement.flow_target, {"velocity"}};
   result.sequence = run_levels(plan, meshes, report, solve);
   result.solutions.pop_back();  // the one with the outer sphere further out
   return result;
@@ -52,21 +48,21 @@ void add_own_force(const CheckInput& input, const Meshes& meshes, const Refineme
   const SurfaceSeries given(input.force_electric);
   FlowProblem problem = problem_of(input, refinement);
   for (std::size_t back = 0; back < 2; ++back) {
-    const auto start = std::chrono::steady_clock::now();
     const PotentialSolution& electric = potential.solutions[potential.solutions.size() - 1 - back];
     problem.force = [&](const SurfacePoints& at) { return Vectors(given(at) - electric.on_surface(at).force); };
-    const FlowSolution change = solve_flow(discretisation, problem);
+    const Level change = solve_level(
+        "flow by the change of f_E", discretisation, meshes.outer_radius(), report, [&](const Discretisation& space) {
+          const FlowSolution solution = solve_flow(space, problem);
+          return Solved{solution.cost(), {{"velocity", solution.on_surface(points).velocity}}, {}};
+        });
+    const Eigen::MatrixXd& velocity = change.surface.at("velocity");
     Level& level = sequence.levels[last - back];
-    const Vectors velocity = change.on_surface(points).velocity;
     level.surface["velocity_own_force"] = level.surface.at("velocity") + velocity;
     if (back == 0) {
       for (Level* other : {&sequence.far, &sequence.levels[sequence.repeated]}) {
         other->surface["velocity_own_force"] = other->surface.at("velocity") + velocity;
       }
     }
-    Level step = level_of("flow by the change of f_E", discretisation, change.cost(), start);
-    step.outer_radius = meshes.outer_radius();
-    report(level_line(step));
   }
 }
 

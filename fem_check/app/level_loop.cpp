@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <limits>
 
 namespace vehd::fem_check {
+namespace {
 
+/// Largest relative change of the judged fields between two levels, root mean square over the points.
 double largest_change(const Level& a, const Level& b, const std::vector<std::string>& fields) {
   double largest = 0.0;
   for (const std::string& name : fields) {
@@ -17,21 +21,45 @@ double largest_change(const Level& a, const Level& b, const std::vector<std::str
   return largest;
 }
 
-Level level_of(const std::string& problem, const Discretisation& discretisation, const Cost& cost,
-               std::chrono::steady_clock::time_point start) {
+}  // namespace
+
+Level solve_level(const std::string& problem, const Discretisation& discretisation, double outer_radius,
+                  const Report& report, const std::function<Solved(const Discretisation&)>& solve) {
+  const auto start = std::chrono::steady_clock::now();
+  Solved solved = solve(discretisation);
   Level level;
   level.problem = problem;
   level.degree = discretisation.degree();
+  level.outer_radius = outer_radius;
   level.n_cells = discretisation.n_cells();
-  level.n_unknowns = cost.n_unknowns;
+  level.n_unknowns = solved.cost.n_unknowns;
   level.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  level.peak_memory_bytes = cost.peak_memory_bytes;
+  level.peak_memory_bytes = solved.cost.peak_memory_bytes;
+  level.surface = std::move(solved.surface);
+  level.samples = std::move(solved.samples);
+  report(fmt::format("finite elements: {}, degree {}, outer radius {:.3g}: {} unknowns, {:.1f} s", problem,
+                     level.degree, outer_radius, level.n_unknowns, level.seconds));
   return level;
 }
 
-std::string level_line(const Level& level) {
-  return fmt::format("finite elements: {}, degree {}, outer radius {:.3g}: {} unknowns, {:.1f} s", level.problem,
-                     level.degree, level.outer_radius, level.n_unknowns, level.seconds);
+LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Report& report,
+                         const std::function<Solved(const Discretisation&)>& solve) {
+  // An observed order takes three levels.
+  constexpr std::size_t fewest = 3;
+  LevelSequence result;
+  auto& levels = result.levels;
+  for (int degree = plan.degrees.first; degree <= plan.degrees.last; ++degree) {
+    levels.push_back(solve_level(plan.problem, meshes.discretise(degree), meshes.outer_radius(), report, solve));
+    if (levels.size() < fewest) continue;
+    // The change is the error of the level before; this one's is smaller by the factor of the last step.
+    const double before = largest_change(levels[levels.size() - 3], levels[levels.size() - 2], plan.judged_by);
+    const double change = largest_change(levels[levels.size() - 2], levels.back(), plan.judged_by);
+    if (change * std::min(1.0, change / before) <= plan.target) break;
+  }
+  result.repeated = static_cast<int>(levels.size() - fewest);
+  result.far = solve_level(plan.problem, meshes.discretise_far(levels[result.repeated].degree),
+                           meshes.far_outer_radius(), report, solve);
+  return result;
 }
 
 }  // namespace vehd::fem_check

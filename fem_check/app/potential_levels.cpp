@@ -1,7 +1,5 @@
 #include "fem_check/app/potential_levels.hpp"
 
-#include <chrono>
-
 #include "fem_check/app/level_loop.hpp"
 #include "fem_check/app/surface_series.hpp"
 
@@ -30,28 +28,26 @@ PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& me
   PotentialLevels result;
   std::vector<PotentialSolution> steady_solutions;
   const auto solve = [&](const Discretisation& discretisation) {
-    const auto start = std::chrono::steady_clock::now();
     const SurfacePoints points = discretisation.quadrature_points(refinement.points_per_edge);
     const PotentialSolution solution = solve_potential(discretisation, prescribed);
     const PotentialTraces traces = solution.on_surface(points);
-    FieldValues surface{{"q", traces.charge.transpose()}, {"force", traces.force}}, samples;
+    Solved solved{solution.cost(), {{"q", traces.charge.transpose()}, {"force", traces.force}}, {}};
     if (input.samples.points.cols() > 0) {
-      samples["potential"] = solution.potential(discretisation.locate(input.samples.points)).transpose();
+      solved.samples["potential"] = solution.potential(discretisation.locate(input.samples.points)).transpose();
     }
     if (input.steady()) {
       steady_solutions.push_back(solve_potential(discretisation, steady));
       const PotentialTraces steady_traces = steady_solutions.back().on_surface(points);
-      surface["Vm"] = steady_traces.transmembrane_potential.transpose();
-      surface["q_steady"] = steady_traces.charge.transpose();
+      solved.surface["Vm"] = steady_traces.transmembrane_potential.transpose();
+      solved.surface["q_steady"] = steady_traces.charge.transpose();
     }
     result.solutions.push_back(solution);
-    Level level = level_of("potential", discretisation, solution.cost(), start);
-    level.surface = std::move(surface);
-    level.samples = std::move(samples);
-    return level;
+    return solved;
   };
-  const LevelPlan plan{
-      {refinement.potential_first, refinement.potential_last}, refinement.potential_target, {"q", "Vm", "q_steady"}};
+  const LevelPlan plan{"potential",
+                       {refinement.potential_first, refinement.potential_last},
+                       refinement.potential_target,
+                       {"q", "Vm", "q_steady"}};
   result.sequence = run_levels(plan, meshes, report, solve);
   result.solutions.pop_back();  // the one with the outer sphere further out
   if (input.steady()) result.steady = steady_solutions[steady_solutions.size() - 2];
