@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -30,56 +27,17 @@ CubePoint cube_point(const Block& block, const Point& reference) {
   return result;
 }
 
-struct Axes {
-  Matrix3 in_space;       // U
-  Matrix3 in_directions;  // V
-};
-
-/// Principal axes of the affine part, numbered and signed to lie close to the coordinate axes. A shape without a
-/// marked axis keeps the coordinate axes: those of rounding errors would be arbitrary.
-Axes principal_axes(const Matrix3& affine) {
-  constexpr double kMarked = 1.05;
-  constexpr double kNoise = 1e-9;
-  const double scale = affine.cwiseAbs().maxCoeff();
-  const Matrix3 clean = (affine / (scale * kNoise)).array().round().matrix() * kNoise;
-  const Eigen::JacobiSVD<Matrix3> svd(clean, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d& s = svd.singularValues();
-  if (!(s[2] > 0.0) || affine.determinant() <= 0.0) return {Matrix3::Identity(), Matrix3::Identity()};
-  const Matrix3 turn = svd.matrixU() * svd.matrixV().transpose();
-  if (s[0] < kMarked * s[2]) return {turn, Matrix3::Identity()};
-
-  const Matrix3& v = svd.matrixV();
-  std::array<int, 3> order{0, 1, 2};
-  std::array<int, 3> best = order;
-  double closeness = -1.0;
-  do {
-    const double sum = std::abs(v(0, order[0])) + std::abs(v(1, order[1])) + std::abs(v(2, order[2]));
-    if (sum > closeness + kNoise) {
-      closeness = sum;
-      best = order;
-    }
-  } while (std::next_permutation(order.begin(), order.end()));
-  Axes axes;
-  for (int k = 0; k < 3; ++k) {
-    axes.in_directions.col(k) = v.col(best[k]) * (v(k, best[k]) < 0.0 ? -1.0 : 1.0);
-  }
-  if (axes.in_directions.determinant() < 0.0) axes.in_directions.col(2) *= -1.0;
-  axes.in_space = turn * axes.in_directions;
-  return axes;
-}
-
 /// Least extent of the membrane along one axis over the two blocks that this axis cuts.
-double room_along(const FrozenShape& shape, const Point& centre, const Axes& axes, int axis) {
+double room_along(const FrozenShape& shape, const Point& centre, const BlockAxes& axes, int axis) {
   constexpr int kSamples = 17;
   double room = std::numeric_limits<double>::max();
   for (const double sign : {-1.0, 1.0}) {
     for (int i = 0; i < kSamples; ++i) {
       for (int j = 0; j < kSamples; ++j) {
-        Point g;
-        g[axis] = sign;
-        g[(axis + 1) % 3] = std::tan(kQuarterPi * (2.0 * i / (kSamples - 1) - 1.0));
-        g[(axis + 2) % 3] = std::tan(kQuarterPi * (2.0 * j / (kSamples - 1) - 1.0));
-        const Point x = shape.position(axes.in_directions * g.normalized()) - centre;
+        const double first = 2.0 * i / (kSamples - 1) - 1.0;
+        const double second = 2.0 * j / (kSamples - 1) - 1.0;
+        const Point direction = BlockMap::cube_direction(axis, sign, first, second);
+        const Point x = shape.position(axes.in_directions * direction) - centre;
         room = std::min(room, sign * x.dot(axes.in_space.col(axis)));
       }
     }
@@ -90,8 +48,12 @@ double room_along(const FrozenShape& shape, const Point& centre, const Axes& axe
 
 }  // namespace
 
-BlockMap::BlockMap(const FrozenShape& shape, double outer_radius, double core_fraction)
-    : shape_(shape), centre_(shape.centroid()), outer_radius_(outer_radius) {
+BlockMap::BlockMap(const FrozenShape& shape, const BlockAxes& axes, double outer_radius, double core_fraction)
+    : shape_(shape),
+      centre_(shape.centroid()),
+      outer_radius_(outer_radius),
+      block_to_direction_(axes.in_directions),
+      block_to_space_(axes.in_space) {
   const double reach = shape.largest_distance(centre_);
   if (!(outer_radius > reach)) {
     throw MeshError(
@@ -99,9 +61,6 @@ BlockMap::BlockMap(const FrozenShape& shape, double outer_radius, double core_fr
                     "({:.6g}, {:.6g}, {:.6g})",
                     outer_radius, reach, centre_.x(), centre_.y(), centre_.z()));
   }
-  const Axes axes = principal_axes(shape.affine_part());
-  block_to_direction_ = axes.in_directions;
-  block_to_space_ = axes.in_space;
   for (int k = 0; k < 3; ++k) core_.col(k) = core_fraction * room_along(shape, centre_, axes, k) * axes.in_space.col(k);
 }
 
@@ -110,6 +69,14 @@ Block BlockMap::block_at(const Point& reference) {
   const double s = reference.cwiseAbs().maxCoeff(&axis);
   const Block::Layer layer = s < kCore ? Block::Layer::core : s < kMembrane ? Block::Layer::blend : Block::Layer::shell;
   return {layer, static_cast<int>(axis), reference[axis] < 0.0 ? -1.0 : 1.0};
+}
+
+Point BlockMap::cube_direction(int axis, double sign, double first, double second) {
+  Point g;
+  g[axis] = sign;
+  g[(axis + 1) % 3] = std::tan(kQuarterPi * first);
+  g[(axis + 2) % 3] = std::tan(kQuarterPi * second);
+  return g.normalized();
 }
 
 Point BlockMap::direction(const Block& block, const Point& reference) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshes/block.hpp"
+#include "meshes/block_axes.hpp"
 #include "meshes/frozen_shape.hpp"
 #include "meshes/types.hpp"
 #include "meshes/volume_mesh.hpp"
@@ -14,9 +15,8 @@ namespace vehd::meshes {
 ///   core:   centre + K X/½
 ///   blend:  from centre + K v at s = ½ to x(r̂) at s = 1, linear in s
 ///   shell:  from x(r̂) at s = 1 to centre + R U g/|g| at s = 2, linear in s
-/// The affine part of the shape is M = U S Vᵀ. Blocks follow its axes, hence a tilted disc is meshed like a flat one,
-/// and the outer sphere turns with the membrane however far x(θ, φ) has been carried round. K = U diag(half-widths)
-/// squashes the core into the room that the shape leaves along each axis.
+/// U and V are the BlockAxes. K = U diag(half-widths) squashes the core into the room that the shape leaves along each
+/// axis.
 class BlockMap {
  public:
   static constexpr double kCore = 0.5;
@@ -24,7 +24,7 @@ class BlockMap {
   static constexpr double kOuter = 2.0;
 
   /// @throws MeshError if the outer sphere does not hold the shape
-  BlockMap(const FrozenShape& shape, double outer_radius, double core_fraction);
+  BlockMap(const FrozenShape& shape, const BlockAxes& axes, double outer_radius, double core_fraction);
 
   [[nodiscard]] const Point& centre() const { return centre_; }
   [[nodiscard]] double outer_radius() const { return outer_radius_; }
@@ -33,6 +33,8 @@ class BlockMap {
   /// take the formulas of the block that they are given.
   [[nodiscard]] static Block block_at(const Point& reference);
 
+  /// g/|g| on the face of the cube that `axis` and `sign` name; its other coordinates v follow the axis cyclically.
+  [[nodiscard]] static Point cube_direction(int axis, double sign, double first, double second);
   /// r̂(X); X ≠ 0.
   [[nodiscard]] Point direction(const Block& block, const Point& reference) const;
   [[nodiscard]] Point position(const Block& block, const Point& reference) const;

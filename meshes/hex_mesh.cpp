@@ -80,7 +80,8 @@ Point HexMesh::direction(int cell_index, const Point& unit) const {
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options) {
   require_options(options);
-  const auto map = std::make_shared<const BlockMap>(shape, options.outer_radius, options.core_fraction);
+  const auto map =
+      std::make_shared<const BlockMap>(shape, best_axes(shape), options.outer_radius, options.core_fraction);
   const double growth = options.shell_growth > 0.0
                             ? options.shell_growth
                             : std::pow(options.outer_radius / shape.radius(), 1.0 / options.shell_layers);

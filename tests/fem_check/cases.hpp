@@ -34,6 +34,8 @@ inline meshes::FrozenShape unit_sphere() {
   return meshes::FrozenShape(meshes::testing::project(1, [](const meshes::Point& r) { return r; }));
 }
 
+constexpr double kDepolarisation = 0.17356399;  ///< of the 2:1 prolate along its axis
+
 /// 1/(4π|x − y|) and its gradient in x.
 struct PointSource {
   Vector3 position;

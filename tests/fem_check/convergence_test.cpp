@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(radiation_condition_leaves_the_seventh_power_of_the_radius)
     problem.membrane = PrescribedJump{on_surface([](const Vector3&, const Vector3&) { return 0.0; })};
     problem.outer.kind = kind;
     const Vector value = solve_potential(space, problem).potential(space.locate(Vector3(0.0, 0.0, 0.5)));
-    return std::abs(-value[0] / 0.5 * (1.0 + 0.17356399 * 19.0) - 1.0);
+    return std::abs(-value[0] / 0.5 * (1.0 + kDepolarisation * 19.0) - 1.0);
   };
   const double near = error(3.0, OuterCondition::Kind::radiation);
   const double far = error(4.5, OuterCondition::Kind::radiation);

@@ -8,8 +8,6 @@ namespace shapes = vehd::meshes::testing;
 
 namespace {
 
-constexpr double kDepolarisation = 0.17356399;  // of the 2:1 prolate along its axis
-
 /// κ of the charging sphere.
 double sphere_kappa(double in, double out) { return 2.0 * in * out / (in + 2.0 * out); }
 

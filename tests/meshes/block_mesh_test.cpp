@@ -105,16 +105,18 @@ BOOST_AUTO_TEST_CASE(volume_and_area_converge_at_the_order_of_the_quadrature) {
   // The map is exact, so that two Gauss points per direction leave their own fourth order.
   for (const auto& [name, shape] : all_shapes()) {
     BlockMeshOptions options = coarse();
-    options.cells_per_edge = 4;
-    options.blend_layers = 2;
+    // On coarser meshes the errors of the areas of shape (33) and of the disc still pass through zero.
+    options.shell_layers = 1;
+    options.cells_per_edge = 7;
+    options.blend_layers = 3;
     const MeshQuality wide = quality(make_block_mesh(shape, options), shape, 2);
-    options.cells_per_edge = 8;
-    options.blend_layers = 4;
+    options.cells_per_edge = 14;
+    options.blend_layers = 6;
     const MeshQuality fine = quality(make_block_mesh(shape, options), shape, 2);
     BOOST_TEST(std::log2(std::abs(wide.volume_error / fine.volume_error)) > 3.5, name);
     BOOST_TEST(std::log2(std::abs(wide.area_error / fine.area_error)) > 3.5, name);
-    BOOST_TEST(std::abs(fine.volume_error) < 2e-5, name);
-    BOOST_TEST(std::abs(fine.area_error) < 2e-4, name);
+    BOOST_TEST(std::abs(fine.volume_error) < 2e-6, name);
+    BOOST_TEST(std::abs(fine.area_error) < 1e-6, name);
   }
 }
 
