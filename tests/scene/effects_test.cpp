@@ -65,7 +65,8 @@ BOOST_AUTO_TEST_CASE(table_is_read_from_a_file_and_kept_in_the_scene) {
     return std::string();
   };
   write_text(folder / "factor.csv", "0, 0\n1, high\n");
-  BOOST_TEST(message().ends_with("factor.csv:2: is \"1, high\"; accepted: two finite numbers, time and factor"), message());
+  BOOST_TEST(message().ends_with("factor.csv:2: is \"1, high\"; accepted: two finite numbers, time and factor"),
+             message());
   std::filesystem::remove(folder / "factor.csv");
   BOOST_TEST(message().ends_with("factor.csv: no such file (\"path\" of a waveform)"), message());
 }
