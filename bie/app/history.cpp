@@ -37,14 +37,12 @@ constexpr std::array diagnostic_columns = {
     DiagnosticColumn{"volume_drift", &Diagnostics::volume_drift},
     DiagnosticColumn{"strain_max", &Diagnostics::strain_max},
     DiagnosticColumn{"spectrum_tail", &Diagnostics::spectrum_tail},
-    DiagnosticColumn{"quadrature_error", &Diagnostics::quadrature_error},
-    DiagnosticColumn{"separation", &Diagnostics::separation},
 };
 
 std::string header() {
   std::string line = "time,dt";
   for (const DiagnosticColumn& column : diagnostic_columns) line += fmt::format(",{}", column.name);
-  return line + ",iterations_flow,iterations_electric,rejected,order,truncation,change\n";
+  return line + ",iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation\n";
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
@@ -110,8 +108,9 @@ void HistoryFile::append(const HistoryRow& row) {
     line += fmt::format(",{:.17g}", row.diagnostics.*column.member);
   }
   const EvolutionStep& step = row.step;
-  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g}\n", step.iterations_flow, step.iterations_electric,
-                           step.rejected, row.order, row.truncation, step.change));
+  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", step.iterations_flow,
+                           step.iterations_electric, step.rejected, row.order, row.truncation, step.change,
+                           row.diagnostics.quadrature_error, row.diagnostics.separation));
 }
 
 void HistoryFile::write(const std::string& text) {

@@ -174,7 +174,7 @@ BOOST_FIXTURE_TEST_CASE(altered_checkpoint, FinishedRun) {
   write_text(checkpoint, altered);
   const ProgramResult result = run_vehd({"run", scene, "-o", output, "--resume"});
   BOOST_TEST(result.exit_code == 1);
-  BOOST_TEST(result.errors == checkpoint + ": is damaged: its values do not match their checksum\n");
+  BOOST_TEST(result.errors == checkpoint + ": is damaged: its bytes do not match their checksum\n");
 }
 
 BOOST_FIXTURE_TEST_CASE(truncated_run_file, FinishedRun) {
