@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bie/linear/subspace_solve.hpp"
+#include "bie/physics/scalar_support.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
@@ -75,7 +77,8 @@ SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const
   if (std::abs(rhs[0]) < kRounding * rhs.norm()) rhs[0] = 0.0;
   SecondKindSolution solution;
   solution.weighted = start.size() == rhs.size() ? start : Vector::Zero(rhs.size());
-  solution.report = gmres(map, preconditioner, rhs, solution.weighted, {tolerance, 60});
+  solution.report =
+      gmres_within(scalar_support(membrane.fine), map, preconditioner, rhs, solution.weighted, {tolerance, 60});
   const Vector smoothed = membrane.fine.synthesize(membrane.layers.laplace_adjoint.apply(solution.weighted));
   solution.values = (2.0 * (weighted_rhs - eta * smoothed)).cwiseQuotient(membrane.surface.area_element);
   return solution;

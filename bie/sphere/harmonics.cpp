@@ -6,6 +6,7 @@
 
 #include "bie/sphere/legendre.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -25,6 +26,10 @@ Matrix resize_order(const Matrix& coefficients, int order) {
 }
 
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi) {
+  return evaluate_harmonics(coefficients, theta, phi, order_of(coefficients.rows()));
+}
+
+Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order) {
   require_size("phi", phi.size(), theta.size());
   const int order = order_of(coefficients.rows());
   const Index n_points = theta.size();
@@ -37,8 +42,8 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
   const Index n_blocks = (n_points + kBlock - 1) / kBlock;
   // Terms below which waking a second thread costs more than it saves.
   constexpr Index kParallelTerms = 30000;
-#pragma omp parallel for schedule(static) if (n_points * coefficients.rows() > kParallelTerms)
-  for (Index block = 0; block < n_blocks; ++block) {
+  const Index terms = n_points * (order + 1) * (azimuthal_order + 1);
+  for_each_index(n_blocks, terms > kParallelTerms, [&](Index block) {
     const Index start = block * kBlock;
     const Index size = std::min(kBlock, n_points - start);
     const Block cos_theta = theta.segment(start, size).array().cos();
@@ -51,7 +56,7 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
     BlockFields sum = BlockFields::Zero(size, n_fields);
     BlockFields cos_sum(size, n_fields);
     BlockFields sin_sum(size, n_fields);
-    for (int m = 0; m <= order; ++m) {
+    for (int m = 0; m <= std::min(order, azimuthal_order); ++m) {
       if (m > 0) {
         sectoral *= legendre_sectoral_factor(m) * sin_theta;
         const Block next = cos_m * cos_phi - sin_m * sin_phi;
@@ -77,7 +82,7 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
       for (Index f = 0; f < n_fields; ++f) sum.col(f) += cos_sum.col(f) * cos_m + sin_sum.col(f) * sin_m;
     }
     values.middleRows(start, size) = sum;
-  }
+  });
   return values;
 }
 

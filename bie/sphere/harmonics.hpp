@@ -21,5 +21,7 @@ Matrix resize_order(const Matrix& coefficients, int order);
 /// Values at arbitrary points: [n_points x n_fields] from coefficients [(p+1)² x n_fields].
 /// θ = 0 and π are allowed. Cost O(n_points p²).
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi);
+/// The same of the harmonics with |m| ≤ azimuthal_order alone, at cost O(n_points p azimuthal_order).
+Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order);
 
 }  // namespace vehd

@@ -106,12 +106,13 @@ Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, cons
   }
   const Matrix start = fine.synthesize(series);
   const Angles middle = angles_of(moved_back(nodes, 0.5 * start));
-  return evaluate_harmonics(series, middle.theta, middle.phi) + share(fine.order() + 1) * beyond;
+  return evaluate_harmonics(series, middle.theta, middle.phi, fine.azimuthal_order()) +
+         share(fine.order() + 1) * beyond;
 }
 
 Matrix carried(const SphereTransform& fine, const Matrix& fields, const Directions& from) {
   const Angles angles = angles_of(from);
-  return fine.analyze(evaluate_harmonics(fields, angles.theta, angles.phi));
+  return fine.analyze(evaluate_harmonics(fields, angles.theta, angles.phi, fine.azimuthal_order()));
 }
 
 }  // namespace

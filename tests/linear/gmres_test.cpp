@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
+#include "bie/linear/subspace_solve.hpp"
 #include "bie/support/errors.hpp"
 
 using namespace vehd;
@@ -131,6 +132,27 @@ BOOST_AUTO_TEST_CASE(repetition_gives_the_same_bits) {
   gmres(map_of(matrix), identity, test_vector(60), first, {1e-8, 60});
   gmres(map_of(matrix), identity, test_vector(60), second, {1e-8, 60});
   BOOST_TEST((first.array() == second.array()).all());
+}
+
+BOOST_AUTO_TEST_CASE(a_solve_within_a_subspace_sees_nothing_else) {
+  const Matrix small = test_matrix(30);
+  std::vector<Index> support;
+  for (Index i = 0; i < 30; ++i) support.push_back(2 * i + 1);
+  // What the map does outside the subspace would spoil the solution, and rounding inside a right-hand side as well.
+  Matrix all = 1e-3 * Matrix::Identity(60, 60);
+  all(support, support) = small;
+  const Vector expected = test_vector(30);
+  Vector rhs = Vector::Constant(60, 1e-15);
+  rhs(support) = small * expected;
+  Vector x = Vector::Zero(60);
+  const SolveReport report = gmres_within(support, map_of(all), identity, rhs, x, {1e-12, 60});
+  BOOST_TEST(report.converged);
+  BOOST_TEST((x(support) - expected).norm() < 1e-11 * expected.norm());
+  BOOST_TEST(x.norm() == x(support).norm());
+  Vector alone = Vector::Zero(30);
+  const SolveReport of_alone = gmres(map_of(small), identity, small * expected, alone, {1e-12, 60});
+  BOOST_TEST(report.iterations == of_alone.iterations);
+  BOOST_TEST((x(support) - alone).norm() < 1e-13 * expected.norm());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -71,6 +71,23 @@ BOOST_AUTO_TEST_CASE(derivatives_agree_with_central_differences_and_laplacian) {
   BOOST_TEST((d.d22.col(0).array() - (f_pp / sine.square() + cotangent * f_t)).abs().maxCoeff() < 1e-3);
 }
 
+BOOST_AUTO_TEST_CASE(azimuthal_order_leaves_higher_harmonics_out) {
+  const int order = 9;
+  const auto [theta, phi] = grid_angles(make_grid(7));
+  const Matrix all = random_coefficients(order, 2, 5);
+  for (const int highest : {0, 1, 4, order}) {
+    Matrix low = all;
+    for (int n = 0; n <= order; ++n) {
+      for (int m = highest + 1; m <= n; ++m) {
+        low.row(coefficient_index(n, m)).setZero();
+        low.row(coefficient_index(n, -m)).setZero();
+      }
+    }
+    BOOST_TEST(max_difference(evaluate_harmonics(all, theta, phi, highest), evaluate_harmonics(low, theta, phi)) ==
+               0.0);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(gauss_rule_integrates_polynomials) {
   for (const int n : {1, 2, 5, 17, 65, 131}) {
     const GaussLegendre rule = gauss_legendre(n);
