@@ -108,7 +108,7 @@ RunPlan plan_of(const Scene& scene) {
   const Discretisation discretisation(problem.settings, symmetry);
   const Discretisation::Tables& tables = discretisation.tables();
   plan.kernel_evaluations =
-      evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections, symmetry.fold);
+      evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections, tables.fold);
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;

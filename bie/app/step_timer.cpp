@@ -70,7 +70,7 @@ std::map<std::string, double> StepTimer::operations() const {
   result["operator assembly"] =
       evaluations_per_step(problem_.settings.time_order) * operations_per_assembly(tables.quadrature, tables.targets,
                                                                                    needed_layers(problem_.model, true),
-                                                                                   symmetry.reflections, symmetry.fold);
+                                                                                   symmetry.reflections, tables.fold);
   const StokesOperator& stokes = evolution_.evaluation().parts->membrane.layers.stokes_single;
   if (problem_.settings.time_order == 1 && !stokes.empty()) {
     constexpr double kBlocks = 9.0;

@@ -48,7 +48,8 @@ std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, cons
   const TargetImages images({reflections, fold}, KernelColumns({}), {quadrature.order, transform.azimuthal_order()},
                             grid.n_phi);
   const int n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
-  return std::uint64_t(n_latitudes) * images.originals().size() * quadrature.n_nodes();
+  const std::uint64_t n_targets = std::uint64_t(n_latitudes) * images.originals().size();
+  return n_targets * quadrature.n_nodes() / (images.in_mirror() ? 2 : 1);
 }
 
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
@@ -96,7 +97,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
       }
     }
     const std::size_t chunk = chunk_size(targets.size());
-    TargetRows worker(quadrature, kernels, position, azimuthal_order, static_cast<int>(chunk));
+    TargetRows worker(quadrature, kernels, position, azimuthal_order, static_cast<int>(chunk), images.in_mirror());
     RowMatrix rows(Index{end_latitude - first_latitude} * grid.n_phi, kernels.count * n);
     for (std::size_t done = 0; done < targets.size(); done += chunk) {
       // The last chunk reaches back over targets that are done already.

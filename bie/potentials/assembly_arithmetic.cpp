@@ -4,6 +4,7 @@
 
 #include "bie/potentials/kernel_columns.hpp"
 #include "bie/potentials/target_images.hpp"
+#include "bie/potentials/target_rows.hpp"
 
 namespace vehd {
 
@@ -12,20 +13,22 @@ namespace {
 double product(double rows, double inner, double columns) { return 2.0 * rows * inner * columns; }
 
 /// Wigner rotation of so many columns of coefficients, or its adjoint.
-double rotation(int order, int azimuthal_order, double columns) {
+double rotation(int order, int azimuthal_order, const FourierColumns& columns) {
+  const auto cosines = static_cast<double>(columns.cosine.size());
+  const auto sines = static_cast<double>(columns.sine.size());
   double operations = 0.0;
   for (int n = 0; n <= order; ++n) {
     const int m = std::min(n, azimuthal_order);
-    operations += product(n + 1, m + 1, columns) + product(n, m, columns);
+    operations += product(n + 1, m + 1, cosines) + product(n, m, sines);
   }
   return operations;
 }
 
-/// Legendre sums at the nodes of the rotated grid, or their adjoint.
+/// Legendre sums at the nodes of the rotated grid, or their adjoint; a column has cosines or sines.
 double legendre_sums(const RotatedQuadrature& quadrature, double columns) {
   double operations = 0.0;
   for (int m = 0; m <= quadrature.order; ++m) {
-    operations += 2.0 * product(quadrature.n_theta, quadrature.order + 1 - m, columns);
+    operations += product(quadrature.n_theta, quadrature.order + 1 - m, columns);
   }
   return operations;
 }
@@ -33,7 +36,7 @@ double legendre_sums(const RotatedQuadrature& quadrature, double columns) {
 /// Sums over the azimuth, even and odd orders apart on a quarter of it, or their adjoint.
 double fourier_sums(const RotatedQuadrature& quadrature, double columns) {
   const double quarter = quadrature.n_phi / 4;
-  return 2.0 * product(quarter, quadrature.order + 1, quadrature.n_theta * columns);
+  return product(quarter, quadrature.order + 1, quadrature.n_theta * columns);
 }
 
 /// Kernel values at one node.
@@ -61,13 +64,16 @@ double operations_per_assembly(const RotatedQuadrature& quadrature, const Sphere
   const ActiveCoefficients active(order, azimuthal_order);
   const TargetImages images({reflections, fold}, kernels, active, grid.n_phi);
   const double n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
-  constexpr double kComponents = 3.0;
-  const double shape_fields = kComponents * (kernels.need_source_normal() ? 3.0 : 1.0);
+  const FourierColumns shape = shape_columns(images.in_mirror());
+  const FourierColumns row = row_columns(kernels, images.in_mirror());
+  const double shape_fields = static_cast<double>(shape.count()) * (kernels.need_source_normal() ? 3.0 : 1.0);
+  const double row_fields = static_cast<double>(row.count());
+  const double n_nodes = static_cast<double>(quadrature.n_nodes()) / (images.in_mirror() ? 2.0 : 1.0);
 
-  const double of_a_target = rotation(order, azimuthal_order, kComponents) + legendre_sums(quadrature, shape_fields) +
-                             fourier_sums(quadrature, shape_fields) + quadrature.n_nodes() * kernel_values(kernels) +
-                             fourier_sums(quadrature, kernels.count) + legendre_sums(quadrature, kernels.count) +
-                             rotation(order, azimuthal_order, kernels.count);
+  const double of_a_target = rotation(order, azimuthal_order, shape) + legendre_sums(quadrature, shape_fields) +
+                             fourier_sums(quadrature, shape_fields) + n_nodes * kernel_values(kernels) +
+                             fourier_sums(quadrature, row_fields) + legendre_sums(quadrature, row_fields) +
+                             rotation(order, azimuthal_order, row);
   const double n_rows = static_cast<double>(kernels.count) * static_cast<double>(active.count());
   const double to_modes = n_latitudes * product(2 * azimuthal_order + 1, grid.n_phi, n_rows);
   double to_degrees = 0.0;

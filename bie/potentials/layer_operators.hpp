@@ -81,7 +81,8 @@ struct LayerOperators {
   StokesOperator stokes_double;    ///< v ↦ Stokes double layer, stokes_double_kernel, principal value
 };
 
-/// Kernel evaluations of each selected operator in one assembly: independent targets times quadrature nodes.
+/// Kernel evaluations of each selected operator in one assembly: independent targets times the nodes each needs, which
+/// are half of all where the targets lie in a mirror.
 std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                        const std::vector<Reflection>& reflections, int fold = 1);
 

@@ -68,6 +68,8 @@ TargetImages::TargetImages(const SurfaceMaps& maps, const KernelColumns& kernels
       }
     }
   }
+  const auto& all = maps.reflections;
+  in_mirror_ = originals_.size() == 1 && std::find(all.begin(), all.end(), Reflection{1, -1, 1}) != all.end();
 }
 
 void TargetImages::fill(Eigen::Ref<RowMatrix> rows) const {

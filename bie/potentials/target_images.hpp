@@ -36,6 +36,8 @@ class TargetImages {
 
   /// Azimuths whose rows have to be computed.
   [[nodiscard]] const std::vector<int>& originals() const { return originals_; }
+  /// Do these alone lie at azimuth 0, in a plane y = 0 that the surface is symmetric about?
+  [[nodiscard]] bool in_mirror() const { return in_mirror_; }
   /// The reflection that takes a latitude to the other hemisphere, if there is one.
   [[nodiscard]] const std::optional<Reflection>& flip() const { return flip_; }
   /// Signs of a row under that reflection.
@@ -55,6 +57,7 @@ class TargetImages {
   std::vector<int> originals_;
   std::vector<Eigen::RowVectorXd> signs_;  ///< of each reflection that keeps the latitude, the identity first
   std::vector<RowTurn> turns_;             ///< by 2π/fold, 4π/fold, ...
+  bool in_mirror_ = false;
   std::optional<Reflection> flip_;
   Eigen::RowVectorXd flip_signs_;
 };

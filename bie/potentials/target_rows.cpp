@@ -13,38 +13,69 @@ namespace {
 
 using ConstBlock = Eigen::Map<const RowMatrix, 0, Eigen::OuterStride<>>;
 
-/// Calls f(latitude, first, count) for ranges of columns that share a latitude, where every target has `components`
-/// columns, component-major.
-template <typename Function>
-void for_each_latitude(std::span<const Target> targets, int components, const Function& f) {
-  const Index n_targets = static_cast<Index>(targets.size());
-  if (targets.front().latitude == targets.back().latitude) {
-    f(targets.front().latitude, 0, components * n_targets);
-    return;
-  }
-  for (Index first = 0; first < n_targets;) {
-    Index end = first;
-    while (end < n_targets && targets[end].latitude == targets[first].latitude) ++end;
-    for (int i = 0; i < components; ++i) f(targets[first].latitude, i * n_targets + first, end - first);
-    first = end;
-  }
+/// One rotation serves all of them, in matrix products.
+bool share_latitude(std::span<const Target> targets) { return targets.front().latitude == targets.back().latitude; }
+
+Index size_of(const std::vector<int>& columns, int chunk) { return static_cast<Index>(columns.size()) * chunk; }
+
+CoefficientBlock block_for(int order, int highest, const FourierColumns& columns, int chunk) {
+  return {order, highest, size_of(columns.cosine, chunk), size_of(columns.sine, chunk)};
 }
 
 }  // namespace
 
+FourierColumns shape_columns(bool mirrored) {
+  if (mirrored) return {{0, 2}, {1}};
+  return {{0, 1, 2}, {0, 1, 2}};
+}
+
+FourierColumns row_columns(const KernelColumns& kernels, bool mirrored) {
+  FourierColumns result;
+  for (int c = 0; c < kernels.count; ++c) {
+    const int block = kernels.stokes_block(c);
+    const bool odd = block == 1 || block == 4;  // xy and yz
+    if (!mirrored || !odd) result.cosine.push_back(c);
+    if (!mirrored || odd) result.sine.push_back(c);
+  }
+  return result;
+}
+
 TargetRows::TargetRows(const RotatedQuadrature& quadrature, const KernelColumns& kernels, const Matrix& position,
-                       int azimuthal_order, int chunk)
+                       int azimuthal_order, int chunk, bool mirrored)
     : q_(quadrature),
       kernels_(kernels),
       position_(position),
       chunk_(chunk),
       order_(quadrature.order),
       azimuthal_order_(azimuthal_order),
-      shape_(order_, 3 * chunk),
-      rotated_shape_(order_, 3 * chunk),
-      rows_(order_, kernels.count * chunk),
-      rotated_rows_(order_, kernels.count * chunk),
-      shape_kinds_(kernels.need_source_normal() ? kShapeKinds : 1) {}
+      mirrored_(mirrored),
+      n_azimuths_(mirrored ? quadrature.n_phi / 2 : quadrature.n_phi),
+      components_(shape_columns(mirrored)),
+      kernel_columns_(row_columns(kernels, mirrored)),
+      shape_(block_for(order_, azimuthal_order, components_, chunk)),
+      rotated_shape_(block_for(order_, order_, components_, chunk)),
+      rows_(block_for(order_, azimuthal_order, kernel_columns_, chunk)),
+      rotated_rows_(block_for(order_, order_, kernel_columns_, chunk)),
+      shape_kinds_(kernels.need_source_normal() ? kShapeKinds : 1),
+      kernel_places_(places_of(kernel_columns_.cosine, kernel_columns_.sine)),
+      turns_(chunk) {
+  component_places_[0] = component_places_[1] = places_of(components_.cosine, components_.sine);
+  // ∂/∂φ exchanges cosines and sines.
+  component_places_[2] = places_of(components_.sine, components_.cosine);
+}
+
+std::vector<ColumnPlace> TargetRows::places_of(const std::vector<int>& first, const std::vector<int>& second) const {
+  std::vector<ColumnPlace> places(first.size() + (mirrored_ ? second.size() : 0));
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    places[first[i]] = {static_cast<Index>(i) * chunk_, size_of(first, chunk_)};
+  }
+  if (!mirrored_) return places;
+  const Index offset = q_.n_theta * size_of(first, chunk_);
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    places[second[i]] = {offset + static_cast<Index>(i) * chunk_, size_of(second, chunk_)};
+  }
+  return places;
+}
 
 void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
   load_shape(targets);
@@ -63,65 +94,108 @@ void TargetRows::load_shape(std::span<const Target> targets) {
       const double c = std::cos(m * targets[t].phi);
       const double s = std::sin(m * targets[t].phi);
       for (int n = m; n <= order_; ++n) {
-        for (int i = 0; i < 3; ++i) {
-          const double a = position_(coefficient_index(n, m), i);
-          const double b = m > 0 ? position_(coefficient_index(n, -m), i) : 0.0;
-          shape_.row(false, n, m)[i * chunk_ + t] = a * c + b * s;
-          shape_.row(true, n, m)[i * chunk_ + t] = b * c - a * s;
+        const auto a = [&](int component) { return position_(coefficient_index(n, m), component); };
+        const auto b = [&](int component) { return m > 0 ? position_(coefficient_index(n, -m), component) : 0.0; };
+        double* cosine = shape_.row(false, n, m) + t;
+        for (const int i : components_.cosine) {
+          *cosine = a(i) * c + b(i) * s;
+          cosine += chunk_;
+        }
+        double* sine = shape_.row(true, n, m) + t;
+        for (const int i : components_.sine) {
+          *sine = b(i) * c - a(i) * s;
+          sine += chunk_;
         }
       }
     }
   }
 }
 
+void TargetRows::load_turns(std::span<const Target> targets, bool sine, int n, int after, int before) {
+  const int first = sine ? 1 : 0;
+  for (int t = 0; t < chunk_; ++t) {
+    const RotationY& rotation = q_.rotations[targets[t].latitude];
+    turns_[t] = (sine ? rotation.sine : rotation.cosine)[n](after - first, before - first);
+  }
+}
+
+void TargetRows::add_turned(double* to, const double* from, Index columns) const {
+  for (Index i = 0; i < columns; i += chunk_, to += chunk_, from += chunk_) {
+#pragma omp simd
+    for (int t = 0; t < chunk_; ++t) to[t] += turns_[t] * from[t];
+  }
+}
+
 void TargetRows::rotate(std::span<const Target> targets) {
-  for_each_latitude(targets, 3, [&](int latitude, Index first, Index count) {
-    const RotationY& rotation = q_.rotations[latitude];
-    for (int n = 0; n <= order_; ++n) {
-      const int m = std::min(n, azimuthal_order_);
-      rotated_shape_.degree_block(false, n, 0).middleCols(first, count).noalias() =
-          rotation.cosine[n].leftCols(m + 1) * shape_.degree_block(false, n, 0).block(0, first, m + 1, count);
+  const RotationY& rotation = q_.rotations[targets.front().latitude];
+  for (int n = 0; n <= order_; ++n) {
+    const int m = std::min(n, azimuthal_order_);
+    if (share_latitude(targets)) {
+      rotated_shape_.degree_block(false, n, 0, n).noalias() =
+          rotation.cosine[n].leftCols(m + 1) * shape_.degree_block(false, n, 0, m);
       if (m == 0) continue;
-      rotated_shape_.degree_block(true, n, 1).middleCols(first, count).noalias() =
-          rotation.sine[n].leftCols(m) * shape_.degree_block(true, n, 1).block(0, first, m, count);
+      rotated_shape_.degree_block(true, n, 1, n).noalias() =
+          rotation.sine[n].leftCols(m) * shape_.degree_block(true, n, 1, m);
+      continue;
     }
-  });
+    for (const bool sine : {false, true}) {
+      for (int after = sine; after <= n; ++after) {
+        double* to = rotated_shape_.row(sine, n, after);
+        std::fill_n(to, shape_.columns(sine), 0.0);
+        for (int before = sine; before <= m; ++before) {
+          load_turns(targets, sine, n, after, before);
+          add_turned(to, shape_.row(sine, n, before), shape_.columns(sine));
+        }
+      }
+    }
+  }
 }
 
 void TargetRows::rotate_back(std::span<const Target> targets) {
-  for_each_latitude(targets, kernels_.count, [&](int latitude, Index first, Index count) {
-    const RotationY& rotation = q_.rotations[latitude];
-    for (int n = 0; n <= order_; ++n) {
-      const int m = std::min(n, azimuthal_order_);
-      rows_.degree_block(false, n, 0).block(0, first, m + 1, count).noalias() =
-          rotation.cosine[n].leftCols(m + 1).transpose() *
-          rotated_rows_.degree_block(false, n, 0).middleCols(first, count);
+  const RotationY& rotation = q_.rotations[targets.front().latitude];
+  for (int n = 0; n <= order_; ++n) {
+    const int m = std::min(n, azimuthal_order_);
+    if (share_latitude(targets)) {
+      rows_.degree_block(false, n, 0, m).noalias() =
+          rotation.cosine[n].leftCols(m + 1).transpose() * rotated_rows_.degree_block(false, n, 0, n);
       if (m == 0) continue;
-      rows_.degree_block(true, n, 1).block(0, first, m, count).noalias() =
-          rotation.sine[n].leftCols(m).transpose() * rotated_rows_.degree_block(true, n, 1).middleCols(first, count);
+      rows_.degree_block(true, n, 1, m).noalias() =
+          rotation.sine[n].leftCols(m).transpose() * rotated_rows_.degree_block(true, n, 1, n);
+      continue;
     }
-  });
+    for (const bool sine : {false, true}) {
+      for (int before = sine; before <= m; ++before) {
+        double* to = rows_.row(sine, n, before);
+        std::fill_n(to, rows_.columns(sine), 0.0);
+        for (int after = sine; after <= n; ++after) {
+          load_turns(targets, sine, n, after, before);
+          add_turned(to, rotated_rows_.row(sine, n, after), rows_.columns(sine));
+        }
+      }
+    }
+  }
 }
 
-/// Shape data at all nodes of all targets in the chunk, in nodes_[kind]: [quadrant][quarter φ][θ][3][target].
-/// Only the double layers need the tangents.
+/// Shape data at all nodes of all targets in the chunk, in nodes_[kind]: [quadrant][quarter φ], along an azimuth as
+/// component_places_ says. Only the double layers need the tangents.
 void TargetRows::synthesize_shape() {
-  const Index columns = Index{3} * chunk_;
-  const Index plane = q_.n_theta * columns;
+  const Index plane = q_.n_theta * rotated_shape_.columns(false);
+  const Index plane_sine = q_.n_theta * rotated_shape_.columns(true);
   const int n_even = order_ / 2 + 1;
   const int n_odd = (order_ + 1) / 2;
   for (int kind = 0; kind < shape_kinds_; ++kind) {
-    even_cosine_[kind].resize(n_even, plane);
-    even_sine_[kind].resize(n_even, plane);
-    odd_cosine_[kind].resize(n_odd, plane);
-    odd_sine_[kind].resize(n_odd, plane);
+    const bool exchanged = kind == 2;
+    even_cosine_[kind].resize(n_even, exchanged ? plane_sine : plane);
+    even_sine_[kind].resize(n_even, exchanged ? plane : plane_sine);
+    odd_cosine_[kind].resize(n_odd, exchanged ? plane_sine : plane);
+    odd_sine_[kind].resize(n_odd, exchanged ? plane : plane_sine);
   }
   for (int m = 0; m <= order_; ++m) {
     product_.noalias() = q_.synthesis[m].topRows(shape_kinds_ * q_.n_theta) * rotated_shape_.order_block(false, m);
     product_sine_.noalias() = q_.synthesis[m].topRows(shape_kinds_ * q_.n_theta) * rotated_shape_.order_block(true, m);
     for (int kind = 0; kind < shape_kinds_; ++kind) {
       const Eigen::Map<const Eigen::RowVectorXd> from_cosine(product_.data() + kind * plane, plane);
-      const Eigen::Map<const Eigen::RowVectorXd> from_sine(product_sine_.data() + kind * plane, plane);
+      const Eigen::Map<const Eigen::RowVectorXd> from_sine(product_sine_.data() + kind * plane_sine, plane_sine);
       RowMatrix& cosine = m % 2 == 0 ? even_cosine_[kind] : odd_cosine_[kind];
       RowMatrix& sine = m % 2 == 0 ? even_sine_[kind] : odd_sine_[kind];
       if (kind == 2) {
@@ -140,6 +214,15 @@ void TargetRows::synthesize_shape() {
     co_.noalias() = q_.cosine_odd * odd_cosine_[kind];
     so_.noalias() = q_.sine_odd * odd_sine_[kind];
     RowMatrix& out = nodes_[kind];
+    if (mirrored_) {
+      // φ, π − φ
+      out.resize(2 * quarter, plane + plane_sine);
+      out.topLeftCorner(quarter, ce_.cols()) = ce_ + co_;
+      out.bottomLeftCorner(quarter, ce_.cols()) = ce_ - co_;
+      out.topRightCorner(quarter, se_.cols()) = so_ + se_;
+      out.bottomRightCorner(quarter, se_.cols()) = so_ - se_;
+      continue;
+    }
     out.resize(4 * quarter, plane);
     // φ, π − φ, π + φ, −φ
     out.middleRows(0, quarter) = (ce_ + co_) + (se_ + so_);
@@ -149,10 +232,15 @@ void TargetRows::synthesize_shape() {
   }
 }
 
-/// Kernel times weight, in values_: [quadrant][quarter φ][θ][kernel][target].
+/// Kernel times weight, in values_: [quadrant][quarter φ], along an azimuth as kernel_places_ says.
 void TargetRows::evaluate_kernels(std::span<const Target> targets) {
   const int n_targets = chunk_;
-  values_.resize(q_.n_phi, q_.n_theta * row_columns());
+  const Index width = rotated_rows_.columns(false) + (mirrored_ ? rotated_rows_.columns(true) : 0);
+  values_.resize(n_azimuths_, q_.n_theta * width);
+  const auto component = [&](int kind, int azimuth, int i, int c) {
+    const ColumnPlace& place = component_places_[kind][c];
+    return nodes_[kind].row(azimuth).data() + place.start + i * place.stride;
+  };
   // Columns: position and area vector of the targets.
   Matrix at(n_targets, 6);
   for (int t = 0; t < n_targets; ++t) at.row(t) << targets[t].position.transpose(), targets[t].area_vector.transpose();
@@ -167,38 +255,46 @@ void TargetRows::evaluate_kernels(std::span<const Target> targets) {
   double* ry = distance_.col(1).data();
   double* rz = distance_.col(2).data();
   double* inverse_r = distance_.col(3).data();
-  for (int azimuth = 0; azimuth < q_.n_phi; ++azimuth) {
+  for (int azimuth = 0; azimuth < n_azimuths_; ++azimuth) {
     for (int i = 0; i < q_.n_theta; ++i) {
-      const double* x = nodes_[0].row(azimuth).data() + Index{3} * i * n_targets;
-      double* out = values_.row(azimuth).data() + i * row_columns();
+      const double* x = component(0, azimuth, i, 0);
+      const double* y = component(0, azimuth, i, 1);
+      const double* z = component(0, azimuth, i, 2);
+      const auto out = [&](int kernel) {
+        const ColumnPlace& place = kernel_places_[kernel];
+        return values_.row(azimuth).data() + place.start + i * place.stride;
+      };
       const double laplace_weight = kLaplacePrefactor * q_.weight[i];
 #pragma omp simd
       for (int t = 0; t < n_targets; ++t) {
         rx[t] = xt[t] - x[t];
-        ry[t] = yt[t] - x[n_targets + t];
-        rz[t] = zt[t] - x[2 * n_targets + t];
+        ry[t] = yt[t] - y[t];
+        rz[t] = zt[t] - z[t];
         inverse_r[t] = 1.0 / std::sqrt(rx[t] * rx[t] + ry[t] * ry[t] + rz[t] * rz[t]);
       }
       if (kernels_.single >= 0) {
-        double* single = out + kernels_.single * n_targets;
+        double* single = out(kernels_.single);
 #pragma omp simd
         for (int t = 0; t < n_targets; ++t) single[t] = laplace_weight * laplace_single_kernel(inverse_r[t]);
       }
       if (kernels_.double_layer >= 0) {
-        const double* u = nodes_[1].row(azimuth).data() + Index{3} * i * n_targets;
-        const double* v = nodes_[2].row(azimuth).data() + Index{3} * i * n_targets;
-        double* double_layer = out + kernels_.double_layer * n_targets;
+        std::array<const double*, 3> u, v;
+        for (int c = 0; c < 3; ++c) {
+          u[c] = component(1, azimuth, i, c);
+          v[c] = component(2, azimuth, i, c);
+        }
+        double* double_layer = out(kernels_.double_layer);
 #pragma omp simd
         for (int t = 0; t < n_targets; ++t) {
-          const double ux = u[t], uy = u[n_targets + t], uz = u[2 * n_targets + t];
-          const double vx = v[t], vy = v[n_targets + t], vz = v[2 * n_targets + t];
+          const double ux = u[0][t], uy = u[1][t], uz = u[2][t];
+          const double vx = v[0][t], vy = v[1][t], vz = v[2][t];
           const double r_dot_area =
               rx[t] * (uy * vz - uz * vy) + ry[t] * (uz * vx - ux * vz) + rz[t] * (ux * vy - uy * vx);
           double_layer[t] = laplace_weight * laplace_double_kernel(r_dot_area, inverse_r[t]);
         }
       }
       if (kernels_.adjoint >= 0) {
-        double* adjoint = out + kernels_.adjoint * n_targets;
+        double* adjoint = out(kernels_.adjoint);
 #pragma omp simd
         for (int t = 0; t < n_targets; ++t) {
           const double r_dot_n = rx[t] * nxt[t] + ry[t] * nyt[t] + rz[t] * nzt[t];
@@ -206,27 +302,32 @@ void TargetRows::evaluate_kernels(std::span<const Target> targets) {
         }
       }
       if (kernels_.stokes >= 0) {
-        double* stokes = out + kernels_.stokes * n_targets;
+        std::array<double*, 6> stokes;
+        for (int c = 0; c < 6; ++c) stokes[c] = out(kernels_.stokes + c);
         const double stokes_weight = stokes_single_layer_prefactor(1.0) * q_.weight[i];
 #pragma omp simd
         for (int t = 0; t < n_targets; ++t) {
           const auto g = stokeslet(rx[t], ry[t], rz[t], inverse_r[t]);
-          for (int c = 0; c < 6; ++c) stokes[c * n_targets + t] = stokes_weight * g[c];
+          for (int c = 0; c < 6; ++c) stokes[c][t] = stokes_weight * g[c];
         }
       }
       if (kernels_.stokes_double >= 0) {
-        const double* u = nodes_[1].row(azimuth).data() + Index{3} * i * n_targets;
-        const double* v = nodes_[2].row(azimuth).data() + Index{3} * i * n_targets;
-        double* stokes = out + kernels_.stokes_double * n_targets;
+        std::array<const double*, 3> u, v;
+        for (int c = 0; c < 3; ++c) {
+          u[c] = component(1, azimuth, i, c);
+          v[c] = component(2, azimuth, i, c);
+        }
+        std::array<double*, 6> stokes;
+        for (int c = 0; c < 6; ++c) stokes[c] = out(kernels_.stokes_double + c);
         const double stokes_weight = kStokesDoubleLayerPrefactor * q_.weight[i];
 #pragma omp simd
         for (int t = 0; t < n_targets; ++t) {
-          const double ux = u[t], uy = u[n_targets + t], uz = u[2 * n_targets + t];
-          const double vx = v[t], vy = v[n_targets + t], vz = v[2 * n_targets + t];
+          const double ux = u[0][t], uy = u[1][t], uz = u[2][t];
+          const double vx = v[0][t], vy = v[1][t], vz = v[2][t];
           const double r_dot_area =
               rx[t] * (uy * vz - uz * vy) + ry[t] * (uz * vx - ux * vz) + rz[t] * (ux * vy - uy * vx);
           const auto k = stokes_double_kernel(rx[t], ry[t], rz[t], r_dot_area, inverse_r[t]);
-          for (int c = 0; c < 6; ++c) stokes[c * n_targets + t] = stokes_weight * k[c];
+          for (int c = 0; c < 6; ++c) stokes[c][t] = stokes_weight * k[c];
         }
       }
     }
@@ -238,52 +339,62 @@ void TargetRows::collect_rows() {
   const int quarter = q_.n_phi / 4;
   const auto k1 = values_.middleRows(0, quarter);
   const auto k2 = values_.middleRows(quarter, quarter);
-  const auto k3 = values_.middleRows(2 * quarter, quarter);
-  const auto k4 = values_.middleRows(3 * quarter, quarter);
-  ce_ = (k1 + k4) + (k2 + k3);
-  co_ = (k1 + k4) - (k2 + k3);
-  se_ = (k1 - k4) - (k2 - k3);
-  so_ = (k1 - k4) + (k2 - k3);
+  if (mirrored_) {
+    const Index plane = q_.n_theta * rotated_rows_.columns(false);
+    const Index plane_sine = q_.n_theta * rotated_rows_.columns(true);
+    ce_ = 2.0 * (k1.leftCols(plane) + k2.leftCols(plane));
+    co_ = 2.0 * (k1.leftCols(plane) - k2.leftCols(plane));
+    se_ = 2.0 * (k1.rightCols(plane_sine) - k2.rightCols(plane_sine));
+    so_ = 2.0 * (k1.rightCols(plane_sine) + k2.rightCols(plane_sine));
+  } else {
+    const auto k3 = values_.middleRows(2 * quarter, quarter);
+    const auto k4 = values_.middleRows(3 * quarter, quarter);
+    ce_ = (k1 + k4) + (k2 + k3);
+    co_ = (k1 + k4) - (k2 + k3);
+    se_ = (k1 - k4) - (k2 - k3);
+    so_ = (k1 - k4) + (k2 - k3);
+  }
   even_cosine_[0].noalias() = q_.cosine_even.transpose() * ce_;
   odd_cosine_[0].noalias() = q_.cosine_odd.transpose() * co_;
   even_sine_[0].noalias() = q_.sine_even.transpose() * se_;
   odd_sine_[0].noalias() = q_.sine_odd.transpose() * so_;
-  const Index columns = row_columns();
+  const auto legendre_sum = [&](bool sine, int m, const RowMatrix& sums) {
+    const Index columns = rotated_rows_.columns(sine);
+    const ConstBlock of_order(sums.row(m / 2).data(), q_.n_theta, columns, Eigen::OuterStride<>(columns));
+    rotated_rows_.order_block(sine, m).noalias() = q_.adjoint[m] * of_order;
+  };
   for (int m = 0; m <= order_; ++m) {
-    const RowMatrix& cosine = m % 2 == 0 ? even_cosine_[0] : odd_cosine_[0];
-    const RowMatrix& sine = m % 2 == 0 ? even_sine_[0] : odd_sine_[0];
-    const ConstBlock cosine_m(cosine.row(m / 2).data(), q_.n_theta, columns, Eigen::OuterStride<>(columns));
-    const ConstBlock sine_m(sine.row(m / 2).data(), q_.n_theta, columns, Eigen::OuterStride<>(columns));
-    rotated_rows_.order_block(false, m).noalias() = q_.adjoint[m] * cosine_m;
-    rotated_rows_.order_block(true, m).noalias() = q_.adjoint[m] * sine_m;
+    legendre_sum(false, m, m % 2 == 0 ? even_cosine_[0] : odd_cosine_[0]);
+    legendre_sum(true, m, m % 2 == 0 ? even_sine_[0] : odd_sine_[0]);
   }
 }
 
 /// Undoes the phase shift.
 void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) const {
-  const Index n_kernels = kernels_.count;
-  const Index block = rows.cols() / n_kernels;
-  const Index stride = row_columns();
-  Index offset = 0;
-  for (int m = 0; m <= azimuthal_order_; ++m) {
-    const Index n_degrees = order_ + 1 - m;
-    for (int t = 0; t < chunk_; ++t) {
-      const double cosine_phase = std::cos(m * targets[t].phi);
-      const double sine_phase = std::sin(m * targets[t].phi);
-      double* row = rows.row(targets[t].row).data() + offset;
-      for (Index c = 0; c < n_kernels; ++c, row += block) {
-        const double* cosine = rows_.row(false, m, m) + c * chunk_ + t;
-        const double* sine = rows_.row(true, m, m) + c * chunk_ + t;
-        for (Index i = 0; i < n_degrees; ++i) {
-          row[i] = cosine[i * stride] * cosine_phase - sine[i * stride] * sine_phase;
-        }
-        if (m == 0) continue;
-        for (Index i = 0; i < n_degrees; ++i) {
-          row[n_degrees + i] = cosine[i * stride] * sine_phase + sine[i * stride] * cosine_phase;
+  const Index block = rows.cols() / kernels_.count;
+  // Both parts of a target's row start from zero, and each has what its columns are.
+  for (int t = 0; t < chunk_; ++t) rows.row(targets[t].row).setZero();
+  for (const bool sine : {false, true}) {
+    const std::vector<int>& columns = kernel_columns_.of(sine);
+    const Index stride = rows_.columns(sine);
+    Index offset = 0;
+    for (int m = 0; m <= azimuthal_order_; ++m) {
+      const Index n_degrees = order_ + 1 - m;
+      for (int t = 0; t < chunk_; ++t) {
+        const double cosine_phase = std::cos(m * targets[t].phi);
+        const double sine_phase = std::sin(m * targets[t].phi);
+        const double to_cosine = sine ? -sine_phase : cosine_phase;
+        const double to_sine = sine ? cosine_phase : sine_phase;
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+          double* row = rows.row(targets[t].row).data() + columns[c] * block + offset;
+          const double* from = rows_.row(sine, m, m) + static_cast<Index>(c) * chunk_ + t;
+          for (Index i = 0; i < n_degrees; ++i) row[i] += from[i * stride] * to_cosine;
+          if (m == 0) continue;
+          for (Index i = 0; i < n_degrees; ++i) row[n_degrees + i] += from[i * stride] * to_sine;
         }
       }
+      offset += (m == 0 ? 1 : 2) * n_degrees;
     }
-    offset += (m == 0 ? 1 : 2) * n_degrees;
   }
 }
 

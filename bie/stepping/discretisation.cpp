@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "bie/geometry/surface.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 
 namespace vehd {
@@ -27,10 +26,11 @@ SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings&
 Discretisation::Tables::Tables(const NumericalSettings& settings_, const Symmetry& symmetry_)
     : settings(settings_),
       symmetry(symmetry_),
-      output(settings.order, make_grid(settings.order)),
+      whole(settings.order, make_grid(settings.order), symmetry.axisymmetric ? 1 : settings.order),
       targets(transform_for(symmetry, settings, settings.order)),
       fine(transform_for(symmetry, settings, settings.upsampling * settings.order)),
-      quadrature(make_rotated_quadrature(targets.grid(), settings.quadrature_oversampling)) {}
+      quadrature(make_rotated_quadrature(targets.grid(), settings.quadrature_oversampling)),
+      fold(symmetry.axisymmetric ? targets.grid().n_phi : symmetry.fold) {}
 
 Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry& symmetry)
     : tables_(std::make_unique<const Tables>(settings, symmetry)) {}
@@ -39,11 +39,7 @@ Discretisation::~Discretisation() = default;
 const NumericalSettings& Discretisation::settings() const { return tables_->settings; }
 const Symmetry& Discretisation::symmetry() const { return tables_->symmetry; }
 int Discretisation::order() const { return tables_->settings.order; }
-const SphereTransform& Discretisation::transform() const { return tables_->output; }
+const SphereTransform& Discretisation::transform() const { return tables_->whole; }
 const SphereTransform& Discretisation::fine_transform() const { return tables_->fine; }
-
-Vector area_element(const Discretisation& discretisation, const Matrix& position) {
-  return make_surface(discretisation.transform(), position).area_element;
-}
 
 }  // namespace vehd

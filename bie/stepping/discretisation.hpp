@@ -32,7 +32,8 @@ class Discretisation {
   [[nodiscard]] const NumericalSettings& settings() const;
   [[nodiscard]] const Symmetry& symmetry() const;
   [[nodiscard]] int order() const;
-  /// Transform between degree p and the grid of order p (the grid of the output files).
+  /// Transform between degree p and the grid of order p with all its longitudes; it knows m = 0 and ±1 alone where the
+  /// symmetry leaves no others.
   [[nodiscard]] const SphereTransform& transform() const;
   /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
   [[nodiscard]] const SphereTransform& fine_transform() const;
@@ -43,8 +44,5 @@ class Discretisation {
  private:
   std::unique_ptr<const Tables> tables_;
 };
-
-/// Area element W/sin θ on the grid of order p, [n_points], from coefficients of x.
-Vector area_element(const Discretisation& discretisation, const Matrix& position);
 
 }  // namespace vehd

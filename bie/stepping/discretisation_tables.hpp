@@ -8,10 +8,11 @@ namespace vehd {
 struct Discretisation::Tables {
   NumericalSettings settings;
   Symmetry symmetry;
-  SphereTransform output;   ///< degree p ↔ grid of order p
-  SphereTransform targets;  ///< the same on the longitudes that the symmetry leaves
+  SphereTransform whole;    ///< degree p ↔ grid of order p with all longitudes
+  SphereTransform targets;  ///< degree p ↔ grid of order p on the longitudes that the symmetry leaves
   SphereTransform fine;     ///< degree p ↔ upsampled grid, likewise
   RotatedQuadrature quadrature;
+  int fold;  ///< turns by 2π/fold about z take states and longitudes of targets to each other
 
   Tables(const NumericalSettings& settings, const Symmetry& symmetry);
 };

@@ -33,7 +33,7 @@ Lookouts lookouts(const SphereTransform& nodes, const Matrix& position) {
   constexpr double kPi = std::numbers::pi;
   const Vector theta{{0.0, kNear, kNear, kNear, kNear, kPi, kPi - kNear, kPi - kNear, kPi - kNear, kPi - kNear}};
   const Vector phi{{0.0, 0.0, kPi, 0.5 * kPi, 1.5 * kPi, 0.0, 0.0, kPi, 0.5 * kPi, 1.5 * kPi}};
-  const Eigen::Matrix3Xd x = evaluate_harmonics(position, theta, phi).transpose();
+  const Eigen::Matrix3Xd x = evaluate_harmonics(position, theta, phi, nodes.azimuthal_order()).transpose();
   for (const Index pole : {0, 1}) {
     const auto around = [&](Index i) { return Vector3(x.col(5 * pole + i)); };
     const Vector3 outward = (around(1) - around(2)).cross(around(3) - around(4)).normalized();

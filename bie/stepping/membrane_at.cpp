@@ -13,7 +13,7 @@ Membrane membrane_at(const Discretisation& discretisation, const Matrix& positio
   Surface surface = make_surface(tables.fine, position);
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   LayerOperators layers = assemble_layer_operators(tables.quadrature, tables.targets, position, selection, instruments,
-                                                   tables.symmetry.reflections, tables.symmetry.fold);
+                                                   tables.symmetry.reflections, tables.fold);
   std::optional<ViscosityContrast> contrast;
   if (selection.stokes_double) {
     contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, tables.fine, surface, layers.stokes_double,

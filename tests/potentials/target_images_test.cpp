@@ -23,8 +23,8 @@ Matrix star(int fold, double chirality) {
 }
 
 /// Largest difference between all five operators assembled with and without use of the maps.
-double difference(const Matrix& position, const std::vector<Reflection>& reflections, int fold, int n_phi) {
-  const SphereTransform transform(kOrder, make_grid(kOrder, n_phi));
+double difference(const SphereTransform& transform, const Matrix& position, const std::vector<Reflection>& reflections,
+                  int fold) {
   const RotatedQuadrature quadrature = make_rotated_quadrature(transform.grid(), 1.15);
   const LayerSelection everything{true, true, true, true, true};
   Instruments instruments;
@@ -43,6 +43,10 @@ double difference(const Matrix& position, const std::vector<Reflection>& reflect
   return result;
 }
 
+double difference(const Matrix& position, const std::vector<Reflection>& reflections, int fold, int n_phi) {
+  return difference(SphereTransform(kOrder, make_grid(kOrder, n_phi)), position, reflections, fold);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(target_images)
@@ -58,6 +62,24 @@ BOOST_AUTO_TEST_CASE(turned_and_reflected_targets_share_rows_without_change) {
   // n + m is even in each harmonic of the star: mirror z as well.
   BOOST_TEST(difference(star(3, 0.0), {{}, y, {1, 1, -1}, {1, -1, -1}}, 3, 18) < 1e-12);
   BOOST_TEST(difference(star(4, 0.0), {{}, x, y, {-1, -1, 1}}, 4, 20) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(targets_in_a_mirror_need_half_their_nodes) {
+  // One longitude stands for all four of an axisymmetric body, and lies in the mirror y.
+  const SphereTransform transform(kOrder, make_grid(kOrder, 4), 1);
+  const Reflection x{-1, 1, 1}, y{1, -1, 1}, half_turn{-1, -1, 1};
+  Matrix pear = Matrix::Zero(n_coefficients(kOrder), 3);
+  const std::vector<double> radius{0.0, 1.0, 0.2, 0.1}, height{0.0, 1.3, 0.3, -0.1};
+  for (int n = 1; n < 4; ++n) {
+    pear(coefficient_index(n, 1), 0) = pear(coefficient_index(n, -1), 1) = radius[n];
+    pear(coefficient_index(n, 0), 2) = height[n];
+  }
+  BOOST_TEST(difference(transform, pear, {{}, x, y, half_turn}, 4) < 1e-13);
+  const RotatedQuadrature quadrature = make_rotated_quadrature(transform.grid(), 1.15);
+  BOOST_TEST(evaluations_per_assembly(quadrature, transform, {{}, x, y, half_turn}, 4) ==
+             static_cast<std::uint64_t>((kOrder + 1) * quadrature.n_nodes() / 2));
+  pear(coefficient_index(2, -1), 2) = 0.1;
+  BOOST_TEST(difference(transform, pear, {{}, x, y, half_turn}, 4) > 1e-3);
 }
 
 BOOST_AUTO_TEST_CASE(wrong_fold_is_noticed) {

@@ -97,13 +97,14 @@ BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps) {
   BOOST_TEST(difference_per_step(field_model(), ellipsoid(kOrder, {0.8, 1.2, 1.5}), 0.1, 4) < 1e-9);
 }
 
-// Full: 2p + 2 longitudes of p + 1 latitudes. Axisymmetric with mirror z: two longitudes of half the latitudes.
+// Full: 2p + 2 longitudes of p + 1 latitudes. Axisymmetric with mirror z: one longitude of half the latitudes, which
+// lies in a mirror, so that half of the nodes about each target are enough.
 BOOST_AUTO_TEST_CASE(only_independent_targets_are_evaluated) {
   const Symmetry axis = find_symmetry(field_model(), state_of(field_model(), prolate(kOrder)));
   const double full = double(stokes_evaluations(field_model(), prolate(kOrder), {}));
   const double reduced = double(stokes_evaluations(field_model(), prolate(kOrder), axis));
   const double targets_full = (kOrder + 1) * (2 * kOrder + 2);
-  const double targets_reduced = (kOrder / 2 + 1) * 2;
+  const double targets_reduced = (kOrder / 2 + 1) * 0.5;
   BOOST_TEST(reduced / full == targets_reduced / targets_full, boost::test_tools::tolerance(1e-12));
 }
 
