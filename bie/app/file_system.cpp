@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -15,6 +16,10 @@ namespace vehd {
 
 std::filesystem::path temporary_of(const std::filesystem::path& path) {
   return path.parent_path() / fmt::format(".{}.new", path.filename().string());
+}
+
+std::filesystem::path link_of(const std::filesystem::path& path) {
+  return path.parent_path() / fmt::format(".{}.old", path.filename().string());
 }
 
 void replace_file(const std::filesystem::path& path, const std::string& text) {
@@ -36,6 +41,24 @@ void replace_file(const std::filesystem::path& path, const std::string& text) {
 
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (::rename(from.c_str(), to.c_str()) != 0) throw OutputError(write_problem(to));
+}
+
+void exchange_files(const std::filesystem::path& path, const std::filesystem::path& other) {
+  if (::renameat2(AT_FDCWD, other.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) throw OutputError(write_problem(path));
+  exchange_by_renames(path, other);
+}
+
+void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other) {
+  const std::filesystem::path link = link_of(path);
+  // The link keeps the file reachable while its name moves to the other one; file systems without hard links get a
+  // copy.
+  std::error_code error;
+  std::filesystem::create_hard_link(path, link, error);
+  if (error) std::filesystem::copy_file(path, link, std::filesystem::copy_options::overwrite_existing, error);
+  if (error) throw OutputError(fmt::format("{}: cannot be written: {}", link.string(), error.message()));
+  rename_file(other, path);
+  rename_file(link, other);
 }
 
 void synchronise_file(const std::filesystem::path& path) {

@@ -6,6 +6,9 @@
 /// File operations whose outcome survives a kill at any instant.
 namespace vehd {
 
+/// Path of the hidden link that `exchange_by_renames` may leave behind.
+std::filesystem::path link_of(const std::filesystem::path& path);
+
 /// Path of the temporary file beside `path` that a replacement is written to first.
 std::filesystem::path temporary_of(const std::filesystem::path& path);
 
@@ -14,6 +17,14 @@ void replace_file(const std::filesystem::path& path, const std::string& text);
 
 /// rename(2). @throws OutputError
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Exchanges what two names of a folder stand for, in one step where the file system can; elsewhere by
+/// `exchange_by_renames`. @throws OutputError
+void exchange_files(const std::filesystem::path& path, const std::filesystem::path& other);
+
+/// The same in steps between which `path` always stands for one of the two files; a kill can leave `other` missing and
+/// a hidden link to the file that was `path`. @throws OutputError
+void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other);
 
 /// Waits until the file's data are on the disk. @throws OutputError
 void synchronise_file(const std::filesystem::path& path);

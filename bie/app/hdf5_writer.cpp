@@ -12,6 +12,8 @@ namespace {
 // A snapshot is dozens of small datasets: whole pages spare four of five reads and writes.
 constexpr hsize_t page_bytes = 1 << 16;
 constexpr std::size_t buffered_pages = 16;
+/// What a file in memory grows by: it is cleared, and written up to the next multiple.
+constexpr std::size_t memory_step = 1 << 14;
 
 herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
   static_cast<std::vector<std::string>*>(data)->emplace_back(name);
@@ -25,31 +27,43 @@ Hdf5Handle text_type(std::size_t length) {
   return type;
 }
 
-/// Creation properties of datasets and groups without modification times.
-Hdf5Handle untimed(hid_t property_class) {
-  Hdf5Handle properties(H5Pcreate(property_class), H5Pclose);
-  if (property_class == H5P_DATASET_CREATE) H5Pset_obj_track_times(properties.id(), false);
+/// Datasets without modification times, and not filled before they are written.
+Hdf5Handle dataset_properties() {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties.id(), false);
+  H5Pset_fill_time(properties.id(), H5D_FILL_TIME_NEVER);
   return properties;
 }
 
-/// Attribute of an open object: by its path it would be looked up again.
-bool write_text_attribute(hid_t object, const char* name, const std::string& value) {
-  const Hdf5Handle type = text_type(value.size());
+/// A snapshot's groups have about a dozen members, which cost least as a plain list.
+Hdf5Handle group_properties() {
+  constexpr unsigned most_in_list = 24;
+  Hdf5Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_link_phase_change(properties.id(), most_in_list, most_in_list / 2);
+  return properties;
+}
+
+bool put_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  Hdf5Handle handle(H5Acreate2(object, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  return handle.valid() && H5Awrite(handle.id(), type.id(), value.c_str()) >= 0 && handle.close();
+  Hdf5Handle handle(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  return handle.valid() && H5Awrite(handle.id(), type, value) >= 0 && handle.close();
+}
+
+bool put_attribute(hid_t object, const std::string& name, const std::string& value) {
+  return put_attribute(object, name, text_type(value.size()).id(), value.c_str());
 }
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode) : name_(path.string()) {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
+    : name_(path.string()), dataset_properties_(dataset_properties()), group_properties_(group_properties()) {
   silence_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V110);
   if (mode == Mode::in_memory) {
     // Of the later formats the library alters a byte in the image that it returns, and not the checksum over it.
     H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
-    H5Pset_fapl_core(access.id(), 1 << 20, false);
+    H5Pset_fapl_core(access.id(), memory_step, false);
     create(H5P_DEFAULT, access.id());
   } else if (mode == Mode::create) {
     const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -85,7 +99,8 @@ void Hdf5Writer::fail(const std::string& what) const {
 bool Hdf5Writer::has(const std::string& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
 
 void Hdf5Writer::group(const std::string& path) {
-  const Hdf5Handle handle(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle handle(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, group_properties_.id(), H5P_DEFAULT),
+                          H5Gclose);
   if (!handle.valid()) fail(fmt::format("group {} cannot be written", path));
 }
 
@@ -102,12 +117,12 @@ void Hdf5Writer::integers(const std::string& path, std::span<const std::int64_t>
 void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
                                const std::vector<hsize_t>& extents, const DatasetLabel& label) {
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
-  const Hdf5Handle properties = untimed(H5P_DATASET_CREATE);
   Hdf5Handle dataset(
-      H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Dclose);
+      H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT, dataset_properties_.id(), H5P_DEFAULT),
+      H5Dclose);
   if (!dataset.valid() || H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0 ||
-      !write_text_attribute(dataset.id(), "unit", label.unit) ||
-      !write_text_attribute(dataset.id(), "description", label.description) || !dataset.close()) {
+      !put_attribute(dataset.id(), "unit", label.unit) ||
+      !put_attribute(dataset.id(), "description", label.description) || !dataset.close()) {
     fail(fmt::format("dataset {} cannot be written", path));
   }
 }
@@ -115,9 +130,9 @@ void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
   const Hdf5Handle type = text_type(value.size());
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle properties = untimed(H5P_DATASET_CREATE);
   const Hdf5Handle dataset(
-      H5Dcreate2(file_.id(), path.c_str(), type.id(), space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Dclose);
+      H5Dcreate2(file_.id(), path.c_str(), type.id(), space.id(), H5P_DEFAULT, dataset_properties_.id(), H5P_DEFAULT),
+      H5Dclose);
   if (!dataset.valid() || H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()) < 0) {
     fail(fmt::format("text {} cannot be written", path));
   }
@@ -146,11 +161,8 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, c
 }
 
 void Hdf5Writer::write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value) {
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle handle(H5Acreate_by_name(file_.id(), object.c_str(), name.c_str(), type, space.id(), H5P_DEFAULT,
-                                            H5P_DEFAULT, H5P_DEFAULT),
-                          H5Aclose);
-  if (!handle.valid() || H5Awrite(handle.id(), type, value) < 0) {
+  const Hdf5Handle handle(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
+  if (!handle.valid() || !put_attribute(handle.id(), name, type, value)) {
     fail(fmt::format("attribute {} of {} cannot be written", name, object));
   }
 }

@@ -58,6 +58,7 @@ class Hdf5Writer {
   void write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value);
 
   std::string name_;
+  Hdf5Handle dataset_properties_, group_properties_;
   Hdf5Handle file_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "bie/app/surface_mesh.hpp"
 #include "bie/app/versions.hpp"
+#include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/checksum.hpp"
 
@@ -52,8 +53,8 @@ void write_coefficient_convention(Hdf5Writer& file, int order) {
 /// One snapshot under construction: each field is written on the grid, as coefficients and on the closed surface.
 class SnapshotWriter {
  public:
-  SnapshotWriter(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation)
-      : file_(file), group_("/snapshots/" + name), discretisation_(discretisation) {
+  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform)
+      : file_(file), group_("/snapshots/" + name), transform_(transform) {
     file_.group(group_);
     file_.group(group_ + "/coefficients");
     file_.group(group_ + "/surface");
@@ -62,7 +63,7 @@ class SnapshotWriter {
   /// Absent effects have no coefficients and write nothing.
   void field(const std::string& name, const Matrix& coefficients, const DatasetLabel& label) {
     if (coefficients.size() == 0) return;
-    const Matrix values = discretisation_.transform().synthesize(coefficients);
+    const Matrix values = transform_.synthesize(coefficients);
     grid_field(name, values, label);
     numbers("coefficients/" + name, coefficients,
             extents_of(coefficients.cols(), {static_cast<hsize_t>(coefficients.rows())}), label);
@@ -74,7 +75,7 @@ class SnapshotWriter {
   }
 
   void grid_field(const std::string& name, const Matrix& values, const DatasetLabel& label) {
-    const SphereGrid& grid = discretisation_.transform().grid();
+    const SphereGrid& grid = transform_.grid();
     numbers(name, values,
             extents_of(values.cols(), {static_cast<hsize_t>(grid.n_theta), static_cast<hsize_t>(grid.n_phi)}), label);
   }
@@ -102,18 +103,18 @@ class SnapshotWriter {
   Checksum checksum_;
   Hdf5Writer& file_;
   std::string group_;
-  const Discretisation& discretisation_;
+  const SphereTransform& transform_;
 };
 
 }  // namespace
 
 std::string snapshot_name(std::int64_t number) { return fmt::format("{:06d}", number); }
 
-void write_run_header(Hdf5Writer& file, const Discretisation& discretisation, const RunHeader& header) {
-  const SphereGrid& grid = discretisation.transform().grid();
+void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const RunHeader& header) {
+  const SphereGrid& grid = transform.grid();
   file.attribute("/", "schema_version", run_schema_version);
   file.attribute("/", "program", "vehd " + program_version());
-  file.attribute("/", "order", std::int64_t{discretisation.order()});
+  file.attribute("/", "order", std::int64_t{transform.order()});
   file.attribute("/", "threads", std::int64_t{header.threads});
   file.attribute("/", "units", std::string("dimensionless; the unit of a dataset names its physical dimension"));
   for (const auto& [library, version] : library_versions()) file.attribute("/", "version_" + library, version);
@@ -129,13 +130,13 @@ void write_run_header(Hdf5Writer& file, const Discretisation& discretisation, co
   file.group("/surface");
   file.integers("/surface/triangles", triangles, {triangles.size() / 3, 3},
                 {"1", "closed surface on the grid points (theta-major), north pole, south pole"});
-  write_coefficient_convention(file, discretisation.order());
+  write_coefficient_convention(file, transform.order());
   file.group("/snapshots");
 }
 
-std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation,
+std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields) {
-  SnapshotWriter snapshot(file, name, discretisation);
+  SnapshotWriter snapshot(file, name, transform);
   snapshot.moment(state.time, state.step);
   snapshot.field("x", state.position, position_label);
   snapshot.field("velocity", fields.velocity, velocity_label);
@@ -147,10 +148,10 @@ std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Dis
   snapshot.field("tension", fields.tension, tension_label);
   if (state.area_strain.size() == state.position.rows()) {
     snapshot.field("area_strain", state.area_strain, strain_label);
-  } else if (state.area_strain.size() == discretisation.transform().grid().n_points()) {
+  } else if (state.area_strain.size() == transform.grid().n_points()) {
     snapshot.grid_field("area_strain", state.area_strain, strain_label);
   }
-  snapshot.grid_field("area_element", area_element(discretisation, state.position),
+  snapshot.grid_field("area_element", make_surface(transform, state.position).area_element,
                       {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
   return snapshot.seal();
 }

@@ -4,7 +4,7 @@
 
 #include "bie/app/hdf5_writer.hpp"
 #include "bie/scene/run_reader.hpp"
-#include "bie/stepping/discretisation.hpp"
+#include "bie/sphere/transform.hpp"
 #include "bie/stepping/fields.hpp"
 #include "bie/stepping/state.hpp"
 
@@ -21,11 +21,13 @@ struct RunHeader {
 std::string snapshot_name(std::int64_t number);
 
 /// Writes the header into an empty file.
-void write_run_header(Hdf5Writer& file, const Discretisation& discretisation, const RunHeader& header);
+/// @param transform  between degree p and the grid of the file
+void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const RunHeader& header);
 
 /// Writes /snapshots/<name>: grid fields, coefficients/ and surface/.
+/// @param state, fields  of the degree of the transform
 /// @return its checksum
-std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Discretisation& discretisation,
+std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields);
 
 }  // namespace vehd

@@ -41,31 +41,21 @@ class Simulation {
   explicit Simulation(const RunTask& task)
       : scene_(task.scene),
         problem_(problem_of(task.scene)),
-        output_(problem_.settings, problem_.symmetry),
         evolution_(evolution_of(task)),
         start_(task.checkpoint ? *task.checkpoint : first_checkpoint()),
         meter_(start_.totals, instruments_),
-        recorder_(task.paths, output_, problem_.frame, updated(start_)),
+        recorder_(task.paths, problem_.settings, problem_.frame, updated(start_)),
         progress_(task.progress, evolution_.state().time, task.scene.numerics.end_time) {}
 
   RunOutcome run(Interruption& interruption) {
     RunOutcome outcome;
     try {
-      start();
-      while (evolution_.state().time < scene_.numerics.end_time && outcome.reason.empty()) {
-        if (interruption.requested()) {
-          outcome.reason = "stopped by a signal";
-        } else {
-          record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
-        }
-      }
-      recorder_.update_totals(meter_.totals());
+      outcome.reason = advance_to_end(interruption);
+      recorder_.end_session(meter_.totals());
       outcome.completed = outcome.reason.empty();
       if (outcome.completed) recorder_.finish();
-    } catch (const ConvergenceError& error) {
-      outcome.reason = error.what();
     } catch (const OutputError& error) {
-      outcome.reason = error.what();
+      outcome = {false, error.what()};
     }
     progress_.finish();
     return outcome;
@@ -90,6 +80,20 @@ class Simulation {
     return checkpoint;
   }
 
+  /// @returns why it stopped before the end, empty if it did not
+  std::string advance_to_end(Interruption& interruption) {
+    try {
+      start();
+      while (evolution_.state().time < scene_.numerics.end_time) {
+        if (interruption.requested()) return "stopped by a signal";
+        record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
+      }
+      return {};
+    } catch (const ConvergenceError& error) {
+      return error.what();
+    }
+  }
+
   void start() {
     evolution_.evaluate_start();
     if (recorder_.n_rows() > 0) return;
@@ -112,7 +116,6 @@ class Simulation {
   const Scene& scene_;
   Instruments instruments_;
   Problem problem_;
-  Discretisation output_;  ///< whose degree and grid the files have
   Evolution evolution_;
   Checkpoint start_;
   WorkMeter meter_;

@@ -18,72 +18,85 @@ const Checkpoint& written(const RunPaths& paths, const Checkpoint& start) {
   return start;
 }
 
-SnapshotStore::WriteHeader header_writer(const Discretisation& discretisation, const Checkpoint& start) {
-  return [&discretisation, header = RunHeader{start.scene, static_cast<int>(start.threads)}](Hdf5Writer& file) {
-    write_run_header(file, discretisation, header);
+SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start) {
+  return [&output, header = RunHeader{start.scene, static_cast<int>(start.threads)}](Hdf5Writer& file) {
+    write_run_header(file, output, header);
   };
+}
+
+/// Lists the fields of the snapshots. @param has  whether they have the field of this name
+template <typename Predicate>
+void name_fields(XdmfSeries& series, const Predicate& has) {
+  for (const char* name : {"Vm", "q", "tension"}) {
+    if (has(name)) series.scalars.emplace_back(name);
+  }
+  for (const char* name : {"velocity", "force_bending", "force_tension", "force_electric"}) {
+    if (has(name)) series.vectors.emplace_back(name);
+  }
 }
 
 }  // namespace
 
-RunRecorder::RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Frame& frame,
+RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame,
                          const Checkpoint& start)
     : paths_(paths),
-      discretisation_(discretisation),
-      laboratory_(frame, discretisation.settings()),
+      output_(settings.order, make_grid(settings.order)),
+      laboratory_(frame, settings),
       last_(written(paths, start)),
-      snapshots_(paths.snapshots(), header_writer(discretisation, start), start.n_snapshots, start.snapshots_checksum),
+      snapshots_(paths.snapshots(), header_writer(output_, start), start.n_snapshots, start.snapshots_checksum),
       history_(paths.history(), start.history_bytes, start.history_checksum) {
-  const SphereGrid& grid = discretisation.transform().grid();
+  const SphereGrid& grid = output_.grid();
   xdmf_.n_points = grid.n_points() + 2;
   xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
+  if (start.n_snapshots == 0) return;
   const Hdf5Reader file(paths.snapshots());
+  const auto group_of = [](std::int64_t number) { return "/snapshots/" + snapshot_name(number); };
   for (std::int64_t number = 0; number < start.n_snapshots; ++number) {
-    xdmf_.times.push_back(file.number_attribute("/snapshots/" + snapshot_name(number), "time"));
+    xdmf_.times.push_back(file.number_attribute(group_of(number), "time"));
   }
+  name_fields(xdmf_, [&](const std::string& name) { return file.has(group_of(0) + "/" + name); });
 }
 
 void RunRecorder::record(HistoryRow row, const State& state, const Fields& fields, const RunTotals& totals) {
-  const State full_state = resized(state, discretisation_.order());
-  const Fields full_fields = resized(fields, discretisation_.order());
-  row.diagnostics = laboratory_.diagnostics(row.diagnostics, full_state, full_fields);
-  history_.append(row);
-  if (row.step.at_snapshot) {
-    snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
-      return write_snapshot(file, name, discretisation_, laboratory_.state(full_state),
-                            laboratory_.fields(full_fields));
-    });
-    write_xdmf(state, fields);
+  if (laboratory_.is_turned()) {
+    row.diagnostics =
+        laboratory_.diagnostics(row.diagnostics, resized(state, output_.order()), resized(fields, output_.order()));
   }
+  history_.append(row);
+  if (row.step.at_snapshot) add_snapshot(resized(state, output_.order()), resized(fields, output_.order()));
   last_.state = state;
   ++last_.n_rows;
   last_.history_bytes = history_.bytes();
   last_.history_checksum = history_.checksum();
   last_.n_snapshots = snapshots_.size();
   last_.snapshots_checksum = snapshots_.checksum();
-  update_totals(totals);
-}
-
-void RunRecorder::update_totals(const RunTotals& totals) {
   last_.totals = totals;
   write_checkpoint(paths_.checkpoint(), last_);
 }
 
-void RunRecorder::write_xdmf(const State& state, const Fields& fields) {
+void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
+  snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
+    const std::int64_t checksum =
+        write_snapshot(file, name, output_, laboratory_.state(state), laboratory_.fields(fields));
+    const auto has = [&](const std::string& field) { return file.has("/snapshots/" + name + "/" + field); };
+    if (xdmf_.times.empty()) name_fields(xdmf_, has);
+    return checksum;
+  });
   xdmf_.times.push_back(state.time);
-  xdmf_.scalars.clear();
-  xdmf_.vectors.clear();
-  const auto add = [](std::vector<std::string>& names, const char* name, bool present) {
-    if (present) names.emplace_back(name);
-  };
-  add(xdmf_.scalars, "Vm", state.transmembrane_potential.size() > 0);
-  add(xdmf_.scalars, "q", fields.charge.size() > 0);
-  add(xdmf_.scalars, "tension", fields.tension.size() > 0);
-  add(xdmf_.vectors, "velocity", fields.velocity.size() > 0);
-  add(xdmf_.vectors, "force_bending", fields.force_bending.size() > 0);
-  add(xdmf_.vectors, "force_tension", fields.force_tension.size() > 0);
-  add(xdmf_.vectors, "force_electric", fields.force_electric.size() > 0);
+  // Its length grows with the run: written at every snapshot of a burst it would cost more than they do.
+  constexpr std::chrono::milliseconds longest_lag{500};
+  if (!xdmf_written_ || std::chrono::steady_clock::now() - *xdmf_written_ >= longest_lag) write_xdmf();
+}
+
+void RunRecorder::end_session(const RunTotals& totals) {
+  if (!xdmf_.times.empty()) write_xdmf();
+  last_.totals = totals;
+  write_checkpoint(paths_.checkpoint(), last_);
+}
+
+void RunRecorder::write_xdmf() {
   replace_file(paths_.xdmf(), xdmf_text(xdmf_));
+  xdmf_written_ = std::chrono::steady_clock::now();
 }
 
 }  // namespace vehd

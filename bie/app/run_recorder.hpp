@@ -1,47 +1,51 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <memory>
-#include <string>
+#include <optional>
 
 #include "bie/app/checkpoint.hpp"
 #include "bie/app/history.hpp"
 #include "bie/app/run_directory.hpp"
 #include "bie/app/snapshot_store.hpp"
 #include "bie/app/xdmf.hpp"
+#include "bie/sphere/transform.hpp"
 #include "bie/stepping/laboratory.hpp"
 #include "bie/stepping/stepper.hpp"
 
 namespace vehd {
 
 /// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
-/// the checkpoint never counts what is not there.
+/// the checkpoint never counts what is not there. Only run.xdmf may lag, by half a second at most: it is written anew
+/// as a whole, and the next session lists what the last one could not.
 class RunRecorder {
  public:
   /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
-  RunRecorder(const RunPaths& paths, const Discretisation& discretisation, const Frame& frame, const Checkpoint& start);
+  RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start);
 
   /// Records one accepted state.
   void record(HistoryRow row, const State& state, const Fields& fields, const RunTotals& totals);
 
-  /// Work that a session has done after its last row.
-  void update_totals(const RunTotals& totals);
+  /// Brings every file up to date, with the work that a session has done after its last row.
+  void end_session(const RunTotals& totals);
 
   [[nodiscard]] std::int64_t n_rows() const { return last_.n_rows; }
   /// Marks the files as final.
   void finish() { snapshots_.finish(); }
 
  private:
-  void write_xdmf(const State& state, const Fields& fields);
+  void add_snapshot(const State& state, const Fields& fields);
+  void write_xdmf();
 
   const RunPaths& paths_;
-  const Discretisation& discretisation_;
+  SphereTransform output_;  ///< degree and grid of the files
   Laboratory laboratory_;
   Checkpoint last_;
   SnapshotStore snapshots_;
   HistoryFile history_;
   XdmfSeries xdmf_;
+  std::optional<std::chrono::steady_clock::time_point> xdmf_written_;
 };
 
 }  // namespace vehd

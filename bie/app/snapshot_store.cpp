@@ -1,7 +1,6 @@
 #include "bie/app/snapshot_store.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "bie/app/errors.hpp"
 #include "bie/app/file_system.hpp"
@@ -52,14 +51,13 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
                              std::int64_t checksum)
     : path_(std::move(path)),
       spare_(path_.parent_path() / fmt::format(".{}.spare", path_.filename().string())),
-      old_(path_.parent_path() / fmt::format(".{}.old", path_.filename().string())),
       size_(n_kept),
       spare_size_(n_kept),
       checksum_(checksum) {
   // A kill can leave a torn spare or snapshots that the checkpoint does not know yet; both are written anew.
   std::error_code ignored;
   std::filesystem::remove(spare_, ignored);
-  std::filesystem::remove(old_, ignored);
+  std::filesystem::remove(link_of(path_), ignored);
   const std::filesystem::path fresh = temporary_of(path_);
   or_remove(fresh, [&] {
     Hdf5Writer file(fresh, Hdf5Writer::Mode::create);
@@ -87,11 +85,7 @@ void SnapshotStore::add(const WriteSnapshot& write_snapshot) {
     spare.close();
     synchronise_file(spare_);
   });
-  // The link keeps the present file reachable while its name moves to the new one; file systems without hard links
-  // get a copy.
-  if (::link(path_.c_str(), old_.c_str()) != 0) copy_whole(path_, old_);
-  rename_file(spare_, path_);
-  rename_file(old_, spare_);
+  exchange_files(path_, spare_);
   spare_size_ = size_;
   ++size_;
   checksum_.add(checksum);

@@ -19,7 +19,7 @@ void require_snapshots(const std::filesystem::path& path, std::int64_t count, st
 /// A growing run.h5 that is a complete, closed HDF5 file at every instant.
 ///
 /// A hidden second file lags by one snapshot. A new snapshot is written there, together with the one it lacks, and
-/// then the two names are exchanged by renames: a kill leaves either the old or the new file under the name run.h5.
+/// then the two names are exchanged: a kill leaves either the old or the new file under the name run.h5.
 /// The cost of a snapshot does not grow with the run.
 class SnapshotStore {
  public:
@@ -45,7 +45,7 @@ class SnapshotStore {
   void finish();
 
  private:
-  std::filesystem::path path_, spare_, old_;
+  std::filesystem::path path_, spare_;
   std::int64_t size_ = 0;
   std::int64_t spare_size_ = 0;
   Checksum checksum_;

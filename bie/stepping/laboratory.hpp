@@ -12,6 +12,8 @@ class Laboratory {
  public:
   Laboratory(const Frame& frame, const NumericalSettings& settings);
 
+  /// Whether its axes are others than those of the frame.
+  [[nodiscard]] bool is_turned() const { return fine_.has_value(); }
   [[nodiscard]] State state(const State& of_frame) const { return turned(frame_.axes, of_frame); }
   [[nodiscard]] Fields fields(const Fields& of_frame) const { return turned(frame_.axes, of_frame); }
   /// @param d       of the state in the frame
