@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "bie/support/errors.hpp"
 
@@ -35,7 +37,9 @@ std::string last_hdf5_error() {
     description.erase(std::min(description.find('\''), description.size()));
   }
   std::replace(description.begin(), description.end(), '\n', ' ');
-  return description.empty() ? "no details" : description;
+  if (!description.empty()) return description;
+  // The library keeps nothing of what fails before it has begun to read or write.
+  return errno != 0 ? std::strerror(errno) : "no details";
 }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {

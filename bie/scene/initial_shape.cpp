@@ -8,15 +8,13 @@
 #include "bie/scene/biconcave.hpp"
 #include "bie/scene/placement.hpp"
 #include "bie/scene/shape_file.hpp"
+#include "bie/scene/shape_nodes.hpp"
 #include "bie/scene/spheroid.hpp"
+#include "bie/scene/stomatocyte.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/sphere/transform.hpp"
 
 namespace vehd {
 namespace {
-
-/// A radius is no polynomial of bounded degree; a grid this much finer keeps aliasing below the truncation.
-int fine_order(int order) { return std::max(3 * order, 64); }
 
 /// x = axes · r̂, whose components are the three harmonics of degree 1: exact, with all other coefficients zero.
 Matrix ellipsoid_position(const Triple& axes, int order) {
@@ -40,20 +38,11 @@ Vector radius_on(const SphereTransform& transform, const ShapeScene& shape) {
 }
 
 Matrix radial_position(const Scene& scene) {
-  const int order = scene.numerics.order;
-  const SphereTransform transform(order, make_grid(fine_order(order)));
-  const SphereGrid& grid = transform.grid();
+  const SphereTransform transform = shape_transform(scene.numerics.order);
   const Vector radius = radius_on(transform, scene.shape);
-  Matrix points(grid.n_points(), 3);
-  for (Index j = 0; j < grid.n_theta; ++j) {
-    for (Index k = 0; k < grid.n_phi; ++k) {
-      const Index i = j * grid.n_phi + k;
-      points(i, 0) = radius(i) * std::sin(grid.theta(j)) * std::cos(grid.phi(k));
-      points(i, 1) = radius(i) * std::sin(grid.theta(j)) * std::sin(grid.phi(k));
-      points(i, 2) = radius(i) * std::cos(grid.theta(j));
-    }
-  }
-  return without_rounding(transform.analyze(points));
+  return without_rounding(position_through(transform, [&](Index i, double theta, double phi) -> Vector3 {
+    return radius(i) * Vector3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+  }));
 }
 
 Matrix unplaced_position(const Scene& scene) {
@@ -68,6 +57,8 @@ Matrix unplaced_position(const Scene& scene) {
       return ellipsoid_position(oblate_axes(shape.reduced_volume), order);
     case ShapeKind::biconcave:
       return biconcave_position(shape.reduced_volume, order);
+    case ShapeKind::stomatocyte:
+      return stomatocyte_position(shape.reduced_volume, order);
     case ShapeKind::radial:
       return radial_position(scene);
     case ShapeKind::file:
@@ -77,7 +68,8 @@ Matrix unplaced_position(const Scene& scene) {
 }
 
 bool is_of_unit_size(ShapeKind kind) {
-  return kind == ShapeKind::prolate || kind == ShapeKind::oblate || kind == ShapeKind::biconcave;
+  return kind == ShapeKind::prolate || kind == ShapeKind::oblate || kind == ShapeKind::biconcave ||
+         kind == ShapeKind::stomatocyte;
 }
 
 double size_factor(const ShapeScene& shape, const Matrix& position) {
@@ -98,8 +90,7 @@ Matrix initial_position(const Scene& scene) {
 }
 
 double smallest_radius(const Scene& scene) {
-  const SphereTransform transform(scene.numerics.order, make_grid(fine_order(scene.numerics.order)));
-  const Vector radius = radius_on(transform, scene.shape);
+  const Vector radius = radius_on(shape_transform(scene.numerics.order), scene.shape);
   // -fno-trapping-math still allows isfinite; minCoeff alone would skip a NaN.
   for (const double value : radius) {
     if (!std::isfinite(value)) return std::numeric_limits<double>::quiet_NaN();

@@ -42,9 +42,8 @@ void add_units_keys(KeyTable& table) {
 void add_shape_keys(KeyTable& table) {
   table.begin("shape");
   table
-      .add_word("kind", {"ellipsoid", "prolate", "oblate", "biconcave", "radial", "file"},
-                "how the initial shape is given; prolate, oblate and biconcave have the axis z", shape,
-                &ShapeScene::kind)
+      .add_word("kind", {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
+                "how the initial shape is given; the middle four have the axis z", shape, &ShapeScene::kind)
       .required = true;
   table.begin("shape", {"ellipsoid"});
   table.add("axes", size_range, {"", "length", "semi-axes along x, y, z"}, shape, &ShapeScene::axes).required = true;
@@ -59,6 +58,11 @@ void add_shape_keys(KeyTable& table) {
   table.begin("shape", {"biconcave"});
   table.add("reduced_volume", {0.5, 0.75}, {"v", "1", "6√π V/A^{3/2}; size: area 4π"}, shape,
             &ShapeScene::reduced_volume);
+  table.begin("shape", {"stomatocyte"});
+  table
+      .add("reduced_volume", {0.1, 0.65}, {"v", "1", "6√π V/A^{3/2}; size: area 4π; open towards −z"}, shape,
+           &ShapeScene::reduced_volume)
+      .required = true;
   table.begin("shape", {"radial"});
   table.add("base", any_number, {"", "length", "constant part of the radius"}, shape, &ShapeScene::base);
   table.add("amplitude", any_number, {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"},

@@ -25,7 +25,7 @@ struct HarmonicMode {
   bool operator==(const HarmonicMode&) const = default;
 };
 
-enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, radial, file };
+enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, stomatocyte, radial, file };
 enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient, poiseuille };
 enum class WaveformKind { dc, ac, pulse, pulse_train, table };
 enum class InitialPotential { zero, steady };

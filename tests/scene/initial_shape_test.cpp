@@ -145,6 +145,23 @@ BOOST_AUTO_TEST_CASE(biconcave_is_thinner_in_the_middle_and_resolved) {
              boost::test_tools::tolerance(5e-4));
 }
 
+BOOST_AUTO_TEST_CASE(stomatocyte_is_a_bowl_with_a_narrow_mouth) {
+  for (const double volume : {0.2, 0.45, 0.6}) {
+    const Matrix position = position_of(fmt::format("kind='stomatocyte'\nreduced_volume={}", volume), 48);
+    const vehd::ShapeSize size = vehd::size_of(position);
+    BOOST_TEST(size.area == 4.0 * std::numbers::pi, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(reduced_volume_of(size) == volume, boost::test_tools::tolerance(1e-9));
+    constexpr double half = 0.5 * std::numbers::pi;
+    const Matrix points =
+        vehd::evaluate_harmonics(position, Vector{{0.0, 0.8, half, std::numbers::pi}}, Vector::Zero(4));
+    BOOST_TEST(points(0, 2) > points(3, 2));
+    BOOST_TEST(points(3, 2) > 0.0);
+    BOOST_TEST(points(2, 2) < 0.0);
+    BOOST_TEST(points(2, 0) < points(1, 0));
+    BOOST_TEST(symmetry_of(fmt::format("kind='stomatocyte'\nreduced_volume={}", volume).c_str()).axisymmetric);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(families_are_exactly_symmetric) {
   for (const char* shape :
        {"kind='prolate'\nreduced_volume=0.8", "kind='oblate'\nreduced_volume=0.8", "kind='biconcave'"}) {

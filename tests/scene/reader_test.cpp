@@ -61,7 +61,8 @@ BOOST_AUTO_TEST_CASE(wrong_types) {
       message_of("[shape]\nkind='ellipsoid'\naxes=[1,2]\n") ==
       "scene.toml:3: \"axes\" in [shape] has 2 components; accepted: 3 numbers [x, y, z], each 1e-06 ... 1000000");
   BOOST_TEST(message_of("[shape]\nkind=3\n") ==
-             "scene.toml:2: \"kind\" in [shape] is 3; accepted: ellipsoid, prolate, oblate, biconcave, radial, file");
+             "scene.toml:2: \"kind\" in [shape] is 3; accepted: ellipsoid, prolate, oblate, biconcave, stomatocyte, "
+             "radial, file");
 }
 
 BOOST_AUTO_TEST_CASE(non_physical_values) {
@@ -102,9 +103,9 @@ BOOST_AUTO_TEST_CASE(time_step_and_counts) {
 
 BOOST_AUTO_TEST_CASE(missing_parts) {
   BOOST_TEST(message_of("[numerics]\ndt=1\nend_time=1\n") == "scene.toml:1: missing table [shape] (initial shape)");
-  BOOST_TEST(
-      message_of("[shape]\naxes=[1,1,1]\n") ==
-      "scene.toml:1: missing key \"kind\" in [shape]; accepted: ellipsoid, prolate, oblate, biconcave, radial, file");
+  BOOST_TEST(message_of("[shape]\naxes=[1,1,1]\n") ==
+             "scene.toml:1: missing key \"kind\" in [shape]; accepted: ellipsoid, prolate, oblate, biconcave, "
+             "stomatocyte, radial, file");
   BOOST_TEST(message_with("[electric]\nfield=[0,0,1]\nconductivity_in=1\n")
                  .find("scene.toml:8: missing key \"conductivity_out\" in [electric]") == 0);
 }
@@ -114,7 +115,7 @@ BOOST_AUTO_TEST_CASE(key_of_another_kind) {
              "scene.toml:11: key \"gradient\" in [flow] belongs to kind \"gradient\", not to \"shear\"");
   BOOST_TEST(message_of("[shape]\nkind='ellipsoid'\naxes=[1,1,2]\nreduced_volume=0.9\n") ==
              "scene.toml:4: key \"reduced_volume\" in [shape] belongs to kinds \"prolate\", \"oblate\", \"biconcave\", "
-             "not to \"ellipsoid\"");
+             "\"stomatocyte\", not to \"ellipsoid\"");
 }
 
 BOOST_AUTO_TEST_CASE(unknown_key_names_all_tables_that_have_it) {
