@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 
 #include "bie/app/errors.hpp"
 
@@ -58,6 +59,7 @@ bool put_attribute(hid_t object, const std::string& name, const std::string& val
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
     : name_(path.string()), dataset_properties_(dataset_properties()), group_properties_(group_properties()) {
   silence_hdf5();
+  errno = 0;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V110);
   if (mode == Mode::in_memory) {

@@ -90,6 +90,7 @@ class Simulation {
       }
       return {};
     } catch (const ConvergenceError& error) {
+      recorder_.keep_last_state(evolution_.evaluation().fields);
       return error.what();
     }
   }

@@ -68,10 +68,12 @@ void RunRecorder::record(HistoryRow row, const State& state, const Fields& field
   ++last_.n_rows;
   last_.history_bytes = history_.bytes();
   last_.history_checksum = history_.checksum();
-  last_.n_snapshots = snapshots_.size();
-  last_.snapshots_checksum = snapshots_.checksum();
-  last_.totals = totals;
-  write_checkpoint(paths_.checkpoint(), last_);
+  save(totals);
+}
+
+void RunRecorder::keep_last_state(const Fields& fields) {
+  if (xdmf_.times.empty() || xdmf_.times.back() >= last_.state.time) return;
+  add_snapshot(resized(last_.state, output_.order()), resized(fields, output_.order()));
 }
 
 void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
@@ -90,6 +92,12 @@ void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
 
 void RunRecorder::end_session(const RunTotals& totals) {
   if (!xdmf_.times.empty()) write_xdmf();
+  save(totals);
+}
+
+void RunRecorder::save(const RunTotals& totals) {
+  last_.n_snapshots = snapshots_.size();
+  last_.snapshots_checksum = snapshots_.checksum();
   last_.totals = totals;
   write_checkpoint(paths_.checkpoint(), last_);
 }

@@ -27,6 +27,9 @@ class RunRecorder {
   /// Records one accepted state.
   void record(HistoryRow row, const State& state, const Fields& fields, const RunTotals& totals);
 
+  /// Adds a snapshot of the state recorded last unless it has one: that of a run which cannot go on.
+  void keep_last_state(const Fields& fields);
+
   /// Brings every file up to date, with the work that a session has done after its last row.
   void end_session(const RunTotals& totals);
 
@@ -36,6 +39,7 @@ class RunRecorder {
 
  private:
   void add_snapshot(const State& state, const Fields& fields);
+  void save(const RunTotals& totals);
   void write_xdmf();
 
   const RunPaths& paths_;

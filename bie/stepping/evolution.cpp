@@ -95,11 +95,15 @@ void Evolution::evaluate_start() {
 
 double Evolution::truncation() const { return Resolution(setup_.model, state_).remainder(); }
 
+/// @throws ConvergenceError, and everything stays
 void Evolution::change_discretisation(int order, std::int64_t quadrature_level) {
-  discretisation_ = discretisation_of(setup_, order, quadrature_level);
-  state_ = resized(std::move(state_), order);
-  state_.quadrature_level = quadrature_level;
-  evaluation_ = evaluate(setup_.model, *discretisation_, state_, instruments_);
+  std::unique_ptr<Discretisation> discretisation = discretisation_of(setup_, order, quadrature_level);
+  State state = resized(state_, order);
+  state.quadrature_level = quadrature_level;
+  // The former evaluation refers to the former tables.
+  evaluation_ = evaluate(setup_.model, *discretisation, state, instruments_);
+  discretisation_ = std::move(discretisation);
+  state_ = std::move(state);
 }
 
 /// Makes this the state, with a quadrature that resolves it. @throws ConvergenceError, and the former state stays
@@ -117,7 +121,6 @@ void Evolution::arrive(State state) {
   }
   const double separation = evaluation.diagnostics.separation;
   require_apart(separation, has_former ? evaluation_.diagnostics.separation : separation);
-  // The former evaluation refers to the former tables.
   evaluation_ = std::move(evaluation);
   if (finer) discretisation_ = std::move(finer);
   state_ = std::move(state);

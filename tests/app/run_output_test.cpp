@@ -57,6 +57,22 @@ BOOST_FIXTURE_TEST_CASE(snapshots_come_on_time_though_decimal_steps_do_not_add_u
   BOOST_TEST(vehd::HistoryTable(output + "/history.csv").n_rows() == 51);
 }
 
+BOOST_FIXTURE_TEST_CASE(a_run_that_cannot_go_on_keeps_its_last_state, Run) {
+  const auto scene_file = std::filesystem::path(VEHD_SOURCE_DIR) / "tests/hard/scenes/disc_drawn_together.toml";
+  std::vector<std::string> arguments = {"run", scene_file, "-o", output, "--no-plot"};
+  for (int session = 0; session < 2; ++session) {
+    const ProgramResult result = run_vehd(arguments);
+    BOOST_TEST(result.exit_code == 3, result.errors);
+    arguments.emplace_back("--resume");
+    const vehd::Hdf5Reader file(output + "/run.h5");
+    const std::vector<std::string> names = file.members("/snapshots");
+    BOOST_TEST(names.size() == 2);
+    const double last = file.number_attribute("/snapshots/" + names.back(), "time");
+    BOOST_TEST(last == vehd::HistoryTable(output + "/history.csv").column("time").back());
+    BOOST_TEST(last > 0.0);
+  }
+}
+
 BOOST_FIXTURE_TEST_CASE(run_file_keeps_its_layout, Run) {
   run(quick_scene());
   const vehd::Hdf5Reader file(output + "/run.h5");

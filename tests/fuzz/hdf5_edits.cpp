@@ -78,18 +78,16 @@ vehd::Matrix ellipsoid() {
 }
 
 std::string good_run() {
-  vehd::NumericalSettings settings;
-  settings.order = order;
-  const vehd::Discretisation discretisation(settings);
+  const vehd::SphereTransform transform(order, vehd::make_grid(order));
   vehd::Hdf5Writer file("run.h5", vehd::Hdf5Writer::Mode::in_memory);
-  vehd::write_run_header(file, discretisation, {scene_text, 1});
+  vehd::write_run_header(file, transform, {scene_text, 1});
   vehd::State state;
   state.position = ellipsoid();
   state.transmembrane_potential = vehd::Vector::Ones(state.position.rows());
   vehd::Fields fields;
   fields.velocity = state.position;
   for (const char* name : {"000000", "000001"}) {
-    vehd::write_snapshot(file, name, discretisation, state, fields);
+    vehd::write_snapshot(file, name, transform, state, fields);
     state.time += 1.0;
   }
   return file.image();

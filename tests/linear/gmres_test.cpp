@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(a_solve_within_a_subspace_sees_nothing_else) {
   const SolveReport report = gmres_within(support, map_of(all), identity, rhs, x, {1e-12, 60});
   BOOST_TEST(report.converged);
   BOOST_TEST((x(support) - expected).norm() < 1e-11 * expected.norm());
-  BOOST_TEST(x.norm() == x(support).norm());
+  BOOST_TEST((x.array() != 0.0).count() == 30);
   Vector alone = Vector::Zero(30);
   const SolveReport of_alone = gmres(map_of(small), identity, small * expected, alone, {1e-12, 60});
   BOOST_TEST(report.iterations == of_alone.iterations);
