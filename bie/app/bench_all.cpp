@@ -11,6 +11,7 @@
 #include "bie/app/bench_scenes.hpp"
 #include "bie/app/bench_space.hpp"
 #include "bie/app/bench_stability.hpp"
+#include "bie/app/bench_symmetry.hpp"
 #include "bie/app/bench_threads.hpp"
 #include "bie/app/bench_time.hpp"
 #include "bie/app/doc_tables.hpp"
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 
 /// What is measured, in full and as a trial.
 struct Extent {
-  std::vector<int> space, parts;
+  std::vector<int> space, parts, symmetry;
   int threads_order;  ///< 0: that of the scene
   int time_order;     ///< degree of the comparison of integrators, likewise
   int n_steps;        ///< step sizes
@@ -34,8 +35,8 @@ struct Extent {
 };
 
 Extent extent_of(bool quick) {
-  if (quick) return {{6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, 2};
-  return {{8, 12, 16, 20, 24, 32}, {8, 12, 16, 24, 32}, 24, 24, 5, {1e-2, 1e-3, 1e-4, 1e-5}, 9};
+  if (quick) return {{6, 8}, {6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, 2};
+  return {{8, 12, 16, 20, 24, 32}, {8, 12, 16, 24, 32}, {8, 12, 16, 24}, 24, 24, 5, {1e-2, 1e-3, 1e-4, 1e-5}, 9};
 }
 
 /// Successive halves.
@@ -63,6 +64,7 @@ class AllBenches {
     time();
     tolerances();
     parts_and_threads();
+    symmetry();
     methods();
     stability();
     report();
@@ -171,6 +173,11 @@ class AllBenches {
     begin("threads: figure5_no_field.toml");
     if (extent_.threads_order > 0) sheared.numerics.order = extent_.threads_order;
     keep(bench_threads(sheared, thread_counts(), extent_.repeats));
+  }
+
+  void symmetry() {
+    begin("symmetry: figure2.toml");
+    keep(bench_symmetry(scene("figure2"), extent_.symmetry, extent_.repeats));
   }
 
   void methods() {

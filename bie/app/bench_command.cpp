@@ -8,6 +8,7 @@
 #include "bie/app/bench_scenes.hpp"
 #include "bie/app/bench_space.hpp"
 #include "bie/app/bench_stability.hpp"
+#include "bie/app/bench_symmetry.hpp"
 #include "bie/app/bench_threads.hpp"
 #include "bie/app/bench_time.hpp"
 #include "bie/app/commands.hpp"
@@ -125,6 +126,16 @@ void add_parts(CLI::App& bench, ExitCode& exit_code) {
             [](const SceneOptions& o) { return bench_parts(read_scene(o.scene_file), o.orders, o.bench.repeats); });
 }
 
+void add_symmetry(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command = bench.add_subcommand("symmetry", "Seconds of a step with the symmetry of the scene and without");
+  const auto options = std::make_shared<SceneOptions>();
+  add_scene(*command, *options);
+  add_orders(*command, *options, {8, 12, 16, 24});
+  add_repeats(*command, options->bench, 9);
+  add_bench(*command, options, exit_code,
+            [](const SceneOptions& o) { return bench_symmetry(read_scene(o.scene_file), o.orders, o.bench.repeats); });
+}
+
 void add_threads(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command = bench.add_subcommand("threads", "Seconds of each part of a step against the number of threads");
   const auto options = std::make_shared<SceneOptions>();
@@ -199,6 +210,7 @@ void add_bench_command(CLI::App& program, ExitCode& exit_code) {
   add_time(*command, exit_code);
   add_parts(*command, exit_code);
   add_threads(*command, exit_code);
+  add_symmetry(*command, exit_code);
   add_methods(*command, exit_code);
   add_stability(*command, exit_code);
   add_all(*command, exit_code);

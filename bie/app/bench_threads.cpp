@@ -7,22 +7,13 @@
 #include <thread>
 
 #include "bie/app/bench_progress.hpp"
+#include "bie/app/state_difference.hpp"
 #include "bie/app/step_timer.hpp"
 #include "bie/app/thread_count.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
-
-/// Largest difference of x and V_m, each over its largest coefficient.
-double difference(const State& state, const State& reference) {
-  const auto relative = [](const Matrix& a, const Matrix& b) {
-    const double size = b.size() == 0 ? 0.0 : b.cwiseAbs().maxCoeff();
-    return size > 0.0 ? (a - b).cwiseAbs().maxCoeff() / size : 0.0;
-  };
-  return std::max(relative(state.position, reference.position),
-                  relative(state.transmembrane_potential, reference.transmembrane_potential));
-}
 
 BenchTable empty_table(int first_count) {
   return {"rows",
@@ -85,7 +76,7 @@ BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repea
       const Spread seconds = spread_of(timers[k]->seconds().at(part));
       const double speed_up = first / seconds.median;
       BenchCell deviation;
-      if (part == "step") deviation = difference(timers[k]->state(), timers.front()->state());
+      if (part == "step") deviation = state_difference(timers[k]->state(), timers.front()->state());
       add_row(table,
               {part, std::int64_t{counts[k]}, seconds, speed_up, speed_up * counts.front() / counts[k], deviation});
     }

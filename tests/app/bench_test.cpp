@@ -144,6 +144,18 @@ BOOST_AUTO_TEST_CASE(threads_do_not_change_the_result) {
   BOOST_TEST(rows_with(bench, "part", "operator assembly").size() == 2);
 }
 
+BOOST_AUTO_TEST_CASE(symmetry_does_not_change_the_result) {
+  const Bench bench({"symmetry", "SCENE", "--orders", "6,8", "--repeats", "2"});
+  files_say_what_they_hold_for(bench);
+  BOOST_REQUIRE(bench.json["rows"].size() == 2);
+  for (const auto& row : bench.json["rows"]) {
+    BOOST_TEST(number(row, "ratio") == number(row, "seconds_full") / number(row, "seconds"),
+               boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(number(row, "difference") < 1e-9 * number(row, "steps"));
+    BOOST_TEST(number(row, "difference") > 0.0);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(errors_in_time_fall_with_the_step_as_the_order_says) {
   const Bench bench({"time", "SCENE", "--dt", "0.1,0.05,0.025", "--time-orders", "1,3", "--at", "0.4"});
   files_say_what_they_hold_for(bench);
@@ -185,6 +197,16 @@ BOOST_AUTO_TEST_CASE(lists_out_of_order_are_refused) {
              "--orders: 6 after a higher one; accepted: ascending\n");
   BOOST_TEST(message({"bench", "threads", scene, "--threads", "2,1"}) ==
              "--threads: 1 after a higher one; accepted: ascending\n");
+  BOOST_TEST(message({"bench", "symmetry", scene, "--orders", "10,6"}) ==
+             "--orders: 6 after a higher one; accepted: ascending\n");
+  std::string oblique = quick_scene("1.0");
+  const std::string upright = "kind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]";
+  oblique.replace(
+      oblique.find(upright), upright.size(),
+      "kind = \"radial\"\nmodes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = 1, a = 0.1}, {n = 3, m = -2, a = 0.1}]");
+  write_text(scene, oblique);
+  BOOST_TEST(message({"bench", "symmetry", scene}) == "bench symmetry needs a scene that has one\n");
+  write_text(scene, quick_scene("1.0"));
   BOOST_TEST(message({"bench", "time", scene, "--dt", "0.1,0.07", "--at", "1"}) == "--dt: 0.07 is not half of 0.1\n");
   BOOST_TEST(message({"bench", "time", scene, "--tolerance", "1e-3,1e-2", "--at", "1"}) ==
              "--tolerance: 0.01 is not below 0.001\n");
