@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "bie/app/bench_result.hpp"
 
@@ -9,8 +11,12 @@ namespace vehd {
 struct AllTask {
   std::filesystem::path docs;  ///< folder with the pages, images/ and scenes/
   BenchOutput output;
-  bool quick = false;  ///< few degrees and tolerances, one repeat: shows that it works, measures little
+  bool quick = false;               ///< few degrees and tolerances, one repeat: shows that it works, measures little
+  std::vector<std::string> only{};  ///< names of benches; empty: all
 };
+
+/// In the order in which they are run.
+std::vector<std::string> names_of_benches();
 
 /// Runs every scene and every bench and renews the pictures and the tables of the pages from what they give. What needs
 /// the finite elements is left as it is where they are not built, and said.

@@ -37,6 +37,7 @@ struct SceneOptions {
   double at = 0.0;
   bool quick = false;
   std::string docs = "docs";
+  std::vector<std::string> only;
   BenchOptions bench;
 };
 
@@ -174,9 +175,13 @@ void add_all(CLI::App& bench, ExitCode& exit_code) {
       ->type_name("DIR")
       ->capture_default_str();
   command->add_flag("--quick", options->quick, "Little of each, to see that it works");
+  command->add_option("--only", options->only, "Only these benches")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names_of_benches()));
   add_output_options(*command, options->bench);
   command->callback([options, &exit_code] {
-    write_json(options->bench.common, bench_all({options->docs, options->bench.output(), options->quick}));
+    write_json(options->bench.common,
+               bench_all({options->docs, options->bench.output(), options->quick, options->only}));
     exit_code = ExitCode::done;
   });
 }

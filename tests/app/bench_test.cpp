@@ -235,6 +235,15 @@ BOOST_AUTO_TEST_CASE(one_command_renews_every_table_and_picture_of_the_pages) {
   BOOST_TEST(result.output.ends_with(left), result.output);
   BOOST_TEST((result.output.find("the finite elements are not built") == std::string::npos) == methods);
 
+  write_text(docs / "extra.md", "<!-- table space -->\nold\n<!-- end of table -->\n");
+  const std::vector<std::string> one = {"--docs", docs.string(), "-o", directory / "one", "--only", "space"};
+  std::vector<std::string> arguments = {"bench", "all", "--quick"};
+  arguments.insert(arguments.end(), one.begin(), one.end());
+  const ProgramResult again = run_vehd(arguments);
+  BOOST_TEST(again.exit_code == 0, again.errors);
+  BOOST_TEST(file_text(docs / "extra.md").find("old") == std::string::npos);
+  BOOST_TEST(again.output.find("== parts") == std::string::npos);
+
   // Every picture that a page shows, new.
   for (const auto& entry : fs::directory_iterator(docs)) {
     if (entry.path().extension() != ".md") continue;
