@@ -16,7 +16,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t checkpoint_schema_version = 4;
+constexpr std::int64_t checkpoint_schema_version = 5;
 
 /// The members of a state with the names under which they are stored.
 template <typename StateType, typename Visitor>

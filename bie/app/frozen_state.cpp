@@ -36,9 +36,8 @@ FrozenState start_of_scene(const std::filesystem::path& file) {
   Instruments instruments;
   const State start =
       initial_state(problem.model, discretisation, problem.position, problem.steady_potential, 0.0, instruments);
-  const Matrix3& to_laboratory = problem.frame.axes;
-  frozen.fields = turned(to_laboratory, evaluate(problem.model, discretisation, start, instruments).fields);
-  frozen.state = turned(to_laboratory, start);
+  frozen.fields = in_laboratory(problem.frame, evaluate(problem.model, discretisation, start, instruments).fields);
+  frozen.state = in_laboratory(problem.frame, start);
   frozen.symmetry = symmetry_of(scene, frozen);
   return frozen;
 }

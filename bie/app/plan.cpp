@@ -57,7 +57,7 @@ std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
   return (all + symmetry.group_order() - 1) / symmetry.group_order();
 }
 
-std::string text_of(const Problem& problem) { return symmetry_text(problem.symmetry, axis_name(problem.frame)); }
+std::string text_of(const Problem& problem) { return symmetry_text(problem.symmetry, problem.frame); }
 
 std::string difference_text(const Scene& scene, const Model& model, const Model& reduced, const RunPlan& plan,
                             std::size_t n_unknowns) {

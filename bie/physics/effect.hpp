@@ -52,6 +52,8 @@ class ExplicitEffect {
   [[nodiscard]] virtual bool allows_axis() const = 0;
   /// Is it its own image under every turn about z? Unlike an axisymmetric one it may swirl.
   [[nodiscard]] virtual bool allows_turns() const { return allows_axis(); }
+  /// Does it do the same to a membrane wherever that is?
+  [[nodiscard]] virtual bool is_same_everywhere() const { return false; }
   /// The same effect turned by the rotation R.
   [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const = 0;
   /// Where to look for an axis about which it is axisymmetric; none where every axis is one.

@@ -19,6 +19,7 @@ class SpontaneousCurvatureEffect : public ExplicitEffect {
   void add(const Situation& situation, Forcing& forcing) const override;
   [[nodiscard]] bool allows(const Reflection&) const override { return true; }
   [[nodiscard]] bool allows_axis() const override { return true; }
+  [[nodiscard]] bool is_same_everywhere() const override { return true; }
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3&) const override {
     return std::make_shared<SpontaneousCurvatureEffect>(parameters_);
   }

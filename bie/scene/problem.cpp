@@ -17,9 +17,8 @@ Problem problem_of(const Scene& scene, const Model& model) {
   start.area_strain = Vector::Zero(start.position.rows());
   Problem problem;
   problem.frame = find_frame(model, start);
-  const Matrix3 to_frame = problem.frame.axes.transpose();
-  problem.model = turned(to_frame, model);
-  start = turned(to_frame, std::move(start));
+  problem.model = in_frame(problem.frame, model);
+  start = in_frame(problem.frame, std::move(start));
   const Symmetry found = find_symmetry(problem.model, start);
   problem.settings = settings_of(scene);
   problem.steady_potential = scene.electric && scene.electric->initial_potential == InitialPotential::steady;

@@ -214,7 +214,7 @@ void check_symmetry(const Scene& scene, const toml::table& table, const std::str
   throw InputError(fmt::format(
       "{}: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one axis; they have: "
       "{}",
-      place(*table["numerics"]["symmetry"].node(), file), symmetry_text(found.symmetry, axis_name(found.frame))));
+      place(*table["numerics"]["symmetry"].node(), file), symmetry_text(found.symmetry, found.frame)));
 }
 
 void require_shape_file(const Scene& scene, const toml::table& table, const std::string& file) {

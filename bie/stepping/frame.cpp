@@ -4,12 +4,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "bie/physics/turned.hpp"
 #include "bie/sphere/rotation.hpp"
 #include "bie/stepping/composition.hpp"
-#include "bie/stepping/symmetry.hpp"
 
 namespace vehd {
 
@@ -38,10 +40,46 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
   return result;
 }
 
-bool allows_axis(const Model& model) {
+bool allows_turns(const Model& model) {
   const auto effects = explicit_effects(model);
   return (!model.electric || model.electric->field.head<2>().isZero(0.0)) &&
-         std::all_of(effects.begin(), effects.end(), [](const auto& effect) { return effect->allows_axis(); });
+         std::all_of(effects.begin(), effects.end(), [](const auto& effect) { return effect->allows_turns(); });
+}
+
+bool is_same_everywhere(const Model& model) {
+  const auto effects = explicit_effects(model);
+  return std::all_of(effects.begin(), effects.end(), [](const auto& effect) { return effect->is_same_everywhere(); });
+}
+
+/// Mean over the parameter sphere.
+Vector3 mean_position(const State& state) { return state.position.row(0) / std::sqrt(4.0 * std::numbers::pi); }
+
+/// The laboratory's, and the mean position where the scene is the same about it.
+std::vector<Vector3> origin_candidates(const Model& model, const State& state) {
+  std::vector<Vector3> result{Vector3::Zero()};
+  const double size = state.position.bottomRows(state.position.rows() - 1).norm();
+  if (is_same_everywhere(model) && state.position.row(0).norm() > kRounding * size) {
+    result.push_back(mean_position(state));
+  }
+  return result;
+}
+
+/// How much work a symmetry saves; zero where the frame is not worth leaving the laboratory's axes for.
+double worth(const Symmetry& symmetry, bool turned) {
+  constexpr double kAxis = 1e6;
+  if (symmetry.axisymmetric) return kAxis + static_cast<double>(symmetry.reflections.size());
+  return turned && symmetry.fold == 1 ? 0.0 : symmetry.group_order();
+}
+
+/// In coefficients of degree 0.
+Eigen::RowVector3d shift_of(const Frame& frame) { return frame.origin.transpose() * std::sqrt(4.0 * std::numbers::pi); }
+
+/// "x", "y", "z" or its components.
+std::string axis_name(const Vector3& axis) {
+  for (int i = 0; i < 3; ++i) {
+    if (axis == Vector3::Unit(i)) return std::string(1, "xyz"[i]);
+  }
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", axis.x(), axis.y(), axis.z());
 }
 
 Matrix turned_vectors(const Matrix3& rotation, const Matrix& coefficients) {
@@ -68,22 +106,50 @@ Frame frame_along(const Vector3& direction) {
 }
 
 Frame find_frame(const Model& model, const State& state) {
-  for (const Vector3& axis : axis_candidates(model, state)) {
-    const Frame frame = frame_along(axis);
-    const Matrix3 to_frame = frame.axes.transpose();
-    const Model there = turned(to_frame, model);
-    if (allows_axis(there) && find_symmetry(there, turned(to_frame, state)).axisymmetric) return frame;
+  const std::vector<Vector3> origins = origin_candidates(model, state);
+  Frame best;
+  double most = 0.0;
+  for (const Vector3& origin : origins) {
+    for (const Vector3& axis : axis_candidates(model, state)) {
+      Frame frame = frame_along(axis);
+      frame.origin = origin;
+      const Model there = in_frame(frame, model);
+      if (frame.is_turned() && !allows_turns(there)) continue;
+      const Symmetry symmetry = find_symmetry(there, in_frame(frame, state));
+      const double here = worth(symmetry, frame.is_turned());
+      if (here > most) {
+        best = frame;
+        most = here;
+      }
+      if (symmetry.axisymmetric) break;
+    }
   }
-  return {};
+  return best;
 }
 
-std::string axis_name(const Frame& frame) {
-  const Vector3 axis = frame.axes.col(2);
-  for (int i = 0; i < 3; ++i) {
-    if (axis == Vector3::Unit(i)) return std::string(1, "xyz"[i]);
-  }
-  return fmt::format("({:.3g}, {:.3g}, {:.3g})", axis.x(), axis.y(), axis.z());
+std::string symmetry_text(const Symmetry& symmetry, const Frame& frame) {
+  std::array<std::string, 3> names;
+  for (int i = 0; i < 3; ++i) names[static_cast<std::size_t>(i)] = axis_name(frame.axes.col(i));
+  const std::string text = symmetry_text(symmetry, names);
+  if (!symmetry.any() || frame.origin.isZero(0.0)) return text;
+  return fmt::format("{}, through ({:.3g}, {:.3g}, {:.3g})", text, frame.origin.x(), frame.origin.y(),
+                     frame.origin.z());
 }
+
+Model in_frame(const Frame& frame, const Model& of_laboratory) { return turned(frame.axes.transpose(), of_laboratory); }
+
+State in_frame(const Frame& frame, State of_laboratory) {
+  of_laboratory.position.row(0) -= shift_of(frame);
+  return turned(frame.axes.transpose(), std::move(of_laboratory));
+}
+
+State in_laboratory(const Frame& frame, State of_frame) {
+  State result = turned(frame.axes, std::move(of_frame));
+  result.position.row(0) += shift_of(frame);
+  return result;
+}
+
+Fields in_laboratory(const Frame& frame, const Fields& of_frame) { return turned(frame.axes, of_frame); }
 
 Model turned(const Matrix3& rotation, Model model) {
   if (model.flow) model.flow->gradient = turned_tensor(rotation, model.flow->gradient);

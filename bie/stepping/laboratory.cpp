@@ -6,7 +6,7 @@
 namespace vehd {
 
 Laboratory::Laboratory(const Frame& frame, const NumericalSettings& settings) : frame_(frame) {
-  if (frame.is_laboratory()) return;
+  if (!frame.is_turned()) return;
   const int order = settings.upsampling * settings.order;
   // A multiple of four puts nodes on ±x and ±y of the frame, where bodies along coordinate axes are widest.
   fine_.emplace(settings.order, make_grid(order, 4 * (order / 2 + 1)));

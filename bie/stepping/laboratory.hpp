@@ -14,8 +14,8 @@ class Laboratory {
 
   /// Whether its axes are others than those of the frame.
   [[nodiscard]] bool is_turned() const { return fine_.has_value(); }
-  [[nodiscard]] State state(const State& of_frame) const { return turned(frame_.axes, of_frame); }
-  [[nodiscard]] Fields fields(const Fields& of_frame) const { return turned(frame_.axes, of_frame); }
+  [[nodiscard]] State state(const State& of_frame) const { return in_laboratory(frame_, of_frame); }
+  [[nodiscard]] Fields fields(const Fields& of_frame) const { return in_laboratory(frame_, of_frame); }
   /// @param d       of the state in the frame
   /// @param state   in the frame, as are the fields
   [[nodiscard]] Diagnostics diagnostics(const Diagnostics& d, const State& state, const Fields& fields) const;

@@ -167,23 +167,23 @@ Symmetry find_symmetry(const Model& model, const State& state) {
   return result;
 }
 
-std::string symmetry_text(const Symmetry& symmetry, const std::string& axis) {
+std::string symmetry_text(const Symmetry& symmetry, const std::array<std::string, 3>& axes) {
   std::vector<std::string> names;
-  if (symmetry.axisymmetric) names.push_back("axisymmetric about " + axis);
-  if (symmetry.fold > 1) names.push_back(fmt::format("{}-fold about {}", symmetry.fold, axis));
+  if (symmetry.axisymmetric) names.push_back("axisymmetric about " + axes[2]);
+  if (symmetry.fold > 1) names.push_back(fmt::format("{}-fold about {}", symmetry.fold, axes[2]));
   for (const Reflection& g : symmetry.reflections) {
     const bool about_z = symmetry.axisymmetric && g.z > 0;
     const bool in_fold = symmetry.fold > 1 && g == Reflection{-1, -1, 1};
     if (g == Reflection{} || about_z || in_fold) continue;
     std::vector<std::string> turned;
     for (int i = 0; i < 3; ++i) {
-      if (g.sign(i) < 0) turned.push_back(i == 2 ? axis : std::string(1, "xy"[i]));
+      if (g.sign(i) < 0) turned.push_back(axes[static_cast<std::size_t>(i)]);
     }
     if (symmetry.axisymmetric && turned.size() > 1) continue;
     if (turned.size() == 3) {
       names.emplace_back("inversion");
     } else if (turned.size() == 2) {
-      names.push_back(std::string("half turn about ") + (g.x > 0 ? "x" : g.y > 0 ? "y" : "z"));
+      names.push_back("half turn about " + (g.x > 0 ? axes[0] : g.y > 0 ? axes[1] : axes[2]));
     } else {
       names.push_back("mirror " + turned[0]);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,8 @@ struct Symmetry {
 Symmetry find_symmetry(const Model& model, const State& state);
 
 /// In words: "axisymmetric about z, mirror z", "mirror y, half turn about y, inversion", "none".
-/// @param axis  name of the axis that carries the poles
-std::string symmetry_text(const Symmetry& symmetry, const std::string& axis = "z");
+/// @param axes  their names; the third carries the poles
+std::string symmetry_text(const Symmetry& symmetry, const std::array<std::string, 3>& axes = {"x", "y", "z"});
 
 /// The symmetric part of a state. Rounding breaks a symmetry and an instability would feed on that.
 State symmetric_part(const Symmetry& symmetry, State state);

@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include "bie/stepping/frame.hpp"
 #include "bie/stepping/symmetry.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -84,6 +85,31 @@ BOOST_AUTO_TEST_CASE(largest_number_of_turns_is_found) {
   const Symmetry swirl = found(swirling, prolate(kOrder));
   BOOST_TEST(!swirl.axisymmetric);
   BOOST_TEST(swirl.fold == 2 * kOrder + 2);
+}
+
+// A body with turns about another axis is computed in a frame that has its poles there.
+BOOST_AUTO_TEST_CASE(turns_about_any_axis_are_found_and_change_no_step) {
+  for (const Vector3& axis : {Vector3(1.0, 0.0, 0.0), Vector3(0.3, -0.5, 0.8)}) {
+    Frame body = frame_along(axis);
+    body.origin = {0.4, 0.0, -1.0};
+    Model model = field_model();
+    model.electric->field = 0.5 * body.axes.col(2);
+    const State laboratory = in_laboratory(body, start(field_model(), discretisation_of(kOrder), star(3, 1.0), 0.1));
+    const Frame frame = find_frame(model, laboratory);
+    const Model there = in_frame(frame, model);
+    const Matrix position = in_frame(frame, laboratory).position;
+    BOOST_TEST(symmetry_text(found(there, position), frame).starts_with("3-fold about "));
+    BOOST_TEST(difference_per_step(there, position, 0.1, 3) < 1e-9);
+    // The laboratory's own grid has its poles elsewhere and is as good as this order resolves.
+    const Discretisation full(settings_for({}));
+    const State a = run(there, full, start(there, full, position, 0.1), 0.1, 3);
+    const State b = run(model, full, start(model, full, laboratory.position, 0.1), 0.1, 3);
+    BOOST_TEST(max_difference(in_laboratory(frame, a).position, b.position) < 1e-5);
+  }
+  // Too few turns to leave the axes of the laboratory for.
+  const State prism =
+      in_laboratory(frame_along({1.0, 0.0, 0.0}), start(field_model(), discretisation_of(kOrder), star(2, 1.0), 0.1));
+  BOOST_TEST(find_frame(relaxation_model(0.1), prism).is_laboratory());
 }
 
 BOOST_AUTO_TEST_CASE(turns_that_are_gone_are_not_used) {
