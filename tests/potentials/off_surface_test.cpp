@@ -159,9 +159,9 @@ BOOST_AUTO_TEST_CASE(layers_of_harmonics_on_a_sphere_are_exact_at_every_distance
       const OffSurfaceValues v = evaluate(layers, points.position, side);
       double error = 0.0;
       for (Index i = 0; i < angles.theta.size(); ++i) {
-        const auto limit = [&](const auto& layer) {
+        const auto limit = [&, degree = n](const auto& layer) {
           const auto one_sided = [&](bool inside) {
-            return solid_harmonic(y, layer(n, radius, radius, inside), radius, angles.theta[i], angles.phi[i]);
+            return solid_harmonic(y, layer(degree, radius, radius, inside), radius, angles.theta[i], angles.phi[i]);
           };
           const ScalarAndGradient in = one_sided(true);
           const ScalarAndGradient out = one_sided(false);

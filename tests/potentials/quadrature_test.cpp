@@ -98,9 +98,9 @@ BOOST_AUTO_TEST_CASE(sizes_that_do_not_belong_together_are_refused) {
   const Space space(8);
   BOOST_CHECK_THROW(assemble(space, sphere(7), kLaplaceLayers), ShapeError);
   const LayerOperators layers = assemble(space, sphere(8), kAllLayers);
-  BOOST_CHECK_THROW(layers.laplace_single.apply(Matrix::Zero(80, 1)), ShapeError);
-  BOOST_CHECK_THROW(layers.stokes_single.apply(Matrix::Zero(81, 2)), ShapeError);
-  BOOST_CHECK_THROW(layers.stokes_single.apply(Matrix::Zero(80, 3)), ShapeError);
+  BOOST_CHECK_THROW(static_cast<void>(layers.laplace_single.apply(Matrix::Zero(80, 1))), ShapeError);
+  BOOST_CHECK_THROW(static_cast<void>(layers.stokes_single.apply(Matrix::Zero(81, 2))), ShapeError);
+  BOOST_CHECK_THROW(static_cast<void>(layers.stokes_single.apply(Matrix::Zero(80, 3))), ShapeError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
