@@ -180,11 +180,14 @@ void put_attribute(hid_t file, Bytes& bytes) {
 void correct_checksums(const std::string& image, hid_t file) {
   for (const char* group : {"/snapshots/000000", "/snapshots/000001"}) {
     try {
-      // An edited attribute may be an array of up to three.
-      std::array<std::int64_t, 3> checksum{};
-      checksum.fill(vehd::snapshot_checksum(vehd::Hdf5Reader(image, "run.h5"), group));
-      const vehd::Hdf5Handle attribute(H5Aopen_by_name(file, group, "checksum", H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-      H5Awrite(attribute.id(), H5T_NATIVE_INT64, checksum.data());
+      const std::int64_t checksum = vehd::snapshot_checksum(vehd::Hdf5Reader(image, "run.h5"), group);
+      // Made anew: HDF5 1.10 crashes when it writes to attributes that were edited.
+      H5Adelete_by_name(file, group, "checksum", H5P_DEFAULT);
+      const vehd::Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+      const vehd::Hdf5Handle attribute(
+          H5Acreate_by_name(file, group, "checksum", H5T_STD_I64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+          H5Aclose);
+      H5Awrite(attribute.id(), H5T_NATIVE_INT64, &checksum);
     } catch (const vehd::InputError&) {
     }
   }
