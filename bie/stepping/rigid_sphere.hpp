@@ -8,7 +8,8 @@
 namespace vehd {
 
 /// One step of the part of the membrane velocity that a sphere can follow: translation and divergence-free tangential
-/// flow. Points end on the translated sphere exactly. The mean tension stays undetermined and is reported as zero.
+/// flow. Its rotation is a finite one, so that it strains nothing, and points end on the translated sphere exactly. The
+/// mean tension stays undetermined and is reported as zero.
 ConstrainedMove rigid_sphere_move(const State& state, const Evaluation::Parts& parts, const Vector& tension, double dt,
                                   const Landing& landing);
 

@@ -35,6 +35,8 @@ BOOST_AUTO_TEST_CASE(sphere_stays_a_sphere_in_flow_and_field) {
     const State end = run(model, discretisation, start(model, discretisation, off_centre_sphere(), dt), dt, 20);
     const Vector3 centre = kCentre + Vector3(20 * dt * kCentre.z(), 0.0, 0.0);
     BOOST_TEST(distance_from_sphere(discretisation, end, centre) < 1e-10);
+    // A rotation strains nothing, however long the step.
+    BOOST_TEST(discretisation.fine_transform().synthesize(end.area_strain).cwiseAbs().maxCoeff() < 1e-7);
   }
 }
 
