@@ -49,26 +49,19 @@ Matrix StokesOperator::apply(const Matrix& density) const {
 
 Matrix StokesOperator::apply_blocks(const Matrix& density) const {
   Matrix result(transposed_[0].cols(), 3);
-  const Index size = density.rows();
-  const double* x = density.col(0).data();
-  const double* y = density.col(1).data();
-  const double* z = density.col(2).data();
+  const auto x = density.col(0);
+  const auto y = density.col(1);
+  const auto z = density.col(2);
   for_each_index(transposed_[0].cols(), 6 * transposed_[0].size() > kParallelEntries, [&](Index out) {
-    const double* xx = transposed_[0].col(out).data();
-    const double* xy = transposed_[1].col(out).data();
-    const double* xz = transposed_[2].col(out).data();
-    const double* yy = transposed_[3].col(out).data();
-    const double* yz = transposed_[4].col(out).data();
-    const double* zz = transposed_[5].col(out).data();
-    double u = 0.0, v = 0.0, w = 0.0;
-    // One pass over the blocks, which is what takes the time.
-#pragma omp simd reduction(+ : u, v, w)
-    for (Index i = 0; i < size; ++i) {
-      u += xx[i] * x[i] + xy[i] * y[i] + xz[i] * z[i];
-      v += xy[i] * x[i] + yy[i] * y[i] + yz[i] * z[i];
-      w += xz[i] * x[i] + yz[i] * y[i] + zz[i] * z[i];
-    }
-    result.row(out) << u, v, w;
+    const auto xx = transposed_[0].col(out);
+    const auto xy = transposed_[1].col(out);
+    const auto xz = transposed_[2].col(out);
+    const auto yy = transposed_[3].col(out);
+    const auto yz = transposed_[4].col(out);
+    const auto zz = transposed_[5].col(out);
+    result(out, 0) = xx.dot(x) + xy.dot(y) + xz.dot(z);
+    result(out, 1) = xy.dot(x) + yy.dot(y) + yz.dot(z);
+    result(out, 2) = xz.dot(x) + yz.dot(y) + zz.dot(z);
   });
   return result;
 }
