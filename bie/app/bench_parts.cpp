@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "bie/app/bench_input.hpp"
 #include "bie/app/bench_progress.hpp"
 #include "bie/app/machine_peak.hpp"
 #include "bie/app/step_timer.hpp"
 #include "bie/app/summary.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -86,11 +86,8 @@ std::vector<BenchPanel> panels_of(const std::vector<std::string>& parts, const s
 }  // namespace
 
 BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats) {
-  if (!scene.numerics.dt) throw InputError("bench parts needs a scene with \"dt\" in [numerics]");
-  if (!std::is_sorted(orders.begin(), orders.end())) {
-    throw InputError(fmt::format("--orders: {} after a higher one; accepted: ascending", orders.back()));
-  }
-  scene.numerics.tolerance.reset();
+  scene = with_fixed_steps(std::move(scene), "parts");
+  require_ascending("--orders", orders);
   const MachineRecord machine = machine_record();
   const double peak = measured_peak(machine.threads);
   BenchResult result{"parts", machine, repeats, {}, {}, {}};

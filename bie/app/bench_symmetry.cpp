@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "bie/app/bench_input.hpp"
 #include "bie/app/bench_progress.hpp"
 #include "bie/app/state_difference.hpp"
 #include "bie/app/step_timer.hpp"
@@ -30,14 +29,11 @@ Scene with_symmetry(Scene scene, SymmetryUse use) {
 }  // namespace
 
 BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repeats) {
-  if (!scene.numerics.dt) throw InputError("bench symmetry needs a scene with \"dt\" in [numerics]");
-  if (!std::is_sorted(orders.begin(), orders.end())) {
-    throw InputError(fmt::format("--orders: {} after a higher one; accepted: ascending", orders.back()));
-  }
+  scene = with_fixed_steps(std::move(scene), "symmetry");
+  require_ascending("--orders", orders);
   if (!problem_of(with_symmetry(scene, SymmetryUse::automatic)).symmetry.any()) {
     throw InputError("bench symmetry needs a scene that has one");
   }
-  scene.numerics.tolerance.reset();
   BenchResult result{"symmetry", machine_record(), repeats, {}, {empty_table()}, {}};
   result.facts = {{"dt", *scene.numerics.dt},
                   {"difference_is", "of x and V_m after the same steps, over the largest coefficient"}};

@@ -6,11 +6,11 @@
 #include <memory>
 #include <thread>
 
+#include "bie/app/bench_input.hpp"
 #include "bie/app/bench_progress.hpp"
 #include "bie/app/state_difference.hpp"
 #include "bie/app/step_timer.hpp"
 #include "bie/app/thread_count.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -36,11 +36,8 @@ std::vector<int> thread_counts() {
 }
 
 BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repeats) {
-  if (!scene.numerics.dt) throw InputError("bench threads needs a scene with \"dt\" in [numerics]");
-  scene.numerics.tolerance.reset();
-  if (!std::is_sorted(counts.begin(), counts.end())) {
-    throw InputError(fmt::format("--threads: {} after a higher one; accepted: ascending", counts.back()));
-  }
+  scene = with_fixed_steps(std::move(scene), "threads");
+  require_ascending("--threads", counts);
   std::vector<std::unique_ptr<StepTimer>> timers;
   BenchProgress progress(static_cast<int>(counts.size()) * (repeats + 1));
   for (const int count : counts) {

@@ -106,11 +106,11 @@ Frame frame_along(const Vector3& direction) {
 }
 
 Frame find_frame(const Model& model, const State& state) {
-  const std::vector<Vector3> origins = origin_candidates(model, state);
+  const std::vector<Vector3> axes = axis_candidates(model, state);
   Frame best;
   double most = 0.0;
-  for (const Vector3& origin : origins) {
-    for (const Vector3& axis : axis_candidates(model, state)) {
+  for (const Vector3& origin : origin_candidates(model, state)) {
+    for (const Vector3& axis : axes) {
       Frame frame = frame_along(axis);
       frame.origin = origin;
       const Model there = in_frame(frame, model);
