@@ -27,6 +27,7 @@ std::string key_of(std::string part) {
 BenchTable empty_table(const std::vector<std::string>& parts) {
   BenchTable table{"rows", {{"order", "p"}}};
   for (const std::string& part : parts) table.columns.push_back({"seconds_" + key_of(part), part, "{:.2g}", true});
+  table.columns.push_back({"iterations_flow", "iterations", "{:.0f}", true});
   for (const std::string& part : parts) table.columns.push_back({"bytes_" + key_of(part), ""});
   for (const std::string& part : parts) table.columns.push_back({"peak_fraction_" + key_of(part), ""});
   table.columns.push_back({"peak_memory_bytes", ""});
@@ -137,6 +138,7 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
       if (curve.operations > 0.0) fraction_cells.back() = curve.operations / seconds.median / peak;
     }
     std::vector<BenchCell> row{std::int64_t{order}};
+    seconds_cells.emplace_back(spread_of(timer.iterations()));
     for (const auto* cells : {&seconds_cells, &byte_cells, &fraction_cells}) {
       row.insert(row.end(), cells->begin(), cells->end());
     }

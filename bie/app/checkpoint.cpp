@@ -16,7 +16,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t checkpoint_schema_version = 5;
+constexpr std::int64_t checkpoint_schema_version = 6;
 
 /// The members of a state with the names under which they are stored.
 template <typename StateType, typename Visitor>
@@ -32,6 +32,16 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("reference_area", state.reference_area);
   visit("reference_volume", state.reference_volume);
 }
+
+/// What velocity solves have learned, likewise.
+template <typename MemoryType, typename Visitor>
+void visit_memory(MemoryType& memory, Visitor&& visit) {
+  visit("tension", memory.tension);
+  visit("flow", memory.flow);
+}
+
+constexpr const char* arguments_of = "_arguments";
+constexpr const char* responses_of = "_responses";
 
 std::string totals_text(const RunTotals& totals) {
   const nlohmann::json json = {{"seconds", totals.seconds},
@@ -65,6 +75,11 @@ struct WriteVisitor {
   Hdf5Writer& file;
   void operator()(const char* name, const double& value) { file.attribute("/state", name, value); }
   void operator()(const char* name, const std::int64_t& value) { file.attribute("/state", name, value); }
+  void operator()(const char* name, const std::shared_ptr<const KnownResponses>& known) {
+    if (!known) return;
+    (*this)((std::string(name) + arguments_of).c_str(), known->arguments);
+    (*this)((std::string(name) + responses_of).c_str(), known->responses);
+  }
   template <typename Derived>
   void operator()(const char* name, const Eigen::PlainObjectBase<Derived>& values) {
     if (values.size() == 0) return;
@@ -79,6 +94,12 @@ struct ReadVisitor {
   const Hdf5Reader& file;
   void operator()(const char* name, double& value) { value = file.number_attribute("/state", name); }
   void operator()(const char* name, std::int64_t& value) { value = file.integer_attribute("/state", name); }
+  void operator()(const char* name, std::shared_ptr<const KnownResponses>& known) {
+    KnownResponses stored;
+    (*this)((std::string(name) + arguments_of).c_str(), stored.arguments);
+    (*this)((std::string(name) + responses_of).c_str(), stored.responses);
+    if (stored.count() > 0) known = std::make_shared<const KnownResponses>(std::move(stored));
+  }
   template <typename Derived>
   void operator()(const char* name, Eigen::PlainObjectBase<Derived>& values) {
     const std::string dataset = std::string("/state/") + name;
@@ -109,6 +130,14 @@ void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
     require((values->size() == 0 || values->size() == state.position.rows()) && values->allFinite(), "/state");
   }
   require(state.area_strain.allFinite(), "/state/area_strain");
+  visit_memory(state.flow_memory, [&](const char* name, const std::shared_ptr<const KnownResponses>& known) {
+    if (!known) return;
+    const Matrix& arguments = known->arguments;
+    const Matrix& responses = known->responses;
+    require(arguments.rows() == responses.rows() && arguments.cols() == responses.cols(), name);
+    require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= most_known_responses, name);
+    require(arguments.allFinite() && responses.allFinite(), name);
+  });
   for (const double value : {state.time, state.dt_next, state.reference_area, state.reference_volume}) {
     require(std::isfinite(value), "/state");
   }
@@ -124,6 +153,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.text("/totals", totals_text(checkpoint.totals));
   file.group("/state");
   visit_state(checkpoint.state, WriteVisitor{file});
+  visit_memory(checkpoint.state.flow_memory, WriteVisitor{file});
   replace_file(path, sealed(file.image()));
 }
 
@@ -138,6 +168,7 @@ Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
   checkpoint.scene = file.text("/scene");
   checkpoint.totals = totals_of(file.text("/totals"), file);
   visit_state(checkpoint.state, ReadVisitor{file});
+  visit_memory(checkpoint.state.flow_memory, ReadVisitor{file});
   require_sound(checkpoint, file);
   return checkpoint;
 }

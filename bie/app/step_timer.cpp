@@ -11,7 +11,8 @@
 namespace vehd {
 namespace {
 
-constexpr int kWarmUp = 3;
+/// The membrane charges, the grid settles, and the solves learn.
+constexpr int kWarmUp = 20;
 constexpr const char* kStep = "step";
 constexpr const char* kOther = "other";
 
@@ -43,6 +44,7 @@ void StepTimer::timed_step() {
   }
   seconds_[kOther].push_back(whole - in_parts);
   seconds_[kStep].push_back(whole);
+  iterations_.push_back(last_.iterations_flow);
 }
 
 void StepTimer::metered_step() {

@@ -13,7 +13,7 @@ namespace vehd {
 /// "other"; parts and other add up to it.
 class StepTimer {
  public:
-  /// Evaluates the start and takes the first steps, which charge the membrane and settle the grid, unmeasured.
+  /// Evaluates the start and takes the first steps unmeasured.
   /// @throws ConvergenceError
   explicit StepTimer(const Scene& scene);
 
@@ -25,6 +25,8 @@ class StepTimer {
   [[nodiscard]] std::vector<std::string> parts() const;
   /// Of each timed step.
   [[nodiscard]] const std::map<std::string, std::vector<double>>& seconds() const { return seconds_; }
+  /// Of the tension and of the velocity, of each timed step.
+  [[nodiscard]] const std::vector<double>& iterations() const { return iterations_; }
   /// See MemoryMeter.
   [[nodiscard]] const std::map<std::string, std::int64_t>& bytes() const { return meter_.peaks(); }
   /// Floating-point operations of parts in the last step: kernels and matrix products of the assembly, and in the
@@ -41,6 +43,7 @@ class StepTimer {
   Evolution evolution_;
   EvolutionStep last_;
   std::map<std::string, std::vector<double>> seconds_;
+  std::vector<double> iterations_;
 };
 
 }  // namespace vehd

@@ -10,6 +10,8 @@
 
 namespace vehd {
 
+int degree_of(Index index) { return static_cast<int>(std::sqrt(static_cast<double>(index))); }
+
 int order_of(Index count) {
   const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(count)))) - 1;
   if (order < 0 || n_coefficients(order) != count) {

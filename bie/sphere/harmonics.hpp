@@ -12,6 +12,9 @@ constexpr Index n_coefficients(int order) { return Index{order + 1} * (order + 1
 /// Position of (n, m), −n ≤ m ≤ n, in a coefficient vector: degree-major, so truncation keeps a prefix.
 constexpr Index coefficient_index(int n, int m) { return Index{n} * n + n + m; }
 
+/// Degree n of the harmonic at this position.
+int degree_of(Index index);
+
 /// Order p of a coefficient array with (p+1)² rows. @throws ShapeError if the count is no square
 int order_of(Index n_coefficients);
 

@@ -15,8 +15,14 @@ namespace vehd {
 namespace {
 
 constexpr int kMaxPasses = 24;
-/// Every pass starts from the full residual, so it needs no more digits than its linearisation is worth.
-constexpr double kPassTolerance = 1e-2;
+/// Every pass starts from the full residual, so it needs no more digits than its linearisation is worth, nor more than
+/// are left to gain.
+double pass_tolerance(double largest_excess) {
+  constexpr double kLinearisation = 1e-2;
+  constexpr double kRoughest = 0.3;
+  return std::clamp(kRoughest / largest_excess, kLinearisation, kRoughest);
+}
+
 /// Smaller changes of H, relative to H, are those of a shape at rest.
 constexpr double kCurvatureFloor = 1e-6;
 /// Largest relative change of an area element that a step may make before corrections.
@@ -119,7 +125,10 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
       weighted_strain[0] = area_error * state.reference_area / std::sqrt(4.0 * std::numbers::pi);
       rhs.divergence = -weighted_strain / dt - push * normal_divergence;
     }
-    const FlowSystem::Solution increment = flow.solve(rhs, {}, kPassTolerance);
+    const double excess =
+        std::max({std::abs(volume_error) / tolerance, std::abs(area_error) / tolerance,
+                  strain_error / settings.strain_tolerance, curvature_error / settings.curvature_tolerance});
+    const FlowSystem::Solution increment = flow.solve(rhs, {}, pass_tolerance(excess));
     move.iterations += increment.report.iterations;
     if (!increment.report.converged) {
       move.reason = fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",

@@ -30,6 +30,7 @@ Discretisation::Tables::Tables(const NumericalSettings& settings_, const Symmetr
       targets(transform_for(symmetry, settings, settings.order)),
       fine(transform_for(symmetry, settings, settings.upsampling * settings.order)),
       quadrature(make_rotated_quadrature(targets.grid(), settings.quadrature_oversampling)),
+      even_scalars(even_coefficients(symmetry, settings.order)),
       fold(symmetry.axisymmetric ? targets.grid().n_phi : symmetry.fold) {}
 
 Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry& symmetry)

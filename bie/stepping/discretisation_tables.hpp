@@ -12,7 +12,8 @@ struct Discretisation::Tables {
   SphereTransform targets;  ///< degree p ↔ grid of order p on the longitudes that the symmetry leaves
   SphereTransform fine;     ///< degree p ↔ upsampled grid, likewise
   RotatedQuadrature quadrature;
-  int fold;  ///< turns by 2π/fold about z take states and longitudes of targets to each other
+  std::vector<Index> even_scalars;  ///< even_coefficients of degree p
+  int fold;                         ///< turns by 2π/fold about z take states and longitudes of targets to each other
 
   Tables(const NumericalSettings& settings, const Symmetry& symmetry);
 };

@@ -43,8 +43,8 @@ Matrix solve_electric(const ElectricParameters& electric, const ChargingParamete
 }
 
 /// Velocity of the membrane under the forcing, with the tension that keeps it inextensible, Eq. (27b).
-Matrix solve_velocity(const Model& model, const NumericalSettings& settings, const Membrane& membrane,
-                      const Forcing& forcing, const Vector& tension, Evaluation& evaluation, bool& is_sphere) {
+Matrix solve_velocity(const Model& model, const Discretisation& discretisation, const Membrane& membrane,
+                      const Forcing& forcing, const State& state, Evaluation& evaluation, bool& is_sphere) {
   Matrix velocity = forcing.velocity;
   if (!membrane.layers.stokes_single.empty()) {
     velocity += membrane.layers.stokes_single.apply(membrane.weighted(forcing.force)) / model.viscosity;
@@ -54,9 +54,14 @@ Matrix solve_velocity(const Model& model, const NumericalSettings& settings, con
   const VelocityField driven = velocity_field(membrane, velocity, false);
   const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
   is_sphere = uniform_tension_is_free(model, membrane);
+  const FlowOptions options{is_sphere, {}, discretisation.tables().even_scalars};
+  const std::shared_ptr<const KnownResponses> known = state.flow_memory.tension;
+  FlowSystem system(model, membrane, 0.0, options, known ? *known : KnownResponses{});
   const FlowSystem::Solution solution =
-      FlowSystem(model, membrane, 0.0, {is_sphere}).solve(rhs, {{}, tension}, settings.flow_tolerance);
+      system.solve(rhs, {{}, state.tension}, discretisation.settings().flow_tolerance);
   require_converged(solution.report, "tension, Eq. (27b)");
+  evaluation.flow_memory.tension =
+      std::make_shared<const KnownResponses>(joined(system.learned(), system.kept(), most_known_responses));
   evaluation.iterations_flow = solution.report.iterations;
   velocity += solution.velocity;
   evaluation.fields.tension = solution.unknowns.tension;
@@ -89,6 +94,7 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
   const bool reuse = !model.mobile && previous != nullptr && (asleep || !previous->electric_asleep);
   Evaluation evaluation;
   evaluation.electric_asleep = asleep;
+  evaluation.flow_memory = state.flow_memory;
   std::shared_ptr<Evaluation::Parts> made;
   if (!reuse) {
     made = std::make_shared<Evaluation::Parts>(Evaluation::Parts{
@@ -121,7 +127,7 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
       fields.force_bending = membrane.fine.analyze(bending);
       forcing.force += bending;
     }
-    fields.velocity = solve_velocity(model, settings, membrane, forcing, state.tension, evaluation, made->is_sphere);
+    fields.velocity = solve_velocity(model, discretisation, membrane, forcing, state, evaluation, made->is_sphere);
     made->velocity = fields.velocity;
   }
   evaluation.diagnostics = diagnose(state, membrane, fields);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "bie/physics/bending.hpp"
@@ -35,31 +36,63 @@ Matrix membrane_velocity(const Model& model, const Membrane& membrane, const Mem
 
 bool uniform_tension_is_free(const Model& model, const Membrane& membrane) {
   if (!model.inextensible) return false;
-  MembraneUnknowns uniform;
-  uniform.tension = Vector::Unit(n_coefficients(membrane.fine.order()), 0);
-  const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, uniform), false);
-  const double response = weighted_divergence(membrane, u.derivatives)[0];
-  const double typical =
-      sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0, model.viscosity_ratio}, 2)(1, 1);
-  // The response grows with the square of the distance from a sphere: this is a distance of 1e-5 radii.
-  constexpr double kNoResponse = 1e-10;
-  return std::abs(response) < kNoResponse * std::abs(typical);
+  // The response to a uniform tension grows with the square of the distance from a sphere: 1e-10 of any other at this.
+  constexpr double kSphere = 1e-5;
+  const Surface& surface = membrane.surface;
+  const Eigen::RowVector3d centre = surface.quadrature.transpose() * surface.position / surface.quadrature.sum();
+  const Vector radius = (surface.position.rowwise() - centre).rowwise().norm();
+  return radius.maxCoeff() - radius.minCoeff() < kSphere * membrane.radius;
 }
 
 namespace {
 
-/// Which unknowns there are.
-struct Layout {
-  Index n = 0;  ///< coefficients of a scalar
-  bool bending = false;
-  bool tension = false;
-  [[nodiscard]] Index n_curvature() const { return bending ? n : 0; }
-  [[nodiscard]] Index n_tension() const { return tension ? n : 0; }
-  [[nodiscard]] Index size() const { return n_curvature() + n_tension(); }
-};
+FlowLayout layout_of(const Model& model, const Membrane& membrane, double dt, const FlowOptions& options) {
+  FlowLayout layout{n_coefficients(membrane.fine.order()), options.entries, dt > 0.0 && model.bending.has_value(),
+                    model.inextensible};
+  if (layout.entries.empty()) {
+    layout.entries.resize(static_cast<std::size_t>(layout.n_all));
+    std::iota(layout.entries.begin(), layout.entries.end(), Index{0});
+  }
+  return layout;
+}
 
-Layout layout_of(const Model& model, const Membrane& membrane, double dt) {
-  return {n_coefficients(membrane.fine.order()), dt > 0.0 && model.bending.has_value(), model.inextensible};
+/// All coefficients of the scalars, of which v holds those that can differ from zero.
+MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
+  const auto all = [&](const auto& entries) {
+    Vector scalar = Vector::Zero(layout.n_all);
+    scalar(layout.entries) = entries;
+    return scalar;
+  };
+  MembraneUnknowns unknowns;
+  if (layout.bending) unknowns.curvature = all(v.head(layout.n()));
+  if (layout.tension) unknowns.tension = all(v.tail(layout.n()));
+  return unknowns;
+}
+
+/// The other way; scalars that are empty count as zero.
+Vector entries_of(const FlowLayout& layout, const Vector& curvature, const Vector& divergence_or_tension) {
+  Vector v = Vector::Zero(layout.size());
+  if (layout.bending && curvature.size() > 0) v.head(layout.n()) = curvature(layout.entries);
+  if (layout.tension && divergence_or_tension.size() > 0) v.tail(layout.n()) = divergence_or_tension(layout.entries);
+  return v;
+}
+
+/// Responses (Hop(u), J ∇_γ·u) of FlowMemory as those of the system, (h − dt Hop(u), J ∇_γ·u).
+Matrix responses_in_system(const FlowLayout& layout, const KnownResponses& known, double dt) {
+  Matrix responses = known.responses;
+  if (!layout.bending || known.count() == 0) return responses;
+  auto curvature = responses.topRows(layout.n());
+  curvature = known.arguments.topRows(layout.n()) - dt * curvature;
+  return responses;
+}
+
+/// The other way.
+Matrix responses_in_memory(const FlowLayout& layout, const KnownResponses& learned, double dt) {
+  Matrix responses = learned.responses;
+  if (!layout.bending || learned.count() == 0) return responses;
+  auto curvature = responses.topRows(layout.n());
+  curvature = (learned.arguments.topRows(layout.n()) - curvature) / dt;
+  return responses;
 }
 
 /// Stand-in for the response of the area to a uniform tension, which vanishes on a sphere.
@@ -68,29 +101,28 @@ double mean_response(const Model& model, const Membrane& membrane) {
 }
 
 /// (h, λ) ↦ the left sides of FlowRightHandSide and, behind them, the velocity.
-LinearMap flow_map(const Model& model, const Membrane& membrane, double dt, const FlowOptions& options) {
-  const Layout layout = layout_of(model, membrane, dt);
+LinearMap flow_map(const Model& model, const Membrane& membrane, double dt, const FlowLayout& layout,
+                   const FlowOptions& options) {
   return [=, &model, &membrane](const Vector& v) {
-    const MembraneUnknowns unknowns{v.head(layout.n_curvature()), v.tail(layout.n_tension())};
+    const MembraneUnknowns unknowns = unknowns_of(layout, v);
     const VelocityField u =
         velocity_field(membrane, membrane_velocity(model, membrane, unknowns, options.held_tension), layout.bending);
-    Vector result(layout.size() + u.coefficients.size());
-    if (layout.bending) {
-      result.head(layout.n) = unknowns.curvature - dt * curvature_increment(membrane, u.derivatives);
-    }
+    Vector curvature;
+    Vector divergence;
+    if (layout.bending) curvature = unknowns.curvature - dt * curvature_increment(membrane, u.derivatives);
     if (layout.tension) {
-      result.segment(layout.n_curvature(), layout.n) = weighted_divergence(membrane, u.derivatives);
-      if (options.pin_uniform_tension) {
-        result[layout.n_curvature()] = mean_response(model, membrane) * unknowns.tension[0];
-      }
+      divergence = weighted_divergence(membrane, u.derivatives);
+      if (options.pin_uniform_tension) divergence[0] = mean_response(model, membrane) * unknowns.tension[0];
     }
+    Vector result(layout.size() + u.coefficients.size());
+    result.head(layout.size()) = entries_of(layout, curvature, divergence);
     result.tail(u.coefficients.size()) = u.coefficients.reshaped();
     return result;
   };
 }
 
-LinearMap sphere_inverse(const Model& model, const Membrane& membrane, double dt, const FlowOptions& options) {
-  const Layout layout = layout_of(model, membrane, dt);
+LinearMap sphere_inverse(const Model& model, const Membrane& membrane, double dt, const FlowLayout& layout,
+                         const FlowOptions& options) {
   const Vector& area = membrane.surface.quadrature;
   const double mean_tension = options.held_tension.size() > 0 ? options.held_tension.dot(area) / area.sum() : 0.0;
   const SphereFlow sphere{membrane.radius,       model.viscosity, layout.bending ? model.bending->modulus : 0.0, dt,
@@ -105,14 +137,13 @@ LinearMap sphere_inverse(const Model& model, const Membrane& membrane, double dt
   }
   return [=](const Vector& r) {
     Vector result(layout.size());
-    for (int degree = 0; degree < static_cast<int>(inverse.size()); ++degree) {
-      const Eigen::Matrix2d& m = inverse[degree];
-      for (Index i = coefficient_index(degree, -degree); i <= coefficient_index(degree, degree); ++i) {
-        const double curvature = layout.bending ? r[i] : 0.0;
-        const double divergence = layout.tension ? r[layout.n_curvature() + i] : 0.0;
-        if (layout.bending) result[i] = m(0, 0) * curvature + m(0, 1) * divergence;
-        if (layout.tension) result[layout.n_curvature() + i] = m(1, 0) * curvature + m(1, 1) * divergence;
-      }
+    for (Index i = 0; i < layout.n(); ++i) {
+      const Index behind = layout.n_curvature() + i;
+      const Eigen::Matrix2d& m = inverse[static_cast<std::size_t>(degree_of(layout.entries[i]))];
+      const double curvature = layout.bending ? r[i] : 0.0;
+      const double divergence = layout.tension ? r[behind] : 0.0;
+      if (layout.bending) result[i] = m(0, 0) * curvature + m(0, 1) * divergence;
+      if (layout.tension) result[behind] = m(1, 0) * curvature + m(1, 1) * divergence;
     }
     return result;
   };
@@ -120,26 +151,32 @@ LinearMap sphere_inverse(const Model& model, const Membrane& membrane, double dt
 
 }  // namespace
 
-FlowSystem::FlowSystem(const Model& model, const Membrane& membrane, double dt, FlowOptions options)
-    : n_(layout_of(model, membrane, dt).n),
-      n_curvature_(layout_of(model, membrane, dt).n_curvature()),
-      n_tension_(layout_of(model, membrane, dt).n_tension()),
-      pinned_(n_tension_ > 0 && options.pin_uniform_tension),
-      solver_(flow_map(model, membrane, dt, options), sphere_inverse(model, membrane, dt, options),
-              n_curvature_ + n_tension_, 3 * n_) {}
+FlowSystem::FlowSystem(const Model& model, const Membrane& membrane, double dt, const FlowOptions& options,
+                       KnownResponses known)
+    : layout_(layout_of(model, membrane, dt, options)),
+      dt_(dt),
+      pinned_(layout_.tension && options.pin_uniform_tension),
+      // A pinned system is another operator, and cut to another degree responses are no longer those of their
+      // arguments.
+      known_(pinned_ || known.arguments.rows() != layout_.size() ? KnownResponses{} : std::move(known)),
+      solver_(flow_map(model, membrane, dt, layout_, options), sphere_inverse(model, membrane, dt, layout_, options),
+              layout_.size(), 3 * layout_.n_all, {known_.arguments, responses_in_system(layout_, known_, dt)}) {}
 
 FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance) {
   constexpr int kMaxIterations = 120;
-  Vector b(n_curvature_ + n_tension_);
-  Vector x = Vector::Zero(b.size());
-  if (n_curvature_ > 0) b.head(n_) = rhs.curvature;
-  if (n_tension_ > 0) b.tail(n_) = rhs.divergence;
-  if (pinned_) b[n_curvature_] = 0.0;
-  if (n_curvature_ > 0 && start.curvature.size() == n_) x.head(n_) = start.curvature;
-  if (n_tension_ > 0 && start.tension.size() == n_) x.tail(n_) = start.tension;
+  Vector b = entries_of(layout_, rhs.curvature, rhs.divergence);
+  if (pinned_) b[layout_.n_curvature()] = 0.0;
+  const Vector x = entries_of(layout_, start.curvature, start.tension);
   RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, kMaxIterations});
-  return {
-      solution.report, {solution.x.head(n_curvature_), solution.x.tail(n_tension_)}, solution.further.reshaped(n_, 3)};
+  return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_all, 3)};
 }
+
+KnownResponses FlowSystem::learned() const {
+  KnownResponses result = pinned_ ? KnownResponses{} : solver_.learned();
+  result.responses = responses_in_memory(layout_, result, dt_);
+  return result;
+}
+
+KnownResponses FlowSystem::kept() const { return selected(known_, solver_.kept()); }
 
 }  // namespace vehd

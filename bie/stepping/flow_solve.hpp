@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/physics/membrane.hpp"
 #include "bie/stepping/model.hpp"
@@ -39,6 +41,21 @@ struct FlowOptions {
   /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
   bool pin_uniform_tension = false;
   Vector held_tension{};  ///< see membrane_velocity
+  /// Coefficients of h and λ that can differ from zero, ascending; empty: all.
+  std::vector<Index> entries{};
+};
+
+/// Which scalars are unknown, and with which coefficients.
+struct FlowLayout {
+  Index n_all = 0;             ///< coefficients of degree p
+  std::vector<Index> entries;  ///< those that can differ from zero
+  bool bending = false;
+  bool tension = false;
+
+  [[nodiscard]] Index n() const { return static_cast<Index>(entries.size()); }
+  [[nodiscard]] Index n_curvature() const { return bending ? n() : 0; }
+  [[nodiscard]] Index n_tension() const { return tension ? n() : 0; }
+  [[nodiscard]] Index size() const { return n_curvature() + n_tension(); }
 };
 
 /// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and
@@ -47,11 +64,14 @@ bool uniform_tension_is_free(const Model& model, const Membrane& membrane);
 
 /// The semi-implicit system (27) with (28) for the increments (h, λ) on one frozen membrane, preconditioned with its
 /// exact inverse on the sphere of the same area for the actual κ_B, both viscosities and dt. dt = 0 leaves the tension
-/// problem alone. What one solve learns of the operator serves the next.
+/// problem alone. What one solve learns of the operator serves the next, and so does what solves on other membranes and
+/// for other dt have learned.
 class FlowSystem {
  public:
   /// @param model, membrane  must outlive the system
-  FlowSystem(const Model& model, const Membrane& membrane, double dt, FlowOptions options = {});
+  /// @param known            of FlowMemory, of the tension for dt = 0; forgotten if it is of another degree
+  FlowSystem(const Model& model, const Membrane& membrane, double dt, const FlowOptions& options = {},
+             KnownResponses known = {});
 
   struct Solution {
     SolveReport report;
@@ -62,11 +82,16 @@ class FlowSystem {
   /// @param tolerance  of the preconditioned residual, relative to the preconditioned right-hand side
   Solution solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance);
 
+  /// What its own solves have learned, in the form of FlowMemory.
+  [[nodiscard]] KnownResponses learned() const;
+  /// Of what was known before, what it has kept.
+  [[nodiscard]] KnownResponses kept() const;
+
  private:
-  Index n_ = 0;  // coefficients of a scalar
-  Index n_curvature_ = 0;
-  Index n_tension_ = 0;
+  FlowLayout layout_;
+  double dt_;
   bool pinned_;
+  KnownResponses known_;
   RecycledGcr solver_;
 };
 

@@ -91,22 +91,36 @@ void forget_decayed(const StageContext& context, Stage& stage) {
 
 }  // namespace
 
-FlowSystems::FlowSystems(const Model& model, const Membrane& membrane, Vector held_tension)
-    : model_(model), membrane_(membrane), held_tension_(std::move(held_tension)) {}
+FlowSystems::FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options,
+                         std::shared_ptr<const KnownResponses> known)
+    : model_(model), membrane_(membrane), options_(std::move(options)), known_(std::move(known)) {}
 
 FlowSystem& FlowSystems::of(double dt) {
-  const auto known = systems_.find(dt);
-  if (known != systems_.end()) return known->second;
-  return systems_.emplace(dt, FlowSystem(model_, membrane_, dt, {false, held_tension_})).first->second;
+  for (auto& [size, system] : systems_) {
+    if (size == dt) return system;
+  }
+  const std::shared_ptr<const KnownResponses> so_far = known();
+  FlowSystem system(model_, membrane_, dt, options_, so_far ? *so_far : KnownResponses{});
+  return systems_.emplace_back(dt, std::move(system)).second;
+}
+
+std::shared_ptr<const KnownResponses> FlowSystems::known() const {
+  if (systems_.empty()) return known_;
+  KnownResponses all = systems_.front().second.kept();
+  for (const auto& [size, system] : systems_) all = joined(system.learned(), all, most_known_responses);
+  return std::make_shared<const KnownResponses>(std::move(all));
 }
 
 FlowSystems flow_systems(const Model& model, const Discretisation& discretisation, const Evaluation& evaluation) {
   const Membrane& membrane = evaluation.parts->membrane;
-  // The first-order scheme is the paper's and holds none.
-  const bool holds = discretisation.settings().time_order > 1 && model.inextensible && model.mobile;
-  // A compression would soften the implicit response.
-  return {model, membrane,
-          holds ? Vector(membrane.fine.synthesize(evaluation.fields.tension).col(0).cwiseMax(0.0)) : Vector()};
+  FlowOptions options;
+  options.entries = discretisation.tables().even_scalars;
+  // The first-order scheme is the paper's and holds no tension.
+  if (discretisation.settings().time_order > 1 && model.inextensible && model.mobile) {
+    // A compression would soften the implicit response.
+    options.held_tension = membrane.fine.synthesize(evaluation.fields.tension).col(0).cwiseMax(0.0);
+  }
+  return {model, membrane, options, evaluation.flow_memory.flow};
 }
 
 Stage first_order_stage(const StageContext& context, double dt, StageEnd end) {
@@ -166,12 +180,15 @@ Stage corrected_stage(const StageContext& context, const Stage& stage, const Sta
 
 State arrived_state(const StageContext& context, const Stage& stage) {
   State state = unpacked(context, stage.move.landed, stage.time);
+  state.flow_memory = {context.evaluation.flow_memory.tension, context.flow.known()};
   state.step = context.state.step + 1;
   return state;
 }
 
 State stage_state(const StageContext& context, const Stage& stage) {
-  return unpacked(context, packed(context.model, stage.move, stage.potential), stage.time);
+  State state = unpacked(context, packed(context.model, stage.move, stage.potential), stage.time);
+  state.flow_memory = context.evaluation.flow_memory;
+  return state;
 }
 
 }  // namespace vehd

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bie/stepping/constrained_move.hpp"
 
@@ -10,15 +12,19 @@ namespace vehd {
 /// The linearised systems of one step, one for each implicit size; sweeps return to the same sizes.
 class FlowSystems {
  public:
-  /// @param held_tension  see membrane_velocity
-  FlowSystems(const Model& model, const Membrane& membrane, Vector held_tension);
+  /// @param known  of FlowMemory
+  FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options,
+              std::shared_ptr<const KnownResponses> known);
   [[nodiscard]] FlowSystem& of(double dt);
+  /// What was known and what has been learned, for the next step.
+  [[nodiscard]] std::shared_ptr<const KnownResponses> known() const;
 
  private:
   const Model& model_;
   const Membrane& membrane_;
-  Vector held_tension_;
-  std::map<double, FlowSystem> systems_;
+  FlowOptions options_;
+  std::shared_ptr<const KnownResponses> known_;
+  std::vector<std::pair<double, FlowSystem>> systems_;  // in the order in which they were asked for
 };
 
 /// One frozen evaluation from which stages start.

@@ -1,10 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
-#include "bie/support/types.hpp"
+#include "bie/linear/known_responses.hpp"
 
 namespace vehd {
+
+/// What velocity solves have learned of their operators, in the coefficients that the symmetry leaves; nothing known:
+/// null. Directions that served one step serve the next, whose operators are nearly the same.
+struct FlowMemory {
+  std::shared_ptr<const KnownResponses> tension;  ///< λ ↦ J ∇_γ·u
+  std::shared_ptr<const KnownResponses> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowRightHandSide
+};
+
+/// Columns of each kind that a state carries at most.
+constexpr Index most_known_responses = 128;
 
 /// Everything that one step hands to the next; a checkpoint stores exactly these values.
 /// Fields are spherical-harmonic coefficients of degree p, index n² + n + m (docs/conventions.md).
@@ -19,6 +30,7 @@ struct State {
   Vector area_strain;                 ///< W/W_ref − 1 of the material at each node
   double reference_area = 0.0;        ///< area and volume that the constraint holds
   double reference_volume = 0.0;
+  FlowMemory flow_memory;
 };
 
 }  // namespace vehd

@@ -22,7 +22,8 @@ struct Evaluation {
   bool electric_asleep = false;  ///< see electric_sleeps
   /// The layers are less exact than NumericalSettings::quadrature_tolerance, and finer quadrature would help.
   bool quadrature_is_coarse = false;
-  Vector potential_rate;  ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
+  FlowMemory flow_memory;  ///< that of the state with what the tension solve has learned
+  Vector potential_rate;   ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
   struct Parts;
   std::shared_ptr<const Parts> parts;  ///< surface and operators, for the step alone
 };

@@ -14,17 +14,26 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-/// Mean of a scalar field and its images, sign · f(g s): an image changes coefficients in sign only, and those that
+std::vector<int> even_signs(const Symmetry& symmetry) { return std::vector<int>(symmetry.reflections.size(), 1); }
+
+/// Coefficients of scalar fields with f = sign · f(g s): an image changes coefficients in sign only, and those that
 /// change under one image of the group change under half of them.
-Vector symmetric_scalar(const Symmetry& symmetry, const std::vector<int>& signs, const Vector& field) {
-  Vector result = Vector::Zero(field.size());
-  for (int n = 0; n <= order_of(field.size()); ++n) {
+std::vector<Index> kept_coefficients(const Symmetry& symmetry, const std::vector<int>& signs, int order) {
+  std::vector<Index> result;
+  for (int n = 0; n <= order; ++n) {
     for (int m = -n; m <= n; ++m) {
       bool kept = symmetry.axisymmetric ? m == 0 : m % symmetry.fold == 0;
       for (std::size_t g = 0; g < signs.size(); ++g) kept = kept && signs[g] * symmetry.reflections[g].parity(n, m) > 0;
-      if (kept) result[coefficient_index(n, m)] = field[coefficient_index(n, m)];
+      if (kept) result.push_back(coefficient_index(n, m));
     }
   }
+  return result;
+}
+
+/// Mean of a scalar field and its images, sign · f(g s).
+Vector symmetric_scalar(const Symmetry& symmetry, const std::vector<int>& signs, const Vector& field) {
+  Vector result = Vector::Zero(field.size());
+  for (const Index i : kept_coefficients(symmetry, signs, order_of(field.size()))) result[i] = field[i];
   return result;
 }
 
@@ -134,9 +143,13 @@ int Symmetry::group_order() const {
   return fold * static_cast<int>(reflections.size()) / (turned_twice ? 2 : 1);
 }
 
+std::vector<Index> even_coefficients(const Symmetry& symmetry, int order) {
+  return kept_coefficients(symmetry, even_signs(symmetry), order);
+}
+
 State symmetric_part(const Symmetry& symmetry, State state) {
   if (!symmetry.any()) return state;
-  const std::vector<int> even(symmetry.reflections.size(), 1);
+  const std::vector<int> even = even_signs(symmetry);
   state.position = symmetric_vector(symmetry, state.position);
   state.area_strain = symmetric_scalar(symmetry, even, state.area_strain);
   if (state.tension.size() > 0) state.tension = symmetric_scalar(symmetry, even, state.tension);

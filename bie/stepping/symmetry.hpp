@@ -35,6 +35,9 @@ Symmetry find_symmetry(const Model& model, const State& state);
 /// @param axes  their names; the third carries the poles
 std::string symmetry_text(const Symmetry& symmetry, const std::array<std::string, 3>& axes = {"x", "y", "z"});
 
+/// Which coefficients of a scalar that is its own image, as H and λ are, can differ from zero; ascending.
+std::vector<Index> even_coefficients(const Symmetry& symmetry, int order);
+
 /// The symmetric part of a state. Rounding breaks a symmetry and an instability would feed on that.
 State symmetric_part(const Symmetry& symmetry, State state);
 

@@ -19,6 +19,8 @@ vehd::Checkpoint sample() {
   checkpoint.state.tension = vehd::Vector::Random(25);
   checkpoint.state.area_strain = vehd::Vector::Random(25);
   checkpoint.state.reference_area = 12.0;
+  checkpoint.state.flow_memory.flow = std::make_shared<const vehd::KnownResponses>(
+      vehd::KnownResponses{vehd::Matrix::Random(50, 3), vehd::Matrix::Random(50, 3)});
   checkpoint.n_rows = 8;
   checkpoint.history_bytes = 1234;
   checkpoint.n_snapshots = 3;
@@ -44,6 +46,9 @@ BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   BOOST_TEST((read.state.tension == written.state.tension));
   BOOST_TEST((read.state.area_strain == written.state.area_strain));
   BOOST_TEST(read.state.transmembrane_potential.size() == 0);
+  BOOST_TEST((read.state.flow_memory.flow->arguments == written.state.flow_memory.flow->arguments));
+  BOOST_TEST((read.state.flow_memory.flow->responses == written.state.flow_memory.flow->responses));
+  BOOST_TEST(!read.state.flow_memory.tension);
   BOOST_TEST(read.state.reference_area == written.state.reference_area);
   BOOST_TEST(read.n_rows == written.n_rows);
   BOOST_TEST(read.history_bytes == written.history_bytes);

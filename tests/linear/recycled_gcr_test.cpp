@@ -64,6 +64,36 @@ BOOST_AUTO_TEST_CASE(start_counts_and_the_tolerance_stays_that_of_the_right_hand
   BOOST_TEST((solution.x - start).norm() == 0.0);
 }
 
+BOOST_AUTO_TEST_CASE(what_was_learned_of_a_similar_operator_saves_iterations_and_changes_no_solution) {
+  const Matrix former = test_matrix(kSize);
+  Matrix matrix = former;
+  matrix.diagonal(2).setConstant(1e-3);
+  const Vector rhs = right_hand_side(kSize, 0.0);
+  RecycledGcr teacher(map_of(former), identity, kSize);
+  teacher.solve(rhs, {}, {1e-10, 60});
+  const KnownResponses learned = teacher.learned();
+  BOOST_TEST((former * learned.arguments - learned.responses).norm() < 1e-12 * learned.responses.norm());
+  const int cold = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-8, 60}).report.iterations;
+  const RecycledGcr::Solution solution =
+      RecycledGcr(map_of(matrix), identity, kSize, 0, learned).solve(rhs, {}, {1e-8, 60});
+  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(3 * solution.report.iterations < cold);
+  BOOST_TEST((matrix * solution.x - rhs).norm() <= 1.1e-8 * rhs.norm());
+}
+
+BOOST_AUTO_TEST_CASE(misleading_knowledge_costs_at_most_twice_the_iterations) {
+  const Matrix matrix = test_matrix(kSize);
+  const Matrix arguments = Matrix::Identity(kSize, 20);
+  // Of an operator that turns arguments round and mixes them.
+  const KnownResponses wrong{arguments, -test_matrix(kSize).transpose() * arguments.rowwise().reverse()};
+  const Vector rhs = right_hand_side(kSize, 0.0);
+  const int cold = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-8, 60}).report.iterations;
+  const RecycledGcr::Solution solution =
+      RecycledGcr(map_of(matrix), identity, kSize, 0, wrong).solve(rhs, {}, {1e-8, 120});
+  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.report.iterations <= 2 * cold);
+}
+
 BOOST_AUTO_TEST_CASE(further_entries_belong_to_the_solution) {
   const Matrix matrix = test_matrix(kSize);
   const Matrix other = Matrix::Random(4, kSize);

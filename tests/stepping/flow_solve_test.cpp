@@ -134,6 +134,58 @@ BOOST_AUTO_TEST_CASE(a_rough_solve_takes_few_iterations_at_every_degree_and_stif
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_is_known_serves_another_shape_and_another_step) {
+  const Model model = stiff_model();
+  const Space space(kOrder);
+  const Matrix shape = asymmetric_shape(kOrder);
+  const Membrane former = make_membrane(space, shape, kStokesLayer);
+  const Membrane membrane = make_membrane(space, 1.001 * shape, kStokesLayer);
+  FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 133), smooth_coefficients(kOrder, 6, 1, 134)};
+  FlowSystem system(model, former, kDt);
+  system.solve(rhs, {}, 1e-9);
+  rhs.curvature += 1e-3 * smooth_coefficients(kOrder, 6, 1, 135);
+  for (const double dt : {0.8 * kDt, kDt, 1.25 * kDt}) {
+    const FlowSystem::Solution cold = FlowSystem(model, membrane, dt).solve(rhs, {}, 1e-5);
+    const FlowSystem::Solution warm = FlowSystem(model, membrane, dt, {}, system.learned()).solve(rhs, {}, 1e-5);
+    BOOST_TEST_CONTEXT("dt " << dt) {
+      BOOST_TEST(3 * warm.report.iterations < 2 * cold.report.iterations);
+      BOOST_TEST(max_difference(warm.unknowns.curvature, cold.unknowns.curvature) <
+                 1e-3 * cold.unknowns.curvature.norm());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_known_of_another_degree_is_forgotten) {
+  const Model model = stiff_model();
+  const Space space(kOrder), other(kOrder + 2);
+  const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
+  FlowSystem system(model, membrane, kDt);
+  system.solve({smooth_coefficients(kOrder, 6, 1, 136), smooth_coefficients(kOrder, 6, 1, 137)}, {}, 1e-3);
+  const Membrane finer = make_membrane(other, asymmetric_shape(kOrder + 2), kStokesLayer);
+  BOOST_TEST(FlowSystem(model, membrane, kDt, {}, system.learned()).kept().count() > 0);
+  BOOST_TEST(FlowSystem(model, finer, kDt, {}, system.learned()).kept().count() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_learned_is_the_response_of_the_membrane) {
+  const Model model = stiff_model();
+  const Space space(kOrder);
+  const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
+  FlowSystem system(model, membrane, kDt);
+  system.solve({smooth_coefficients(kOrder, 6, 1, 141), smooth_coefficients(kOrder, 6, 1, 142)}, {}, 1e-3);
+  const KnownResponses learned = system.learned();
+  const Index n = learned.arguments.rows() / 2;
+  BOOST_TEST_REQUIRE(learned.count() > 2);
+  for (Index j = 0; j < learned.count(); ++j) {
+    const MembraneUnknowns unknowns{learned.arguments.col(j).head(n), learned.arguments.col(j).tail(n)};
+    const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, unknowns), true);
+    const Vector divergence = weighted_divergence(membrane, u.derivatives);
+    const Vector curvature = curvature_increment(membrane, u.derivatives);
+    const Matrix& responses = learned.responses;
+    BOOST_TEST(max_difference(responses.col(j).head(n), curvature) < 1e-9 * curvature.norm());
+    BOOST_TEST(max_difference(responses.col(j).tail(n), divergence) < 1e-9 * divergence.norm());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(velocity_of_a_solution_is_that_of_its_unknowns) {
   const Model model = stiff_model();
   const Space space(kOrder);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 
 #include "bie/sphere/harmonics.hpp"
@@ -52,6 +53,23 @@ BOOST_AUTO_TEST_CASE(prolate_in_a_field_along_its_axis_is_axisymmetric) {
   BOOST_TEST(found.axisymmetric);
   BOOST_TEST(found.reflections.size() == 8);
   BOOST_TEST(symmetry_text(found) == "axisymmetric about z, mirror z");
+}
+
+BOOST_AUTO_TEST_CASE(even_coefficients_are_those_of_symmetric_scalars) {
+  const auto has = [](const std::vector<Index>& entries, int n, int m) {
+    return std::binary_search(entries.begin(), entries.end(), coefficient_index(n, m));
+  };
+  Symmetry axis;
+  axis.axisymmetric = true;
+  const std::vector<Index> zonal = even_coefficients(axis, kOrder);
+  BOOST_TEST(zonal.size() == kOrder + 1);
+  BOOST_TEST((has(zonal, 3, 0) && !has(zonal, 3, 1)));
+  BOOST_TEST(even_coefficients({}, kOrder).size() == static_cast<std::size_t>(n_coefficients(kOrder)));
+  Symmetry mirror;
+  mirror.reflections.push_back({1, 1, -1});
+  mirror.potential_signs.push_back(-1);
+  const std::vector<Index> even = even_coefficients(mirror, kOrder);
+  BOOST_TEST((has(even, 2, 0) && has(even, 3, 1) && !has(even, 1, 0) && !has(even, 3, 2)));
 }
 
 BOOST_AUTO_TEST_CASE(ellipsoid_in_shear_has_a_mirror_a_half_turn_and_the_inversion) {
