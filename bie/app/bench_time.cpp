@@ -39,6 +39,7 @@ struct TimedRun {
   std::vector<double> seconds{};
   std::int64_t n_steps = 0;
   int highest_order = 0;
+  double raw_drift = 0.0;  ///< Σ |raw_area| per unit time
 };
 
 void run_once(const Scene& scene, double end_time, TimedRun& run) {
@@ -49,9 +50,11 @@ void run_once(const Scene& scene, double end_time, TimedRun& run) {
   Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
   evolution.evaluate_start();
   run.highest_order = evolution.order();
+  double raw_area = 0.0;
   while (evolution.state().time < end_time) {
     const EvolutionStep step = evolution.step({std::nullopt, end_time});
     run.highest_order = std::max(run.highest_order, evolution.order());
+    raw_area += std::abs(step.raw_area);
     const Diagnostics& now = evolution.evaluation().diagnostics;
     progress.update({evolution.state().step, evolution.state().time, step.dt,
                      std::max(std::abs(now.area_drift), std::abs(now.volume_drift))});
@@ -61,6 +64,7 @@ void run_once(const Scene& scene, double end_time, TimedRun& run) {
   const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
   run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields);
   run.n_steps = state.step;
+  run.raw_drift = raw_area / end_time;
   run.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -106,7 +110,8 @@ BenchTable empty_table() {
                     {"steps", "steps"},
                     {"order", "degree"},
                     {"error", "error", "{:.1e}"},
-                    {"error_over_tolerance", "error/tolerance", "{:.2f}"}}};
+                    {"error_over_tolerance", "error/tolerance", "{:.2f}"},
+                    {"raw_drift", "raw drift", "{:.1e}"}}};
   for (const Quantity& quantity : kQuantities) table.columns.push_back({std::string("error_") + quantity.name, ""});
   for (const Quantity& quantity : kQuantities) table.columns.push_back({quantity.name, ""});
   return table;
@@ -134,7 +139,8 @@ std::vector<BenchCell> row_of(const TimedRun& run, const TimedRun& reference) {
                              run.n_steps,
                              std::int64_t{run.highest_order},
                              error,
-                             over_tolerance};
+                             over_tolerance,
+                             run.raw_drift};
   row.insert(row.end(), errors.begin(), errors.end());
   for (const Quantity& quantity : kQuantities) row.emplace_back(run.diagnostics.*quantity.member);
   return row;

@@ -42,7 +42,8 @@ constexpr std::array diagnostic_columns = {
 std::string header() {
   std::string line = "time,dt";
   for (const DiagnosticColumn& column : diagnostic_columns) line += fmt::format(",{}", column.name);
-  return line + ",iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation\n";
+  return line +
+         ",iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation,raw_area\n";
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
@@ -108,9 +109,9 @@ void HistoryFile::append(const HistoryRow& row) {
     line += fmt::format(",{:.17g}", row.diagnostics.*column.member);
   }
   const EvolutionStep& step = row.step;
-  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", step.iterations_flow,
+  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", step.iterations_flow,
                            step.iterations_electric, step.rejected, row.order, row.truncation, step.change,
-                           row.diagnostics.quadrature_error, row.diagnostics.separation));
+                           row.diagnostics.quadrature_error, row.diagnostics.separation, step.raw_area));
 }
 
 void HistoryFile::write(const std::string& text) {

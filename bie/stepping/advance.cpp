@@ -45,6 +45,7 @@ Advance advance(const Model& model, const Discretisation& discretisation, const 
       result.state = attempt.state;
       result.dt = dt;
       result.change = attempt.change;
+      result.raw_area = attempt.raw_area;
       if (control.tolerance > 0.0) {
         // A step cut short by an appointment says little against the size that was wanted before.
         result.state.dt_next = std::max(dt * factor, factor > 1.0 ? wanted : 0.0);

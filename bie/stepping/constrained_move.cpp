@@ -89,6 +89,7 @@ ConstrainedMove constrained_move(const Model& model, const Discretisation& discr
     Vector weighted_strain = membrane.weighted(strain);
     double volume_error = (after.volume + landing_volume) / state.reference_volume - 1.0;
     double area_error = model.inextensible ? (after.area + landing_area) / state.reference_area - 1.0 : 0.0;
+    if (pass == 0) move.raw_area = area_error;
     // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
     const double strain_error =
         model.inextensible ? weighted_strain.tail(weighted_strain.size() - 1).norm() / area : 0.0;

@@ -14,10 +14,11 @@ class Discretisation;
 struct ConstrainedMove {
   bool accepted = false;
   std::string reason;
-  Matrix position;     ///< x^{n+1} at the material nodes, coefficients
-  Vector tension;      ///< λ^{n+1}
-  Vector area_strain;  ///< W/W_ref − 1 after the step, coefficients
-  Matrix landed;       ///< what `landing` made of the move
+  Matrix position;        ///< x^{n+1} at the material nodes, coefficients
+  Vector tension;         ///< λ^{n+1}
+  Vector area_strain;     ///< W/W_ref − 1 after the step, coefficients
+  double raw_area = 0.0;  ///< relative area error of the start's own velocity, before the constraint takes it out
+  Matrix landed;          ///< what `landing` made of the move
   int iterations = 0;
 };
 

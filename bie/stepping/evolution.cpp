@@ -188,6 +188,7 @@ EvolutionStep Evolution::step(const EventTimes& events) {
       arrive(std::move(reached));
       record.dt = advanced.dt;
       record.change = advanced.change;
+      record.raw_area = advanced.raw_area;
       record.iterations_flow += evaluation_.iterations_flow;
       record.iterations_electric += evaluation_.iterations_electric;
       record.at_snapshot = at_event && plan.is_snapshot;

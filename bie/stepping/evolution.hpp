@@ -24,8 +24,9 @@ struct EvolutionSetup {
 /// What became of one step.
 struct EvolutionStep {
   double dt = 0.0;
-  double change = 0.0;  ///< see StepResult
-  int rejected = 0;     ///< attempts that were thrown away
+  double change = 0.0;    ///< see StepResult
+  double raw_area = 0.0;  ///< likewise
+  int rejected = 0;       ///< attempts that were thrown away
   int iterations_flow = 0;
   int iterations_electric = 0;
   bool at_snapshot = false;

@@ -18,6 +18,7 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
     result.accepted = corrected.stage.accepted;
     result.reason = corrected.stage.reason;
     result.change = corrected.change;
+    result.raw_area = corrected.stage.move.raw_area;
     if (result.accepted) result.state = arrived_state(context, corrected.stage);
   } catch (const ConvergenceError& error) {
     result.reason = error.what();

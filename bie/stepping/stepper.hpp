@@ -40,6 +40,8 @@ struct StepResult {
   std::string reason;   ///< why a step was rejected; empty when accepted
   State state;          ///< the new state when accepted, otherwise unspecified
   double change = 0.0;  ///< made by the last correction, see CorrectedStep
+  /// Relative area error that the step would have left without its constraint: a drift of the step's order.
+  double raw_area = 0.0;
   int iterations_flow = 0;
   int iterations_electric = 0;
 };
@@ -62,11 +64,12 @@ StepControl fixed_steps(double dt);
 /// One accepted step of size at most dt_limit, or the reason why there is none.
 struct Advance {
   bool accepted = false;
-  std::string reason;   ///< of the last rejection
-  State state;          ///< with dt_next set
-  double dt = 0.0;      ///< step size that was accepted
-  double change = 0.0;  ///< of the accepted step, see StepResult
-  int rejected = 0;     ///< attempts that were thrown away
+  std::string reason;     ///< of the last rejection
+  State state;            ///< with dt_next set
+  double dt = 0.0;        ///< step size that was accepted
+  double change = 0.0;    ///< of the accepted step, see StepResult
+  double raw_area = 0.0;  ///< likewise
+  int rejected = 0;       ///< attempts that were thrown away
   int iterations_flow = 0;
   int iterations_electric = 0;
 };

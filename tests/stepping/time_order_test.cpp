@@ -98,6 +98,36 @@ BOOST_AUTO_TEST_CASE(tank_treading_keeps_the_order) {
   OrderStudy(shear_model(), ellipsoid(8, {1.0, 1.2, 1.5}), 0.5, 2).reaches(2, 1.6);
 }
 
+BOOST_AUTO_TEST_CASE(drift_before_the_constraint_has_the_order_of_the_step) {
+  Model model = relaxation_model(0.1);
+  model.flow = shear_flow(0.1);
+  const Matrix position = ellipsoid(8, {1.0, 1.1, 1.3});
+  constexpr double kEnd = 0.4;
+  const auto drift = [&](int time_order, int n_steps) {
+    const Discretisation discretisation = discretisation_for(model, position, time_order);
+    const double dt = kEnd / n_steps;
+    State state = start(model, discretisation, position, dt);
+    double sum = 0.0;
+    for (int i = 0; i < n_steps; ++i) {
+      const StepResult result = stepped(model, discretisation, state, dt);
+      BOOST_TEST_REQUIRE(result.accepted, result.reason);
+      sum += std::abs(result.raw_area);
+      state = result.state;
+    }
+    return sum / kEnd;
+  };
+  // At higher orders this drift is below the tolerance of the constraint, 1e-9 a step.
+  for (const int order : {1, 2}) {
+    const double coarse = drift(order, 4), middle = drift(order, 8), fine = drift(order, 16);
+    BOOST_TEST_MESSAGE("order " << order << ": drift " << coarse << ", " << middle << ", " << fine
+                                << " per unit time at dt = 0.1, 0.05, 0.025");
+    BOOST_TEST_CONTEXT("order " << order << ": " << coarse << ", " << middle << ", " << fine) {
+      BOOST_TEST(0.5 * std::log2(coarse / fine) > order - 0.3);
+      BOOST_TEST(std::log2(middle / fine) > order - 0.3);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(alternating_field_on_a_frozen_sphere_is_followed_to_every_order) {
   // Exact: C V̇ = −G V + κ(3E(t)/2 − V) for the amplitude V of V_m = V cos θ, κ = 2σ_iσ_e/(σ_i + 2σ_e).
   Model model = field_model();
