@@ -38,6 +38,8 @@ template <typename MemoryType, typename Visitor>
 void visit_memory(MemoryType& memory, Visitor&& visit) {
   visit("tension", memory.tension);
   visit("flow", memory.flow);
+  visit("unaided_iterations", memory.unaided_iterations);
+  visit("pause", memory.pause);
 }
 
 constexpr const char* arguments_of = "_arguments";
@@ -130,14 +132,15 @@ void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
     require((values->size() == 0 || values->size() == state.position.rows()) && values->allFinite(), "/state");
   }
   require(state.area_strain.allFinite(), "/state/area_strain");
-  visit_memory(state.flow_memory, [&](const char* name, const std::shared_ptr<const KnownResponses>& known) {
-    if (!known) return;
+  for (const auto& known : {state.flow_memory.tension, state.flow_memory.flow}) {
+    if (!known) continue;
+    const char* name = "/state, what its solves know,";
     const Matrix& arguments = known->arguments;
     const Matrix& responses = known->responses;
     require(arguments.rows() == responses.rows() && arguments.cols() == responses.cols(), name);
     require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= most_known_responses, name);
     require(arguments.allFinite() && responses.allFinite(), name);
-  });
+  }
   for (const double value : {state.time, state.dt_next, state.reference_area, state.reference_volume}) {
     require(std::isfinite(value), "/state");
   }

@@ -180,7 +180,7 @@ Stage corrected_stage(const StageContext& context, const Stage& stage, const Sta
 
 State arrived_state(const StageContext& context, const Stage& stage) {
   State state = unpacked(context, stage.move.landed, stage.time);
-  state.flow_memory = {context.evaluation.flow_memory.tension, context.flow.known()};
+  state.flow_memory = memory_after_step(context.evaluation.flow_memory, context.flow.known(), stage.iterations_flow);
   state.step = context.state.step + 1;
   return state;
 }

@@ -1,21 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
-#include "bie/linear/known_responses.hpp"
+#include "bie/stepping/flow_memory.hpp"
 
 namespace vehd {
-
-/// What velocity solves have learned of their operators, in the coefficients that the symmetry leaves; nothing known:
-/// null. Directions that served one step serve the next, whose operators are nearly the same.
-struct FlowMemory {
-  std::shared_ptr<const KnownResponses> tension;  ///< λ ↦ J ∇_γ·u
-  std::shared_ptr<const KnownResponses> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowRightHandSide
-};
-
-/// Columns of each kind that a state carries at most.
-constexpr Index most_known_responses = 128;
 
 /// Everything that one step hands to the next; a checkpoint stores exactly these values.
 /// Fields are spherical-harmonic coefficients of degree p, index n² + n + m (docs/conventions.md).

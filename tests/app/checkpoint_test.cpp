@@ -21,6 +21,8 @@ vehd::Checkpoint sample() {
   checkpoint.state.reference_area = 12.0;
   checkpoint.state.flow_memory.flow = std::make_shared<const vehd::KnownResponses>(
       vehd::KnownResponses{vehd::Matrix::Random(50, 3), vehd::Matrix::Random(50, 3)});
+  checkpoint.state.flow_memory.unaided_iterations = 21;
+  checkpoint.state.flow_memory.pause = 5;
   checkpoint.n_rows = 8;
   checkpoint.history_bytes = 1234;
   checkpoint.n_snapshots = 3;
@@ -49,6 +51,8 @@ BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   BOOST_TEST((read.state.flow_memory.flow->arguments == written.state.flow_memory.flow->arguments));
   BOOST_TEST((read.state.flow_memory.flow->responses == written.state.flow_memory.flow->responses));
   BOOST_TEST(!read.state.flow_memory.tension);
+  BOOST_TEST(read.state.flow_memory.unaided_iterations == 21);
+  BOOST_TEST(read.state.flow_memory.pause == 5);
   BOOST_TEST(read.state.reference_area == written.state.reference_area);
   BOOST_TEST(read.n_rows == written.n_rows);
   BOOST_TEST(read.history_bytes == written.history_bytes);

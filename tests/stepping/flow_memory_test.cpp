@@ -80,6 +80,19 @@ BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_toleranc
   BOOST_TEST(max_difference(with.state.position, without.state.position) < 1e-7);
 }
 
+BOOST_AUTO_TEST_CASE(what_does_not_pay_is_left_aside_for_a_while) {
+  const auto known = std::make_shared<const KnownResponses>();
+  FlowMemory memory = memory_after_step({}, known, 20);
+  BOOST_TEST((memory.flow == known && memory.unaided_iterations == 20));
+  memory = memory_after_step(memory, known, 40);
+  BOOST_TEST((memory.flow == known && memory.unaided_iterations == 20));
+  memory = memory_after_step(memory, known, 41);
+  int steps = 0;
+  for (; !memory.flow && steps < 1000; ++steps) memory = memory_after_step(memory, known, 25);
+  BOOST_TEST(steps == 50);
+  BOOST_TEST((memory.pause == 0 && memory.unaided_iterations == 25));
+}
+
 BOOST_AUTO_TEST_CASE(memory_stays_bounded) {
   const Steps steps = steps_of(shear_model(), ellipsoid(8, {2.0, 1.0, 0.9}), 0.1, 20);
   BOOST_TEST(steps.end.flow_memory.flow->count() <= most_known_responses);
