@@ -73,7 +73,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
     H5Pset_file_space_page_size(creation.id(), page_bytes);
     create(creation.id(), access.id());
   } else {
-    open(access.id(), mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY);
+    open(access.id(), mode);
   }
 }
 
@@ -83,15 +83,20 @@ void Hdf5Writer::create(hid_t creation, hid_t access) {
   if (!file_.valid()) fail("cannot be opened");
 }
 
-void Hdf5Writer::open(hid_t access, unsigned flags) {
-  const auto attempt = [&] { file_ = Hdf5Handle(H5Fopen(name_.c_str(), flags, access), H5Fclose); };
-  H5Pset_page_buffer_size(access, buffered_pages * page_bytes, 0, 0);
-  attempt();
-  if (file_.valid()) return;
-  // A file that was not made in pages is refused with a page buffer.
-  H5Pset_page_buffer_size(access, 0, 0, 0);
-  attempt();
-  if (!file_.valid()) fail("cannot be opened");
+void Hdf5Writer::open(hid_t access, Mode mode) {
+  const auto attempt = [&](unsigned flags) {
+    file_ = Hdf5Handle(H5Fopen(name_.c_str(), flags, access), H5Fclose);
+    return file_.valid();
+  };
+  if (mode == Mode::extend) {
+    // Of what is there only the groups at the file's beginning are read. Headers elsewhere must not be: HDF5 1.10
+    // guesses their size and reads beyond a buffered page where one lies at its end.
+    H5Pset_page_buffer_size(access, buffered_pages * page_bytes, 0, 0);
+    if (attempt(H5F_ACC_RDWR)) return;
+    // A file that was not made in pages is refused with a page buffer.
+    H5Pset_page_buffer_size(access, 0, 0, 0);
+  }
+  if (!attempt(mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY)) fail("cannot be opened");
 }
 
 void Hdf5Writer::fail(const std::string& what) const {
@@ -138,10 +143,6 @@ void Hdf5Writer::text(const std::string& path, const std::string& value) {
   if (!dataset.valid() || H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()) < 0) {
     fail(fmt::format("text {} cannot be written", path));
   }
-}
-
-void Hdf5Writer::remove(const std::string& path) {
-  if (H5Ldelete(file_.id(), path.c_str(), H5P_DEFAULT) < 0) fail(fmt::format("{} cannot be removed", path));
 }
 
 void Hdf5Writer::copy_from(const Hdf5Writer& source, const std::string& path) {

@@ -32,8 +32,6 @@ class Hdf5Writer {
   void integers(const std::string& path, std::span<const std::int64_t> values, const std::vector<hsize_t>& extents,
                 const DatasetLabel& label);
   void text(const std::string& path, const std::string& value);
-  /// Deletes a link to a dataset or group.
-  void remove(const std::string& path);
   /// Copies an object with all below it.
   void copy_from(const Hdf5Writer& source, const std::string& path);
 
@@ -51,7 +49,7 @@ class Hdf5Writer {
 
  private:
   void create(hid_t creation, hid_t access);
-  void open(hid_t access, unsigned flags);
+  void open(hid_t access, Mode mode);
   [[noreturn]] void fail(const std::string& what) const;
   void write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
                      const std::vector<hsize_t>& extents, const DatasetLabel& label);
