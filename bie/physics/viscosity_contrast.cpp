@@ -73,6 +73,8 @@ Matrix rigid_motions(const Matrix& position, double radius, const std::vector<In
   Eigen::ColPivHouseholderQR<Matrix> factor;
   factor.setThreshold(1e-9);
   factor.compute(motions);
+  // Of no columns Eigen would offset a null pointer.
+  if (factor.rank() == 0) return Matrix(motions.rows(), 0);
   return factor.householderQ() * Matrix::Identity(motions.rows(), factor.rank());
 }
 
