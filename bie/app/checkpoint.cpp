@@ -31,17 +31,13 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("area_strain", state.area_strain);
   visit("reference_area", state.reference_area);
   visit("reference_volume", state.reference_volume);
+  visit("tension", state.flow_memory.tension);
+  visit("flow", state.flow_memory.flow);
+  visit("unaided_iterations", state.flow_memory.unaided_iterations);
+  visit("pause", state.flow_memory.pause);
 }
 
-/// What velocity solves have learned, likewise.
-template <typename MemoryType, typename Visitor>
-void visit_memory(MemoryType& memory, Visitor&& visit) {
-  visit("tension", memory.tension);
-  visit("flow", memory.flow);
-  visit("unaided_iterations", memory.unaided_iterations);
-  visit("pause", memory.pause);
-}
-
+/// What is known of a map is two matrices, behind its name.
 constexpr const char* arguments_of = "_arguments";
 constexpr const char* responses_of = "_responses";
 
@@ -156,7 +152,6 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.text("/totals", totals_text(checkpoint.totals));
   file.group("/state");
   visit_state(checkpoint.state, WriteVisitor{file});
-  visit_memory(checkpoint.state.flow_memory, WriteVisitor{file});
   replace_file(path, sealed(file.image()));
 }
 
@@ -171,7 +166,6 @@ Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
   checkpoint.scene = file.text("/scene");
   checkpoint.totals = totals_of(file.text("/totals"), file);
   visit_state(checkpoint.state, ReadVisitor{file});
-  visit_memory(checkpoint.state.flow_memory, ReadVisitor{file});
   require_sound(checkpoint, file);
   return checkpoint;
 }

@@ -84,19 +84,17 @@ void Hdf5Writer::create(hid_t creation, hid_t access) {
 }
 
 void Hdf5Writer::open(hid_t access, Mode mode) {
-  const auto attempt = [&](unsigned flags) {
-    file_ = Hdf5Handle(H5Fopen(name_.c_str(), flags, access), H5Fclose);
+  const bool extends = mode == Mode::extend;
+  const auto opens_with = [&](std::size_t buffer) {
+    H5Pset_page_buffer_size(access, buffer, 0, 0);
+    file_ = Hdf5Handle(H5Fopen(name_.c_str(), extends ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access), H5Fclose);
     return file_.valid();
   };
-  if (mode == Mode::extend) {
-    // Of what is there only the groups at the file's beginning are read. Headers elsewhere must not be: HDF5 1.10
-    // guesses their size and reads beyond a buffered page where one lies at its end.
-    H5Pset_page_buffer_size(access, buffered_pages * page_bytes, 0, 0);
-    if (attempt(H5F_ACC_RDWR)) return;
-    // A file that was not made in pages is refused with a page buffer.
-    H5Pset_page_buffer_size(access, 0, 0, 0);
-  }
-  if (!attempt(mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY)) fail("cannot be opened");
+  // Of a file to be extended only the groups at its beginning are read. Headers elsewhere must not be: HDF5 1.10
+  // guesses their size and reads beyond a buffered page where one lies at its end.
+  if (extends && opens_with(buffered_pages * page_bytes)) return;
+  // A file that was not made in pages is refused with a page buffer.
+  if (!opens_with(0)) fail("cannot be opened");
 }
 
 void Hdf5Writer::fail(const std::string& what) const {

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-#include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/symmetry.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -21,13 +19,6 @@ struct Steps {
     return sorted[sorted.size() / 2];
   }
 };
-
-/// With the symmetry of the start.
-Discretisation symmetric_discretisation(const Model& model, const Matrix& position) {
-  NumericalSettings settings;
-  settings.order = order_of(position.rows());
-  return Discretisation(settings, find_symmetry(model, start(model, discretisation_of(settings.order), position, 1.0)));
-}
 
 /// n steps of size dt at most.
 Steps steps_of(const Model& model, const Matrix& position, double dt, int n) {

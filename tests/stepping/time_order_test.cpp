@@ -10,19 +10,9 @@ using namespace vehd::testing;
 
 namespace {
 
-Discretisation discretisation_for(const Model& model, const Matrix& position, int time_order) {
-  NumericalSettings settings;
-  settings.order = order_of(position.rows());
-  settings.time_order = time_order;
-  State start;
-  start.position = position;
-  start.area_strain = Vector::Zero(position.rows());
-  return Discretisation(settings, find_symmetry(model, start));
-}
-
 /// Shape, V_m, tension and energy, all independent of the parametrisation.
 Vector observed_at(const Model& model, const Matrix& position, int time_order, double end_time, int n_steps) {
-  const Discretisation discretisation = discretisation_for(model, position, time_order);
+  const Discretisation discretisation = symmetric_discretisation(model, position, time_order);
   const double dt = end_time / n_steps;
   const State end = run(model, discretisation, start(model, discretisation, position, dt), dt, n_steps);
   const Diagnostics d = evaluated(model, discretisation, end).diagnostics;
@@ -104,7 +94,7 @@ BOOST_AUTO_TEST_CASE(drift_before_the_constraint_has_the_order_of_the_step) {
   const Matrix position = ellipsoid(8, {1.0, 1.1, 1.3});
   constexpr double kEnd = 0.4;
   const auto drift = [&](int time_order, int n_steps) {
-    const Discretisation discretisation = discretisation_for(model, position, time_order);
+    const Discretisation discretisation = symmetric_discretisation(model, position, time_order);
     const double dt = kEnd / n_steps;
     State state = start(model, discretisation, position, dt);
     double sum = 0.0;
@@ -140,7 +130,7 @@ BOOST_AUTO_TEST_CASE(alternating_field_on_a_frozen_sphere_is_followed_to_every_o
     return drive * (steady - rate / (rate * rate + omega * omega) * std::exp(-rate * t));
   };
   for (int order = 1; order <= highest_time_order; ++order) {
-    const Discretisation discretisation = discretisation_for(model, sphere(6), order);
+    const Discretisation discretisation = symmetric_discretisation(model, sphere(6), order);
     double errors[2];
     for (int level = 0; level < 2; ++level) {
       const int n_steps = 80 << level;
@@ -155,7 +145,7 @@ BOOST_AUTO_TEST_CASE(alternating_field_on_a_frozen_sphere_is_followed_to_every_o
 BOOST_AUTO_TEST_CASE(step_sizes_may_jump) {
   const Model model = field_model();
   const Matrix position = prolate(12);
-  const Discretisation discretisation = discretisation_for(model, position, 4);
+  const Discretisation discretisation = symmetric_discretisation(model, position, 4);
   const auto extent = [&](const std::vector<double>& steps) {
     State state = start(model, discretisation, position, 0.1);
     for (const double dt : steps) state = run(model, discretisation, std::move(state), dt, 1);
@@ -170,7 +160,7 @@ BOOST_AUTO_TEST_CASE(jump_of_the_field_at_the_end_of_a_step_belongs_to_the_next)
   Model model = field_model();
   model.mobile = false;
   model.electric->waveform = Waveform::pulse(1.0, 0.5, 1.0);
-  const Discretisation discretisation = discretisation_for(model, sphere(6), 4);
+  const Discretisation discretisation = symmetric_discretisation(model, sphere(6), 4);
   const State end = run(model, discretisation, start(model, discretisation, sphere(6), 0.25), 0.25, 2);
   BOOST_TEST(end.time == 0.5);
   BOOST_TEST(end.transmembrane_potential.isZero(0.0));

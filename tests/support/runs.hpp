@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/discretisation.hpp"
 #include "bie/stepping/model.hpp"
 #include "bie/stepping/stepper.hpp"
@@ -33,6 +34,17 @@ inline Discretisation discretisation_of(int order) {
   NumericalSettings settings;
   settings.order = order;
   return Discretisation(settings);
+}
+
+/// With the symmetry that the shape and the model have.
+inline Discretisation symmetric_discretisation(const Model& model, const Matrix& position, int time_order = 1) {
+  NumericalSettings settings;
+  settings.order = order_of(position.rows());
+  settings.time_order = time_order;
+  State shape;
+  shape.position = position;
+  shape.area_strain = Vector::Zero(position.rows());
+  return Discretisation(settings, find_symmetry(model, shape));
 }
 
 inline State start(const Model& model, const Discretisation& discretisation, const Matrix& position, double dt) {
