@@ -42,8 +42,13 @@ constexpr std::array paths = {"/",
                               "/snapshots/000001/coefficients",
                               "/snapshots/000001/coefficients/x",
                               "/snapshots/000001/coefficients/velocity",
-                              "/snapshots/9"};
-constexpr std::array attributes = {"schema_version", "time", "step", "checksum", "n_rows", "threads", "dt_next"};
+                              "/snapshots/9",
+                              "/state/tension_arguments",
+                              "/state/tension_responses",
+                              "/state/flow_arguments",
+                              "/state/flow_responses"};
+constexpr std::array attributes = {"schema_version", "time",    "step",  "checksum",          "n_rows",
+                                   "threads",        "dt_next", "pause", "unaided_iterations"};
 constexpr std::array<double, 8> numbers = {0.0,    1.0,
                                            -1.0,   0.25,
                                            1e300,  std::numeric_limits<double>::infinity(),
@@ -100,6 +105,10 @@ std::string good_checkpoint() {
   checkpoint.state.position = ellipsoid();
   checkpoint.state.tension = vehd::Vector::Ones(checkpoint.state.position.rows());
   checkpoint.state.area_strain = vehd::Vector::Zero(checkpoint.state.position.rows());
+  const vehd::Matrix columns = vehd::Matrix::Identity(2 * checkpoint.state.position.rows(), 3);
+  checkpoint.state.flow_memory.flow =
+      std::make_shared<const vehd::KnownResponses>(vehd::KnownResponses{columns, columns});
+  checkpoint.state.flow_memory.tension = checkpoint.state.flow_memory.flow;
   vehd::write_checkpoint(directory / "checkpoint.h5", checkpoint);
   return vehd::read_sealed_file(directory / "checkpoint.h5");
 }
