@@ -7,36 +7,11 @@
 
 #include "bie/physics/bending.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/maximum.hpp"
 
 namespace vehd {
 
 namespace {
-
-/// Values at θ = 0 and θ = π.
-Matrix pole_values(const Matrix& coefficients) {
-  return evaluate_harmonics(coefficients, Vector{{0.0, std::numbers::pi}}, Vector::Zero(2));
-}
-
-/// Maximum of sign * column over the surface, poles included: the largest node, then the field itself where the
-/// parabola through the node's derivatives has its top. Never above the true maximum; fourth order in the spacing.
-double surface_maximum(const SphereGrid& grid, const SphereDerivatives& field, const Matrix& coefficients,
-                       const Matrix& poles, Index column, double sign) {
-  Index node = 0;
-  const double value =
-      std::max((sign * field.value.col(column)).maxCoeff(&node), (sign * poles.col(column)).maxCoeff());
-  const Eigen::Vector2d gradient = sign * Eigen::Vector2d(field.d1(node, column), field.d2(node, column));
-  Eigen::Matrix2d hessian;
-  hessian << field.d11(node, column), field.d12(node, column), field.d12(node, column), field.d22(node, column);
-  hessian *= -sign;
-  // Away from a proper maximum (a flat field) the node itself is the answer.
-  if (hessian(0, 0) <= 0.0 || hessian.determinant() <= 0.0) return value;
-  const Eigen::Vector2d top = hessian.inverse() * gradient;
-  const double theta = grid.theta[node / grid.n_phi];
-  const double phi = grid.phi[node % grid.n_phi];
-  const Matrix at_top =
-      evaluate_harmonics(coefficients.col(column), Vector{{theta + top[0]}}, Vector{{phi + top[1] / std::sin(theta)}});
-  return std::max(value, sign * at_top(0, 0));
-}
 
 /// Angle of the long axis of the gyration tensor against +x in the x-z plane of the laboratory, in (−90, 90] degrees.
 double inclination(const Surface& s, const Frame& frame) {
@@ -76,10 +51,9 @@ Diagnostics along_laboratory_axes(Diagnostics d, const Frame& frame, const Spher
   }
   const Matrix position = state.position * frame.axes.transpose();
   const SphereDerivatives x = fine.synthesize_hessian(position);
-  const Matrix poles = pole_values(position);
   const auto extent = [&](Index axis) {
-    return surface_maximum(fine.grid(), x, position, poles, axis, 1.0) +
-           surface_maximum(fine.grid(), x, position, poles, axis, -1.0);
+    return maximum(fine.grid(), x, axis, position.col(axis), 1.0) +
+           maximum(fine.grid(), x, axis, position.col(axis), -1.0);
   };
   d.extent_x = extent(0);
   d.extent_y = extent(1);
@@ -102,10 +76,9 @@ Diagnostics diagnose(const State& state, const Membrane& membrane, const Fields&
   d.spectrum_tail = spectrum_tail(state.position);
   if (fields.tension.size() > 0) d.tension_integral = fine.synthesize(fields.tension).col(0).dot(s.quadrature);
   if (state.transmembrane_potential.size() > 0) {
-    const Matrix poles = pole_values(state.transmembrane_potential);
     const SphereDerivatives v = fine.synthesize_hessian(state.transmembrane_potential);
-    d.Vm_max = std::max(surface_maximum(fine.grid(), v, state.transmembrane_potential, poles, 0, 1.0),
-                        surface_maximum(fine.grid(), v, state.transmembrane_potential, poles, 0, -1.0));
+    d.Vm_max = std::max(maximum(fine.grid(), v, 0, state.transmembrane_potential, 1.0),
+                        maximum(fine.grid(), v, 0, state.transmembrane_potential, -1.0));
   }
   return along_laboratory_axes(d, Frame{}, fine, s, state, fields);
 }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+
+/// Maximum of sign · f over the sphere, by Newton's method on the field from the largest node, and from up to three
+/// others whose parabolas promise most. Never above the true maximum; at rounding where the grid sees the highest top,
+/// be it a point or a ring, and else not below the largest node.
+/// @param nodes   of any fields on the grid
+/// @param column  of f among them
+double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
+               double sign);
+
+}  // namespace vehd
