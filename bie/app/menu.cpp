@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "bie/app/cost_model.hpp"
 #include "bie/app/file_system.hpp"
@@ -14,6 +15,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/stepping/deferred_correction.hpp"
+#include "bie/stepping/evolution.hpp"
 
 namespace vehd {
 namespace {
@@ -64,21 +66,35 @@ double model_seconds(const Pilot& pilot, const CostModel& model) {
   return seconds;
 }
 
+/// What pilots tell of tighter tolerances beside the steps of the last of them.
+struct Trend {
+  double degree_share = 0.75;   ///< of the degrees that a spectrum asks for, those that a run takes
+  std::optional<double> order;  ///< in dt, at the steps of the pilots; nothing: that of the scheme
+};
+
+/// Charging and other stiff motions follow long steps with a lower order than that of the scheme, and come to it as
+/// steps shrink: the order over that many digits.
+double order_over(double digits, const Pilot& pilot, int time_order, const Trend& trend) {
+  if (!trend.order) return time_order;
+  const double measured = *trend.order + time_order - pilot.time_order;
+  return measured + (time_order - measured) * (1.0 - 1.0 / std::max(1.0, digits));
+}
+
 /// The menu's row for the tolerance of that index, from the steps of a pilot with a looser one.
-/// @param degree_share  of the degrees that the spectrum asks for beyond those of the pilot
 MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<double>& tolerances, std::size_t index,
-                 const CostModel& model, double degree_share) {
+                 const CostModel& model, const Trend& trend) {
   constexpr double kSafety = 0.85;  // as steps are chosen
   constexpr double kLongest = 4.0;  // beyond that a change says nothing any more
   MenuRow row;
   row.tolerance = tolerances[index];
   const int time_order = accuracy_defaults(row.tolerance).time_order;
   const double largest = step_control_of(at_tolerance(scene, row.tolerance)).largest;
-  const double gain = std::pow(row.tolerance / pilot.tolerance, 1.0 / time_order);
+  const double order_in_dt = order_over(std::log10(pilot.tolerance / row.tolerance), pilot, time_order, trend);
   const double attempts =
       static_cast<double>(std::accumulate(pilot.steps.begin(), pilot.steps.end(), 0,
                                           [](int sum, const PilotStep& step) { return sum + step.attempts; })) /
       static_cast<double>(std::max<std::size_t>(1, pilot.steps.size()));
+  int order = 0, pilot_order = 0;
   double steps = 0.0, seconds = 0.0;
   struct {
     double steps = 0.0, seconds = 0.0;
@@ -91,11 +107,14 @@ MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<doubl
     interval = {};
   };
   for (const PilotStep& step : pilot.steps) {
-    const double room = step.change > 0.0 ? std::pow(pilot.tolerance / step.change, 1.0 / pilot.time_order) : kLongest;
-    const double size = std::min(largest, step.dt * kSafety * std::min(room, kLongest) * gain);
+    const double room = step.change > 0.0 ? std::pow(row.tolerance / step.change, 1.0 / order_in_dt) : kLongest;
+    const double size = std::min(largest, step.dt * kSafety * std::min(room, kLongest));
     const double share = step.dt / size;
-    const int more = std::max(0, step.orders[index] - step.order);
-    const int order = step.order + static_cast<int>(std::lround(degree_share * more));
+    const double more = trend.degree_share * std::max(0, step.orders[index] - step.order);
+    // Runs lower their degree only where it has long been idle, at other tolerances about where the pilot did.
+    if (step.order < pilot_order) order = 0;
+    pilot_order = step.order;
+    order = std::max(order, step.order + 2 * static_cast<int>(std::ceil(0.5 * more)));
     interval.steps += share;
     interval.seconds += share * attempts * evaluations_per_step(time_order) * model.seconds_per_shape(order);
     row.order = std::max(row.order, order);
@@ -118,14 +137,39 @@ double file_seconds(const Scene& scene, const MenuRow& row) {
 }
 
 /// The tail of a spectrum that is cut early falls more slowly than the degrees beyond it: of the degrees that a pilot
-/// foretold, the share that the next one took.
-double degree_share(const Pilot& pilot, const Pilot& next, std::size_t index_of_next) {
-  constexpr double kLeast = 0.4;
+/// foretold, the share that the next one took. A pilot in the lowest degree may have needed less: it tells nothing.
+double degree_share(const Pilot& pilot, const Pilot& next, std::size_t index_of_next, double before) {
+  constexpr double kLeast = 0.7;
   int expected = 0;
   for (const PilotStep& step : pilot.steps) expected = std::max(expected, step.orders[index_of_next]);
-  if (expected <= pilot.highest_order) return 1.0;
+  if (pilot.highest_order <= lowest_adaptive_order || expected <= pilot.highest_order) return before;
   const double share = double(next.highest_order - pilot.highest_order) / (expected - pilot.highest_order);
   return std::clamp(share, kLeast, 1.0);
+}
+
+/// Means over the time of a pilot.
+struct MeanLogarithms {
+  double dt = 0.0, change = 0.0;
+  explicit MeanLogarithms(const Pilot& pilot) {
+    double whole = 0.0;
+    for (const PilotStep& step : pilot.steps) {
+      if (step.change <= 0.0) continue;
+      whole += step.dt;
+      dt += step.dt * std::log(step.dt);
+      change += step.dt * std::log(step.change);
+    }
+    if (whole == 0.0) return;
+    dt /= whole;
+    change /= whole;
+  }
+};
+
+/// Order in dt of the changes of two pilots of one time order, whose steps differ enough.
+std::optional<double> order_between(const Pilot& pilot, const Pilot& next) {
+  constexpr double kLeastRatio = 1.3;
+  const MeanLogarithms coarse(pilot), fine(next);
+  if (pilot.time_order != next.time_order || coarse.dt - fine.dt < std::log(kLeastRatio)) return std::nullopt;
+  return std::clamp((coarse.change - fine.change) / (coarse.dt - fine.dt), 1.0, static_cast<double>(next.time_order));
 }
 
 std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
@@ -136,15 +180,21 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
   const CostModel model = cost_model_of(scene, kModelBudget, cache);
   std::vector<MenuRow> rows;
   Pilot pilot;
-  double ratio = 1.0;   // of this scene to others of its kind
-  double share = 0.75;  // of degrees, as long as one pilot has to tell
+  double ratio = 1.0;  // of this scene to others of its kind
+  Trend trend;
   bool running = true;
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
-    if (running && i > 0) running = foretold(scene, pilot, tolerances, i, model, share).seconds * ratio < left();
+    if (running && i > 0) {
+      // The next pilot may well take less than what one with a tenth of the accuracy foretells.
+      constexpr double kDoubt = 2.0;
+      running = foretold(scene, pilot, tolerances, i, model, trend).seconds * ratio < kDoubt * left();
+    }
     if (running) {
       Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left() : std::max(left(), kFirstPilot));
       running = next.completed;
-      if (i > 0 && next.completed) share = degree_share(pilot, next, i);
+      if (i > 0 && next.completed) {
+        trend = {degree_share(pilot, next, i, trend.degree_share), order_between(pilot, next)};
+      }
       if (i == 0 || next.completed) pilot = std::move(next);
       if (const double expected = model_seconds(pilot, model); expected > 0.0) ratio = pilot.seconds / expected;
     }
@@ -156,7 +206,7 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
       row.steps = static_cast<std::int64_t>(pilot.steps.size());
       row.order = pilot.highest_order;
     } else {
-      row = foretold(scene, pilot, tolerances, i, model, share);
+      row = foretold(scene, pilot, tolerances, i, model, trend);
       row.seconds *= ratio;
       // A tighter tolerance is never cheaper.
       if (i > 0) {
