@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "bie/app/progress.hpp"
 #include "bie/scene/accuracy.hpp"
@@ -22,13 +23,18 @@ namespace {
 struct Quantity {
   const char* name;
   double Diagnostics::*member;
+  bool shown = true;  ///< among the values that are printed
 };
 constexpr std::array kQuantities = {
     Quantity{"extent_x", &Diagnostics::extent_x},
+    Quantity{"extent_y", &Diagnostics::extent_y, false},
     Quantity{"extent_z", &Diagnostics::extent_z},
+    Quantity{"reduced_volume", &Diagnostics::reduced_volume, false},
     Quantity{"bending_energy_scaled", &Diagnostics::bending_energy_scaled},
     Quantity{"tension_integral", &Diagnostics::tension_integral},
     Quantity{"Vm_north", &Diagnostics::Vm_north},
+    Quantity{"q_north", &Diagnostics::q_north, false},
+    Quantity{"Vm_max", &Diagnostics::Vm_max, false},
     Quantity{"inclination_deg", &Diagnostics::inclination_deg},
 };
 
@@ -42,8 +48,8 @@ struct TimedRun {
   double raw_drift = 0.0;  ///< Σ |raw_area| per unit time
 };
 
-void run_once(const Scene& scene, double end_time, TimedRun& run) {
-  Progress progress(Progress::suitable_style(), 0.0, end_time);
+void run_once(const Scene& scene, const EventTimes& events, TimedRun& run) {
+  Progress progress(Progress::suitable_style(), 0.0, events.end_time);
   const Problem problem = problem_of(scene);
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
@@ -51,8 +57,8 @@ void run_once(const Scene& scene, double end_time, TimedRun& run) {
   evolution.evaluate_start();
   run.highest_order = evolution.order();
   double raw_area = 0.0;
-  while (evolution.state().time < end_time) {
-    const EvolutionStep step = evolution.step({std::nullopt, end_time});
+  while (evolution.state().time < events.end_time) {
+    const EvolutionStep step = evolution.step(events);
     run.highest_order = std::max(run.highest_order, evolution.order());
     raw_area += std::abs(step.raw_area);
     const Diagnostics& now = evolution.evaluation().diagnostics;
@@ -64,12 +70,12 @@ void run_once(const Scene& scene, double end_time, TimedRun& run) {
   const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
   run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields);
   run.n_steps = state.step;
-  run.raw_drift = raw_area / end_time;
+  run.raw_drift = raw_area / events.end_time;
   run.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
-void run_to(const Scene& scene, double end_time, int repeats, TimedRun& run) {
-  while (wants_repeat(run.seconds, repeats)) run_once(scene, end_time, run);
+void run_to(const Scene& scene, const EventTimes& events, int repeats, TimedRun& run) {
+  while (wants_repeat(run.seconds, repeats)) run_once(scene, events, run);
 }
 
 TimedRun fixed_run(Scene scene, double dt, int time_order, double at, int repeats) {
@@ -77,15 +83,15 @@ TimedRun fixed_run(Scene scene, double dt, int time_order, double at, int repeat
   scene.numerics.dt = dt;
   scene.numerics.time_order = time_order;
   TimedRun run{fmt::format("order {}", time_order), fmt::format("{:g}", dt), dt};
-  run_to(scene, at, repeats, run);
+  run_to(scene, {std::nullopt, at}, repeats, run);
   return run;
 }
 
-TimedRun adaptive_run(const Scene& scene, double tolerance, double at, int repeats) {
-  Scene asked = at_tolerance(scene, tolerance);
-  asked.numerics.end_time = at;
+TimedRun adaptive_run(const TimeTask& task, double tolerance) {
+  Scene asked = at_tolerance(task.scene, tolerance);
+  asked.numerics.end_time = task.at;
   TimedRun run{"tolerance", fmt::format("{:.0e}", tolerance), {}, tolerance};
-  run_to(asked, at, repeats, run);
+  run_to(asked, {task.every, task.at}, task.repeats, run);
   return run;
 }
 
@@ -146,17 +152,21 @@ std::vector<BenchCell> row_of(const TimedRun& run, const TimedRun& reference) {
   return row;
 }
 
+auto shown_quantities() {
+  return kQuantities | std::views::filter([](const Quantity& quantity) { return quantity.shown; });
+}
+
 /// Values at each step size of one integrator; below them the order and the limit that the last three suggest.
 void add_values(BenchTable& table, const std::vector<TimedRun>& runs) {
   for (const TimedRun& run : runs) {
     std::vector<BenchCell> row{run.integrator, run.setting};
-    for (const Quantity& quantity : kQuantities) row.emplace_back(run.diagnostics.*quantity.member);
+    for (const Quantity& quantity : shown_quantities()) row.emplace_back(run.diagnostics.*quantity.member);
     add_row(table, std::move(row));
   }
   if (runs.size() < 3) return;
   std::vector<BenchCell> orders{runs.front().integrator, "observed order"};
   std::vector<BenchCell> limits{runs.front().integrator, "dt → 0"};
-  for (const Quantity& quantity : kQuantities) {
+  for (const Quantity& quantity : shown_quantities()) {
     const auto value = [&](std::size_t from_end) { return runs[runs.size() - from_end].diagnostics.*quantity.member; };
     const double coarse = value(3), middle = value(2), fine = value(1);
     const double ratio = (coarse - middle) / (middle - fine);
@@ -175,7 +185,9 @@ void add_values(BenchTable& table, const std::vector<TimedRun>& runs) {
 
 BenchTable values_table() {
   BenchTable table{"values", {{"integrator", "integrator", "{}", false, 20}, {"setting", "dt", "{}", false, 14}}};
-  for (const Quantity& quantity : kQuantities) table.columns.push_back({quantity.name, quantity.name, "{:.6g}"});
+  for (const Quantity& quantity : shown_quantities()) {
+    table.columns.push_back({quantity.name, quantity.name, "{:.6g}"});
+  }
   return table;
 }
 
@@ -238,7 +250,7 @@ BenchResult bench_time(const TimeTask& task) {
   if (!task.tolerances.empty()) {
     std::vector<TimedRun>& adaptive = runs.emplace_back();
     for (const double tolerance : task.tolerances) {
-      adaptive.push_back(adaptive_run(task.scene, tolerance, task.at, task.repeats));
+      adaptive.push_back(adaptive_run(task, tolerance));
     }
     integrators.push_back(adaptive.front().integrator);
   } else {

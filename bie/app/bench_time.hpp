@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bie/app/bench_result.hpp"
@@ -13,6 +14,7 @@ struct TimeTask {
   std::vector<double> steps{};       ///< fixed step sizes, each half of the one before
   std::vector<int> time_orders{};    ///< integrators that take them; empty: the scene's own
   std::vector<double> tolerances{};  ///< falling
+  std::optional<double> every{};     ///< steps of a tolerance end on its multiples, as snapshots make them
   int repeats = 1;
 };
 
