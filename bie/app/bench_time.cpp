@@ -6,8 +6,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <numbers>
-#include <ranges>
 
 #include "bie/app/progress.hpp"
 #include "bie/scene/accuracy.hpp"
@@ -152,8 +152,10 @@ std::vector<BenchCell> row_of(const TimedRun& run, const TimedRun& reference) {
   return row;
 }
 
-auto shown_quantities() {
-  return kQuantities | std::views::filter([](const Quantity& quantity) { return quantity.shown; });
+std::vector<Quantity> shown_quantities() {
+  std::vector<Quantity> shown;
+  std::ranges::copy_if(kQuantities, std::back_inserter(shown), &Quantity::shown);
+  return shown;
 }
 
 /// Values at each step size of one integrator; below them the order and the limit that the last three suggest.

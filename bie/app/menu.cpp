@@ -186,7 +186,7 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     if (running && i > 0) {
       // The next pilot may well take less than what one with a tenth of the accuracy foretells.
-      constexpr double kDoubt = 2.0;
+      constexpr double kDoubt = 3.0;
       running = foretold(scene, pilot, tolerances, i, model, trend).seconds * ratio < kDoubt * left();
     }
     if (running) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/neighbourhood.hpp"
 
 namespace vehd {
 namespace {
@@ -40,66 +40,6 @@ Climb climb(const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian, dou
   return result;
 }
 
-Vector3 direction(double theta, double phi) {
-  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-}
-
-Vector3 direction(const SphereGrid& grid, Index node) {
-  return direction(grid.theta[node / grid.n_phi], grid.phi[node % grid.n_phi]);
-}
-
-/// Largest |m| with a coefficient that is not zero.
-int azimuthal_order_of(const Vector& coefficients) {
-  int most = 0;
-  for (int n = 1; n <= order_of(coefficients.size()); ++n) {
-    for (int m = n; m > most; --m) {
-      if (coefficients[coefficient_index(n, m)] != 0.0 || coefficients[coefficient_index(n, -m)] != 0.0) most = m;
-    }
-  }
-  return most;
-}
-
-/// The point at the end of a great circle that leaves (θ, φ) along the step.
-void walk(double& theta, double& phi, const Eigen::Vector2d& step) {
-  const double length = step.norm();
-  const Vector3 radial = direction(theta, phi);
-  const Vector3 south{std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi), -std::sin(theta)};
-  const Vector3 east{-std::sin(phi), std::cos(phi), 0.0};
-  const Vector3 end = std::cos(length) * radial + std::sin(length) / length * (step[0] * south + step[1] * east);
-  theta = std::atan2(std::hypot(end.x(), end.y()), end.z());
-  phi = std::atan2(end.y(), end.x());
-}
-
-/// A field with covariant derivatives in the frame (e_θ, e_φ) of one point.
-struct PointDerivatives {
-  double value = 0.0;
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-};
-
-/// By differences along great circles, which know no pole.
-PointDerivatives derivatives_at(const Vector& coefficients, double theta, double phi, int azimuthal_order) {
-  // Of the field: truncation 1e-8, rounding of the second differences the same.
-  constexpr double kSpacing = 1e-4;
-  constexpr int kPoints = 9;
-  Vector thetas = Vector::Constant(kPoints, theta), phis = Vector::Constant(kPoints, phi);
-  for (int point = 0; point < kPoints; ++point) {
-    if (const Eigen::Vector2d offset(point / 3 - 1, point % 3 - 1); !offset.isZero()) {
-      walk(thetas[point], phis[point], kSpacing * offset);
-    }
-  }
-  const Vector values = evaluate_harmonics(coefficients, thetas, phis, azimuthal_order);
-  const auto f = [&](int south, int east) { return values[3 * (south + 1) + east + 1]; };
-  PointDerivatives at;
-  at.value = f(0, 0);
-  at.gradient = Eigen::Vector2d(f(1, 0) - f(-1, 0), f(0, 1) - f(0, -1)) / (2.0 * kSpacing);
-  at.hessian(0, 0) = f(1, 0) - 2.0 * f(0, 0) + f(-1, 0);
-  at.hessian(1, 1) = f(0, 1) - 2.0 * f(0, 0) + f(0, -1);
-  at.hessian(0, 1) = at.hessian(1, 0) = 0.25 * (f(1, 1) - f(1, -1) - f(-1, 1) + f(-1, -1));
-  at.hessian /= kSpacing * kSpacing;
-  return at;
-}
-
 }  // namespace
 
 double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
@@ -117,20 +57,18 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
     constexpr double kRounding = 1e-15;
     constexpr int kMost = 12;
     double value = sign * nodes.value(node, column);
-    double theta = grid.theta[node / grid.n_phi], phi = grid.phi[node % grid.n_phi];
+    SpherePoint at = point_of(grid, node);
     Climb next = climb_from(node);
     for (int count = 0; count < kMost && next.gain > kRounding * scale; ++count) {
-      double theta_there = theta, phi_there = phi;
-      walk(theta_there, phi_there, next.step);
-      const PointDerivatives there = derivatives_at(coefficients, theta_there, phi_there, azimuthal_order);
+      const SpherePoint end = end_of_walk(at, next.step);
+      const PointDerivatives there = derivatives_at(coefficients, end, azimuthal_order);
       if (sign * there.value <= value) {
         next.step *= 0.5;
         next.gain *= 0.5;
         continue;
       }
       value = sign * there.value;
-      theta = theta_there;
-      phi = phi_there;
+      at = end;
       next = climb(sign * there.gradient, sign * there.hessian, reach);
     }
     return value;
@@ -149,12 +87,12 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
   }
   std::sort(promises.begin(), promises.end(), std::greater<>());
   double top = top_above(largest);
-  std::vector<Vector3> climbed{direction(grid, largest)};
+  std::vector<Vector3> climbed{direction(point_of(grid, largest))};
   for (const auto& [promise, node] : promises) {
     constexpr std::size_t kHumps = 4;
     constexpr double kApart = 3.0;
     if (climbed.size() == kHumps) break;
-    const Vector3 from = direction(grid, node);
+    const Vector3 from = direction(point_of(grid, node));
     const bool apart = std::all_of(climbed.begin(), climbed.end(),
                                    [&](const Vector3& other) { return (from - other).norm() > kApart * reach; });
     if (!apart) continue;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bie/physics/bending.hpp"
+#include "bie/sphere/axis_crossing.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/maximum.hpp"
 
@@ -33,24 +34,21 @@ double spectrum_tail(const Matrix& position) {
   return position.bottomRows(position.rows() - from).norm() / position.bottomRows(position.rows() - 1).norm();
 }
 
-/// Value where the parameter sphere has its north pole in the laboratory.
-double north_value(const Frame& frame, const Vector& coefficients) {
-  const Vector3 north = frame.axes.row(2);
-  const double theta = std::atan2(std::hypot(north.x(), north.y()), north.z());
-  const double phi = std::atan2(north.y(), north.x());
-  return evaluate_harmonics(coefficients, Vector{{theta}}, Vector{{phi}})(0, 0);
-}
-
 }  // namespace
 
 Diagnostics along_laboratory_axes(Diagnostics d, const Frame& frame, const SphereTransform& fine, const Surface& s,
                                   const State& state, const Fields& fields) {
-  if (state.transmembrane_potential.size() > 0) {
-    d.Vm_north = north_value(frame, state.transmembrane_potential);
-    d.q_north = north_value(frame, fields.charge);
-  }
   const Matrix position = state.position * frame.axes.transpose();
   const SphereDerivatives x = fine.synthesize_hessian(position);
+  if (state.transmembrane_potential.size() > 0) {
+    const Vector3 centre = x.value.transpose() * s.quadrature / s.quadrature.sum();
+    const SpherePoint north = crossing_above(centre, fine.grid(), x.value, position);
+    const auto there = [&](const Vector& field) {
+      return evaluate_harmonics(field, Vector{{north.theta}}, Vector{{north.phi}})(0, 0);
+    };
+    d.Vm_north = there(state.transmembrane_potential);
+    d.q_north = there(fields.charge);
+  }
   const auto extent = [&](Index axis) {
     return maximum(fine.grid(), x, axis, position.col(axis), 1.0) +
            maximum(fine.grid(), x, axis, position.col(axis), -1.0);

@@ -60,7 +60,9 @@ BOOST_AUTO_TEST_CASE(of_contradicting_columns_the_newest_count) {
   known = joined(known, older, 100);
   const SecantInverse inverse(known);
   BOOST_TEST((inverse.kept() == std::vector<Index>{0, 1, 2, 3}));
-  BOOST_TEST((inverse.apply(test_matrix() * arguments) - arguments).norm() < 1e-12);
+  for (Index i = 0; i < arguments.cols(); ++i) {
+    BOOST_TEST((inverse.apply(test_matrix() * arguments.col(i)) - arguments.col(i)).norm() < 1e-12);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(columns_that_say_nothing_are_left_out) {
