@@ -28,11 +28,10 @@ namespace fs = std::filesystem;
 /// What is measured, in full and as a trial.
 struct Extent {
   std::vector<int> space, parts, symmetry;
-  int threads_order;               ///< 0: that of the scene
-  int time_order;                  ///< degree of the comparison of integrators, likewise
-  int n_steps;                     ///< step sizes
-  std::vector<double> tolerances;  ///< of the comparison of integrators
-  std::vector<double> scene_tolerances;
+  int threads_order;  ///< 0: that of the scene
+  int time_order;     ///< degree of the comparison of integrators, likewise
+  int n_steps;        ///< step sizes
+  std::vector<double> tolerances;
   int repeats;
 };
 
@@ -40,14 +39,13 @@ struct Extent {
 constexpr double longest_run = 300.0;
 
 Extent extent_of(bool quick) {
-  if (quick) return {{6, 8}, {6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, {1e-1, 1e-2, 1e-3}, 2};
+  if (quick) return {{6, 8}, {6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, 2};
   return {{8, 12, 16, 20, 24, 32},
           {8, 12, 16, 24, 32},
           {8, 12, 16, 24},
           24,
           24,
           5,
-          {1e-2, 1e-3, 1e-4, 1e-5},
           {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7},
           9};
 }
@@ -151,7 +149,7 @@ class AllBenches {
     Affordable result{whole, {}};
     if (task_.quick) return result;
     CostCache cache;
-    const auto ask = [&] { result.menu = menu_of(result.scene, extent_.scene_tolerances, cache); };
+    const auto ask = [&] { result.menu = menu_of(result.scene, extent_.tolerances, cache); };
     ask();
     double seconds = result.menu.back().seconds;
     if (seconds <= longest_run) return result;
@@ -184,7 +182,7 @@ class AllBenches {
       const Affordable asked = affordable(read_scene(file));
       const BenchResult one = bench_time({.scene = asked.scene,
                                           .at = asked.scene.numerics.end_time,
-                                          .tolerances = extent_.scene_tolerances,
+                                          .tolerances = extent_.tolerances,
                                           .every = asked.scene.output.every});
       const BenchTable& rows = one.tables.front();
       const auto cell = [&](std::size_t row, const std::string& key) {
