@@ -15,7 +15,6 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/stepping/deferred_correction.hpp"
-#include "bie/stepping/evolution.hpp"
 
 namespace vehd {
 namespace {
@@ -68,7 +67,7 @@ double model_seconds(const Pilot& pilot, const CostModel& model) {
 
 /// What pilots tell of tighter tolerances beside the steps of the last of them.
 struct Trend {
-  double degree_share = 0.75;   ///< of the degrees that a spectrum asks for, those that a run takes
+  int degrees_per_digit = 4;    ///< that runs take, at most
   std::optional<double> order;  ///< in dt, at the steps of the pilots; nothing: that of the scheme
 };
 
@@ -89,7 +88,9 @@ MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<doubl
   row.tolerance = tolerances[index];
   const int time_order = accuracy_defaults(row.tolerance).time_order;
   const double largest = step_control_of(at_tolerance(scene, row.tolerance)).largest;
-  const double order_in_dt = order_over(std::log10(pilot.tolerance / row.tolerance), pilot, time_order, trend);
+  const double digits = std::log10(pilot.tolerance / row.tolerance);
+  const double order_in_dt = order_over(digits, pilot, time_order, trend);
+  const int highest = pilot.highest_order + static_cast<int>(std::lround(digits * trend.degrees_per_digit));
   const double attempts =
       static_cast<double>(std::accumulate(pilot.steps.begin(), pilot.steps.end(), 0,
                                           [](int sum, const PilotStep& step) { return sum + step.attempts; })) /
@@ -110,11 +111,10 @@ MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<doubl
     const double room = step.change > 0.0 ? std::pow(row.tolerance / step.change, 1.0 / order_in_dt) : kLongest;
     const double size = std::min(largest, step.dt * kSafety * std::min(room, kLongest));
     const double share = step.dt / size;
-    const double more = trend.degree_share * std::max(0, step.orders[index] - step.order);
     // Runs lower their degree only where it has long been idle, at other tolerances about where the pilot did.
     if (step.order < pilot_order) order = 0;
     pilot_order = step.order;
-    order = std::max(order, step.order + 2 * static_cast<int>(std::ceil(0.5 * more)));
+    order = std::max({order, step.order, std::min(step.orders[index], highest)});
     interval.steps += share;
     interval.seconds += share * attempts * evaluations_per_step(time_order) * model.seconds_per_shape(order);
     row.order = std::max(row.order, order);
@@ -136,15 +136,12 @@ double file_seconds(const Scene& scene, const MenuRow& row) {
   return kPerRow * static_cast<double>(row.steps) + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
 }
 
-/// The tail of a spectrum that is cut early falls more slowly than the degrees beyond it: of the degrees that a pilot
-/// foretold, the share that the next one took. A pilot in the lowest degree may have needed less: it tells nothing.
-double degree_share(const Pilot& pilot, const Pilot& next, std::size_t index_of_next, double before) {
-  constexpr double kLeast = 0.7;
-  int expected = 0;
-  for (const PilotStep& step : pilot.steps) expected = std::max(expected, step.orders[index_of_next]);
-  if (pilot.highest_order <= lowest_adaptive_order || expected <= pilot.highest_order) return before;
-  const double share = double(next.highest_order - pilot.highest_order) / (expected - pilot.highest_order);
-  return std::clamp(share, kLeast, 1.0);
+/// Degrees that the second pilot needed more than the first, for every digit between them. The tail of a spectrum that
+/// is cut falls more slowly than the degrees beyond it, so what it foretells for many digits is too much.
+int degrees_per_digit(const Pilot& pilot, const Pilot& next) {
+  constexpr double kLeast = 4.0;
+  const double more = next.highest_order - pilot.highest_order;
+  return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(pilot.tolerance / next.tolerance))));
 }
 
 /// Means over the time of a pilot.
@@ -193,7 +190,7 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
       Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left() : std::max(left(), kFirstPilot));
       running = next.completed;
       if (i > 0 && next.completed) {
-        trend = {degree_share(pilot, next, i, trend.degree_share), order_between(pilot, next)};
+        trend = {degrees_per_digit(pilot, next), order_between(pilot, next)};
       }
       if (i == 0 || next.completed) pilot = std::move(next);
       if (const double expected = model_seconds(pilot, model); expected > 0.0) ratio = pilot.seconds / expected;

@@ -22,8 +22,8 @@ struct MenuRow {
 /// ones are run to the end, as long as time allows. The last of these foretells the others: where one step of it was
 /// changed by its last correction by e, a tolerance T allows a step of (T/e)^(1/order) its size, and the spectrum
 /// there says which degree T needs; each step costs what the cost model says at that degree. From two of them come the
-/// order that such steps really have and the share of the foretold degrees that is really taken. Degree and time order
-/// of the scene are left to each tolerance.
+/// order that such steps really have and the most degrees that another digit takes. Degree and time order of the scene
+/// are left to each tolerance.
 /// @throws ConvergenceError
 std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache);
 
