@@ -136,12 +136,12 @@ double file_seconds(const Scene& scene, const MenuRow& row) {
   return kPerRow * static_cast<double>(row.steps) + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
 }
 
-/// Degrees that the second pilot needed more than the first, for every digit between them. The tail of a spectrum that
+/// Degrees that a pilot needed more than the first of all, for every digit between them. The tail of a spectrum that
 /// is cut falls more slowly than the degrees beyond it, so what it foretells for many digits is too much.
-int degrees_per_digit(const Pilot& pilot, const Pilot& next) {
+int degrees_per_digit(const MenuRow& first, const Pilot& pilot) {
   constexpr double kLeast = 4.0;
-  const double more = next.highest_order - pilot.highest_order;
-  return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(pilot.tolerance / next.tolerance))));
+  const double more = pilot.highest_order - first.order;
+  return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(first.tolerance / pilot.tolerance))));
 }
 
 /// Means over the time of a pilot.
@@ -190,7 +190,7 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
       Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left() : std::max(left(), kFirstPilot));
       running = next.completed;
       if (i > 0 && next.completed) {
-        trend = {degrees_per_digit(pilot, next), order_between(pilot, next)};
+        trend = {degrees_per_digit(rows.front(), next), order_between(pilot, next)};
       }
       if (i == 0 || next.completed) pilot = std::move(next);
       if (const double expected = model_seconds(pilot, model); expected > 0.0) ratio = pilot.seconds / expected;
