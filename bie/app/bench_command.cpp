@@ -113,7 +113,12 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
   add_bench(*command, options, exit_code, [](const SceneOptions& o) {
     Scene scene = read_scene(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
-    return bench_time({scene, o.at, o.steps, o.time_orders, o.tolerances, o.bench.repeats});
+    return bench_time({.scene = scene,
+                       .at = o.at,
+                       .steps = o.steps,
+                       .time_orders = o.time_orders,
+                       .tolerances = o.tolerances,
+                       .repeats = o.bench.repeats});
   });
 }
 

@@ -171,10 +171,11 @@ BOOST_AUTO_TEST_CASE(errors_in_time_fall_with_the_step_as_the_order_says) {
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_tolerances_are_those_asked_for) {
-  const Bench bench({"time", "SCENE", "--tolerance", "1e-1,1e-2,1e-4", "--at", "1"});
+  const Bench bench({"time", "SCENE", "--tolerance", "1e-1,1e-2,1e-4", "--at", "1", "--repeats", "2"});
   files_say_what_they_hold_for(bench);
   const auto& rows = bench.json["rows"];
   BOOST_REQUIRE(rows.size() == 3);
+  BOOST_TEST(number(rows[0], "seconds_repeats") == 2.0);
   for (std::size_t i = 0; i < 2; ++i) {
     BOOST_TEST(number(rows[i], "error_over_tolerance") < 3.0);
     BOOST_TEST(number(rows[i], "error") == number(rows[i], "error_over_tolerance") * number(rows[i], "tolerance"),
