@@ -34,6 +34,8 @@ Vector surface_divergence(const Surface& surface, const SphereDerivatives& vecto
 Matrix surface_laplacian(const Surface& surface, const SphereDerivatives& fields);
 
 double surface_area(const Surface& surface);
+/// ∫x dA / ∫dA.
+Vector3 centroid(const Surface& surface);
 /// ∫ x·n dA / 3.
 double enclosed_volume(const Surface& surface);
 

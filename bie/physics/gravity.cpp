@@ -12,7 +12,7 @@ EffectDescription GravityEffect::description() const {
 void GravityEffect::add(const Situation& situation, Forcing& forcing) const {
   const Surface& s = situation.membrane.surface;
   // Any constant may be added to g·x: about the centre the numbers stay small.
-  const Vector3 centre = s.position.transpose() * s.quadrature / s.quadrature.sum();
+  const Vector3 centre = centroid(s);
   const Vector height = (s.position.rowwise() - centre.transpose()) * parameters_.acceleration;
   forcing.force += (parameters_.density_difference * height).asDiagonal() * s.normal;
 }

@@ -8,30 +8,12 @@
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/legendre.hpp"
+#include "bie/sphere/neighbourhood.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
-
-/// A direction of the unit sphere with its frame.
-struct Direction {
-  double theta, phi;
-  Vector3 radial, e_theta, e_phi;
-
-  explicit Direction(const Vector3& s)
-      : theta(std::atan2(std::hypot(s.x(), s.y()), s.z())), phi(std::atan2(s.y(), s.x())) {
-    radial = Vector3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-    e_theta = Vector3(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi), -std::sin(theta));
-    e_phi = Vector3(-std::sin(phi), std::cos(phi), 0.0);
-  }
-
-  [[nodiscard]] Vector3 moved(const Eigen::Vector2d& step) const {
-    const double angle = step.norm();
-    if (angle == 0.0) return radial;
-    return std::cos(angle) * radial + std::sin(angle) / angle * (step.x() * e_theta + step.y() * e_phi);
-  }
-};
 
 /// ½|x − y|² on the sphere with its first two derivatives.
 struct SquaredDistance {
@@ -61,11 +43,11 @@ Eigen::Vector2d descent_step(const SquaredDistance& q) {
   return step;
 }
 
-FootPoint foot_point_at(const Direction& direction, const PointDerivatives& y, const SquaredDistance& q,
+FootPoint foot_point_at(const TangentFrame& direction, const PointDerivatives& y, const SquaredDistance& q,
                         const Vector3& target) {
   FootPoint foot;
-  foot.theta = direction.theta;
-  foot.phi = direction.phi;
+  foot.theta = direction.point.theta;
+  foot.phi = direction.point.phi;
   foot.position = y.value.transpose();
   const Vector3 cross = Vector3(y.d1.transpose()).cross(Vector3(y.d2.transpose()));
   foot.area_element = cross.norm();
@@ -111,15 +93,15 @@ FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Ve
   constexpr int kMaxHalvings = 30;
   constexpr double kTolerance = 1e-13;
   require_size("position (Cartesian components)", position.cols(), 3);
-  Direction direction(start);
-  PointDerivatives y = point_derivatives(position, direction.theta, direction.phi);
+  TangentFrame direction(point_of(start));
+  PointDerivatives y = point_derivatives(position, direction.point.theta, direction.point.phi);
   SquaredDistance q = squared_distance(y, target);
   for (int steps = 0; steps < kMaxSteps; ++steps) {
     Eigen::Vector2d step = descent_step(q);
     const bool last = step.norm() < kTolerance;
     for (int halvings = 0;; ++halvings) {
-      const Direction next(direction.moved(step));
-      const PointDerivatives y_next = point_derivatives(position, next.theta, next.phi);
+      const TangentFrame next(point_of(direction.moved(step)));
+      const PointDerivatives y_next = point_derivatives(position, next.point.theta, next.point.phi);
       const SquaredDistance q_next = squared_distance(y_next, target);
       // The square of a tiny distance is flat to rounding: the gradient decides when the value cannot.
       const bool nearer = q_next.value <= q.value || q_next.gradient.norm() < q.gradient.norm();

@@ -41,7 +41,7 @@ SpherePoint crossing_above(const Vector3& point, const SphereGrid& grid, const M
   const auto look = [&](const SpherePoint& there) {
     View view;
     for (Index axis = 0; axis < 2; ++axis) {
-      const PointDerivatives x = derivatives_at(coefficients.col(axis), there, azimuthal_order);
+      const LocalField x = derivatives_at(coefficients.col(axis), there, azimuthal_order);
       view.offset[axis] = x.value - point[axis];
       view.slopes.row(axis) = x.gradient.transpose();
     }
@@ -54,7 +54,7 @@ SpherePoint crossing_above(const Vector3& point, const SphereGrid& grid, const M
     const double length = step.norm();
     if (!(length > kShortest)) break;
     if (length > kLongest) step *= kLongest / length;
-    const SpherePoint end = end_of_walk(at, step);
+    const SpherePoint end = point_of(TangentFrame(at).moved(step));
     const View there = look(end);
     if (there.offset.norm() >= here.offset.norm()) {
       share *= 0.5;

@@ -60,8 +60,8 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
     SpherePoint at = point_of(grid, node);
     Climb next = climb_from(node);
     for (int count = 0; count < kMost && next.gain > kRounding * scale; ++count) {
-      const SpherePoint end = end_of_walk(at, next.step);
-      const PointDerivatives there = derivatives_at(coefficients, end, azimuthal_order);
+      const SpherePoint end = point_of(TangentFrame(at).moved(next.step));
+      const LocalField there = derivatives_at(coefficients, end, azimuthal_order);
       if (sign * there.value <= value) {
         next.step *= 0.5;
         next.gain *= 0.5;

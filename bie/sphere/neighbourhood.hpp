@@ -12,25 +12,33 @@ struct SpherePoint {
 };
 
 SpherePoint point_of(const SphereGrid& grid, Index node);
+/// The point in the direction of a vector of any length but zero.
+SpherePoint point_of(const Vector3& vector);
 
 /// The unit vector of a point.
 Vector3 direction(const SpherePoint& point);
 
-/// The end of a great circle that leaves the point along the step, in its frame (e_θ, e_φ).
-/// @param step  not zero
-SpherePoint end_of_walk(const SpherePoint& from, const Eigen::Vector2d& step);
+/// A point with its frame.
+struct TangentFrame {
+  SpherePoint point;
+  Vector3 radial, e_theta, e_phi;
+
+  explicit TangentFrame(const SpherePoint& point);
+  /// The end of a great circle that leaves the point along the step, in (e_θ, e_φ).
+  [[nodiscard]] Vector3 moved(const Eigen::Vector2d& step) const;
+};
 
 /// Largest |m| with a coefficient that is not zero.
 int azimuthal_order_of(const Vector& coefficients);
 
 /// A field with covariant derivatives in the frame (e_θ, e_φ) of one point.
-struct PointDerivatives {
+struct LocalField {
   double value = 0.0;
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
   Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
 };
 
 /// By differences along great circles: the value is exact, derivatives have eight digits.
-PointDerivatives derivatives_at(const Vector& coefficients, const SpherePoint& point, int azimuthal_order);
+LocalField derivatives_at(const Vector& coefficients, const SpherePoint& point, int azimuthal_order);
 
 }  // namespace vehd

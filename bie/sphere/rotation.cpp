@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/neighbourhood.hpp"
 #include "bie/sphere/transform.hpp"
 
 namespace vehd {
@@ -92,11 +93,9 @@ Matrix turned_fields(const Matrix& coefficients, const Matrix3& rotation) {
   Vector theta(grid.n_points()), phi(grid.n_points());
   for (Index j = 0; j < grid.n_theta; ++j) {
     for (Index k = 0; k < grid.n_phi; ++k) {
-      const Vector3 direction(std::sin(grid.theta(j)) * std::cos(grid.phi(k)),
-                              std::sin(grid.theta(j)) * std::sin(grid.phi(k)), std::cos(grid.theta(j)));
-      const Vector3 before = rotation.transpose() * direction;
-      theta(j * grid.n_phi + k) = std::atan2(std::hypot(before.x(), before.y()), before.z());
-      phi(j * grid.n_phi + k) = std::atan2(before.y(), before.x());
+      const SpherePoint before = point_of(Vector3(rotation.transpose() * direction({grid.theta(j), grid.phi(k)})));
+      theta(j * grid.n_phi + k) = before.theta;
+      phi(j * grid.n_phi + k) = before.phi;
     }
   }
   return transform.analyze(evaluate_harmonics(coefficients, theta, phi));

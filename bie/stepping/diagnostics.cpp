@@ -16,8 +16,7 @@ namespace {
 
 /// Angle of the long axis of the gyration tensor against +x in the x-z plane of the laboratory, in (−90, 90] degrees.
 double inclination(const Surface& s, const Frame& frame) {
-  const Vector3 centre = s.position.transpose() * s.quadrature / s.quadrature.sum();
-  const Matrix centred = s.position.rowwise() - centre.transpose();
+  const Matrix centred = s.position.rowwise() - centroid(s).transpose();
   const Matrix3 gyration = centred.transpose() * s.quadrature.asDiagonal() * centred;
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
   const Vector3 axis = frame.axes * solver.eigenvectors().col(2);
@@ -41,8 +40,7 @@ Diagnostics along_laboratory_axes(Diagnostics d, const Frame& frame, const Spher
   const Matrix position = state.position * frame.axes.transpose();
   const SphereDerivatives x = fine.synthesize_hessian(position);
   if (state.transmembrane_potential.size() > 0) {
-    const Vector3 centre = x.value.transpose() * s.quadrature / s.quadrature.sum();
-    const SpherePoint north = crossing_above(centre, fine.grid(), x.value, position);
+    const SpherePoint north = crossing_above(frame.axes * centroid(s), fine.grid(), x.value, position);
     const auto there = [&](const Vector& field) {
       return evaluate_harmonics(field, Vector{{north.theta}}, Vector{{north.phi}})(0, 0);
     };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/neighbourhood.hpp"
 
 namespace vehd {
 
@@ -46,8 +47,9 @@ struct Angles {
 Angles angles_of(const Directions& r) {
   Angles angles{Vector(r.rows()), Vector(r.rows())};
   for (Index i = 0; i < r.rows(); ++i) {
-    angles.theta[i] = std::atan2(std::hypot(r(i, 0), r(i, 1)), r(i, 2));
-    angles.phi[i] = std::atan2(r(i, 1), r(i, 0));
+    const SpherePoint point = point_of(Vector3(r.row(i)));
+    angles.theta[i] = point.theta;
+    angles.phi[i] = point.phi;
   }
   return angles;
 }
@@ -55,9 +57,7 @@ Angles angles_of(const Directions& r) {
 Directions node_directions(const SphereGrid& grid) {
   Directions r(grid.n_points(), 3);
   for (Index i = 0; i < grid.n_points(); ++i) {
-    const double theta = grid.theta[i / grid.n_phi];
-    const double phi = grid.phi[i % grid.n_phi];
-    r.row(i) << std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta);
+    r.row(i) = direction(point_of(grid, i)).transpose();
   }
   return r;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/neighbourhood.hpp"
 #include "tests/support/fields.hpp"
 
 using namespace vehd;
@@ -23,13 +24,7 @@ Vector quadratic(Function function) {
   const SphereTransform transform(2, make_grid(2));
   const SphereGrid& grid = transform.grid();
   Matrix values(grid.n_points(), 1);
-  for (int j = 0; j < grid.n_theta; ++j) {
-    for (int k = 0; k < grid.n_phi; ++k) {
-      const double theta = grid.theta[j], phi = grid.phi[k];
-      values(j * grid.n_phi + k, 0) =
-          function(Vector3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-    }
-  }
+  for (Index node = 0; node < grid.n_points(); ++node) values(node, 0) = function(direction(point_of(grid, node)));
   return transform.analyze(values);
 }
 
