@@ -76,9 +76,11 @@ Matrix surface_laplacian(const Surface& surface, const SphereDerivatives& fields
 
 double surface_area(const Surface& surface) { return surface.quadrature.sum(); }
 
-Vector3 centroid(const Surface& surface) {
-  return surface.position.transpose() * surface.quadrature / surface.quadrature.sum();
+Vector3 surface_mean(const Surface& surface, const Matrix& values) {
+  return values.transpose() * surface.quadrature / surface.quadrature.sum();
 }
+
+Vector3 centroid(const Surface& surface) { return surface_mean(surface, surface.position); }
 
 double enclosed_volume(const Surface& surface) {
   return row_dot(surface.position, surface.normal).dot(surface.quadrature) / 3.0;

@@ -34,6 +34,8 @@ Vector surface_divergence(const Surface& surface, const SphereDerivatives& vecto
 Matrix surface_laplacian(const Surface& surface, const SphereDerivatives& fields);
 
 double surface_area(const Surface& surface);
+/// ∫f dA / ∫dA of a vector field, [n_points x 3].
+Vector3 surface_mean(const Surface& surface, const Matrix& values);
 /// ∫x dA / ∫dA.
 Vector3 centroid(const Surface& surface);
 /// ∫ x·n dA / 3.

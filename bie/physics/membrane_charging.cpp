@@ -9,13 +9,15 @@ namespace vehd {
 
 namespace {
 
-/// Solves (½ + ηS′)(a V − b) − κ D′[V] = κ E·n; the whole equation is divided by a + κ, which may be of any size.
+/// Solves (½ + ηS′)(a V − b) − κ D′[V] = κ E·n; the whole equation is divided by a + κ/R, which may be of any size.
 SolveReport solve_charging(const ElectricParameters& electric, const Membrane& membrane, double a, const Vector& b,
                            double tolerance, Vector& potential) {
   const double eta = conductivity_contrast(electric);
   const double kappa = series_conductivity(electric);
-  const double storage = a / (a + kappa);
-  const double conduction = kappa / (a + kappa);
+  const double radius = membrane.radius;
+  const double size = a + kappa / radius;
+  const double storage = a / size;
+  const double conduction = kappa / size;  // a length, R at most
   const SphereTransform& fine = membrane.fine;
 
   const LinearMap map = [&](const Vector& v) {
@@ -28,7 +30,6 @@ SolveReport solve_charging(const ElectricParameters& electric, const Membrane& m
     result[0] = storage > 0.0 ? storage * membrane.weighted(fine.synthesize(v))(0, 0) : v[0];
     return result;
   };
-  const double radius = membrane.radius;
   const LinearMap preconditioner = [&](const Vector& r) {
     Vector result(r.size());
     for (int n = 0; n <= fine.order(); ++n) {
@@ -41,7 +42,7 @@ SolveReport solve_charging(const ElectricParameters& electric, const Membrane& m
     return result;
   };
 
-  const Vector weighted_b = membrane.weighted(fine.synthesize(b)) / (a + kappa);
+  const Vector weighted_b = membrane.weighted(fine.synthesize(b)) / size;
   Vector rhs = conduction * fine.analyze(weighted_field_flux(membrane, electric.field));
   if (!b.isZero(0.0)) rhs += second_kind_operator(membrane, eta, weighted_b);
   rhs[0] = storage > 0.0 ? weighted_b[0] : 0.0;

@@ -10,10 +10,9 @@ namespace vehd {
 
 namespace {
 
-/// Times this close, relative to their size, are the same: steps that end on a corner do so up to rounding.
+/// Times this close, relative to their size or to what the waveform does in time, are the same: steps that end on a
+/// corner do so up to rounding.
 constexpr double kSameTime = 1e-11;
-
-double slack(double time) { return kSameTime * std::max(1.0, std::abs(time)); }
 
 }  // namespace
 
@@ -52,6 +51,11 @@ Waveform Waveform::table(std::vector<double> times, std::vector<double> values) 
   w.times_ = std::move(times);
   w.values_ = std::move(values);
   return w;
+}
+
+double Waveform::slack(double time) const {
+  const double span = kind_ == Kind::table ? times_.back() - times_.front() : duration_;
+  return kSameTime * std::max(span, std::abs(time));
 }
 
 double Waveform::at(double time, Limit limit) const {

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/evaluation_parts.hpp"
 #include "bie/stepping/resolution.hpp"
+#include "bie/stepping/rigid_sphere.hpp"
 #include "bie/stepping/time_rule.hpp"
 #include "bie/support/errors.hpp"
 
@@ -18,7 +20,11 @@ struct Rate {
   Vector potential;
 };
 
-Rate rate_of(const Evaluation& evaluation) { return {evaluation.fields.velocity, evaluation.potential_rate}; }
+Rate rate_of(const Evaluation& evaluation) {
+  const Evaluation::Parts& parts = *evaluation.parts;
+  return {parts.is_sphere ? rigid_sphere_velocity(parts.membrane, parts.velocity) : parts.velocity,
+          evaluation.potential_rate};
+}
 
 /// y_0 + dt Σ_j q_j F_j − y.
 StageResidual residual_of(const State& start, const Stage& stage, const std::vector<Rate>& rates,

@@ -64,7 +64,7 @@ Diagnostics diagnose(const State& state, const Membrane& membrane, const Fields&
   Diagnostics d;
   d.area = surface_area(s);
   d.volume = enclosed_volume(s);
-  d.reduced_volume = 6.0 * std::sqrt(std::numbers::pi) * d.volume / std::pow(d.area, 1.5);
+  d.reduced_volume = 6.0 * std::sqrt(std::numbers::pi) * d.volume / (d.area * std::sqrt(d.area));
   d.bending_energy_scaled = bending_energy_scaled(s);
   d.area_drift = d.area / state.reference_area - 1.0;
   d.volume_drift = d.volume / state.reference_volume - 1.0;

@@ -62,7 +62,9 @@ double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, con
   constexpr double kShare = 0.5;
   const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
   double rate = 0.0;
-  if (evaluation.fields.velocity.size() > 0) rate = evaluation.fields.velocity.norm() / radius;
+  // Degree 0 carries the membrane along and changes nothing of it.
+  const Matrix& velocity = evaluation.fields.velocity;
+  if (velocity.size() > 0) rate = velocity.bottomRows(velocity.rows() - 1).norm() / radius;
   if (evaluation.potential_rate.size() > 0) {
     const double scale = potential_scale(*setup.model.electric, radius, state.transmembrane_potential.norm());
     rate = std::max(rate, evaluation.potential_rate.norm() / scale);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "bie/physics/bending.hpp"
@@ -46,6 +47,9 @@ bool uniform_tension_is_free(const Model& model, const Membrane& membrane) {
 
 namespace {
 
+/// A step holds strain to a tenth of what it holds the change of curvature to (NumericalSettings).
+constexpr double kStrainShare = 0.1;
+
 FlowLayout layout_of(const Model& model, const Membrane& membrane, double dt, const FlowOptions& options) {
   FlowLayout layout{n_coefficients(membrane.fine.order()), options.entries, dt > 0.0 && model.bending.has_value(),
                     model.inextensible};
@@ -53,10 +57,29 @@ FlowLayout layout_of(const Model& model, const Membrane& membrane, double dt, co
     layout.entries.resize(static_cast<std::size_t>(layout.n_all));
     std::iota(layout.entries.begin(), layout.entries.end(), Index{0});
   }
+  if (layout.bending) {
+    layout.curvature_scale = 1.0 / membrane.radius;
+    layout.tension_scale = kStrainShare * (model.viscosity * membrane.radius / dt +
+                                           model.bending->modulus / (membrane.radius * membrane.radius));
+  }
   return layout;
 }
 
-/// All coefficients of the scalars, of which v holds those that can differ from zero.
+/// Columns (h, λ) over their scales.
+Matrix over_scales(const FlowLayout& layout, Matrix unknowns) {
+  unknowns.topRows(layout.n_curvature()) /= layout.curvature_scale;
+  unknowns.bottomRows(layout.n_tension()) /= layout.tension_scale;
+  return unknowns;
+}
+
+/// The other way.
+Matrix times_scales(const FlowLayout& layout, Matrix unknowns) {
+  unknowns.topRows(layout.n_curvature()) *= layout.curvature_scale;
+  unknowns.bottomRows(layout.n_tension()) *= layout.tension_scale;
+  return unknowns;
+}
+
+/// All coefficients of the scalars, of which v holds those that can differ from zero, over their scales.
 MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
   const auto all = [&](const auto& entries) {
     Vector scalar = Vector::Zero(layout.n_all);
@@ -64,12 +87,12 @@ MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
     return scalar;
   };
   MembraneUnknowns unknowns;
-  if (layout.bending) unknowns.curvature = all(v.head(layout.n()));
-  if (layout.tension) unknowns.tension = all(v.tail(layout.n()));
+  if (layout.bending) unknowns.curvature = all(layout.curvature_scale * v.head(layout.n()));
+  if (layout.tension) unknowns.tension = all(layout.tension_scale * v.tail(layout.n()));
   return unknowns;
 }
 
-/// The other way; scalars that are empty count as zero.
+/// The coefficients that can differ from zero, one scalar behind the other; scalars that are empty count as zero.
 Vector entries_of(const FlowLayout& layout, const Vector& curvature, const Vector& divergence_or_tension) {
   Vector v = Vector::Zero(layout.size());
   if (layout.bending && curvature.size() > 0) v.head(layout.n()) = curvature(layout.entries);
@@ -77,22 +100,24 @@ Vector entries_of(const FlowLayout& layout, const Vector& curvature, const Vecto
   return v;
 }
 
-/// Responses (Hop(u), J ∇_γ·u) of FlowMemory as those of the system, (h − dt Hop(u), J ∇_γ·u).
-Matrix responses_in_system(const FlowLayout& layout, const KnownResponses& known, double dt) {
-  Matrix responses = known.responses;
-  if (!layout.bending || known.count() == 0) return responses;
-  auto curvature = responses.topRows(layout.n());
+/// (h, λ) ↦ (Hop(u), J ∇_γ·u) of FlowMemory as (h, λ) over their scales ↦ (h − dt Hop(u), J ∇_γ·u).
+KnownResponses in_system(const FlowLayout& layout, const KnownResponses& known, double dt) {
+  if (known.count() == 0) return {};
+  KnownResponses result{over_scales(layout, known.arguments), known.responses};
+  if (!layout.bending) return result;
+  auto curvature = result.responses.topRows(layout.n());
   curvature = known.arguments.topRows(layout.n()) - dt * curvature;
-  return responses;
+  return result;
 }
 
 /// The other way.
-Matrix responses_in_memory(const FlowLayout& layout, const KnownResponses& learned, double dt) {
-  Matrix responses = learned.responses;
-  if (!layout.bending || learned.count() == 0) return responses;
-  auto curvature = responses.topRows(layout.n());
-  curvature = (learned.arguments.topRows(layout.n()) - curvature) / dt;
-  return responses;
+KnownResponses in_memory(const FlowLayout& layout, const KnownResponses& learned, double dt) {
+  if (learned.count() == 0) return {};
+  KnownResponses result{times_scales(layout, learned.arguments), learned.responses};
+  if (!layout.bending) return result;
+  auto curvature = result.responses.topRows(layout.n());
+  curvature = (result.arguments.topRows(layout.n()) - curvature) / dt;
+  return result;
 }
 
 /// Stand-in for the response of the area to a uniform tension, which vanishes on a sphere.
@@ -100,7 +125,7 @@ double mean_response(const Model& model, const Membrane& membrane) {
   return 0.1 * sphere_flow_block({membrane.radius, model.viscosity, 0.0, 0.0, model.viscosity_ratio}, 2)(1, 1);
 }
 
-/// (h, λ) ↦ the left sides of FlowRightHandSide and, behind them, the velocity.
+/// (h, λ) over their scales ↦ the left sides of FlowRightHandSide and, behind them, the velocity.
 LinearMap flow_map(const Model& model, const Membrane& membrane, double dt, const FlowLayout& layout,
                    const FlowOptions& options) {
   return [=, &model, &membrane](const Vector& v) {
@@ -145,7 +170,7 @@ LinearMap sphere_inverse(const Model& model, const Membrane& membrane, double dt
       if (layout.bending) result[i] = m(0, 0) * curvature + m(0, 1) * divergence;
       if (layout.tension) result[behind] = m(1, 0) * curvature + m(1, 1) * divergence;
     }
-    return result;
+    return over_scales(layout, std::move(result));
   };
 }
 
@@ -160,21 +185,19 @@ FlowSystem::FlowSystem(const Model& model, const Membrane& membrane, double dt, 
       // arguments.
       known_(pinned_ || known.arguments.rows() != layout_.size() ? KnownResponses{} : std::move(known)),
       solver_(flow_map(model, membrane, dt, layout_, options), sphere_inverse(model, membrane, dt, layout_, options),
-              layout_.size(), 3 * layout_.n_all, {known_.arguments, responses_in_system(layout_, known_, dt)}) {}
+              layout_.size(), 3 * layout_.n_all, in_system(layout_, known_, dt)) {}
 
 FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance) {
   constexpr int kMaxIterations = 120;
   Vector b = entries_of(layout_, rhs.curvature, rhs.divergence);
   if (pinned_) b[layout_.n_curvature()] = 0.0;
-  const Vector x = entries_of(layout_, start.curvature, start.tension);
+  const Vector x = over_scales(layout_, entries_of(layout_, start.curvature, start.tension));
   RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, kMaxIterations});
   return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_all, 3)};
 }
 
 KnownResponses FlowSystem::learned() const {
-  KnownResponses result = pinned_ ? KnownResponses{} : solver_.learned();
-  result.responses = responses_in_memory(layout_, result, dt_);
-  return result;
+  return pinned_ ? KnownResponses{} : in_memory(layout_, solver_.learned(), dt_);
 }
 
 KnownResponses FlowSystem::kept() const { return selected(known_, solver_.kept()); }

@@ -45,12 +45,16 @@ struct FlowOptions {
   std::vector<Index> entries{};
 };
 
-/// Which scalars are unknown, and with which coefficients.
+/// Which scalars are unknown, and with which coefficients. The solver sees each scalar over its own natural scale, so
+/// that its norm adds like to like: one step of size dt bends a membrane of radius R by h R and strains it by
+/// λ dt/(μR), or by λ R²/κ_B where bending answers within the step.
 struct FlowLayout {
   Index n_all = 0;             ///< coefficients of degree p
   std::vector<Index> entries;  ///< those that can differ from zero
   bool bending = false;
   bool tension = false;
+  double curvature_scale = 1.0;  ///< 1/R
+  double tension_scale = 1.0;  ///< a share of μR/dt + κ_B/R²; where λ is the only unknown its scale is of no account
 
   [[nodiscard]] Index n() const { return static_cast<Index>(entries.size()); }
   [[nodiscard]] Index n_curvature() const { return bending ? n() : 0; }

@@ -9,7 +9,8 @@
 namespace vehd {
 
 SphereVectors sliding_part(const SphereTransform& fine, const Surface& s, const Matrix& displacement) {
-  const SphereDerivatives u = fine.synthesize_gradient(displacement);
+  SphereDerivatives u = fine.synthesize_gradient(displacement);
+  u.value.rowwise() -= surface_mean(s, u.value).transpose();
   const Vector normal = u.value.cwiseProduct(s.normal).rowwise().sum();
   const Vector divergence =
       s.area_element.cwiseProduct(surface_divergence(s, u) + 2.0 * s.mean_curvature.cwiseProduct(normal));

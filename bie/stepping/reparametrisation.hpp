@@ -11,7 +11,8 @@ struct SphereVectors {
 };
 
 /// Divergence-free part of the tangential part of `displacement`: with a its contravariant components, J a = ∇Ψ + r̂×∇X
-/// on the unit sphere, and the first part alone changes area elements.
+/// on the unit sphere, and the first part alone changes area elements. A uniform translation slides nothing, so the
+/// mean of the displacement over the surface is left out.
 SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, const Matrix& displacement);
 
 /// Moves the grid over the surface without moving the surface: new node s takes what the material point Φ(s) carries,

@@ -30,8 +30,9 @@ Matrix resized(const Matrix& coefficients, int order) {
 
 double potential_scale(const ElectricParameters& electric, double radius, double largest) {
   constexpr double kLeastShare = 0.1;
-  constexpr double kTiny = 1e-300;
-  return std::max({largest, kLeastShare * electric.field.norm() * radius, kTiny});
+  const double scale = std::max(largest, kLeastShare * electric.field.norm() * radius);
+  // Without a field and a potential any scale serves: the error is zero.
+  return scale > 0.0 ? scale : 1.0;
 }
 
 Resolution::Resolution(const Model& model, const State& state) {

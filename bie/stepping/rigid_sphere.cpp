@@ -1,6 +1,7 @@
 #include "bie/stepping/rigid_sphere.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include "bie/stepping/reparametrisation.hpp"
 
@@ -8,50 +9,84 @@ namespace vehd {
 
 namespace {
 
-Vector3 surface_mean(const Surface& s, const Matrix& values) {
-  return values.transpose() * s.quadrature / s.quadrature.sum();
-}
+Matrix from_centre(const Surface& s) { return s.position.rowwise() - centroid(s).transpose(); }
 
 /// Ω × r in every row.
-Matrix rotating(const Vector3& rate, const Matrix& from_centre) {
-  Matrix result(from_centre.rows(), 3);
-  for (Index i = 0; i < result.rows(); ++i) result.row(i) = rate.cross(Vector3(from_centre.row(i)));
+Matrix rotating(const Vector3& rate, const Matrix& r) {
+  Matrix result(r.rows(), 3);
+  for (Index i = 0; i < result.rows(); ++i) result.row(i) = rate.cross(Vector3(r.row(i)));
   return result;
 }
 
 /// Ω of the part Ω × r of a tangential flow: ∫ r × v dA = (2/3) A R² Ω, and all other parts contribute nothing.
-Vector3 rotation_of(const Surface& s, const Matrix& from_centre, const Matrix& velocity, double radius) {
+Vector3 rotation_of(const Surface& s, const Matrix& r, const Matrix& velocity, double radius) {
   Vector3 moment = Vector3::Zero();
   for (Index i = 0; i < velocity.rows(); ++i) {
-    moment += s.quadrature[i] * Vector3(from_centre.row(i)).cross(Vector3(velocity.row(i)));
+    moment += s.quadrature[i] * Vector3(r.row(i)).cross(Vector3(velocity.row(i)));
   }
   return 1.5 / (s.quadrature.sum() * radius * radius) * moment;
 }
 
+/// The rotation that takes the rows of `from` nearest to those of `to`, in the mean square over the surface.
+Matrix3 nearest_rotation(const Surface& s, const Matrix& from, const Matrix& to) {
+  const Matrix3 moment = to.transpose() * s.quadrature.asDiagonal() * from;
+  const Eigen::JacobiSVD<Matrix3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3 signs = Vector3::Ones();
+  signs[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+/// Values of the divergence-free tangential flow.
+Matrix flow_within(const Membrane& sphere, const Matrix& velocity) {
+  const Surface& s = sphere.surface;
+  const SphereVectors flow = sliding_part(sphere.fine, s, velocity);
+  return flow.d1.asDiagonal() * s.tangent_1 + flow.d2.asDiagonal() * s.tangent_2;
+}
+
 }  // namespace
 
-ConstrainedMove rigid_sphere_move(const State& state, const Evaluation::Parts& parts, const Vector& tension, double dt,
-                                  const Landing& landing) {
-  const Membrane& membrane = parts.membrane;
-  const Surface& s = membrane.surface;
-  const Vector3 moved_centre =
-      surface_mean(s, s.position) + dt * surface_mean(s, membrane.fine.synthesize(parts.velocity));
-  const SphereVectors flow = sliding_part(membrane.fine, s, parts.velocity);
-  const Matrix velocity = flow.d1.asDiagonal() * s.tangent_1 + flow.d2.asDiagonal() * s.tangent_2;
-  const Matrix from_centre = s.position.rowwise() - surface_mean(s, s.position).transpose();
-  const Vector3 rotation_rate = rotation_of(s, from_centre, velocity, membrane.radius);
+Matrix rigid_sphere_velocity(const Membrane& sphere, const Matrix& velocity) {
+  const Vector3 translation = surface_mean(sphere.surface, sphere.fine.synthesize(velocity));
+  return sphere.fine.analyze(flow_within(sphere, velocity).rowwise() + translation.transpose());
+}
 
+SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, double dt) {
+  const Matrix r = from_centre(sphere.surface);
+  const Matrix flow = flow_within(sphere, velocity);
+  const Vector3 rate = rotation_of(sphere.surface, r, flow, sphere.radius);
+  SphereMotion motion;
+  motion.translation = dt * surface_mean(sphere.surface, sphere.fine.synthesize(velocity));
+  motion.rotation = Eigen::AngleAxisd(rate.norm() * dt, rate.stableNormalized()).toRotationMatrix();
+  motion.flow = dt * (flow - rotating(rate, r));
+  return motion;
+}
+
+SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displacement) {
+  const Surface& s = sphere.surface;
+  const Matrix r = from_centre(s);
+  const Matrix moved = sphere.fine.synthesize(displacement);
+  SphereMotion motion;
+  motion.translation = surface_mean(s, moved);
+  const Matrix end = r + (moved.rowwise() - motion.translation.transpose());
+  motion.rotation = nearest_rotation(s, r, end);
+  motion.flow = end * motion.rotation - r;
+  return motion;
+}
+
+ConstrainedMove rigid_sphere_move(const State& state, const Membrane& sphere, const SphereMotion& motion,
+                                  const Vector& tension, const Landing& landing) {
+  const Surface& s = sphere.surface;
   ConstrainedMove move;
-  Matrix radial = from_centre + dt * (velocity - rotating(rotation_rate, from_centre));
-  const Vector retraction = membrane.radius * radial.rowwise().norm().cwiseInverse();
+  Matrix radial = from_centre(s) + motion.flow;
+  const Vector retraction = sphere.radius * radial.rowwise().norm().cwiseInverse();
   radial.array().colwise() *= retraction.array();
-  const Eigen::AngleAxisd turn(rotation_rate.norm() * dt, rotation_rate.stableNormalized());
-  radial *= turn.toRotationMatrix().transpose();
-  move.position = membrane.fine.analyze(radial.rowwise() + moved_centre.transpose());
+  radial *= motion.rotation.transpose();
+  const Vector3 centre = centroid(s) + motion.translation;
+  move.position = sphere.fine.analyze(radial.rowwise() + centre.transpose());
   move.tension = tension;
-  const Vector stretch = make_surface(membrane.fine, move.position).area_element.cwiseQuotient(s.area_element);
-  const Vector stretch_before = 1.0 + membrane.fine.synthesize(state.area_strain).col(0).array();
-  move.area_strain = membrane.fine.analyze(stretch_before.cwiseProduct(stretch).array() - 1.0);
+  const Vector stretch = make_surface(sphere.fine, move.position).area_element.cwiseQuotient(s.area_element);
+  const Vector stretch_before = 1.0 + sphere.fine.synthesize(state.area_strain).col(0).array();
+  move.area_strain = sphere.fine.analyze(stretch_before.cwiseProduct(stretch).array() - 1.0);
   move.landed = landing(move);
   move.accepted = true;
   return move;

@@ -7,10 +7,27 @@
 /// tension, which acts on nothing, grows until the membrane only translates and flows within itself.
 namespace vehd {
 
-/// One step of the part of the membrane velocity that a sphere can follow: translation and divergence-free tangential
-/// flow. Its rotation is a finite one, so that it strains nothing, and points end on the translated sphere exactly. The
-/// mean tension stays undetermined and is reported as zero.
-ConstrainedMove rigid_sphere_move(const State& state, const Evaluation::Parts& parts, const Vector& tension, double dt,
-                                  const Landing& landing);
+/// The part of a membrane velocity that a sphere can follow, translation and divergence-free tangential flow:
+/// coefficients, [n_coefficients x 3].
+Matrix rigid_sphere_velocity(const Membrane& sphere, const Matrix& velocity);
+
+/// Where points of a sphere have moved to.
+struct SphereMotion {
+  Vector3 translation = Vector3::Zero();
+  Matrix3 rotation = Matrix3::Identity();  ///< about the centre
+  Matrix flow;                             ///< displacement within the sphere, before the rotation, [n_points x 3]
+};
+
+/// What rigid_sphere_velocity does in dt, its rotation a finite one that strains nothing however long the step.
+SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, double dt);
+
+/// The motion of points that end near x + displacement, with the rotation that is nearest to it. The flow is exact as
+/// far as these ends lie on the translated sphere.
+/// @param displacement  coefficients, [n_coefficients x 3]
+SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displacement);
+
+/// The sphere after the motion; points end on the translated sphere exactly. The mean tension stays undetermined.
+ConstrainedMove rigid_sphere_move(const State& state, const Membrane& sphere, const SphereMotion& motion,
+                                  const Vector& tension, const Landing& landing);
 
 }  // namespace vehd

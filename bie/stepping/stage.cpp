@@ -81,6 +81,12 @@ bool charge(const StageContext& context, const ElectricParameters& electric, dou
   return report.converged;
 }
 
+/// The paper's scheme leaves explicit what a change of H does to the tension that is there. An ellipsoidal disturbance
+/// of a sphere relaxes under a tension λ at the rate 24 λ/((32 + 23 μ_i/μ_e) μ_e R) (quasi-spherical theory), and an
+/// explicit step overshoots where it relaxes by more than all of it, as near the sphere, where tensions are large. The
+/// first-order step leaves explicit the tension that relaxes by this much, and holds the rest.
+constexpr double kExplicitRelaxation = 0.5;
+
 /// A potential this small does nothing any more, and without it the electric part can sleep.
 void forget_decayed(const StageContext& context, Stage& stage) {
   constexpr double kDecayed = 1e-10;
@@ -91,16 +97,24 @@ void forget_decayed(const StageContext& context, Stage& stage) {
 
 }  // namespace
 
-FlowSystems::FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options,
+FlowSystems::FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options, double explicit_relaxation,
                          std::shared_ptr<const KnownResponses> known)
-    : model_(model), membrane_(membrane), options_(std::move(options)), known_(std::move(known)) {}
+    : model_(model),
+      membrane_(membrane),
+      options_(std::move(options)),
+      explicit_tension_time_(explicit_relaxation * (32.0 + 23.0 * model.viscosity_ratio) / 24.0 * model.viscosity *
+                             membrane.radius),
+      known_(std::move(known)) {}
 
 FlowSystem& FlowSystems::of(double dt) {
   for (auto& [size, system] : systems_) {
     if (size == dt) return system;
   }
   const std::shared_ptr<const KnownResponses> so_far = known();
-  FlowSystem system(model_, membrane_, dt, options_, so_far ? *so_far : KnownResponses{});
+  FlowOptions options = options_;
+  options.held_tension = (options_.held_tension.array() - explicit_tension_time_ / dt).cwiseMax(0.0);
+  if (options.held_tension.isZero(0.0)) options.held_tension.resize(0);
+  FlowSystem system(model_, membrane_, dt, options, so_far ? *so_far : KnownResponses{});
   return systems_.emplace_back(dt, std::move(system)).second;
 }
 
@@ -115,12 +129,12 @@ FlowSystems flow_systems(const Model& model, const Discretisation& discretisatio
   const Membrane& membrane = evaluation.parts->membrane;
   FlowOptions options;
   options.entries = discretisation.tables().even_scalars;
-  // The first-order scheme is the paper's and holds no tension.
-  if (discretisation.settings().time_order > 1 && model.inextensible && model.mobile) {
+  if (model.inextensible && model.mobile) {
     // A compression would soften the implicit response.
     options.held_tension = membrane.fine.synthesize(evaluation.fields.tension).col(0).cwiseMax(0.0);
   }
-  return {model, membrane, options, evaluation.flow_memory.flow};
+  const double explicit_relaxation = discretisation.settings().time_order == 1 ? kExplicitRelaxation : 0.0;
+  return {model, membrane, options, explicit_relaxation, evaluation.flow_memory.flow};
 }
 
 Stage first_order_stage(const StageContext& context, double dt, StageEnd end) {
@@ -141,10 +155,12 @@ Stage first_order_stage(const StageContext& context, double dt, StageEnd end) {
   const Evaluation::Parts& parts = *context.evaluation.parts;
   const Vector& tension = context.evaluation.fields.tension;
   const Landing landing = landing_of(context, stage.potential, end);
-  keep(stage, parts.is_sphere ? rigid_sphere_move(context.state, parts, tension, dt, landing)
-                              : constrained_move(context.model, context.discretisation, context.state, parts,
-                                                 {context.state.position, parts.velocity, tension}, dt,
-                                                 context.flow.of(dt), landing));
+  keep(stage,
+       parts.is_sphere
+           ? rigid_sphere_move(context.state, parts.membrane, motion_of_velocity(parts.membrane, parts.velocity, dt),
+                               tension, landing)
+           : constrained_move(context.model, context.discretisation, context.state, parts,
+                              {context.state.position, parts.velocity, tension}, dt, context.flow.of(dt), landing));
   return stage;
 }
 
@@ -169,7 +185,10 @@ Stage corrected_stage(const StageContext& context, const Stage& stage, const Sta
   const Evaluation::Parts& parts = *context.evaluation.parts;
   const Landing landing = landing_of(context, result.potential, end);
   if (parts.is_sphere) {
-    keep(result, rigid_sphere_move(context.state, parts, stage.move.tension, dt, landing));
+    // A rigid motion has no stiffness, so nothing of it is implicit.
+    const Matrix displacement = stage.move.position + residual.position - context.state.position;
+    keep(result, rigid_sphere_move(context.state, parts.membrane, motion_of_displacement(parts.membrane, displacement),
+                                   stage.move.tension, landing));
   } else {
     keep(result, constrained_move(context.model, context.discretisation, context.state, parts,
                                   {stage.move.position, residual.position / dt, stage.move.tension}, dt,

@@ -12,8 +12,10 @@ namespace vehd {
 /// The linearised systems of one step, one for each implicit size; sweeps return to the same sizes.
 class FlowSystems {
  public:
-  /// @param known  of FlowMemory
-  FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options,
+  /// @param options              with the tension at the start of the step as the one to hold
+  /// @param explicit_relaxation  of that tension, the part is not held under which a sphere relaxes by this much in dt
+  /// @param known                of FlowMemory
+  FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options, double explicit_relaxation,
               std::shared_ptr<const KnownResponses> known);
   [[nodiscard]] FlowSystem& of(double dt);
   /// What was known and what has been learned, for the next step.
@@ -23,6 +25,7 @@ class FlowSystems {
   const Model& model_;
   const Membrane& membrane_;
   FlowOptions options_;
+  double explicit_tension_time_;  ///< times the dt of a system: the tension that is not held
   std::shared_ptr<const KnownResponses> known_;
   std::vector<std::pair<double, FlowSystem>> systems_;  // in the order in which they were asked for
 };

@@ -1,6 +1,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "bie/physics/gravity.hpp"
+#include "bie/physics/poiseuille_flow.hpp"
+#include "bie/stepping/time_rule.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -56,6 +59,71 @@ BOOST_AUTO_TEST_CASE(sphere_charges_at_first_order_towards_the_exact_law) {
   const double fine = error(20);
   BOOST_TEST(coarse < 0.05 * exact);
   BOOST_TEST(std::log2(coarse / fine) > 0.9);
+}
+
+namespace {
+
+Discretisation discretisation_of_order(int time_order) {
+  NumericalSettings settings;
+  settings.order = kOrder;
+  settings.time_order = time_order;
+  return Discretisation(settings);
+}
+
+/// Where the centre of a sphere has come from kCentre after ten steps to t = 1.
+Vector3 travel(const Model& model, int time_order) {
+  const Discretisation discretisation = discretisation_of_order(time_order);
+  const double dt = 0.1;
+  const State end = run(model, discretisation, start(model, discretisation, off_centre_sphere(), dt), dt, 10);
+  return centroid(make_surface(discretisation.fine_transform(), end.position)) - kCentre;
+}
+
+}  // namespace
+
+// Stokes: a sphere of equal viscosities inside, held rigid by its membrane, falls with 2/9 Δρ g R²/μ.
+BOOST_AUTO_TEST_CASE(sphere_falls_with_the_velocity_of_stokes_at_every_order) {
+  Model model;
+  const Vector3 g(0.3, -0.4, -1.2);
+  model.effects.push_back(std::make_shared<GravityEffect>(GravityParameters{0.7, g}));
+  const Vector3 exact = 2.0 / 9.0 * 0.7 * kRadius * kRadius * g;
+  for (int order = 1; order <= highest_time_order; ++order) {
+    BOOST_TEST((travel(model, order) - exact).norm() < 1e-8 * exact.norm(), "order " << order);
+  }
+}
+
+// Faxén: U = v_∞ + R²/6 Δv_∞ at the centre, so a sphere off the axis of v_c (1 − (y² + z²)/a²) lags by 2/3 v_c (R/a)².
+BOOST_AUTO_TEST_CASE(sphere_off_the_axis_of_a_tube_lags_as_faxen_says_at_every_order) {
+  const double centre_velocity = 0.8, radius = 5.0;
+  Model model;
+  model.effects.push_back(
+      std::make_shared<PoiseuilleFlowEffect>(PoiseuilleParameters{centre_velocity, radius, Waveform{}}));
+  const double exact =
+      centre_velocity * (1.0 - (kCentre.tail<2>().squaredNorm() + 2.0 / 3.0 * kRadius * kRadius) / (radius * radius));
+  for (int order = 1; order <= highest_time_order; ++order) {
+    const Vector3 moved = travel(model, order);
+    BOOST_TEST(std::abs(moved.x() - exact) < 1e-8 * exact, "order " << order);
+    BOOST_TEST(moved.tail<2>().norm() < 1e-8 * exact, "order " << order);
+  }
+}
+
+// A shear turns a sphere with the vorticity, and a field charges it along an axis that stays: V_m at material points is
+// exact only where the points have turned as far as the time says.
+BOOST_AUTO_TEST_CASE(sphere_that_turns_in_a_field_keeps_the_order_of_its_steps) {
+  Model model = field_model();
+  model.flow = shear_flow(1.0);
+  model.charging->conductance = 0.5;
+  const double end_time = 0.8;
+  const auto potential = [&](int time_order, int n_steps) {
+    const Discretisation discretisation = discretisation_of_order(time_order);
+    const double dt = end_time / n_steps;
+    const State end = run(model, discretisation, start(model, discretisation, sphere(kOrder), dt), dt, n_steps);
+    return evaluated(model, discretisation, end).diagnostics.Vm_max;
+  };
+  const double exact = potential(5, 32);
+  for (const int order : {2, 3, 4}) {
+    const double coarse = std::abs(potential(order, 8) - exact), fine = std::abs(potential(order, 16) - exact);
+    BOOST_TEST(std::log2(coarse / fine) > order - 0.6, "order " << order << ": " << coarse << ", " << fine);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "bie/physics/effect.hpp"
+#include "bie/scene/scene.hpp"
+
+namespace vehd::testing {
+
+/// The scene turned about the origin as a whole: shape, place, field, weight and flow.
+/// @param rotation  about x where the scene has a Poiseuille flow, which is along x
+Scene turned_scene(Scene scene, const AxisAngle& rotation);
+
+/// The same fluids moving past with this velocity everywhere.
+std::shared_ptr<const ExplicitEffect> uniform_drift(const Vector3& velocity);
+
+}  // namespace vehd::testing

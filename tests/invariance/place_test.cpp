@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "bie/scene/model_of.hpp"
+#include "tests/invariance/columns.hpp"
+#include "tests/invariance/moved_scene.hpp"
+#include "tests/invariance/scenes.hpp"
+#include "tests/invariance/short_run.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr int kSteps = 4;
+/// Solvers stop at 1e-9 of what they solve for, at another iteration where rounding differs.
+constexpr double kSolvers = 1e-7;
+
+Vector3 random_vector(std::mt19937_64& random, double size) {
+  std::normal_distribution<double> normal;
+  const Vector3 v(normal(random), normal(random), normal(random));
+  return size * v.normalized();
+}
+
+AxisAngle random_rotation(std::mt19937_64& random, const Scene& scene) {
+  std::uniform_real_distribution<double> angle(20.0, 160.0);
+  const bool along_x = scene.flow && scene.flow->kind == FlowKind::poiseuille;
+  const Vector3 axis = along_x ? Vector3(Vector3::UnitX()) : random_vector(random, 1.0);
+  return {axis.x(), axis.y(), axis.z(), angle(random)};
+}
+
+/// The same way through the equations, whatever symmetry the place leaves, and no finer than that takes.
+Scene plain(Scene scene) {
+  scene.numerics.symmetry = SymmetryUse::off;
+  scene.numerics.order = std::min(scene.numerics.order, 12);
+  return scene;
+}
+
+double radius_of(const ShortRun& run) {
+  return std::sqrt(run.rows.front().diagnostics.area / (4.0 * std::numbers::pi));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(place_of_a_scene)
+
+// A linear flow about another point is the same flow with a drift.
+BOOST_AUTO_TEST_CASE(the_place_of_a_vesicle_changes_nothing_of_it) {
+  std::mt19937_64 random(11);
+  for (const auto& [name, shipped] : all_scenes()) {
+    const Scene scene = plain(shipped);
+    const ShortRun base = short_run(scene, kSteps);
+    Scene moved = scene;
+    Vector3 by = random_vector(random, 3.0 * radius_of(base));
+    if (scene.flow && scene.flow->kind == FlowKind::poiseuille) by = Vector3(by.norm(), 0.0, 0.0);
+    for (int i = 0; i < 3; ++i) moved.shape.centre[static_cast<std::size_t>(i)] += by[i];
+    const Deviation worst = largest_deviation(base, short_run(moved, kSteps), {});
+    BOOST_TEST(worst.size < kSolvers, name << ": " << worst.column << " by " << worst.size);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_uniform_drift_changes_nothing_of_a_vesicle) {
+  std::mt19937_64 random(12);
+  for (const auto& [name, shipped] : all_scenes()) {
+    const Scene scene = plain(shipped);
+    // Poiseuille flow differs from place to place.
+    if (!scene.membrane.mobile || (scene.flow && scene.flow->kind == FlowKind::poiseuille)) continue;
+    const ShortRun base = short_run(scene, kSteps);
+    Problem drifting = problem_of(scene);
+    const double speed = 3.0 * radius_of(base) / base.rows.back().state.time;
+    if (!std::isfinite(speed)) continue;
+    drifting.model.effects.push_back(uniform_drift(random_vector(random, speed)));
+    const Deviation worst = largest_deviation(base, short_run(drifting, scene, kSteps), {});
+    BOOST_TEST(worst.size < kSolvers, name << ": " << worst.column << " by " << worst.size);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_rotation_of_everything_changes_no_scalar) {
+  std::mt19937_64 random(13);
+  for (const auto& [name, shipped] : all_scenes()) {
+    const Scene scene = plain(shipped);
+    const ShortRun base = short_run(scene, kSteps);
+    const ShortRun turned = short_run(turned_scene(scene, random_rotation(random, scene)), kSteps);
+    // Another grid on the same shape sees the same degrees, and what they leave out otherwise.
+    double truncation = 0.0;
+    for (const RunRow& row : base.rows) truncation = std::max(truncation, row.diagnostics.spectrum_tail);
+    const Deviation worst = largest_deviation(base, turned, {}, true);
+    BOOST_TEST(worst.size < kSolvers + truncation, name << ": " << worst.column << " by " << worst.size);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "bie/scene/scene.hpp"
+
+namespace vehd::testing {
+
+/// By what numbers of one unit system are multiplied to be those of another.
+struct UnitFactors {
+  double length = 1.0, time = 1.0, viscosity = 1.0, potential = 1.0;
+
+  /// Of a quantity with these powers of length, time, viscosity and potential.
+  [[nodiscard]] double of(int lengths, int times, int viscosities, int potentials) const;
+};
+
+/// The same physics in other units: every key with a dimension is multiplied by its factor.
+Scene in_units(Scene scene, const UnitFactors& factors);
+
+}  // namespace vehd::testing

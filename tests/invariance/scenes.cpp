@@ -1,0 +1,48 @@
+#include "tests/invariance/scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bie/app/stability_case.hpp"
+#include "bie/scene/accuracy.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/stepping/deferred_correction.hpp"
+
+namespace vehd::testing {
+namespace {
+
+std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+}  // namespace
+
+std::vector<NamedScene> all_scenes() {
+  const std::filesystem::path source(VEHD_SOURCE_DIR);
+  std::vector<NamedScene> result;
+  for (const auto& path : scenes_in(source / "docs/scenes")) result.push_back({path.stem().string(), read_scene(path)});
+  for (const auto& path : scenes_in(source / "tests/hard/scenes")) {
+    StabilityCase hard = read_stability_case(path);
+    hard.scene.numerics.end_time = std::min(hard.scene.numerics.end_time, hard.short_end_time);
+    result.push_back({hard.name, hard.scene});
+  }
+  for (const char* name : {"everything", "poiseuille"}) {
+    Scene scene = read_scene(source / "tests/invariance" / (std::string(name) + ".toml"));
+    for (int time_order = 1; time_order <= highest_time_order; ++time_order) {
+      scene.numerics.time_order = time_order;
+      result.push_back({name + fmt::format("_order_{}", time_order), scene});
+    }
+    scene.numerics.order = 16;
+    result.push_back({name + std::string("_tolerance"), at_tolerance(scene, 1e-3)});
+  }
+  return result;
+}
+
+}  // namespace vehd::testing

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bie/scene/scene.hpp"
+
+namespace vehd::testing {
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+/// Every shipped scene; every hard case in its short form; everything at once, and a pulse off the axis of a tube, at
+/// every order in time and with a tolerance.
+std::vector<NamedScene> all_scenes();
+
+}  // namespace vehd::testing

@@ -1,0 +1,38 @@
+#include "tests/invariance/short_run.hpp"
+
+#include "bie/stepping/laboratory.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd::testing {
+
+ShortRun short_run(const Scene& scene, int most_steps) { return short_run(problem_of(scene), scene, most_steps); }
+
+ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps) {
+  Instruments instruments;
+  ShortRun run;
+  run.bending_modulus = scene.membrane.bending_modulus.value_or(0.0);
+  try {
+    Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
+    const auto record = [&](const EvolutionStep& step) {
+      NumericalSettings settings = problem.settings;
+      settings.order = evolution.order();
+      const State& state = evolution.state();
+      const Evaluation& evaluation = evolution.evaluation();
+      run.rows.push_back(
+          {in_laboratory(problem.frame, state),
+           Laboratory(problem.frame, settings).diagnostics(evaluation.diagnostics, state, evaluation.fields), step,
+           evolution.order()});
+    };
+    evolution.evaluate_start();
+    record({});
+    while (evolution.state().time < scene.numerics.end_time && static_cast<int>(run.rows.size()) <= most_steps) {
+      record(evolution.step({scene.output.every, scene.numerics.end_time}));
+    }
+  } catch (const ConvergenceError& error) {
+    run.stopped = true;
+    run.reason = error.what();
+  }
+  return run;
+}
+
+}  // namespace vehd::testing

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bie/scene/problem.hpp"
+
+namespace vehd::testing {
+
+/// What is known after one step, or at the start.
+struct RunRow {
+  State state;  ///< in laboratory coordinates
+  Diagnostics diagnostics;
+  EvolutionStep step;
+  int order = 0;
+};
+
+struct ShortRun {
+  std::vector<RunRow> rows;
+  double bending_modulus = 0.0;
+  bool stopped = false;  ///< before its end and before the most steps
+  std::string reason;    ///< why
+};
+
+/// The start of a scene and at most `most_steps` steps of it.
+ShortRun short_run(const Scene& scene, int most_steps);
+
+/// The same of a changed problem of the scene.
+ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps);
+
+}  // namespace vehd::testing

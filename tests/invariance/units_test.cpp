@@ -1,0 +1,83 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/invariance/columns.hpp"
+#include "tests/invariance/scaled_scene.hpp"
+#include "tests/invariance/scenes.hpp"
+#include "tests/invariance/short_run.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr int kSteps = 4;
+
+/// Powers of two are exact, so only a number with a dimension that meets one without can change a bit.
+const UnitFactors kPowersOfTwo{std::ldexp(1.0, -17), std::ldexp(1.0, 23), std::ldexp(1.0, -10), std::ldexp(1.0, 13)};
+
+/// Empty where every bit agrees, otherwise what does not first.
+std::string first_difference(const ShortRun& base, const ShortRun& scaled, const UnitFactors& factors) {
+  if (base.stopped != scaled.stopped) return "one stops: " + base.reason + scaled.reason;
+  if (base.rows.size() != scaled.rows.size()) return "numbers of steps";
+  for (std::size_t i = 0; i < base.rows.size(); ++i) {
+    const RunRow& a = base.rows[i];
+    const RunRow& b = scaled.rows[i];
+    const auto differs = [](const auto& x, const auto& y, double factor) {
+      return x.size() != y.size() || !(x * factor).isApprox(y, 0.0);
+    };
+    std::string what;
+    const auto find = [&](bool found, const std::string& name) {
+      if (found && what.empty()) what = name;
+    };
+    find(a.state.time * factors.time != b.state.time, "time");
+    find(differs(a.state.position, b.state.position, factors.length), "position");
+    find(differs(a.state.transmembrane_potential, b.state.transmembrane_potential, factors.potential), "V_m");
+    find(differs(a.state.tension, b.state.tension, factors.of(1, -1, 1, 0)), "tension");
+    find(differs(a.state.area_strain, b.state.area_strain, 1.0), "strain");
+    find(a.step.rejected != b.step.rejected, "rejected steps");
+    find(a.step.iterations_flow != b.step.iterations_flow, "flow iterations");
+    find(a.step.iterations_electric != b.step.iterations_electric, "electric iterations");
+    for (const Column& column : columns()) {
+      const double x = a.diagnostics.*column.member * column.factor(factors), y = b.diagnostics.*column.member;
+      find(x != y && !(std::isnan(x) && std::isnan(y)), column.name);
+    }
+    if (!what.empty()) return what + " after step " + std::to_string(i);
+  }
+  return "";
+}
+
+UnitFactors random_factors(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> exponent(-9.0, 9.0);
+  const auto draw = [&] { return std::pow(10.0, exponent(random)); };
+  return {draw(), draw(), draw(), draw()};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(units_of_a_scene)
+
+BOOST_AUTO_TEST_CASE(powers_of_two_change_no_bit) {
+  for (const auto& [name, scene] : all_scenes()) {
+    const std::string difference =
+        first_difference(short_run(scene, kSteps), short_run(in_units(scene, kPowersOfTwo), kSteps), kPowersOfTwo);
+    BOOST_TEST(difference == "", name << ": " << difference);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(any_other_factors_change_nothing_but_rounding) {
+  std::mt19937_64 random(7);
+  for (const auto& [name, scene] : all_scenes()) {
+    const UnitFactors factors = random_factors(random);
+    const ShortRun base = short_run(scene, kSteps);
+    const ShortRun scaled = short_run(in_units(scene, factors), kSteps);
+    const double tolerance = scene.numerics.tolerance ? 1e-6 : 1e-9;
+    const Deviation worst = largest_deviation(base, scaled, factors);
+    BOOST_TEST(worst.size < tolerance, name << ": " << worst.column << " by " << worst.size);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
