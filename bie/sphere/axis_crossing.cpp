@@ -1,70 +1,266 @@
 #include "bie/sphere/axis_crossing.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
 namespace {
 
-/// The highest node within a tenth of the surface's size of the line; without any, the nearest above or below.
-Index starting_node(const Vector3& point, const Matrix& nodes) {
-  constexpr double kNear = 0.1;
-  const Vector distance = (nodes.leftCols(2).rowwise() - point.head<2>().transpose()).rowwise().norm();
-  const double size = (nodes.rowwise() - point.transpose()).rowwise().norm().maxCoeff();
-  Index highest = -1, nearest = 0;
-  distance.minCoeff(&nearest);
-  for (Index node = 0; node < nodes.rows(); ++node) {
-    if (distance[node] > kNear * size || nodes(node, 2) <= point.z()) continue;
-    if (highest < 0 || nodes(node, 2) > nodes(highest, 2)) highest = node;
-  }
-  return highest < 0 ? nearest : highest;
-}
-
-/// The surface at one point: x and y from the line, and their derivatives.
+/// The surface at one point: its horizontal distance from the line and its height, with their derivatives in the frame
+/// (e_θ, e_φ) of the point.
 struct View {
   Eigen::Vector2d offset;
   Eigen::Matrix2d slopes;
+  double height = 0.0;
+  Eigen::Vector2d rise;
+};
+
+/// What second derivatives can amount to near a node, as norms of the Hessian.
+struct Bends {
+  double offset = 0.0;
+  double height = 0.0;
+};
+
+/// The rectangle around `centre`, of half sides `half`, in the tangent plane of a node, laid on the sphere by great
+/// circles from the node, which lengthens nothing.
+struct Patch {
+  TangentFrame node;
+  Eigen::Vector2d half;
+  Bends bends;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+
+  [[nodiscard]] double radius() const { return half.norm(); }
+  [[nodiscard]] SpherePoint point() const { return point_of(node.moved(centre)); }
+};
+
+/// A crossing and how far around it there is no other.
+struct Crossing {
+  Vector3 place;
+  double alone = 0.0;
+};
+
+/// What the degree at hand lets second derivatives change between a node and its neighbours.
+constexpr double kVariation = 1.5;
+
+double remainder(double bend, double radius) { return 0.5 * bend * radius * radius; }
+
+double highest_possible(const View& view, const Patch& patch) {
+  return view.height + view.rise.norm() * patch.radius() + remainder(patch.bends.height, patch.radius());
+}
+
+/// No point of the patch lies on the line: along some direction the offset is larger than what it can lose.
+bool misses(const View& view, const Patch& patch) {
+  const auto apart = [&](const Eigen::Vector2d& along) {
+    const double norm = along.norm();
+    if (!(norm > 0.0)) return false;
+    const Eigen::Vector2d unit = along / norm;
+    const double reached =
+        (view.slopes.transpose() * unit).norm() * patch.radius() + remainder(patch.bends.offset, patch.radius());
+    return !(std::abs(unit.dot(view.offset)) <= reached);
+  };
+  // The second one is normal to the ellipse onto which a disc is mapped.
+  const Eigen::Matrix2d gram = view.slopes * view.slopes.transpose();
+  return apart(view.offset) || (gram.determinant() > 0.0 && apart(gram.inverse() * view.offset));
+}
+
+/// Newton's method from here converges, by the theorem of Kantorovich, to a crossing with no other one near.
+bool is_settled(const View& view, const Patch& patch) {
+  const double least = view.slopes.jacobiSvd().singularValues()[1];
+  if (!(least > 0.0)) return false;
+  const double step = (view.slopes.inverse() * view.offset).norm();
+  return patch.bends.offset * step <= 0.5 * least;
+}
+
+class Search {
+ public:
+  Search(const Vector3& point, const SphereGrid& grid, const SphereDerivatives& nodes, const Matrix& coefficients)
+      : point_(point),
+        grid_(grid),
+        nodes_(nodes),
+        coefficients_(coefficients),
+        size_((nodes.value.rowwise() - point.transpose()).rowwise().norm().maxCoeff()) {
+    for (Index axis = 0; axis < 3; ++axis) {
+      azimuthal_order_ = std::max(azimuthal_order_, azimuthal_order_of(coefficients.col(axis)));
+    }
+  }
+
+  std::optional<SpherePoint> run() {
+    struct Start {
+      Patch patch;
+      View view;
+    };
+    std::vector<Start> starts;
+    std::vector<std::pair<double, std::size_t>> highest_first;
+    const auto add = [&](const Patch& patch, const View& view) {
+      if (misses(view, patch)) return;
+      highest_first.emplace_back(-highest_possible(view, patch), starts.size());
+      starts.push_back({patch, view});
+    };
+    for (const bool south : {false, true}) {
+      const Patch cap = cap_around(south);
+      add(cap, view_at(cap.point()));
+    }
+    for (Index node = 0; node < grid_.n_points(); ++node) add(patch_around(node), view_of(node));
+    // Most of the others then cannot lie higher than what is found.
+    std::sort(highest_first.begin(), highest_first.end());
+    for (const auto& [height, start] : highest_first) search(starts[start].patch, starts[start].view, 0);
+    return best_;
+  }
+
+ private:
+  void search(const Patch& patch, const View& view, int depth) {
+    constexpr int kDeepest = 6;
+    if (highest_possible(view, patch) <= best_height_ || is_known(patch) || misses(view, patch)) return;
+    if (depth == kDeepest || is_settled(view, patch)) {
+      newton(patch, view);
+      return;
+    }
+    for (const double south : {-0.5, 0.5}) {
+      for (const double east : {-0.5, 0.5}) {
+        Patch quarter = patch;
+        quarter.centre += patch.half.cwiseProduct(Eigen::Vector2d(south, east));
+        quarter.half *= 0.5;
+        search(quarter, view_at(quarter.point()), depth + 1);
+      }
+    }
+  }
+
+  /// All of it is nearer to a crossing that was found than another one can be.
+  [[nodiscard]] bool is_known(const Patch& patch) const {
+    const Vector3 centre = patch.node.moved(patch.centre);
+    return std::any_of(found_.begin(), found_.end(), [&](const Crossing& crossing) {
+      return std::acos(std::min(1.0, centre.dot(crossing.place))) + patch.radius() <= crossing.alone;
+    });
+  }
+
+  void newton(const Patch& patch, View here) {
+    constexpr int kMost = 50;
+    constexpr double kLeastShare = 1e-2;
+    // A step from there ends at rounding.
+    constexpr double kConverged = 1e-11;
+    SpherePoint at = patch.point();
+    double share = 1.0;
+    bool converged = false;
+    for (int count = 0; count < kMost && share > kLeastShare; ++count) {
+      Eigen::Vector2d step = -share * here.slopes.fullPivLu().solve(here.offset);
+      const double length = step.norm();
+      if (!(length > 0.0)) break;
+      if (length > patch.radius()) step *= patch.radius() / length;
+      const SpherePoint end = point_of(TangentFrame(at).moved(step));
+      const View there = view_at(end);
+      const bool last = converged;
+      if (there.offset.norm() < here.offset.norm()) {
+        share = 1.0;
+        at = end;
+        here = there;
+        converged = here.offset.norm() <= kConverged * size_;
+      } else {
+        share *= 0.5;
+      }
+      if (last) break;
+    }
+    if (!(here.offset.norm() <= kConverged * size_)) return;
+    // Two crossings at a distance d need second derivatives of 2/d times the least slope; ours hold for the patch.
+    const double least = here.slopes.jacobiSvd().singularValues()[1];
+    found_.push_back({direction(at), std::min(patch.radius(), 2.0 * least / patch.bends.offset)});
+    if (here.height <= best_height_) return;
+    best_ = at;
+    best_height_ = here.height;
+  }
+
+  [[nodiscard]] View view_at(const SpherePoint& at) const {
+    const LocalSlopes x = slopes_at(coefficients_, at, azimuthal_order_);
+    return {x.value.head<2>() - point_.head<2>(), x.gradient.topRows<2>(), x.value[2], x.gradient.row(2).transpose()};
+  }
+
+  [[nodiscard]] View view_of(Index node) const {
+    View view;
+    view.offset = nodes_.value.row(node).head<2>().transpose() - point_.head<2>();
+    view.slopes.col(0) = nodes_.d1.row(node).head<2>().transpose();
+    view.slopes.col(1) = nodes_.d2.row(node).head<2>().transpose();
+    view.height = nodes_.value(node, 2);
+    view.rise = {nodes_.d1(node, 2), nodes_.d2(node, 2)};
+    return view;
+  }
+
+  [[nodiscard]] Bends bends_at(Index row, Index column) const {
+    const Index node = row * grid_.n_phi + (column + grid_.n_phi) % grid_.n_phi;
+    const auto norm = [&](Index first, Index n) {
+      return std::sqrt(nodes_.d11.row(node).segment(first, n).squaredNorm() +
+                       2.0 * nodes_.d12.row(node).segment(first, n).squaredNorm() +
+                       nodes_.d22.row(node).segment(first, n).squaredNorm());
+    };
+    return {norm(0, 2), norm(2, 1)};
+  }
+
+  [[nodiscard]] Bends most_bent(Index first_row, Index last_row, Index first_column, Index n_columns) const {
+    Bends most;
+    for (Index row = std::max<Index>(0, first_row); row <= std::min<Index>(grid_.n_theta - 1, last_row); ++row) {
+      for (Index column = 0; column < n_columns; ++column) {
+        const Bends bends = bends_at(row, first_column + column);
+        most.offset = std::max(most.offset, kVariation * bends.offset);
+        most.height = std::max(most.height, kVariation * bends.height);
+      }
+    }
+    return most;
+  }
+
+  /// Where the cells of the latitudes before and behind meet; those at the poles reach half way.
+  [[nodiscard]] double boundary(Index row) const {
+    const double before = row == 0 ? 0.0 : grid_.theta[row - 1];
+    const double behind = row == grid_.n_theta ? std::numbers::pi : grid_.theta[row];
+    return 0.5 * (before + behind);
+  }
+
+  /// Holds the cell of the node: half way to its neighbours.
+  [[nodiscard]] Patch patch_around(Index node) const {
+    const Index row = node / grid_.n_phi;
+    const double theta = grid_.theta[row];
+    const double widest = std::sin(std::clamp(0.5 * std::numbers::pi, boundary(row), boundary(row + 1)));
+    const Eigen::Vector2d half(std::max(theta - boundary(row), boundary(row + 1) - theta),
+                               widest * std::numbers::pi / static_cast<double>(grid_.n_phi));
+    // Parallels bend away from great circles.
+    constexpr double kOverlap = 1.1;
+    return {TangentFrame(point_of(grid_, node)), kOverlap * half,
+            most_bent(row - 1, row + 1, node % grid_.n_phi - 1, 3)};
+  }
+
+  [[nodiscard]] Patch cap_around(bool south) const {
+    const Index row = south ? grid_.n_theta - 1 : 0;
+    const SpherePoint pole{south ? std::numbers::pi : 0.0, 0.0};
+    const double half = south ? std::numbers::pi - boundary(grid_.n_theta) : boundary(0);
+    return {TangentFrame(pole), Eigen::Vector2d::Constant(half), most_bent(row, row, 0, grid_.n_phi)};
+  }
+
+  const Vector3& point_;
+  const SphereGrid& grid_;
+  const SphereDerivatives& nodes_;
+  const Matrix& coefficients_;
+  double size_;
+  int azimuthal_order_ = 0;
+  std::vector<Crossing> found_;
+  std::optional<SpherePoint> best_;
+  double best_height_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
 
-SpherePoint crossing_above(const Vector3& point, const SphereGrid& grid, const Matrix& nodes,
-                           const Matrix& coefficients) {
-  constexpr int kMost = 50;
-  constexpr double kLongest = 0.3;
-  constexpr double kShortest = 1e-15;
-  constexpr double kLeastShare = 1e-2;
-  SpherePoint at = point_of(grid, starting_node(point, nodes));
-  const int azimuthal_order =
-      std::max(azimuthal_order_of(coefficients.col(0)), azimuthal_order_of(coefficients.col(1)));
-  const auto look = [&](const SpherePoint& there) {
-    View view;
-    for (Index axis = 0; axis < 2; ++axis) {
-      const LocalField x = derivatives_at(coefficients.col(axis), there, azimuthal_order);
-      view.offset[axis] = x.value - point[axis];
-      view.slopes.row(axis) = x.gradient.transpose();
-    }
-    return view;
-  };
-  View here = look(at);
-  double share = 1.0;
-  for (int count = 0; count < kMost && share > kLeastShare; ++count) {
-    Eigen::Vector2d step = -share * here.slopes.fullPivLu().solve(here.offset);
-    const double length = step.norm();
-    if (!(length > kShortest)) break;
-    if (length > kLongest) step *= kLongest / length;
-    const SpherePoint end = point_of(TangentFrame(at).moved(step));
-    const View there = look(end);
-    if (there.offset.norm() >= here.offset.norm()) {
-      share *= 0.5;
-      continue;
-    }
-    share = 1.0;
-    at = end;
-    here = there;
-  }
-  return at;
+std::optional<SpherePoint> highest_on_line(const Vector3& point, const SphereGrid& grid, const SphereDerivatives& nodes,
+                                           const Matrix& coefficients) {
+  return Search(point, grid, nodes, coefficients).run();
+}
+
+SpherePoint higher_pole(const Matrix& coefficients) {
+  const Vector heights = evaluate_harmonics(coefficients.col(2), Vector{{0.0, std::numbers::pi}}, Vector::Zero(2), 0);
+  return {heights[0] >= heights[1] ? 0.0 : std::numbers::pi, 0.0};
 }
 
 }  // namespace vehd

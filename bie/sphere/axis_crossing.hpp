@@ -1,15 +1,27 @@
 #pragma once
 
+#include <optional>
+
 #include "bie/sphere/neighbourhood.hpp"
+#include "bie/sphere/transform.hpp"
 
 namespace vehd {
 
-/// Where the half line from a point along +z leaves a surface: by Newton's method from the highest of the nodes near
-/// it. The place does not depend on how the surface is parametrised. Where no node lies above the point, the one
-/// nearest to the line is taken for a start, and where Newton's method fails, its last point.
-/// @param nodes         x at the nodes of the grid, [n_points x 3]
+/// Where a surface lies highest on the line through a point along z: the outermost of its crossings along +z. The line
+/// counts on both sides of the point, so that nothing jumps where the surface passes through the point; a membrane that
+/// opens upwards is read at the floor of its hollow if the line crosses nothing above that. Neither the parametrisation
+/// nor the grid decides which crossing is found: patches around all nodes and both poles are searched, each until it
+/// cannot hold a crossing or Newton's method must find the only one. Two crossings that are about to merge may count as
+/// none once they are closer than a fiftieth of the distance of nodes.
+/// @param grid          with as many longitudes as the degree asks for
+/// @param nodes         x at the nodes of the grid, with its Hessian
 /// @param coefficients  of x
-SpherePoint crossing_above(const Vector3& point, const SphereGrid& grid, const Matrix& nodes,
-                           const Matrix& coefficients);
+/// @returns             nothing where the line misses the surface
+std::optional<SpherePoint> highest_on_line(const Vector3& point, const SphereGrid& grid, const SphereDerivatives& nodes,
+                                           const Matrix& coefficients);
+
+/// The same for a surface that is axisymmetric about z and a point of its axis: one of its poles.
+/// @param coefficients  of x
+SpherePoint higher_pole(const Matrix& coefficients);
 
 }  // namespace vehd

@@ -41,4 +41,13 @@ struct LocalField {
 /// By differences along great circles: the value is exact, derivatives have eight digits.
 LocalField derivatives_at(const Vector& coefficients, const SpherePoint& point, int azimuthal_order);
 
+/// Several fields with their gradients in the frame of one point.
+struct LocalSlopes {
+  Vector value;     ///< [n_fields]
+  Matrix gradient;  ///< [n_fields x 2]
+};
+
+/// As derivatives_at, of all columns at once and without the Hessian.
+LocalSlopes slopes_at(const Matrix& coefficients, const SpherePoint& point, int azimuthal_order);
+
 }  // namespace vehd

@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "bie/physics/bending.hpp"
 #include "bie/sphere/axis_crossing.hpp"
@@ -40,9 +42,13 @@ Diagnostics along_laboratory_axes(Diagnostics d, const Frame& frame, const Spher
   const Matrix position = state.position * frame.axes.transpose();
   const SphereDerivatives x = fine.synthesize_hessian(position);
   if (state.transmembrane_potential.size() > 0) {
-    const SpherePoint north = crossing_above(frame.axes * centroid(s), fine.grid(), x.value, position);
+    // A transform that knows no more belongs to states that are axisymmetric about z.
+    const bool axisymmetric = fine.azimuthal_order() < fine.order();
+    const std::optional<SpherePoint> north =
+        axisymmetric ? higher_pole(position) : highest_on_line(frame.axes * centroid(s), fine.grid(), x, position);
     const auto there = [&](const Vector& field) {
-      return evaluate_harmonics(field, Vector{{north.theta}}, Vector{{north.phi}})(0, 0);
+      if (!north) return std::numeric_limits<double>::quiet_NaN();
+      return evaluate_harmonics(field, Vector{{north->theta}}, Vector{{north->phi}})(0, 0);
     };
     d.Vm_north = there(state.transmembrane_potential);
     d.q_north = there(fields.charge);

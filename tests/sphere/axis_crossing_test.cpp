@@ -3,11 +3,15 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
+#include <numbers>
+#include <optional>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
+#include "tests/support/fields.hpp"
 
 using namespace vehd;
+using namespace vehd::testing;
 
 namespace {
 
@@ -16,7 +20,7 @@ constexpr int kOrder = 5;
 struct Shape {
   SphereGrid grid = make_grid(2 * kOrder);
   Matrix coefficients;
-  Matrix nodes;
+  SphereDerivatives nodes;
 };
 
 /// A surface given by its map from the unit sphere, of degree ≤ 5.
@@ -29,13 +33,53 @@ Shape shape_of(Map map) {
     values.row(node) = map(direction(point_of(shape.grid, node))).transpose();
   }
   shape.coefficients = transform.analyze(values);
-  shape.nodes = transform.synthesize(shape.coefficients);
+  shape.nodes = transform.synthesize_hessian(shape.coefficients);
   return shape;
 }
 
+std::optional<Vector3> place_on_line(const Vector3& point, const Shape& shape) {
+  const auto at = highest_on_line(point, shape.grid, shape.nodes, shape.coefficients);
+  if (!at) return std::nullopt;
+  return evaluate_harmonics(shape.coefficients, Vector{{at->theta}}, Vector{{at->phi}}).row(0).transpose();
+}
+
 Vector3 place_above(const Vector3& point, const Shape& shape) {
-  const SpherePoint at = crossing_above(point, shape.grid, shape.nodes, shape.coefficients);
-  return evaluate_harmonics(shape.coefficients, Vector{{at.theta}}, Vector{{at.phi}}).row(0).transpose();
+  const std::optional<Vector3> place = place_on_line(point, shape);
+  BOOST_TEST_REQUIRE(place.has_value());
+  return *place;
+}
+
+/// Where the line meets the triangle, if it does.
+std::optional<double> height_on(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& point) {
+  Eigen::Matrix2d sides;
+  sides << (b - a).head<2>(), (c - a).head<2>();
+  if (sides.determinant() == 0.0) return std::nullopt;  // two corners at a pole
+  const Eigen::Vector2d shares = sides.inverse() * (point - a).head<2>();
+  if (!(shares.minCoeff() >= 0.0) || shares.sum() > 1.0) return std::nullopt;
+  return a.z() + shares[0] * (b - a).z() + shares[1] * (c - a).z();
+}
+
+/// Highest point on the line of a polyhedron with very many corners on the surface.
+std::optional<double> height_of_polyhedron(const Vector3& point, const Shape& shape) {
+  const SphereTransform transform(kOrder, make_grid(60));
+  const SphereGrid& grid = transform.grid();
+  const Matrix nodes = transform.synthesize(shape.coefficients);
+  const Matrix poles = evaluate_harmonics(shape.coefficients, Vector{{0.0, std::numbers::pi}}, Vector::Zero(2));
+  const auto corner = [&](Index row, Index column) -> Vector3 {
+    if (row < 0 || row == grid.n_theta) return poles.row(row < 0 ? 0 : 1).transpose();
+    return nodes.row(row * grid.n_phi + column % grid.n_phi).transpose();
+  };
+  std::optional<double> highest;
+  for (Index row = -1; row < grid.n_theta; ++row) {
+    for (Index column = 0; column < grid.n_phi; ++column) {
+      const Vector3 a = corner(row, column), b = corner(row, column + 1), c = corner(row + 1, column),
+                    d = corner(row + 1, column + 1);
+      for (const auto& height : {height_on(a, b, c, point), height_on(b, c, d, point)}) {
+        if (height) highest = std::max(*height, highest.value_or(*height));
+      }
+    }
+  }
+  return highest;
 }
 
 const Matrix3 kStretch{{1.2, 0.3, -0.1}, {0.2, 0.8, 0.4}, {-0.3, 0.1, 1.9}};
@@ -66,13 +110,70 @@ BOOST_AUTO_TEST_CASE(place_does_not_depend_on_how_the_surface_is_parametrised) {
   }
 }
 
-// Above the surface and beside it no half line crosses.
-BOOST_AUTO_TEST_CASE(without_a_crossing_the_answer_is_still_a_point_of_the_surface) {
+BOOST_AUTO_TEST_CASE(point_may_lie_anywhere_on_the_line_and_beside_the_surface_there_is_nothing) {
   const Shape shape = shape_of([](const Vector3& n) { return Vector3(kStretch * n); });
-  const Vector3 outside{0.0, 0.0, 5.0};
-  BOOST_TEST(place_above(outside, shape).head<2>().norm() < 1e-12);
-  const Vector3 aside{5.0, 0.0, 0.0};
-  BOOST_TEST(place_above(aside, shape).allFinite());
+  const Vector3 place = place_above({0.1, 0.2, 0.0}, shape);
+  for (const double z : {-50.0, -1.0, 1.0, 50.0})
+    BOOST_TEST((place_above({0.1, 0.2, z}, shape) - place).norm() < 1e-13);
+  BOOST_TEST(!place_on_line({5.0, 0.0, 0.0}, shape));
+  BOOST_TEST(!place_on_line({-1.3, 0.0, 0.0}, shape));
+}
+
+// Folded surfaces, which lines leave several times, some of them parametrised with the poles anywhere.
+BOOST_AUTO_TEST_CASE(no_crossing_of_a_random_surface_lies_higher) {
+  int n_crossed = 0, n_missed = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    Shape shape = shape_of([](const Vector3& n) { return n; });
+    shape.coefficients += 0.25 * random_coefficients(kOrder, 3, seed);
+    const SphereTransform transform(kOrder, shape.grid);
+    shape.nodes = transform.synthesize_hessian(shape.coefficients);
+    const Matrix lines = random_coefficients(3, 3, 1000 + seed);
+    for (Index line = 0; line < lines.rows(); ++line) {
+      const Vector3 point = lines.row(line).transpose();
+      const std::optional<double> expected = height_of_polyhedron(point, shape);
+      const std::optional<Vector3> place = place_on_line(point, shape);
+      ++(expected ? n_crossed : n_missed);
+      BOOST_TEST(place.has_value() == expected.has_value(), "seed " << seed << ", line " << line << ": "
+                                                                    << (place ? place->z() : NAN) << " and not "
+                                                                    << expected.value_or(NAN));
+      if (!place || !expected) continue;
+      BOOST_TEST((*place - point).head<2>().norm() < 1e-10);
+      // A corner of the polyhedron can hide beneath the surface by the sagitta of its sides.
+      BOOST_TEST(place->z() > *expected - 0.02,
+                 "seed " << seed << ", line " << line << ": " << place->z() << " and not " << *expected);
+    }
+  }
+  BOOST_TEST(n_crossed > 100);
+  BOOST_TEST(n_missed > 100);
+}
+
+BOOST_AUTO_TEST_CASE(size_and_place_of_the_surface_do_not_matter) {
+  const auto map = [](const Vector3& n) { return Vector3(kStretch * n * (1.0 + 0.4 * n.x() * n.y() * n.z())); };
+  const Vector3 point{0.1, 0.2, -0.1};
+  const Vector3 place = place_above(point, shape_of(map));
+  for (const double size : {1e-9, 1e-3, 1e6}) {
+    const Vector3 moved = place_above(size * (point + kCentre),
+                                      shape_of([&](const Vector3& n) -> Vector3 { return size * (map(n) + kCentre); }));
+    BOOST_TEST((moved / size - kCentre - place).norm() < 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_the_poles_of_an_axisymmetric_surface_the_higher_one_counts) {
+  // Both poles of a bowl point the same way.
+  const Shape opens_downwards = shape_of([](const Vector3& n) -> Vector3 {
+    return {n.x(), n.y(), 0.2 * n.z() + 1.0 - n.head<2>().squaredNorm()};
+  });
+  BOOST_TEST(higher_pole(opens_downwards.coefficients).theta == 0.0);
+  const Shape opens_upwards = shape_of([](const Vector3& n) -> Vector3 {
+    return {n.x(), n.y(), -0.2 * n.z() - 1.0 + n.head<2>().squaredNorm()};
+  });
+  BOOST_TEST(higher_pole(opens_upwards.coefficients).theta == std::numbers::pi);
+  for (const Shape* shape : {&opens_downwards, &opens_upwards}) {
+    const SpherePoint pole = higher_pole(shape->coefficients);
+    const Vector3 expected =
+        evaluate_harmonics(shape->coefficients, Vector{{pole.theta}}, Vector{{pole.phi}}).row(0).transpose();
+    BOOST_TEST((place_above(Vector3::Zero(), *shape) - expected).norm() < 1e-12);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

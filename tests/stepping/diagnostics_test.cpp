@@ -1,3 +1,5 @@
+#include "bie/stepping/diagnostics.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -19,6 +21,22 @@ Diagnostics diagnostics_of(const Model& model, const State& state) {
 Diagnostics diagnostics_of_shape(const Matrix& position) {
   const Model model = relaxation_model(0.1);
   return diagnostics_of(model, start(model, discretisation_of(kOrder), position, 0.1));
+}
+
+/// Of V_m = z, without layers.
+Diagnostics diagnostics_of_potential(const Matrix& position) {
+  const int order = order_of(position.rows());
+  const SphereTransform fine(order, make_grid(2 * order));
+  Surface surface = make_surface(fine, position);
+  State state;
+  state.position = position;
+  state.transmembrane_potential = position.col(2);
+  state.area_strain = Vector::Zero(position.rows());
+  state.reference_area = surface_area(surface);
+  state.reference_volume = enclosed_volume(surface);
+  Fields fields;
+  fields.charge = position.col(2);
+  return diagnose(state, {fine, std::move(surface), {}, 1.0}, fields);
 }
 
 Matrix turned_about_y(const Matrix& position, double degrees) {
@@ -98,6 +116,30 @@ BOOST_AUTO_TEST_CASE(potential_and_charge_are_read_at_the_north_pole) {
   BOOST_TEST(std::abs(d.Vm_north - v) < 1e-12);
   BOOST_TEST(std::abs(d.Vm_max - v) < 1e-12);
   BOOST_TEST(std::abs(d.q_north + 0.5 * interior) < 1e-9);
+}
+
+// An ellipsoid bent into a horseshoe that opens along +x: its centroid lies in the gap, and so does the line.
+BOOST_AUTO_TEST_CASE(where_the_axis_misses_the_membrane_nothing_is_read) {
+  const SphereTransform transform(kOrder, make_grid(2 * kOrder));
+  Matrix points = grid_directions(transform.grid());
+  for (Index i = 0; i < points.rows(); ++i) {
+    const double angle = 2.2 * points(i, 1);
+    const double radius = 1.0 + 0.3 * points(i, 0);
+    points.row(i) << -radius * std::cos(angle), radius * std::sin(angle), 0.3 * points(i, 2);
+  }
+  const Diagnostics d = diagnostics_of_potential(transform.analyze(points));
+  BOOST_TEST(std::isnan(d.Vm_north));
+  BOOST_TEST(std::isnan(d.q_north));
+  BOOST_TEST(std::isfinite(d.Vm_max));
+}
+
+BOOST_AUTO_TEST_CASE(sign_at_the_north_pole_is_the_same_at_every_order) {
+  for (int order = 4; order <= 24; ++order) {
+    for (const Vector3& axes : {Vector3{1.0, 1.0, 1.0}, Vector3{1.2, 1.1, 0.4}}) {
+      const Matrix position = ellipsoid(order, axes);
+      BOOST_TEST(std::abs(diagnostics_of_potential(position).Vm_north - axes.z()) < 1e-12, "order " << order);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(integrals_are_taken_over_the_surface) {
