@@ -76,13 +76,12 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
 
   Index largest = 0;
   const double most = (sign * nodes.value.col(column)).maxCoeff(&largest);
-  // Nodes that are lower by less than a parabola gains in their cell may lead higher.
-  const double curvature = std::max({std::abs(nodes.d11(largest, column)), std::abs(nodes.d12(largest, column)),
-                                     std::abs(nodes.d22(largest, column))});
   std::vector<std::pair<double, Index>> promises;
   for (Index node = 0; node < grid.n_points(); ++node) {
     const double value = sign * nodes.value(node, column);
-    if (node == largest || value < most - curvature * reach * reach) continue;
+    // Along either axis a parabola gains less than its slope does within reach.
+    const double gain = std::numbers::sqrt2 * std::hypot(nodes.d1(node, column), nodes.d2(node, column)) * reach;
+    if (node == largest || value + gain < most) continue;
     if (const Climb next = climb_from(node); next.near) promises.emplace_back(value + next.gain, node);
   }
   std::sort(promises.begin(), promises.end(), std::greater<>());

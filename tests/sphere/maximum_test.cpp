@@ -57,6 +57,30 @@ BOOST_AUTO_TEST_CASE(no_grid_leaves_its_trace) {
   }
 }
 
+// The node on a broad hump is higher than all nodes around a narrow one, whose top is higher still.
+BOOST_AUTO_TEST_CASE(broad_hump_does_not_hide_a_narrow_one) {
+  constexpr int kOrder = 12;
+  const SphereTransform transform(kOrder, make_grid(2 * kOrder));
+  const SphereGrid& grid = transform.grid();
+  const auto hump = [&](const Vector3& at, int sharpness) {
+    Matrix values(grid.n_points(), 1);
+    for (Index node = 0; node < grid.n_points(); ++node) {
+      values(node, 0) = std::pow(0.5 * (1.0 + at.dot(direction(point_of(grid, node)))), sharpness);
+    }
+    return Vector(transform.analyze(values));
+  };
+  const Index row = grid.n_theta / 2;
+  const Vector3 node = direction({grid.theta[row], grid.phi[0]});
+  const Vector3 between =
+      direction({0.5 * (grid.theta[row] + grid.theta[row + 1]), std::numbers::pi + 0.5 * grid.phi[1]});
+  for (const double excess : {1e-3, 3e-3, 1e-2}) {
+    const Vector field = hump(node, 1) + (1.0 + excess) * hump(between, kOrder);
+    const double fine = maximum_on(10 * kOrder, field);
+    BOOST_TEST(std::abs(maximum_on(2 * kOrder, field) - fine) < 1e-13 * fine,
+               "excess " << excess << ", off by " << maximum_on(2 * kOrder, field) - fine);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(flat_field_is_its_own_maximum) {
   const Vector none = Vector::Zero(n_coefficients(4));
   BOOST_TEST(maximum_on(8, none) == 0.0);
