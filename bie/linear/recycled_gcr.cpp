@@ -1,9 +1,19 @@
 #include "bie/linear/recycled_gcr.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace vehd {
+
+namespace {
+
+/// What the sums of a map and its preconditioner lose, relative to what they take and give: the layers sum a few
+/// thousand products, and errors of either sign add up like their square root.
+constexpr double map_rounding = 1e-14;
+
+}  // namespace
 
 RecycledGcr::RecycledGcr(LinearMap map, LinearMap preconditioner, Index size, Index n_further,
                          const KnownResponses& known)
@@ -16,15 +26,11 @@ RecycledGcr::RecycledGcr(LinearMap map, LinearMap preconditioner, Index size, In
 
 Vector RecycledGcr::preconditioned(const Vector& mapped) const { return preconditioner_(mapped.head(size_)); }
 
-RecycledGcr::Direction RecycledGcr::direction_along(const Vector& proposal) const {
-  Direction direction{proposal, map_(proposal), {}};
+bool RecycledGcr::add_direction(const Vector& proposal, double allowed) {
+  const auto n = static_cast<Index>(directions_.size());
+  Direction direction{proposal, map_(proposal), {}, Vector::Unit(n + 1, n)};
   direction.image = preconditioned(direction.mapped);
-  return direction;
-}
-
-/// @returns false where the image lies in the span of the others
-bool RecycledGcr::orthonormalise(Direction& direction) const {
-  const double norm_before = direction.image.norm();
+  const double rounding = map_rounding * std::max(proposal.norm(), direction.image.norm());
   // Twice is enough to be orthogonal to rounding.
   for (int pass = 0; pass < 2; ++pass) {
     for (const Direction& former : directions_) {
@@ -32,62 +38,118 @@ bool RecycledGcr::orthonormalise(Direction& direction) const {
       direction.image -= share * former.image;
       direction.x -= share * former.x;
       direction.mapped -= share * former.mapped;
+      direction.shares.head(former.shares.size()) -= share * former.shares;
     }
   }
   const double norm = direction.image.norm();
-  constexpr double kDependent = 1e-13;
-  if (!(norm > kDependent * norm_before)) return false;
-  for (Vector* part : {&direction.x, &direction.mapped, &direction.image}) *part /= norm;
+  for (Vector* part : {&direction.x, &direction.mapped, &direction.image, &direction.shares}) *part /= norm;
+  rounding_.push_back(rounding);
+  if (!(uncertainty(direction.shares) <= allowed)) {
+    rounding_.pop_back();
+    return false;
+  }
+  directions_.push_back(std::move(direction));
   return true;
 }
 
-RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start, const GmresOptions& options) {
-  Vector residual = preconditioner_(rhs);
-  const double scale = residual.norm();
-  Solution solution{{true, 0, 0.0}, Vector::Zero(size_), Vector::Zero(n_further_)};
-  if (scale == 0.0) return solution;
-  if (start.size() > 0 && !start.isZero(0.0)) {
-    const Vector mapped = map_(start);
-    solution.x = start;
-    solution.further = mapped.tail(n_further_);
-    residual -= preconditioned(mapped);
+double RecycledGcr::follow(const Direction& direction, Iterate& iterate) const {
+  const double share = iterate.residual.dot(direction.image);
+  const double of_residual = std::abs(share) / iterate.size();
+  iterate.x += share * direction.x;
+  iterate.further += share * direction.mapped.tail(n_further_);
+  iterate.residual -= share * direction.image;
+  if (iterate.shares.size() < direction.shares.size()) {
+    iterate.shares.conservativeResizeLike(Vector::Zero(direction.shares.size()));
   }
+  iterate.shares.head(direction.shares.size()) += share * direction.shares;
+  return of_residual;
+}
 
-  /// @returns the share of the residual that lay along the direction
-  const auto add = [&](const Direction& direction) {
-    const double share = residual.dot(direction.image);
-    const double of_residual = std::abs(share) / residual.norm();
-    solution.x += share * direction.x;
-    solution.further += share * direction.mapped.tail(n_further_);
-    residual -= share * direction.image;
-    return of_residual;
-  };
-  for (const Direction& direction : directions_) add(direction);
+double RecycledGcr::uncertainty(const Vector& shares) const {
+  double sum = 0.0;
+  for (Index i = 0; i < shares.size(); ++i) sum += std::abs(shares[i]) * rounding_[static_cast<std::size_t>(i)];
+  return sum;
+}
 
-  // What is known of another operator may mislead: where it does, the plain residual is the next direction. That one
-  // fails where A turns it by a right angle; the Krylov space then grows by the last image.
+void RecycledGcr::look(const Vector& goal, Iterate& iterate) const {
+  const Vector mapped = map_(iterate.x);
+  const Vector image = preconditioned(mapped);
+  iterate.further = mapped.tail(n_further_);
+  iterate.residual = goal - image;
+  iterate.shares.resize(0);
+  iterate.rounding = map_rounding * std::max(iterate.x.norm(), image.norm());
+}
+
+RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start, const GmresOptions& options) {
+  const Vector goal = preconditioner_(rhs);
+  const double scale = goal.norm();
+  if (scale == 0.0) return {{true, 0, 0.0}, Vector::Zero(size_), Vector::Zero(n_further_)};
+  Iterate iterate{Vector::Zero(size_), Vector::Zero(n_further_), goal, Vector(), 0.0};
+  if (start.size() > 0 && !start.isZero(0.0)) {
+    iterate.x = start;
+    look(goal, iterate);
+  }
+  const double wanted = options.tolerance * scale;
+  Solution solution{{false, 0, 0.0}, {}, {}};
+  int& iterations = solution.report.iterations;
+  double seen = std::numeric_limits<double>::infinity();  // true residual at the last look
+  double size = 0.0;
+  for (;;) {
+    for (const Direction& direction : directions_) follow(direction, iterate);
+    search(wanted, options.max_iterations, iterate, iterations);
+    size = iterate.size() + (iterate.is_true() ? 0.0 : iterate.rounding + uncertainty(iterate.shares));
+    const bool exhausted = iterate.size() > wanted;
+    if (size <= wanted || !std::isfinite(size) || (exhausted && iterations >= options.max_iterations)) break;
+    look(goal, iterate);
+    ++iterations;
+    size = iterate.size();
+    // A solve that gains no more than this has come to what rounding leaves.
+    constexpr double kWorthwhile = 0.5;
+    if (size <= wanted || !(size < kWorthwhile * seen)) break;
+    seen = size;
+    if (exhausted) {
+      directions_.clear();
+      rounding_.clear();
+    }
+  }
+  solution.report.residual = size / scale;
+  solution.report.converged = size <= wanted && iterate.x.allFinite();
+  solution.x = std::move(iterate.x);
+  solution.further = std::move(iterate.further);
+  return solution;
+}
+
+void RecycledGcr::search(double wanted, int most, Iterate& iterate, int& iterations) {
+  // Along a proposal that shares c with the residual, √(1 − c²) of it is left. The plain residual leaves at most δ
+  // where the preconditioned map is within δ of the identity. What is known of another operator may mislead: where it
+  // leaves 0.6 and more, it is no better than nothing known at δ = 0.6, and the plain residual is the next direction;
+  // so at most every other iteration is lost. The plain residual in turn fails where the map turns it by a right angle.
+  // A share of a thousandth removes less than a millionth, which no number of iterations that anybody allows adds up to
+  // a digit; the Krylov space then grows by the last image.
   constexpr double kMisled = 0.8;
   constexpr double kStagnates = 1e-3;
-  int iterations = 0;
-  bool is_proposal = false;
+  // The rounding of the proposals, magnified as what they have in common is taken out, is the part of a direction's
+  // image, of norm 1, that its x does not have. A step leaves that part of the residual which it claims to remove, so
+  // half of the digits are worth an application; all later directions inherit the loss. What is known is no more than
+  // an offer, of which three lost digits are enough to take the plain residual instead.
+  constexpr double kHalfOfTheDigits = 1.5e-8;
+  constexpr double kThreeDigitsLost = 1e3 * map_rounding;
+  bool is_known = false;
   double share = 1.0;
-  // Not (norm > …): a residual that is not a number ends the solve as well.
-  while (!(residual.norm() <= options.tolerance * scale) && residual.allFinite() &&
-         iterations < options.max_iterations) {
-    const bool misled = is_proposal && share < kMisled;
-    const bool stagnates = !is_proposal && share < kStagnates;
-    is_proposal = !misled && !stagnates && !secant_.kept().empty();
-    Direction next = direction_along(stagnates ? directions_.back().image
-                                     : misled  ? residual
-                                               : secant_.apply(residual));
+  // Not (size > …): a residual that is not a number ends the solve as well.
+  while (!(iterate.size() <= wanted) && iterate.residual.allFinite() && iterations < most) {
+    const bool misled = is_known && share < kMisled;
+    const bool stagnates = !is_known && share < kStagnates;
+    if (stagnates && directions_.empty()) break;
+    is_known = !misled && !stagnates && !secant_.kept().empty();
+    const bool added = add_direction(stagnates  ? directions_.back().image
+                                     : is_known ? secant_.apply(iterate.residual)
+                                                : iterate.residual,
+                                     is_known ? kThreeDigitsLost : kHalfOfTheDigits);
     ++iterations;
-    if (!orthonormalise(next)) break;
-    directions_.push_back(std::move(next));
-    share = add(directions_.back());
+    if (!added && stagnates) break;
+    share = added ? follow(directions_.back(), iterate) : 0.0;
   }
-  const double relative = residual.norm() / scale;
-  solution.report = {relative <= options.tolerance && solution.x.allFinite(), iterations, relative};
-  return solution;
 }
 
 KnownResponses RecycledGcr::learned() const {

@@ -11,6 +11,11 @@ namespace vehd {
 /// (Eisenstat, Elman, Schultz 1983). Directions are kept: each later right-hand side starts from its projection on what
 /// the former ones have found, so that a sequence of rough solves costs little more than one fine solve. What is known
 /// of a similar operator proposes directions and does not change what is solved.
+///
+/// Directions are combinations of proposals with coefficients that grow as proposals become dependent, and with them
+/// grows what the map's rounding leaves between A x and what is kept of it. The coefficients are carried along: they
+/// tell which proposals are too dependent to be used, and how far the recurrence for the residual can be off. Success
+/// is reported where the residual is small with that added, and else only of b − A x itself.
 class RecycledGcr {
  public:
   /// @param map             x ↦ A x of length `size`, followed by n_further entries that depend linearly on x
@@ -20,7 +25,7 @@ class RecycledGcr {
               const KnownResponses& known = {});
 
   struct Solution {
-    SolveReport report;
+    SolveReport report;  ///< of a bound of the true residual, a look at which counts as an iteration
     Vector x;
     Vector further;  ///< the map's further entries at x
   };
@@ -37,10 +42,31 @@ class RecycledGcr {
     Vector x;
     Vector mapped;  ///< A x and the further entries
     Vector image;   ///< preconditioned A x; orthonormal to those of all other directions
+    Vector shares;  ///< of the proposals up to its own that it is made of
+  };
+  /// An approximate solution on its way.
+  struct Iterate {
+    Vector x;
+    Vector further;
+    Vector residual;  ///< preconditioned, by recurrence
+    Vector shares;    ///< of the proposals since the recurrence started
+    double rounding;  ///< of the residual where the recurrence started
+
+    [[nodiscard]] double size() const { return residual.norm(); }
+    /// The recurrence has not started.
+    [[nodiscard]] bool is_true() const { return shares.size() == 0; }
   };
   [[nodiscard]] Vector preconditioned(const Vector& mapped) const;
-  [[nodiscard]] Direction direction_along(const Vector& proposal) const;
-  [[nodiscard]] bool orthonormalise(Direction& direction) const;
+  /// Makes a direction of what is proposed and keeps it. @returns false where it would be more uncertain than allowed
+  bool add_direction(const Vector& proposal, double allowed);
+  /// Takes what lies along the direction out of the residual. @returns its share of that
+  double follow(const Direction& direction, Iterate& iterate) const;
+  /// How far the residual can be from the true one.
+  [[nodiscard]] double uncertainty(const Vector& shares) const;
+  /// New directions until the residual is as small as wanted, the iterations are used up, or none can be had.
+  void search(double wanted, int most, Iterate& iterate, int& iterations);
+  /// b − A x itself takes the place of the recurrence.
+  void look(const Vector& goal, Iterate& iterate) const;
 
   LinearMap map_;
   LinearMap preconditioner_;
@@ -48,6 +74,7 @@ class RecycledGcr {
   Index n_further_;
   SecantInverse secant_;
   std::vector<Direction> directions_;
+  std::vector<double> rounding_;  ///< of each proposal's image
 };
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 #include "bie/linear/recycled_gcr.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <limits>
 
 using namespace vehd;
@@ -92,6 +93,61 @@ BOOST_AUTO_TEST_CASE(misleading_knowledge_costs_at_most_twice_the_iterations) {
       RecycledGcr(map_of(matrix), identity, kSize, 0, wrong).solve(rhs, {}, {1e-8, 120});
   BOOST_TEST(solution.report.converged);
   BOOST_TEST(solution.report.iterations <= 2 * cold);
+}
+
+// One direction that is proposed again and again, larger than what is new in each proposal by the factor: of the digits
+// of what is left after orthonormalisation as many are lost.
+BOOST_AUTO_TEST_CASE(nearly_dependent_directions_fake_no_convergence) {
+  const Matrix matrix = test_matrix(kSize);
+  for (const double tolerance : {1e-6, 1e-10}) {
+    for (int digits = 0; digits <= 16; ++digits) {
+      const Matrix argument = std::pow(10.0, digits) * Matrix::Identity(kSize, 1);
+      const KnownResponses obtrusive{argument, right_hand_side(kSize, 0.7)};
+      RecycledGcr solver(map_of(matrix), identity, kSize, 0, obtrusive);
+      for (const double phase : {0.0, 0.4, 1.1}) {
+        const Vector b = right_hand_side(kSize, phase);
+        const RecycledGcr::Solution solution = solver.solve(b, {}, {tolerance, 150});
+        const double actual = (matrix * solution.x - b).norm() / b.norm();
+        BOOST_TEST_CONTEXT("factor 1e" << digits << ", tolerance " << tolerance << ", " << solution.report.iterations
+                                       << " iterations, residual " << solution.report.residual) {
+          BOOST_TEST(solution.report.converged);
+          BOOST_TEST(actual <= tolerance);
+          BOOST_TEST(actual <= solution.report.residual);
+        }
+      }
+    }
+  }
+}
+
+// What cannot be reached in these digits is not claimed.
+BOOST_AUTO_TEST_CASE(residual_below_rounding_is_never_claimed) {
+  const Matrix matrix = test_matrix(kSize);
+  const Matrix argument = 1e9 * Matrix::Identity(kSize, 1);
+  const KnownResponses obtrusive{argument, right_hand_side(kSize, 0.7)};
+  for (const double tolerance : {1e-14, 1e-15, 1e-17}) {
+    RecycledGcr solver(map_of(matrix), identity, kSize, 0, obtrusive);
+    const Vector b = right_hand_side(kSize, 0.2);
+    const RecycledGcr::Solution solution = solver.solve(b, {}, {tolerance, 300});
+    const double actual = (matrix * solution.x - b).norm() / b.norm();
+    BOOST_TEST((!solution.report.converged || actual <= 1.1 * tolerance));
+    BOOST_TEST(solution.report.iterations < 300);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(well_conditioned_solves_apply_the_map_once_an_iteration) {
+  const Matrix matrix = test_matrix(kSize);
+  int applications = 0;
+  const LinearMap counted = [&](const Vector& x) -> Vector {
+    ++applications;
+    return matrix * x;
+  };
+  RecycledGcr solver(counted, identity, kSize);
+  int iterations = 0;
+  for (const double phase : {0.0, 0.3, 0.9}) {
+    iterations += solver.solve(right_hand_side(kSize, phase), {}, {1e-9, 60}).report.iterations;
+  }
+  BOOST_TEST(applications == iterations);
+  BOOST_TEST(solver.learned().count() == iterations);
 }
 
 BOOST_AUTO_TEST_CASE(further_entries_belong_to_the_solution) {
