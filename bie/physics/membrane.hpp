@@ -12,8 +12,8 @@ namespace vehd {
 /// One frozen membrane as the physics sees it: the surface on the upsampled grid, where all products are formed, and
 /// the layer operators on degree p. "Weighted" coefficients are those of J f (see LayerOperators).
 struct Membrane {
-  const SphereTransform& fine;  ///< degree p ↔ upsampled grid
-  Surface surface;              ///< on the upsampled grid
+  SphereTransform fine;  ///< degree p ↔ upsampled grid
+  Surface surface;       ///< on the upsampled grid
   LayerOperators layers;
   double radius;                                ///< √(area/4π), of the sphere behind the preconditioners
   std::optional<ViscosityContrast> contrast{};  ///< empty where both fluids have the same viscosity

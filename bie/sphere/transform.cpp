@@ -133,12 +133,8 @@ SphereTransform::SphereTransform(int order, SphereGrid grid, int azimuthal_order
     throw ShapeError("a grid of order " + std::to_string(grid.order) + " cannot carry harmonics of order " +
                      std::to_string(order));
   }
-  tables_ = std::make_unique<const Tables>(order, std::move(grid), azimuthal_order);
+  tables_ = std::make_shared<const Tables>(order, std::move(grid), azimuthal_order);
 }
-
-SphereTransform::~SphereTransform() = default;
-SphereTransform::SphereTransform(SphereTransform&&) noexcept = default;
-SphereTransform& SphereTransform::operator=(SphereTransform&&) noexcept = default;
 
 int SphereTransform::order() const { return tables_->order; }
 int SphereTransform::azimuthal_order() const { return tables_->azimuthal_order; }

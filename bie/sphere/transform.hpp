@@ -14,7 +14,8 @@ struct SphereDerivatives {
 };
 
 /// Spherical-harmonic transform between coefficients of degree ≤ order and a grid (Legendre sums by Eigen, Fourier
-/// sums by FFTW). Immutable after construction; every call may run concurrently. Cost O(order² n_theta) a field.
+/// sums by FFTW). Immutable after construction; every call may run concurrently. Copies share their tables, which live
+/// as long as the last of them. Cost O(order² n_theta) a field.
 class SphereTransform {
  public:
   /// @throws ShapeError if the grid is too coarse for the order
@@ -22,9 +23,6 @@ class SphereTransform {
   /// For fields whose Fourier modes in φ end at |m| = azimuthal_order: coefficients of larger |m| are neither read nor
   /// found (they come out zero), and the grid needs only n_phi > 2 azimuthal_order + 1.
   SphereTransform(int order, SphereGrid grid, int azimuthal_order);
-  ~SphereTransform();
-  SphereTransform(SphereTransform&&) noexcept;
-  SphereTransform& operator=(SphereTransform&&) noexcept;
 
   [[nodiscard]] int order() const;
   [[nodiscard]] int azimuthal_order() const;
@@ -40,7 +38,7 @@ class SphereTransform {
 
  private:
   struct Tables;
-  std::unique_ptr<const Tables> tables_;
+  std::shared_ptr<const Tables> tables_;
 };
 
 }  // namespace vehd

@@ -102,7 +102,6 @@ void Evolution::change_discretisation(int order, std::int64_t quadrature_level) 
   std::unique_ptr<Discretisation> discretisation = discretisation_of(setup_, order, quadrature_level);
   State state = resized(state_, order);
   state.quadrature_level = quadrature_level;
-  // The former evaluation refers to the former tables.
   evaluation_ = evaluate(setup_.model, *discretisation, state, instruments_);
   discretisation_ = std::move(discretisation);
   state_ = std::move(state);

@@ -6,8 +6,8 @@
 
 namespace vehd {
 
-/// The membrane at a position with the operators of the selection. It refers to the discretisation, which must outlive
-/// it. A viscosity contrast takes the place of the double layer that it is made of.
+/// The membrane at a position with the operators of the selection; it may outlive the discretisation. A viscosity
+/// contrast takes the place of the double layer that it is made of.
 Membrane membrane_at(const Discretisation& discretisation, const Matrix& position, const LayerSelection& selection,
                      double viscosity_ratio, Instruments& instruments);
 

@@ -3,8 +3,11 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <type_traits>
 
 #include "bie/geometry/surface.hpp"
+#include "bie/stepping/evaluation_parts.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -126,6 +129,20 @@ BOOST_AUTO_TEST_CASE(result_is_reproducible_and_does_not_depend_on_threads) {
   omp_set_num_threads(threads);
   BOOST_TEST(relative_difference(shared, alone) < 1e-12);
   BOOST_TEST((again.array() == shared.array()).all());
+}
+
+// A reference would dangle, whatever a run without sanitizers makes of it.
+static_assert(std::is_same_v<decltype(Membrane::fine), SphereTransform>);
+
+BOOST_AUTO_TEST_CASE(evaluation_outlives_the_discretisation_that_it_was_made_with) {
+  const Model model = shear_model();
+  std::optional<Discretisation> discretisation(discretisation_of(6));
+  const Evaluation evaluation = evaluated(model, *discretisation, start(model, *discretisation, prolate(6), 0.1));
+  const Matrix values = discretisation->fine_transform().synthesize(evaluation.fields.velocity);
+  discretisation.reset();
+  const Membrane& membrane = evaluation.parts->membrane;
+  BOOST_TEST((membrane.fine.synthesize(evaluation.fields.velocity) == values));
+  BOOST_TEST(max_difference(membrane.fine.analyze(values), evaluation.fields.velocity) < 1e-12);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -7,7 +7,7 @@
 
 namespace vehd::testing {
 
-/// A frozen membrane on the tables of `space`, which must outlive it.
+/// A frozen membrane on the tables of `space`.
 /// @param viscosity_ratio  other than 1 it takes the Stokes double layer of the selection
 inline Membrane make_membrane(const Space& space, const Matrix& position, const LayerSelection& selection,
                               double viscosity_ratio = 1.0) {
