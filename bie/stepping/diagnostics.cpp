@@ -16,12 +16,23 @@ namespace vehd {
 
 namespace {
 
+/// The long axis of the gyration tensor in the x-z plane; of a body that is as long in all directions of another plane,
+/// the one where both planes meet. Zero where no direction of the x-z plane stands out.
+Vector3 long_axis_in_plane(const Matrix3& gyration) {
+  constexpr double kRounding = 1e-9;
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
+  const Vector3& squares = solver.eigenvalues();
+  Vector3 axis = solver.eigenvectors().col(2);
+  if (squares[2] - squares[1] <= kRounding * squares[2]) axis = Vector3::UnitY().cross(solver.eigenvectors().col(0));
+  if (squares[2] - squares[0] <= kRounding * squares[2]) axis.setZero();
+  axis.y() = 0.0;
+  return axis.norm() > kRounding ? axis : Vector3::Zero();
+}
+
 /// Angle of the long axis of the gyration tensor against +x in the x-z plane of the laboratory, in (−90, 90] degrees.
 double inclination(const Surface& s, const Frame& frame) {
-  const Matrix centred = s.position.rowwise() - centroid(s).transpose();
-  const Matrix3 gyration = centred.transpose() * s.quadrature.asDiagonal() * centred;
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
-  const Vector3 axis = frame.axes * solver.eigenvectors().col(2);
+  const Matrix centred = (s.position.rowwise() - centroid(s).transpose()) * frame.axes.transpose();
+  const Vector3 axis = long_axis_in_plane(centred.transpose() * s.quadrature.asDiagonal() * centred);
   const double degrees = std::atan2(axis.z(), axis.x()) * 180.0 / std::numbers::pi;
   // A vertical axis is +90 on either side of rounding.
   constexpr double kRounding = 1e-9;
@@ -39,13 +50,17 @@ double spectrum_tail(const Matrix& position) {
 
 Diagnostics along_laboratory_axes(Diagnostics d, const Frame& frame, const SphereTransform& fine, const Surface& s,
                                   const State& state, const Fields& fields) {
-  const Matrix position = state.position * frame.axes.transpose();
+  // About its mean, so that no digit depends on where the vesicle is.
+  const Vector3 mean = state.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+  Matrix position = state.position * frame.axes.transpose();
+  position.row(0).setZero();
   const SphereDerivatives x = fine.synthesize_hessian(position);
   if (state.transmembrane_potential.size() > 0) {
     // A transform that knows no more belongs to states that are axisymmetric about z.
     const bool axisymmetric = fine.azimuthal_order() < fine.order();
     const std::optional<SpherePoint> north =
-        axisymmetric ? higher_pole(position) : highest_on_line(frame.axes * centroid(s), fine.grid(), x, position);
+        axisymmetric ? higher_pole(position)
+                     : highest_on_line(frame.axes * (centroid(s) - mean), fine.grid(), x, position);
     const auto there = [&](const Vector& field) {
       if (!north) return std::numeric_limits<double>::quiet_NaN();
       return evaluate_harmonics(field, Vector{{north->theta}}, Vector{{north->phi}})(0, 0);

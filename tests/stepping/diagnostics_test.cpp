@@ -67,6 +67,27 @@ BOOST_AUTO_TEST_CASE(inclination_is_the_angle_of_the_long_axis_from_x_towards_z)
   }
 }
 
+// Rounding would choose between the long axes of a disc, and between the ends of one that stands on the plane.
+BOOST_AUTO_TEST_CASE(inclination_of_a_body_with_many_long_axes_is_that_of_the_one_in_the_plane) {
+  for (const double degrees : {-80.0, -30.0, 0.0, 10.0, 45.0, 89.0}) {
+    const Matrix disc = translated(turned_about_y(ellipsoid(kOrder, {1.3, 1.3, 0.7}), degrees), {1.0, 2.0, 3.0});
+    BOOST_TEST(std::abs(diagnostics_of_potential(disc).inclination_deg - degrees) < 1e-8);
+  }
+  for (const Vector3& axes : {Vector3{1.0, 1.0, 1.0}, Vector3{1.3, 0.7, 1.3}, Vector3{1.0, 2.0, 1.0}}) {
+    const Matrix body = translated(turned_about_y(ellipsoid(kOrder, axes), 17.0), {1.0, 2.0, 3.0});
+    BOOST_TEST(diagnostics_of_potential(body).inclination_deg == 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(place_of_the_vesicle_leaves_no_trace_in_its_extents) {
+  const Matrix here = asymmetric_shape(kOrder);
+  const Diagnostics expected = diagnostics_of_potential(here);
+  const Diagnostics far = diagnostics_of_potential(translated(here, {1e4, -2e5, 3e3}));
+  for (const auto member : {&Diagnostics::extent_x, &Diagnostics::extent_y, &Diagnostics::extent_z}) {
+    BOOST_TEST(std::abs(far.*member - expected.*member) < 1e-13 * (expected.*member));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(reduced_volume_is_one_on_the_sphere_and_ignores_size) {
   BOOST_TEST(std::abs(diagnostics_of_shape(sphere(kOrder, 2.7)).reduced_volume - 1.0) < 1e-12);
   const double prolate_value = diagnostics_of_shape(prolate(kOrder)).reduced_volume;
