@@ -16,7 +16,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t checkpoint_schema_version = 6;
+constexpr std::int64_t checkpoint_schema_version = 7;
 
 /// The members of a state with the names under which they are stored.
 template <typename StateType, typename Visitor>
@@ -37,7 +37,8 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("pause", state.flow_memory.pause);
 }
 
-/// What is known of a map is two matrices, behind its name.
+/// What is known of a map is the coefficients of its rows and two matrices, behind its name.
+constexpr const char* entries_of = "_entries";
 constexpr const char* arguments_of = "_arguments";
 constexpr const char* responses_of = "_responses";
 
@@ -73,10 +74,14 @@ struct WriteVisitor {
   Hdf5Writer& file;
   void operator()(const char* name, const double& value) { file.attribute("/state", name, value); }
   void operator()(const char* name, const std::int64_t& value) { file.attribute("/state", name, value); }
-  void operator()(const char* name, const std::shared_ptr<const KnownResponses>& known) {
+  void operator()(const char* name, const std::shared_ptr<const ScalarResponses>& known) {
     if (!known) return;
-    (*this)((std::string(name) + arguments_of).c_str(), known->arguments);
-    (*this)((std::string(name) + responses_of).c_str(), known->responses);
+    const std::vector<Index>& entries = known->entries();
+    const auto n = static_cast<Index>(entries.size());
+    const Vector numbers = Eigen::Map<const Eigen::Matrix<Index, Eigen::Dynamic, 1>>(entries.data(), n).cast<double>();
+    (*this)((std::string(name) + entries_of).c_str(), numbers);
+    (*this)((std::string(name) + arguments_of).c_str(), known->known().arguments);
+    (*this)((std::string(name) + responses_of).c_str(), known->known().responses);
   }
   template <typename Derived>
   void operator()(const char* name, const Eigen::PlainObjectBase<Derived>& values) {
@@ -92,11 +97,27 @@ struct ReadVisitor {
   const Hdf5Reader& file;
   void operator()(const char* name, double& value) { value = file.number_attribute("/state", name); }
   void operator()(const char* name, std::int64_t& value) { value = file.integer_attribute("/state", name); }
-  void operator()(const char* name, std::shared_ptr<const KnownResponses>& known) {
+  void operator()(const char* name, std::shared_ptr<const ScalarResponses>& known) {
+    Vector numbers;
     KnownResponses stored;
+    (*this)((std::string(name) + entries_of).c_str(), numbers);
     (*this)((std::string(name) + arguments_of).c_str(), stored.arguments);
     (*this)((std::string(name) + responses_of).c_str(), stored.responses);
-    if (stored.count() > 0) known = std::make_shared<const KnownResponses>(std::move(stored));
+    if (stored.count() == 0) return;
+    std::vector<Index> entries;
+    for (const double number : numbers) {
+      // Neither fractions nor what no degree has nor a second time the same.
+      const bool ascends = entries.empty() || number > static_cast<double>(entries.back());
+      if (!(number >= 0.0 && number < n_coefficients(highest_order) && number == std::floor(number) && ascends)) {
+        file.refuse(fmt::format("/state/{}{} are not those of a run", name, entries_of));
+      }
+      entries.push_back(static_cast<Index>(number));
+    }
+    try {
+      known = std::make_shared<const ScalarResponses>(std::move(entries), std::move(stored));
+    } catch (const ShapeError& error) {
+      file.refuse(fmt::format("/state/{}: {}", name, error.what()));
+    }
   }
   template <typename Derived>
   void operator()(const char* name, Eigen::PlainObjectBase<Derived>& values) {
@@ -131,9 +152,8 @@ void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
   for (const auto& known : {state.flow_memory.tension, state.flow_memory.flow}) {
     if (!known) continue;
     const char* name = "/state, what its solves know,";
-    const Matrix& arguments = known->arguments;
-    const Matrix& responses = known->responses;
-    require(arguments.rows() == responses.rows() && arguments.cols() == responses.cols(), name);
+    const Matrix& arguments = known->known().arguments;
+    const Matrix& responses = known->known().responses;
     require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= most_known_responses, name);
     require(arguments.allFinite() && responses.allFinite(), name);
   }

@@ -55,13 +55,13 @@ Matrix solve_velocity(const Model& model, const Discretisation& discretisation, 
   const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
   is_sphere = uniform_tension_is_free(model, membrane);
   const FlowOptions options{is_sphere, {}, discretisation.tables().even_scalars};
-  const std::shared_ptr<const KnownResponses> known = state.flow_memory.tension;
-  FlowSystem system(model, membrane, 0.0, options, known ? *known : KnownResponses{});
+  const std::shared_ptr<const ScalarResponses> known = state.flow_memory.tension;
+  FlowSystem system(model, membrane, 0.0, options, known ? known->in(options.entries, 1) : KnownResponses{});
   const FlowSystem::Solution solution =
       system.solve(rhs, {{}, state.tension}, discretisation.settings().flow_tolerance);
   require_converged(solution.report, "tension, Eq. (27b)");
   evaluation.flow_memory.tension =
-      std::make_shared<const KnownResponses>(joined(system.learned(), system.kept(), most_known_responses));
+      remembered(options.entries, joined(system.learned(), system.kept(), most_known_responses));
   evaluation.iterations_flow = solution.report.iterations;
   velocity += solution.velocity;
   evaluation.fields.tension = solution.unknowns.tension;

@@ -1,10 +1,49 @@
 #include "bie/stepping/flow_memory.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
+
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
-FlowMemory memory_after_step(const FlowMemory& before, std::shared_ptr<const KnownResponses> known, int iterations) {
+ScalarResponses::ScalarResponses(std::vector<Index> entries, KnownResponses known)
+    : entries_(std::move(entries)), known_(std::move(known)) {
+  const auto n = static_cast<Index>(entries_.size());
+  const Index rows = known_.arguments.rows();
+  if (n == 0 || rows % n != 0 || known_.responses.rows() != rows || known_.responses.cols() != known_.count()) {
+    throw ShapeError(fmt::format("known responses have {} and {} rows, which are not those of whole scalars of {}",
+                                 rows, known_.responses.rows(), n));
+  }
+}
+
+KnownResponses ScalarResponses::in(const std::vector<Index>& entries, Index n_scalars) const {
+  const auto n_here = static_cast<Index>(entries_.size());
+  const auto n_there = static_cast<Index>(entries.size());
+  // Entries ascend with the degree: those of the lower one come first in both.
+  const Index common = std::min(n_here, n_there);
+  if (known_.arguments.rows() != n_scalars * n_here ||
+      !std::equal(entries_.begin(), entries_.begin() + common, entries.begin())) {
+    return {};
+  }
+  if (n_here == n_there) return known_;
+  const auto in_those = [&](const Matrix& columns) {
+    Matrix result = Matrix::Zero(n_scalars * n_there, columns.cols());
+    for (Index scalar = 0; scalar < n_scalars; ++scalar) {
+      result.middleRows(scalar * n_there, common) = columns.middleRows(scalar * n_here, common);
+    }
+    return result;
+  };
+  return {in_those(known_.arguments), in_those(known_.responses)};
+}
+
+std::shared_ptr<const ScalarResponses> remembered(const std::vector<Index>& entries, KnownResponses known) {
+  return known.count() == 0 ? nullptr : std::make_shared<const ScalarResponses>(entries, std::move(known));
+}
+
+FlowMemory memory_after_step(const FlowMemory& before, std::shared_ptr<const ScalarResponses> known, int iterations) {
   constexpr double kWorthwhile = 2.0;
   constexpr std::int64_t kPause = 50;
   FlowMemory after = before;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "bie/linear/known_responses.hpp"
 
@@ -10,19 +11,42 @@ namespace vehd {
 /// Columns of each kind that a state carries at most.
 constexpr Index most_known_responses = 128;
 
+/// What is known of a map between scalars of the membrane, together with the coefficients that its rows stand for. It
+/// can be had in the coefficients of a solve alone, so that a change of degree or symmetry never goes unnoticed.
+class ScalarResponses {
+ public:
+  /// @param entries  coefficient_index of the rows of each scalar, ascending; the scalars stand one below the other
+  /// @throws ShapeError unless the rows are those of whole scalars
+  ScalarResponses(std::vector<Index> entries, KnownResponses known);
+
+  /// In other coefficients of n_scalars scalars: cut, or continued by zeros, where the degree is another; nothing
+  /// where another symmetry leaves other coefficients of the same degrees or the scalars are not as many.
+  [[nodiscard]] KnownResponses in(const std::vector<Index>& entries, Index n_scalars) const;
+
+  [[nodiscard]] const std::vector<Index>& entries() const { return entries_; }
+  [[nodiscard]] const KnownResponses& known() const { return known_; }
+
+ private:
+  std::vector<Index> entries_;
+  KnownResponses known_;
+};
+
+/// Null where nothing is known.
+std::shared_ptr<const ScalarResponses> remembered(const std::vector<Index>& entries, KnownResponses known);
+
 /// What velocity solves have learned of their operators, in the coefficients that the symmetry leaves; nothing known:
 /// null. Directions that served one step serve the next, whose operators are nearly the same.
 struct FlowMemory {
-  std::shared_ptr<const KnownResponses> tension;  ///< λ ↦ J ∇_γ·u
-  std::shared_ptr<const KnownResponses> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowRightHandSide
-  std::int64_t unaided_iterations = 0;            ///< of the last step that nothing of `flow` was known for
-  std::int64_t pause = 0;                         ///< steps to go until `flow` is kept again
+  std::shared_ptr<const ScalarResponses> tension;  ///< λ ↦ J ∇_γ·u
+  std::shared_ptr<const ScalarResponses> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowRightHandSide
+  std::int64_t unaided_iterations = 0;             ///< of the last step that nothing of `flow` was known for
+  std::int64_t pause = 0;                          ///< steps to go until `flow` is kept again
 };
 
 /// The memory after a step. On grids with poles in bad places the flow takes more iterations with what is known than
 /// without: where it took more than twice as many as the last unaided step, the next steps go without it.
 /// @param known       what the step leaves known of the flow
 /// @param iterations  of the step
-FlowMemory memory_after_step(const FlowMemory& before, std::shared_ptr<const KnownResponses> known, int iterations);
+FlowMemory memory_after_step(const FlowMemory& before, std::shared_ptr<const ScalarResponses> known, int iterations);
 
 }  // namespace vehd

@@ -164,6 +164,8 @@ State turned(const Matrix3& rotation, State state) {
   state.transmembrane_potential = turned_scalar(rotation, state.transmembrane_potential);
   state.tension = turned_scalar(rotation, state.tension);
   state.area_strain = turned_scalar(rotation, state.area_strain);
+  // In the coefficients of other axes, with another symmetry: solves there learn anew.
+  state.flow_memory = {};
   return state;
 }
 

@@ -40,7 +40,7 @@ State in_laboratory(const Frame& frame, State of_frame);
 Fields in_laboratory(const Frame& frame, const Fields& of_frame);
 
 /// Everything turned by the rotation R, fields together with the parameter sphere: x ↦ R x(R⁻¹ s), V_m ↦ V_m(R⁻¹ s).
-/// R = axes goes from the frame to the laboratory, R = axesᵀ the other way.
+/// R = axes goes from the frame to the laboratory, R = axesᵀ the other way. A turned state knows nothing of its flow.
 Model turned(const Matrix3& rotation, Model model);
 State turned(const Matrix3& rotation, State state);
 Fields turned(const Matrix3& rotation, Fields fields);

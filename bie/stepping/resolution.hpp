@@ -28,7 +28,7 @@ class Resolution {
   double decay_ = 0.0;  // from degree to degree
 };
 
-/// The same fields in degrees up to `order`: cut, or continued by zeros.
+/// The same fields in degrees up to `order`: cut, or continued by zeros, as ScalarResponses do by themselves.
 State resized(State state, int order);
 Fields resized(Fields fields, int order);
 

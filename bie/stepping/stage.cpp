@@ -98,7 +98,7 @@ void forget_decayed(const StageContext& context, Stage& stage) {
 }  // namespace
 
 FlowSystems::FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options, double explicit_relaxation,
-                         std::shared_ptr<const KnownResponses> known)
+                         std::shared_ptr<const ScalarResponses> known)
     : model_(model),
       membrane_(membrane),
       options_(std::move(options)),
@@ -110,19 +110,21 @@ FlowSystem& FlowSystems::of(double dt) {
   for (auto& [size, system] : systems_) {
     if (size == dt) return system;
   }
-  const std::shared_ptr<const KnownResponses> so_far = known();
+  const std::shared_ptr<const ScalarResponses> so_far = known();
+  const Index n_scalars = (model_.bending ? 1 : 0) + (model_.inextensible ? 1 : 0);
   FlowOptions options = options_;
   options.held_tension = (options_.held_tension.array() - explicit_tension_time_ / dt).cwiseMax(0.0);
   if (options.held_tension.isZero(0.0)) options.held_tension.resize(0);
-  FlowSystem system(model_, membrane_, dt, options, so_far ? *so_far : KnownResponses{});
+  FlowSystem system(model_, membrane_, dt, options,
+                    so_far ? so_far->in(options_.entries, n_scalars) : KnownResponses{});
   return systems_.emplace_back(dt, std::move(system)).second;
 }
 
-std::shared_ptr<const KnownResponses> FlowSystems::known() const {
+std::shared_ptr<const ScalarResponses> FlowSystems::known() const {
   if (systems_.empty()) return known_;
   KnownResponses all = systems_.front().second.kept();
   for (const auto& [size, system] : systems_) all = joined(system.learned(), all, most_known_responses);
-  return std::make_shared<const KnownResponses>(std::move(all));
+  return remembered(options_.entries, std::move(all));
 }
 
 FlowSystems flow_systems(const Model& model, const Discretisation& discretisation, const Evaluation& evaluation) {

@@ -16,17 +16,17 @@ class FlowSystems {
   /// @param explicit_relaxation  of that tension, the part is not held under which a sphere relaxes by this much in dt
   /// @param known                of FlowMemory
   FlowSystems(const Model& model, const Membrane& membrane, FlowOptions options, double explicit_relaxation,
-              std::shared_ptr<const KnownResponses> known);
+              std::shared_ptr<const ScalarResponses> known);
   [[nodiscard]] FlowSystem& of(double dt);
   /// What was known and what has been learned, for the next step.
-  [[nodiscard]] std::shared_ptr<const KnownResponses> known() const;
+  [[nodiscard]] std::shared_ptr<const ScalarResponses> known() const;
 
  private:
   const Model& model_;
   const Membrane& membrane_;
   FlowOptions options_;
   double explicit_tension_time_;  ///< times the dt of a system: the tension that is not held
-  std::shared_ptr<const KnownResponses> known_;
+  std::shared_ptr<const ScalarResponses> known_;
   std::vector<std::pair<double, FlowSystem>> systems_;  // in the order in which they were asked for
 };
 

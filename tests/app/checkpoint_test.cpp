@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <limits>
+#include <numeric>
 
 #include "bie/support/errors.hpp"
 #include "tests/app/program.hpp"
@@ -19,8 +20,10 @@ vehd::Checkpoint sample() {
   checkpoint.state.tension = vehd::Vector::Random(25);
   checkpoint.state.area_strain = vehd::Vector::Random(25);
   checkpoint.state.reference_area = 12.0;
-  checkpoint.state.flow_memory.flow = std::make_shared<const vehd::KnownResponses>(
-      vehd::KnownResponses{vehd::Matrix::Random(50, 3), vehd::Matrix::Random(50, 3)});
+  std::vector<vehd::Index> entries(25);
+  std::iota(entries.begin(), entries.end(), vehd::Index{0});
+  checkpoint.state.flow_memory.flow =
+      vehd::remembered(entries, {vehd::Matrix::Random(50, 3), vehd::Matrix::Random(50, 3)});
   checkpoint.state.flow_memory.unaided_iterations = 21;
   checkpoint.state.flow_memory.pause = 5;
   checkpoint.n_rows = 8;
@@ -48,8 +51,10 @@ BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   BOOST_TEST((read.state.tension == written.state.tension));
   BOOST_TEST((read.state.area_strain == written.state.area_strain));
   BOOST_TEST(read.state.transmembrane_potential.size() == 0);
-  BOOST_TEST((read.state.flow_memory.flow->arguments == written.state.flow_memory.flow->arguments));
-  BOOST_TEST((read.state.flow_memory.flow->responses == written.state.flow_memory.flow->responses));
+  const vehd::ScalarResponses& known = *read.state.flow_memory.flow;
+  BOOST_TEST((known.entries() == written.state.flow_memory.flow->entries()));
+  BOOST_TEST((known.known().arguments == written.state.flow_memory.flow->known().arguments));
+  BOOST_TEST((known.known().responses == written.state.flow_memory.flow->known().responses));
   BOOST_TEST(!read.state.flow_memory.tension);
   BOOST_TEST(read.state.flow_memory.unaided_iterations == 21);
   BOOST_TEST(read.state.flow_memory.pause == 5);

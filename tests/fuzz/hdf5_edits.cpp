@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "bie/app/checkpoint.hpp"
@@ -43,8 +44,10 @@ constexpr std::array paths = {"/",
                               "/snapshots/000001/coefficients/x",
                               "/snapshots/000001/coefficients/velocity",
                               "/snapshots/9",
+                              "/state/tension_entries",
                               "/state/tension_arguments",
                               "/state/tension_responses",
+                              "/state/flow_entries",
                               "/state/flow_arguments",
                               "/state/flow_responses"};
 constexpr std::array attributes = {"schema_version", "time",    "step",  "checksum",          "n_rows",
@@ -106,8 +109,9 @@ std::string good_checkpoint() {
   checkpoint.state.tension = vehd::Vector::Ones(checkpoint.state.position.rows());
   checkpoint.state.area_strain = vehd::Vector::Zero(checkpoint.state.position.rows());
   const vehd::Matrix columns = vehd::Matrix::Identity(2 * checkpoint.state.position.rows(), 3);
-  checkpoint.state.flow_memory.flow =
-      std::make_shared<const vehd::KnownResponses>(vehd::KnownResponses{columns, columns});
+  std::vector<vehd::Index> entries(static_cast<std::size_t>(checkpoint.state.position.rows()));
+  std::iota(entries.begin(), entries.end(), vehd::Index{0});
+  checkpoint.state.flow_memory.flow = vehd::remembered(entries, {columns, columns});
   checkpoint.state.flow_memory.tension = checkpoint.state.flow_memory.flow;
   vehd::write_checkpoint(directory / "checkpoint.h5", checkpoint);
   return vehd::read_sealed_file(directory / "checkpoint.h5");

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
+#include "bie/stepping/frame.hpp"
+#include "bie/stepping/resolution.hpp"
+#include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -72,7 +75,7 @@ BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_toleranc
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_pay_is_left_aside_for_a_while) {
-  const auto known = std::make_shared<const KnownResponses>();
+  const auto known = remembered({0}, {Matrix::Ones(1, 1), Matrix::Ones(1, 1)});
   FlowMemory memory = memory_after_step({}, known, 20);
   BOOST_TEST((memory.flow == known && memory.unaided_iterations == 20));
   memory = memory_after_step(memory, known, 40);
@@ -86,8 +89,75 @@ BOOST_AUTO_TEST_CASE(what_does_not_pay_is_left_aside_for_a_while) {
 
 BOOST_AUTO_TEST_CASE(memory_stays_bounded) {
   const Steps steps = steps_of(shear_model(), ellipsoid(8, {2.0, 1.0, 0.9}), 0.1, 20);
-  BOOST_TEST(steps.end.flow_memory.flow->count() <= most_known_responses);
-  BOOST_TEST(steps.end.flow_memory.tension->count() <= most_known_responses);
+  BOOST_TEST(steps.end.flow_memory.flow->known().count() <= most_known_responses);
+  BOOST_TEST(steps.end.flow_memory.tension->known().count() <= most_known_responses);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_known_is_had_in_the_coefficients_of_a_solve_alone) {
+  constexpr int kLow = 4, kHigh = 7;
+  const std::vector<Index> low = even_coefficients({}, kLow), high = even_coefficients({}, kHigh);
+  const Matrix scalar = random_coefficients(kLow, 2, 1), other = random_coefficients(kLow, 2, 2);
+  Matrix both(2 * scalar.rows(), 2), continued(2 * n_coefficients(kHigh), 2);
+  both << scalar, other;
+  continued << resize_order(scalar, kHigh), resize_order(other, kHigh);
+  const ScalarResponses known(low, {both, -both});
+  BOOST_TEST((known.in(low, 2).arguments == both));
+  BOOST_TEST((known.in(high, 2).arguments == continued));
+  BOOST_TEST((known.in(high, 2).responses == -continued));
+  BOOST_TEST((ScalarResponses(high, {continued, continued}).in(low, 2).arguments == both));
+  // Other scalars, and coefficients that another symmetry leaves.
+  BOOST_TEST(known.in(low, 1).count() == 0);
+  Symmetry axisymmetric;
+  axisymmetric.axisymmetric = true;
+  Symmetry mirror;
+  mirror.reflections.push_back({1, 1, -1});
+  mirror.potential_signs.push_back(1);
+  for (const Symmetry& symmetry : {axisymmetric, mirror}) {
+    for (const int order : {kLow, kHigh}) {
+      BOOST_TEST(known.in(even_coefficients(symmetry, order), 2).count() == 0, symmetry_text(symmetry));
+    }
+  }
+  BOOST_CHECK_THROW(ScalarResponses(high, {both, both}), ShapeError);
+  BOOST_CHECK_THROW(ScalarResponses(low, {both, scalar}), ShapeError);
+}
+
+BOOST_AUTO_TEST_CASE(turned_state_knows_nothing_in_the_coefficients_of_former_axes) {
+  const State learned = steps_of(shear_model(), ellipsoid(6, {2.0, 1.0, 0.9}), 0.1, 1).end;
+  BOOST_TEST_REQUIRE((learned.flow_memory.flow && learned.flow_memory.tension));
+  const State there = turned(general_rotation(), learned);
+  BOOST_TEST((!there.flow_memory.flow && !there.flow_memory.tension));
+  const State here = turned(Matrix3::Identity(), learned);
+  BOOST_TEST((here.flow_memory.flow == learned.flow_memory.flow));
+}
+
+// Up, down, and to what a smaller symmetry leaves.
+BOOST_AUTO_TEST_CASE(what_was_learned_at_another_degree_changes_no_field_and_no_step) {
+  const Model model = shear_model();
+  const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
+  const State learned = steps_of(model, position, 0.1, 4).end;
+  for (const int order : {8, 10, 13}) {
+    const State with = resized(learned, order);
+    State without = with;
+    without.flow_memory = {};
+    for (const bool symmetric : {true, false}) {
+      const Discretisation discretisation =
+          symmetric ? symmetric_discretisation(model, resize_order(position, order)) : discretisation_of(order);
+      BOOST_TEST_CONTEXT("degree " << order << (symmetric ? ", symmetric" : "")) {
+        const Fields expected = evaluated(model, discretisation, without).fields;
+        const Fields fields = evaluated(model, discretisation, with).fields;
+        BOOST_TEST(relative_difference(fields.velocity, expected.velocity) < 1e-7);
+        BOOST_TEST(relative_difference(fields.tension, expected.tension) < 1e-7);
+        const StepResult step = stepped(model, discretisation, with, 0.1);
+        const StepResult unaided = stepped(model, discretisation, without, 0.1);
+        BOOST_TEST_MESSAGE("iterations " << step.iterations_flow << ", unaided " << unaided.iterations_flow);
+        BOOST_TEST_REQUIRE((step.accepted && unaided.accepted));
+        BOOST_TEST(max_difference(step.state.position, unaided.state.position) < 1e-7);
+        const Index rows = step.state.flow_memory.flow->known().arguments.rows();
+        BOOST_TEST(rows == 2 * static_cast<Index>(step.state.flow_memory.flow->entries().size()));
+        BOOST_TEST((step.state.flow_memory.flow->entries() == even_coefficients(discretisation.symmetry(), order)));
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
