@@ -9,7 +9,6 @@
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/composition.hpp"
-#include "bie/stepping/resolution.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -26,6 +25,9 @@ constexpr double kContact = 0.1;
 /// Two parts may come nearer by this factor in one step once they are closer than the grid spacing: with larger steps
 /// they could pass through each other unseen.
 constexpr double kLeastApproach = 0.5;
+
+/// Steps between two attempts to save work: one that fails every time costs little of what a run does.
+constexpr std::int64_t kEconomyInterval = 4;
 
 std::unique_ptr<Discretisation> discretisation_of(const EvolutionSetup& setup, int order, std::int64_t level) {
   NumericalSettings settings = setup.settings;
@@ -47,14 +49,15 @@ void require_apart(double separation, double before) {
 
 int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_order, setup.settings.order); }
 
+double truncation_target(const EvolutionSetup& setup) { return truncation_share * setup.control.tolerance; }
+
 int starting_order(const EvolutionSetup& setup, const Matrix& position) {
   if (setup.control.tolerance == 0.0) return setup.settings.order;
   State shape;
   shape.position = position;
   // Exact for a sphere, and only a scale.
   shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
-  return Resolution(setup.model, shape)
-      .order_for(truncation_share * setup.control.tolerance, lowest_order(setup), setup.settings.order);
+  return Resolution(setup.model, shape).order_for(truncation_target(setup), lowest_order(setup), setup.settings.order);
 }
 
 /// A first step small against the time in which the start changes.
@@ -76,11 +79,13 @@ double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, con
 }  // namespace
 
 Evolution::Evolution(EvolutionSetup setup, const Matrix& position, bool steady_potential, Instruments& instruments)
-    : setup_(std::move(setup)),
-      instruments_(instruments),
-      discretisation_(discretisation_of(setup_, starting_order(setup_, position), 0)),
-      state_(initial_state(setup_.model, *discretisation_, resize_order(position, discretisation_->order()),
-                           steady_potential, adapts() ? 0.0 : setup_.control.largest, instruments)) {}
+    : setup_(std::move(setup)), instruments_(instruments) {
+  start_at(starting_order(setup_, position), position, steady_potential);
+  // The area, which is the scale, and a steady V_m are known only now.
+  for (Resolution start(setup_.model, state_); !resolves(start); start = Resolution(setup_.model, state_)) {
+    start_at(raised_order(start), position, steady_potential);
+  }
+}
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)
     : setup_(std::move(setup)),
@@ -97,12 +102,22 @@ void Evolution::evaluate_start() {
 
 double Evolution::truncation() const { return Resolution(setup_.model, state_).remainder(); }
 
+void Evolution::start_at(int order, const Matrix& position, bool steady_potential) {
+  discretisation_ = discretisation_of(setup_, order, 0);
+  state_ = initial_state(setup_.model, *discretisation_, resize_order(position, order), steady_potential,
+                         adapts() ? 0.0 : setup_.control.largest, instruments_);
+}
+
 /// @throws ConvergenceError, and everything stays
 void Evolution::change_discretisation(int order, std::int64_t quadrature_level) {
   std::unique_ptr<Discretisation> discretisation = discretisation_of(setup_, order, quadrature_level);
   State state = resized(state_, order);
   state.quadrature_level = quadrature_level;
-  evaluation_ = evaluate(setup_.model, *discretisation, state, instruments_);
+  Evaluation evaluation = evaluate(setup_.model, *discretisation, state, instruments_);
+  // Less work that is not exact enough would have to be undone at the next step.
+  const bool is_economy = order < this->order() || quadrature_level < state_.quadrature_level;
+  if (is_economy && evaluation.quadrature_is_coarse) return;
+  evaluation_ = std::move(evaluation);
   discretisation_ = std::move(discretisation);
   state_ = std::move(state);
 }
@@ -134,14 +149,28 @@ void Evolution::lower_quadrature_if_idle() {
   change_discretisation(order(), state_.quadrature_level - 1);
 }
 
+/// Does the degree leave out little enough, or is there no higher one?
+bool Evolution::resolves(const Resolution& resolution) const {
+  return !adapts() || order() >= setup_.settings.order || resolution.remainder() <= truncation_target(setup_);
+}
+
+int Evolution::raised_order(const Resolution& resolution) const {
+  const int enough = resolution.order_for(truncation_target(setup_), order(), order() + 8);
+  return std::min(setup_.settings.order, std::max(enough, order() + 2));
+}
+
+/// @throws ConvergenceError, and everything stays
 bool Evolution::raise_order_for(const State& reached) {
-  if (!adapts() || order() >= setup_.settings.order) return false;
   const Resolution resolution(setup_.model, reached);
-  const double target = truncation_share * setup_.control.tolerance;
-  if (resolution.remainder() <= target) return false;
-  change_discretisation(
-      std::min(setup_.settings.order, std::max(resolution.order_for(target, order(), order() + 8), order() + 2)),
-      state_.quadrature_level);
+  if (resolves(resolution)) return false;
+  const int raised = raised_order(resolution);
+  try {
+    change_discretisation(raised, state_.quadrature_level);
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(fmt::format(
+        "no acceptable step from time {:g}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
+        state_.time, order(), resolution.remainder(), truncation_target(setup_), raised, error.what()));
+  }
   return true;
 }
 
@@ -150,15 +179,26 @@ void Evolution::lower_order_if_idle() {
   constexpr double kIdle = 0.1;
   constexpr int kWorthwhile = 4;
   if (!adapts() || order() <= lowest_order(setup_)) return;
-  const int enough = Resolution(setup_.model, state_)
-                         .order_for(kIdle * truncation_share * setup_.control.tolerance, lowest_order(setup_), order());
+  const int enough =
+      Resolution(setup_.model, state_).order_for(kIdle * truncation_target(setup_), lowest_order(setup_), order());
   if (enough <= order() - kWorthwhile) change_discretisation(enough, state_.quadrature_level);
 }
 
-Advance Evolution::advance_within(const StepPlan& plan, EvolutionStep& record) {
+void Evolution::economise() {
+  if (state_.step % kEconomyInterval != 0) return;
+  for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
+    try {
+      (this->*economy)();
+    } catch (const ConvergenceError&) {
+      // What cannot be had for less goes on as it is.
+    }
+  }
+}
+
+Advance Evolution::advance_within(const StepPlan& plan, double wanted, EvolutionStep& record) {
   State from = state_;
   // Equal up to rounding: the step must end on the event, not just before it.
-  if (plan.reaches_event) from.dt_next = std::max(from.dt_next, plan.dt_limit);
+  from.dt_next = plan.reaches_event ? std::max(wanted, plan.dt_limit) : wanted;
   Advance advanced =
       advance(setup_.model, *discretisation_, from, evaluation_, setup_.control, plan.dt_limit, instruments_);
   record.rejected += advanced.rejected;
@@ -175,34 +215,34 @@ EvolutionStep Evolution::step(const EventTimes& events) {
   const std::optional<double> corner = next_corner(setup_.model, state_.time);
   if (corner) all.corner = std::min(*corner, events.corner.value_or(*corner));
   StepPlan plan = plan_step(state_.time, state_.dt_next, all);
+  double wanted = state_.dt_next;
   EvolutionStep record;
   for (;;) {
-    Advance advanced = advance_within(plan, record);
-    if (raise_order_for(advanced.state)) {
-      ++record.rejected;
-      continue;
-    }
+    Advance advanced = advance_within(plan, wanted, record);
+    const bool at_event = plan.reaches_event && advanced.dt == plan.dt_limit;
     try {
-      const bool at_event = plan.reaches_event && advanced.dt == plan.dt_limit;
+      if (raise_order_for(advanced.state)) {
+        ++record.rejected;
+        continue;
+      }
       State reached = advanced.state;
       if (at_event) reached.time = plan.event_time;
       arrive(std::move(reached));
-      record.dt = advanced.dt;
-      record.change = advanced.change;
-      record.raw_area = advanced.raw_area;
-      record.iterations_flow += evaluation_.iterations_flow;
-      record.iterations_electric += evaluation_.iterations_electric;
-      record.at_snapshot = at_event && plan.is_snapshot;
     } catch (const ConvergenceError&) {
-      // The new state cannot be solved for, so the step that led there is rejected as well.
+      // What cannot be solved for after this step may be after a smaller one.
       ++record.rejected;
-      plan.dt_limit = advanced.dt / 2.0;
+      wanted = plan.dt_limit = advanced.dt / 2.0;
       plan.reaches_event = false;
       if (plan.dt_limit < setup_.control.smallest) throw;
       continue;
     }
-    lower_order_if_idle();
-    lower_quadrature_if_idle();
+    record.dt = advanced.dt;
+    record.change = advanced.change;
+    record.raw_area = advanced.raw_area;
+    record.iterations_flow += evaluation_.iterations_flow;
+    record.iterations_electric += evaluation_.iterations_electric;
+    record.at_snapshot = at_event && plan.is_snapshot;
+    economise();
     return record;
   }
 }

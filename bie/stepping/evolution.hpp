@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/resolution.hpp"
 #include "bie/stepping/step_plan.hpp"
 #include "bie/stepping/stepper.hpp"
 
@@ -36,6 +37,9 @@ struct EvolutionStep {
 /// step is taken again, where the degrees left out would matter, and falls where they have long ceased to. The singular
 /// quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves, parts of the
 /// membrane much closer to each other than the grid spacing, ends the way.
+///
+/// A lower degree or coarser quadrature that cannot be solved for is left aside. Where a higher degree is needed and
+/// cannot be solved for, the step is taken again with half the size, and the way ends where that becomes too small.
 class Evolution {
  public:
   /// From a shape at time 0, V_m zero or steady. @throws ConvergenceError
@@ -59,12 +63,16 @@ class Evolution {
 
  private:
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
+  [[nodiscard]] bool resolves(const Resolution& resolution) const;
+  void start_at(int order, const Matrix& position, bool steady_potential);
   void change_discretisation(int order, std::int64_t quadrature_level);
   void arrive(State state);
-  Advance advance_within(const StepPlan& plan, EvolutionStep& record);
+  Advance advance_within(const StepPlan& plan, double wanted, EvolutionStep& record);
+  [[nodiscard]] int raised_order(const Resolution& resolution) const;
   bool raise_order_for(const State& reached);
   void lower_order_if_idle();
   void lower_quadrature_if_idle();
+  void economise();
 
   EvolutionSetup setup_;
   Instruments& instruments_;

@@ -37,31 +37,44 @@ double potential_scale(const ElectricParameters& electric, double radius, double
 
 Resolution::Resolution(const Model& model, const State& state) {
   const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
-  bound_ = degree_bounds(state.position) / radius;
-  bound_[0] = 0.0;  // where the vesicle is
-  if (model.electric && state.transmembrane_potential.size() > 0) {
-    const Vector potential = degree_bounds(state.transmembrane_potential);
-    bound_ = bound_.cwiseMax(potential / potential_scale(*model.electric, radius, potential.maxCoeff()));
+  shape_ = degree_bounds(state.position) / radius;
+  shape_[0] = 0.0;  // where the vesicle is
+  if (!model.electric || state.transmembrane_potential.size() == 0) return;
+  potential_ = degree_bounds(state.transmembrane_potential);
+  least_scale_ = potential_scale(*model.electric, radius, 0.0);
+}
+
+Resolution::Tail Resolution::tail_of_cut(int order) const {
+  Tail tail{shape_.head(order + 1)};
+  Vector& bound = tail.bound;
+  if (potential_.size() > 0) {
+    const Vector potential = potential_.head(order + 1);
+    bound = bound.cwiseMax(potential / std::max(potential.maxCoeff(), least_scale_));
   }
   // Symmetry can silence every other degree.
-  for (Index n = bound_.size() - 2; n >= 0; --n) bound_[n] = std::max(bound_[n], bound_[n + 1]);
+  for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);
   constexpr double kSlowest = 0.97;
   constexpr double kFloor = 1e-16;
-  const Index last = bound_.size() - 1;
-  const Index middle = last / 2;
-  const double end = std::max({bound_[last], bound_[last - 1], kFloor});
-  decay_ =
-      std::min(kSlowest, std::pow(end / std::max(bound_[middle], kFloor), 1.0 / static_cast<double>(last - middle)));
+  const int middle = order / 2;
+  const double end = std::max({bound[order], bound[std::max(0, order - 1)], kFloor});
+  tail.decay = std::min(kSlowest, std::pow(end / std::max(bound[middle], kFloor), 1.0 / (order - middle)));
+  return tail;
+}
+
+/// Sum of the geometric series from degree `order` + 1 on, where that is at least the last of the spectrum.
+double Resolution::Tail::beyond(int order) const {
+  const int last = static_cast<int>(bound.size()) - 1;
+  return bound[std::max(0, last - 1)] * decay / (1.0 - decay) * std::pow(decay, order - last);
 }
 
 double Resolution::remainder_at(int order) const {
-  const int last = static_cast<int>(bound_.size()) - 1;
-  const double beyond = bound_[std::max(0, last - 1)] * decay_ / (1.0 - decay_);
-  if (order >= last) return beyond * std::pow(decay_, order - last);
-  return beyond + bound_.tail(last - order).sum();
+  const Tail whole = tail_of_cut(last());
+  if (order >= last()) return whole.beyond(order);
+  const double left_out = whole.beyond(last()) + whole.bound.tail(last() - order).sum();
+  return std::max(left_out, tail_of_cut(order).beyond(order));
 }
 
-double Resolution::remainder() const { return remainder_at(static_cast<int>(bound_.size()) - 1); }
+double Resolution::remainder() const { return remainder_at(last()); }
 
 int Resolution::order_for(double target, int lowest, int highest) const {
   int order = lowest + lowest % 2;
