@@ -58,8 +58,7 @@ BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const
     if (!outcome.completed) throw ConvergenceError(fmt::format("{}: {}", file.string(), outcome.reason));
     const HistoryTable history(paths.history());
     std::vector<BenchCell> row{file.filename().string(), std::int64_t{scene.numerics.order},
-                               history.column("time").back(), static_cast<std::int64_t>(history.n_rows()) - 1,
-                               spread_of({seconds})};
+                               history.column("time").back(), history.n_steps(), spread_of({seconds})};
     for (const char* name : kQuantities) row.emplace_back(history.column(name).back());
     add_row(result.tables.front(), std::move(row));
     draw(paths, file.stem().string(), pictures);

@@ -119,7 +119,7 @@ std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, con
           worst.what,
           worst.value,
           worst.bound,
-          static_cast<std::int64_t>(history.n_rows()) - 1,
+          history.n_steps(),
           static_cast<std::int64_t>(std::accumulate(rejected.begin(), rejected.end(), 0.0)),
           largest_magnitude(history.column("iterations_flow")),
           largest_magnitude(history.column("iterations_electric")),

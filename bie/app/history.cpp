@@ -149,6 +149,11 @@ HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::
   }
 }
 
+std::int64_t HistoryTable::n_steps() const {
+  const std::vector<double>& sizes = column("dt");
+  return std::count_if(sizes.begin(), sizes.end(), [](double dt) { return dt > 0.0; });
+}
+
 const std::vector<double>& HistoryTable::column(const std::string& name) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (names_[i] == name) return columns_[i];

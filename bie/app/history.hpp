@@ -12,7 +12,8 @@
 
 namespace vehd {
 
-/// One row of history.csv: the state at `time` and the step that led to it.
+/// One row of history.csv: the state at `time` and the step that led to it. Where the forcing jumps there are two rows
+/// of the same time: first the values just before with that step, then those just after with a dt of 0.
 struct HistoryRow {
   double time = 0.0;
   EvolutionStep step;
@@ -56,6 +57,9 @@ class HistoryTable {
   HistoryTable(std::istream& stream, std::string name);
 
   [[nodiscard]] std::size_t n_rows() const { return n_rows_; }
+  /// Steps that the rows tell of: neither the start nor the other side of a jump took one.
+  /// @throws InputError if there is no column of step sizes
+  [[nodiscard]] std::int64_t n_steps() const;
   /// @throws InputError if there is no such column
   [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "bie/app/errors.hpp"
 #include "bie/app/run_recorder.hpp"
@@ -105,11 +107,26 @@ class Simulation {
     record(none);
   }
 
+  [[nodiscard]] RecordedSide side_of(const Evaluation& evaluation, const EvolutionStep& step) const {
+    return {{evolution_.state().time, step, evaluation.diagnostics, evolution_.order(), evolution_.truncation()},
+            evaluation.fields};
+  }
+
   void record(const EvolutionStep& step) {
     const State& state = evolution_.state();
-    const Diagnostics& diagnostics = evolution_.evaluation().diagnostics;
-    recorder_.record({state.time, step, diagnostics, evolution_.order(), evolution_.truncation()}, state,
-                     evolution_.evaluation().fields, meter_.totals());
+    const Evaluation& now = evolution_.evaluation();
+    const Diagnostics& diagnostics = now.diagnostics;
+    std::vector<RecordedSide> sides{side_of(now, step)};
+    if (const std::optional<Evaluation>& before = evolution_.before_jump()) {
+      EvolutionStep arrival = step;
+      arrival.at_snapshot = false;
+      EvolutionStep jump;
+      jump.at_snapshot = step.at_snapshot;
+      jump.iterations_flow = now.iterations_flow;
+      jump.iterations_electric = now.iterations_electric;
+      sides = {side_of(*before, arrival), side_of(now, jump)};
+    }
+    recorder_.record(state, sides, meter_.totals());
     const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
     progress_.update({state.step, state.time, step.dt, drift});
   }

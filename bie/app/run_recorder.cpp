@@ -57,15 +57,19 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
   name_fields(xdmf_, [&](const std::string& name) { return file.has(group_of(0) + "/" + name); });
 }
 
-void RunRecorder::record(HistoryRow row, const State& state, const Fields& fields, const RunTotals& totals) {
-  if (laboratory_.is_turned()) {
-    row.diagnostics =
-        laboratory_.diagnostics(row.diagnostics, resized(state, output_.order()), resized(fields, output_.order()));
+void RunRecorder::record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals) {
+  const State written = resized(state, output_.order());
+  for (const auto& [row, fields] : sides) {
+    HistoryRow shown = row;
+    if (laboratory_.is_turned()) {
+      shown.diagnostics = laboratory_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
+    }
+    history_.append(shown);
+    ++last_.n_rows;
   }
-  history_.append(row);
-  if (row.step.at_snapshot) add_snapshot(resized(state, output_.order()), resized(fields, output_.order()));
+  const RecordedSide& last = sides.back();
+  if (last.row.step.at_snapshot) add_snapshot(written, resized(last.fields, output_.order()));
   last_.state = state;
-  ++last_.n_rows;
   last_.history_bytes = history_.bytes();
   last_.history_checksum = history_.checksum();
   save(totals);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "bie/app/checkpoint.hpp"
 #include "bie/app/history.hpp"
@@ -15,6 +16,12 @@
 
 namespace vehd {
 
+/// A row of the history and the fields that it tells of.
+struct RecordedSide {
+  HistoryRow row;
+  const Fields& fields;
+};
+
 /// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
 /// the checkpoint never counts what is not there. Only run.xdmf may lag, by half a second at most: it is written anew
 /// as a whole, and the next session lists what the last one could not.
@@ -24,8 +31,9 @@ class RunRecorder {
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start);
 
-  /// Records one accepted state.
-  void record(HistoryRow row, const State& state, const Fields& fields, const RunTotals& totals);
+  /// Records one accepted state, which has two sides where the forcing jumps. A snapshot holds the last side, the one
+  /// with which a run goes on. A kill leaves either none or all of the rows to a resumed run.
+  void record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals);
 
   /// Adds a snapshot of the state recorded last unless it has one: that of a run which cannot go on.
   void keep_last_state(const Fields& fields);

@@ -65,7 +65,7 @@ std::string verdict_of(const HistoryTable& history, std::optional<double> tolera
 nlohmann::json summary_of(const HistoryTable& history, std::optional<double> tolerance, const RunTotals& totals,
                           bool completed, const std::string& reason) {
   const auto& rejected = history.column("rejected");
-  const std::int64_t steps = std::max<std::int64_t>(0, static_cast<std::int64_t>(history.n_rows()) - 1);
+  const std::int64_t steps = history.n_steps();
   nlohmann::json json;
   json["completed"] = completed;
   json["verdict"] = verdict_of(history, tolerance);

@@ -79,4 +79,6 @@ std::vector<Vector3> LinearFlowEffect::axis_candidates() const {
 
 std::optional<double> LinearFlowEffect::next_corner(double time) const { return flow_.waveform.next_corner(time); }
 
+bool LinearFlowEffect::jumps_at(double time) const { return flow_.waveform.jumps_at(time); }
+
 }  // namespace vehd

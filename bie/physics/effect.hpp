@@ -60,6 +60,8 @@ class ExplicitEffect {
   [[nodiscard]] virtual std::vector<Vector3> axis_candidates() const { return {}; }
   /// The next time after `time` at which a step should end because the effect changes abruptly.
   [[nodiscard]] virtual std::optional<double> next_corner(double) const { return std::nullopt; }
+  /// Is the effect another one just after this time than just before it?
+  [[nodiscard]] virtual bool jumps_at(double) const { return false; }
 };
 
 }  // namespace vehd

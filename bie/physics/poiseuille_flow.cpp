@@ -41,4 +41,6 @@ std::optional<double> PoiseuilleFlowEffect::next_corner(double time) const {
   return parameters_.waveform.next_corner(time);
 }
 
+bool PoiseuilleFlowEffect::jumps_at(double time) const { return parameters_.waveform.jumps_at(time); }
+
 }  // namespace vehd

@@ -25,6 +25,7 @@ class PoiseuilleFlowEffect : public ExplicitEffect {
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const override;
   [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
   [[nodiscard]] std::optional<double> next_corner(double time) const override;
+  [[nodiscard]] bool jumps_at(double time) const override;
 
  private:
   PoiseuilleParameters parameters_;

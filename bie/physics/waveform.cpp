@@ -13,6 +13,8 @@ namespace {
 /// Times this close, relative to their size or to what the waveform does in time, are the same: steps that end on a
 /// corner do so up to rounding.
 constexpr double kSameTime = 1e-11;
+/// Likewise for factors, over the largest: on both sides of a corner of a table they are interpolated.
+constexpr double kSameFactor = 1e-9;
 
 }  // namespace
 
@@ -105,6 +107,12 @@ std::optional<double> Waveform::next_corner(double time) const {
   }
   const auto next = std::upper_bound(times_.begin(), times_.end(), after);
   return next == times_.end() ? std::nullopt : std::optional(*next);
+}
+
+bool Waveform::jumps_at(double time) const {
+  double size = kind_ == Kind::table ? 0.0 : std::abs(amplitude_);
+  for (const double value : values_) size = std::max(size, std::abs(value));
+  return std::abs(at(time, Limit::after) - at(time, Limit::before)) > kSameFactor * size;
 }
 
 bool Waveform::is_quiet(double time) const {

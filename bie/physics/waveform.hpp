@@ -26,6 +26,8 @@ class Waveform {
   [[nodiscard]] double at(double time, Limit limit = Limit::after) const;
   /// The first time after `time` at which the factor or its slope jumps: a step should end there.
   [[nodiscard]] std::optional<double> next_corner(double time) const;
+  /// Does the factor itself jump at this time, not only its slope?
+  [[nodiscard]] bool jumps_at(double time) const;
   /// Is the factor zero from `time` up to the next corner?
   [[nodiscard]] bool is_quiet(double time) const;
 
@@ -34,6 +36,7 @@ class Waveform {
   [[nodiscard]] double slack(double time) const;
 
   enum class Kind { constant, alternating, pulse, pulse_train, table };
+  [[nodiscard]] double slack(double time) const;
 
   Kind kind_ = Kind::constant;
   double amplitude_ = 1.0, frequency_ = 0.0, phase_ = 0.0;

@@ -57,4 +57,10 @@ std::optional<double> next_corner(const Model& model, double time) {
   return result;
 }
 
+bool jumps_at(const Model& model, double time) {
+  if (model.electric && model.electric->waveform.jumps_at(time)) return true;
+  const auto effects = explicit_effects(model);
+  return std::any_of(effects.begin(), effects.end(), [&](const auto& effect) { return effect->jumps_at(time); });
+}
+
 }  // namespace vehd

@@ -28,4 +28,7 @@ LayerSelection needed_layers(const Model& model, bool electric_awake);
 /// The next time after `time` at which a step should end because some effect changes abruptly.
 std::optional<double> next_corner(const Model& model, double time);
 
+/// Does some effect jump at this time?
+bool jumps_at(const Model& model, double time);
+
 }  // namespace vehd

@@ -125,21 +125,27 @@ void Evolution::change_discretisation(int order, std::int64_t quadrature_level) 
 /// Makes this the state, with a quadrature that resolves it. @throws ConvergenceError, and the former state stays
 void Evolution::arrive(State state) {
   std::unique_ptr<Discretisation> finer;
-  const auto evaluated = [&](const Evaluation* previous) {
-    return evaluate(setup_.model, finer ? *finer : *discretisation_, state, instruments_, previous);
+  const auto evaluated = [&](const Evaluation* previous, Limit limit) {
+    return evaluate(setup_.model, finer ? *finer : *discretisation_, state, instruments_, previous, limit);
   };
   const bool has_former = evaluation_.parts != nullptr;
-  Evaluation evaluation = evaluated(has_former ? &evaluation_ : nullptr);
+  Evaluation evaluation = evaluated(has_former ? &evaluation_ : nullptr, Limit::after);
   while (evaluation.quadrature_is_coarse && state.quadrature_level < kHighestLevel) {
     ++state.quadrature_level;
     finer = discretisation_of(setup_, order(), state.quadrature_level);
-    evaluation = evaluated(nullptr);
+    evaluation = evaluated(nullptr, Limit::after);
   }
   const double separation = evaluation.diagnostics.separation;
   require_apart(separation, has_former ? evaluation_.diagnostics.separation : separation);
+  std::optional<Evaluation> before;
+  if (has_former && jumps_at(setup_.model, state.time)) {
+    before = evaluated(&evaluation, Limit::before);
+    before->parts.reset();
+  }
   evaluation_ = std::move(evaluation);
   if (finer) discretisation_ = std::move(finer);
   state_ = std::move(state);
+  before_jump_ = std::move(before);
 }
 
 void Evolution::lower_quadrature_if_idle() {
@@ -236,13 +242,15 @@ EvolutionStep Evolution::step(const EventTimes& events) {
       if (plan.dt_limit < setup_.control.smallest) throw;
       continue;
     }
+    const Evaluation& arrival = before_jump_ ? *before_jump_ : evaluation_;
     record.dt = advanced.dt;
     record.change = advanced.change;
     record.raw_area = advanced.raw_area;
-    record.iterations_flow += evaluation_.iterations_flow;
-    record.iterations_electric += evaluation_.iterations_electric;
+    record.iterations_flow += arrival.iterations_flow;
+    record.iterations_electric += arrival.iterations_electric;
     record.at_snapshot = at_event && plan.is_snapshot;
-    economise();
+    // Nothing is idle where the forcing has just changed.
+    if (!before_jump_) economise();
     return record;
   }
 }

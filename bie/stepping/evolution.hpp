@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "bie/stepping/discretisation.hpp"
 #include "bie/stepping/resolution.hpp"
@@ -25,10 +26,10 @@ struct EvolutionSetup {
 /// What became of one step.
 struct EvolutionStep {
   double dt = 0.0;
-  double change = 0.0;    ///< see StepResult
-  double raw_area = 0.0;  ///< likewise
-  int rejected = 0;       ///< attempts that were thrown away
-  int iterations_flow = 0;
+  double change = 0.0;      ///< see StepResult
+  double raw_area = 0.0;    ///< likewise
+  int rejected = 0;         ///< attempts that were thrown away
+  int iterations_flow = 0;  ///< with those of the evaluation at the end, before the jump if there is one
   int iterations_electric = 0;
   bool at_snapshot = false;
 };
@@ -57,6 +58,9 @@ class Evolution {
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const Evaluation& evaluation() const { return evaluation_; }
+  /// Where the forcing jumps at the time of the state and a step has led there: the evaluation just before the jump,
+  /// without operators. The other one is that just after it.
+  [[nodiscard]] const std::optional<Evaluation>& before_jump() const { return before_jump_; }
   [[nodiscard]] int order() const { return discretisation_->order(); }
   /// Estimated share of what the degree leaves out, see Resolution.
   [[nodiscard]] double truncation() const;
@@ -79,6 +83,7 @@ class Evolution {
   std::unique_ptr<Discretisation> discretisation_;
   State state_;
   Evaluation evaluation_;
+  std::optional<Evaluation> before_jump_;
 };
 
 }  // namespace vehd

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "bie/support/errors.hpp"
 
@@ -65,6 +67,42 @@ BOOST_AUTO_TEST_CASE(table_is_linear_with_jumps_at_double_times) {
   BOOST_TEST(w.is_quiet(2.0));
   BOOST_CHECK_THROW(Waveform::table({0.0}, {1.0}), InputError);
   BOOST_CHECK_THROW(Waveform::table({1.0, 0.0}, {1.0, 1.0}), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(factor_jumps_where_its_limits_differ) {
+  BOOST_TEST(!Waveform().jumps_at(0.0));
+  BOOST_TEST(!Waveform::alternating(2.0, 3.0, 0.5).jumps_at(0.1));
+  const Waveform pulse = Waveform::pulse(3.0, 1.0, 0.5);
+  for (const double time : {1.0, 1.5}) BOOST_TEST(pulse.jumps_at(time));
+  for (const double time : {0.0, 0.999, 1.2, 2.0}) BOOST_TEST(!pulse.jumps_at(time));
+  const Waveform table = Waveform::table({0.0, 0.7, 1.3, 1.3, 2.0}, {0.0, 1e-3, -2.1e-3, 0.0, 0.9e-3});
+  BOOST_TEST(table.jumps_at(1.3));
+  for (const double time : {0.0, 0.7, 1.0, 2.0}) BOOST_TEST(!table.jumps_at(time));
+  BOOST_TEST(Waveform::table({0.0, 1.0}, {0.0, 1.0}).jumps_at(5.0) == false);
+}
+
+BOOST_AUTO_TEST_CASE(unit_of_time_does_not_matter) {
+  for (const double unit : {1e-9, 1e-3, 1.0, 1e9}) {
+    const std::vector<Waveform> waveforms{
+        Waveform::pulse(1.0, 0.0, 0.1 * unit), Waveform::pulse(1.0, 0.3 * unit, 1e-4 * unit),
+        Waveform::pulse_train(1.0, 0.0, 0.1 * unit, 0.3 * unit),
+        Waveform::table({0.0, 0.1 * unit, 0.1 * unit, 0.2 * unit}, {1.0, 1.0, 0.0, 2.0})};
+    const std::vector<Waveform> same{Waveform::pulse(1.0, 0.0, 0.1), Waveform::pulse(1.0, 0.3, 1e-4),
+                                     Waveform::pulse_train(1.0, 0.0, 0.1, 0.3),
+                                     Waveform::table({0.0, 0.1, 0.1, 0.2}, {1.0, 1.0, 0.0, 2.0})};
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      for (const double time : {0.0, 0.05, 0.1, 0.15, 0.3, 0.3001, 0.7}) {
+        for (const Limit limit : {Limit::before, Limit::after}) {
+          BOOST_TEST(std::abs(waveforms[i].at(time * unit, limit) - same[i].at(time, limit)) < 1e-12,
+                     "waveform " << i << " at " << time << " in the unit " << unit);
+        }
+        const std::optional<double> corner = same[i].next_corner(time);
+        const std::optional<double> scaled = waveforms[i].next_corner(time * unit);
+        BOOST_TEST_REQUIRE(corner.has_value() == scaled.has_value());
+        if (corner) BOOST_TEST(std::abs(*scaled / unit - *corner) < 1e-12);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

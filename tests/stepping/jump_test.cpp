@@ -1,0 +1,92 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <optional>
+
+#include "bie/stepping/evolution.hpp"
+#include "tests/support/runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr double kDt = 0.05;
+
+EvolutionSetup setup_of(const Model& model, const Matrix& position) {
+  EvolutionSetup setup;
+  setup.model = model;
+  setup.settings.order = order_of(position.rows());
+  setup.control = fixed_steps(kDt);
+  return setup;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(jump)
+
+BOOST_AUTO_TEST_CASE(both_sides_of_a_switch_are_those_of_the_forcing_that_holds_there) {
+  // Just before the end of a pulse everything is as with a field that stays, just after it as without one.
+  const Matrix position = prolate(10);
+  Model pulse = field_model(), constant = field_model(), off = field_model();
+  pulse.electric->waveform = Waveform::pulse(1.0, 0.0, 4 * kDt);
+  off.electric->waveform = Waveform::pulse(1.0, 50.0, 1.0);
+  Instruments instruments;
+  Evolution evolution(setup_of(pulse, position), position, false, instruments);
+  evolution.evaluate_start();
+  BOOST_TEST(!evolution.before_jump().has_value());
+  const EventTimes events{std::nullopt, 1.0};
+  for (int i = 0; i < 3; ++i) {
+    evolution.step(events);
+    BOOST_TEST(!evolution.before_jump().has_value());
+  }
+  evolution.step(events);
+  BOOST_TEST_REQUIRE(evolution.before_jump().has_value());
+  const Evaluation& before = *evolution.before_jump();
+  const Evaluation& after = evolution.evaluation();
+  const Discretisation discretisation(setup_of(pulse, position).settings);
+  const Evaluation held = evaluated(constant, discretisation, evolution.state());
+  const Evaluation free = evaluated(off, discretisation, evolution.state());
+  for (const auto& [side, like] : {std::pair{&before, &held}, std::pair{&after, &free}}) {
+    BOOST_TEST(max_difference(side->fields.charge, like->fields.charge) < 1e-8);
+    BOOST_TEST(max_difference(side->fields.force_electric, like->fields.force_electric) < 1e-8);
+    BOOST_TEST(max_difference(side->fields.velocity, like->fields.velocity) < 1e-8);
+    BOOST_TEST(std::abs(side->diagnostics.tension_integral - like->diagnostics.tension_integral) < 1e-7);
+  }
+  BOOST_TEST(std::abs(before.diagnostics.q_north - after.diagnostics.q_north) > 0.1);
+  BOOST_TEST(before.diagnostics.area == after.diagnostics.area);
+  BOOST_TEST(before.diagnostics.Vm_north == after.diagnostics.Vm_north);
+  evolution.step(events);
+  BOOST_TEST(!evolution.before_jump().has_value());
+}
+
+BOOST_AUTO_TEST_CASE(corner_without_a_jump_has_one_side) {
+  const Matrix position = prolate(8);
+  Model model = field_model();
+  model.electric->waveform = Waveform::table({0.0, 0.1, 0.3}, {0.0, 1.0, 0.3});
+  Instruments instruments;
+  Evolution evolution(setup_of(model, position), position, false, instruments);
+  evolution.evaluate_start();
+  while (evolution.state().time < 0.3) {
+    evolution.step({std::nullopt, 0.3});
+    BOOST_TEST(!evolution.before_jump().has_value());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(flow_that_is_switched_has_two_sides_as_well) {
+  const Matrix position = prolate(8);
+  Model model = shear_model();
+  model.flow->waveform = Waveform::table({0.0, 0.1, 0.1, 0.2}, {1.0, 1.0, -2.0, -2.0});
+  Instruments instruments;
+  Evolution evolution(setup_of(model, position), position, false, instruments);
+  evolution.evaluate_start();
+  evolution.step({std::nullopt, 0.2});
+  BOOST_TEST(!evolution.before_jump().has_value());
+  evolution.step({std::nullopt, 0.2});
+  BOOST_TEST_REQUIRE(evolution.before_jump().has_value());
+  const Matrix& velocity = evolution.evaluation().fields.velocity;
+  const Matrix& before = evolution.before_jump()->fields.velocity;
+  BOOST_TEST((velocity - before).norm() > 0.5 * before.norm());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
