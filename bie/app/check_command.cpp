@@ -66,6 +66,7 @@ void draw_if_possible(const std::filesystem::path& directory) {
 ExitCode check(const CheckOptions& options) {
   const FemProgram fem;
   const FrozenState frozen = read_frozen_state(options.file, options.time);
+  if (!frozen.note.empty()) fmt::print(stderr, "{}\n", frozen.note);
   const CheckContents contents = check_contents(frozen);
   const Matrix force = contents.flow ? given_force(frozen) : Matrix();
   const std::filesystem::path directory = directory_of(options);
@@ -96,7 +97,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("check", "Compare the fields of a frozen shape with finite elements");
   const auto options = std::make_shared<CheckOptions>();
   command->add_option("FILE", options->file, "run.h5 of a run, or a scene (.toml) for its initial state")->required();
-  command->add_option("--time", options->time, "Time of the snapshot; the last one if left out");
+  command->add_option("--time", options->time, "Time; the nearest snapshot is taken, the last one if left out");
   command
       ->add_option("-o,--output", options->directory,
                    "Directory for the results; \"check\" beside a run.h5, out/NAME_check for NAME.toml")

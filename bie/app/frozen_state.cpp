@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bie/app/snapshot_choice.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
@@ -42,16 +43,14 @@ FrozenState start_of_scene(const std::filesystem::path& file) {
   return frozen;
 }
 
-std::size_t snapshot_of(const RunReader& run, std::optional<double> time) {
-  return time ? run.at(*time) : run.times().size() - 1;
-}
-
 FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<double> time) {
   const RunReader run(file);
-  const std::size_t snapshot = snapshot_of(run, time);
+  const SnapshotChoice choice = choose_snapshot(run, file, time);
+  const std::size_t snapshot = choice.snapshot;
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   FrozenState frozen;
   frozen.source = file.string();
+  frozen.note = choice.note;
   frozen.model = model_of(scene);
   State& state = frozen.state;
   state.time = run.times()[snapshot];
@@ -80,13 +79,14 @@ FrozenState read_frozen_state(const std::filesystem::path& file, std::optional<d
   return start_of_scene(file);
 }
 
-Matrix read_frozen_shape(const std::filesystem::path& file, std::optional<double> time) {
+FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time) {
   if (is_scene(file)) {
     require_start(file, time);
-    return initial_position(read_scene(file));
+    return {initial_position(read_scene(file)), ""};
   }
   const RunReader run(file);
-  return run.coefficients(snapshot_of(run, time), "x", 3);
+  const SnapshotChoice choice = choose_snapshot(run, file, time);
+  return {run.coefficients(choice.snapshot, "x", 3), choice.note};
 }
 
 }  // namespace vehd

@@ -16,16 +16,23 @@ struct FrozenState {
   std::string source;  ///< file that it comes from
   Model model;
   Symmetry symmetry;
-  State state;    ///< time, x and V_m; V_m empty without electricity
-  Fields fields;  ///< as the run stored them
+  State state;       ///< time, x and V_m; V_m empty without electricity
+  Fields fields;     ///< as the run stored them; where the forcing jumps, those just after the jump
+  std::string note;  ///< if it has another time than the one asked for
+};
+
+/// A shape alone.
+struct FrozenShape {
+  Matrix position;   ///< coefficients [n_coefficients x 3]
+  std::string note;  ///< as above
 };
 
 /// @param file  a run.h5, or a scene (.toml) whose initial state is computed in memory
-/// @param time  of the snapshot; absent: the last one. A scene knows time 0 only.
+/// @param time  of the snapshot, see choose_snapshot; absent: the last one. A scene knows time 0 only.
 /// @throws InputError if there is no such time or the file cannot be used
 FrozenState read_frozen_state(const std::filesystem::path& file, std::optional<double> time);
 
-/// The shape alone, coefficients [n_coefficients x 3]; of a scene nothing is solved.
-Matrix read_frozen_shape(const std::filesystem::path& file, std::optional<double> time);
+/// The same without its fields; of a scene nothing is solved.
+FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time);
 
 }  // namespace vehd

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "bie/app/check_input.hpp"
@@ -20,10 +22,11 @@ struct MeshOptions {
 
 ExitCode mesh(const MeshOptions& options) {
   const FemProgram fem;
-  const Matrix position = read_frozen_shape(options.file, options.time);
+  const FrozenShape shape = read_frozen_shape(options.file, options.time);
+  if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
   // Hidden beside the mesh: a folder that can hold the one can hold the other.
   const TemporaryFile input(temporary_of(options.output + ".shape.h5"));
-  write_shape_input(input.path(), position);
+  write_shape_input(input.path(), shape.position);
   std::vector<std::string> arguments{"mesh",     input.path().string(), "-o",       options.output,
                                      "--family", options.family,        "--refine", std::to_string(options.refine)};
   if (!options.common.json_file.empty()) arguments.insert(arguments.end(), {"--json", options.common.json_file});
@@ -36,7 +39,7 @@ void add_mesh_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("mesh", "Write the gmsh volume mesh of a frozen shape");
   const auto options = std::make_shared<MeshOptions>();
   command->add_option("FILE", options->file, "run.h5 of a run, or a scene (.toml) for its initial shape")->required();
-  command->add_option("--time", options->time, "Time of the snapshot; the last one if left out");
+  command->add_option("--time", options->time, "Time; the nearest snapshot is taken, the last one if left out");
   command->add_option("-o,--output", options->output, "Mesh to write (MSH 4.1)")->required()->type_name("FILE.msh");
   command->add_option("--family", options->family, "hex: curved blocks; tet: unstructured tetrahedra")
       ->check(CLI::IsMember({"hex", "tet"}))

@@ -17,9 +17,15 @@ struct PlotOptions {
 
 ExitCode plot(const PlotOptions& options) {
   const RunPaths paths{options.directory};
-  const auto pictures =
-      plot_run({paths, options.times, options.output.empty() ? paths.plots() : std::filesystem::path(options.output)});
+  const PlotTask task{paths, options.times,
+                      options.output.empty() ? paths.plots() : std::filesystem::path(options.output)};
+  const auto pictures = plot_run(task);
   nlohmann::json result;
+  const RunReader run(paths.snapshots());
+  for (const SnapshotChoice& shape : shapes_to_plot(task, run)) {
+    if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
+    result["times"].push_back(run.times()[shape.snapshot]);
+  }
   for (const auto& picture : pictures) {
     fmt::print("{}\n", picture.string());
     result["pictures"].push_back(picture.string());
@@ -36,7 +42,9 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("DIR", options->directory, "Directory of the run")->required();
   command->add_option("-o,--output", options->output, "Directory for the pictures; DIR/plots if not given")
       ->type_name("DIR");
-  command->add_option("--times", options->times, "Times of the shapes, at most 6; evenly spread if not given")
+  command
+      ->add_option("--times", options->times,
+                   "Times of the shapes, at most 6, or evenly spread; the nearest snapshots are taken")
       ->delimiter(',')
       ->type_name("T,T,...")
       ->expected(1, 6);

@@ -45,24 +45,6 @@ struct Shape {
   Vector values;
 };
 
-std::vector<std::size_t> chosen_snapshots(const RunReader& run, const std::vector<double>& times) {
-  std::vector<double> wanted = times;
-  if (wanted.size() > most_shapes) {
-    throw InputError(
-        fmt::format("{} times are too many for one row of shapes; accepted: at most {}", wanted.size(), most_shapes));
-  }
-  if (wanted.empty()) {
-    const double start = run.times().front(), end = run.times().back();
-    for (std::size_t i = 0; i < most_shapes; ++i) wanted.push_back(start + (end - start) * i / (most_shapes - 1.0));
-  }
-  std::vector<std::size_t> snapshots;
-  for (const double time : wanted) {
-    const std::size_t snapshot = run.nearest(time);
-    if (std::find(snapshots.begin(), snapshots.end(), snapshot) == snapshots.end()) snapshots.push_back(snapshot);
-  }
-  return snapshots;
-}
-
 Field field_to_show(const RunReader& run, std::size_t snapshot) {
   if (run.has_field(snapshot, "Vm")) return {"Vm", "V_m"};
   if (run.has_field(snapshot, "tension")) return {"tension", "tension λ"};
@@ -203,12 +185,36 @@ double tick_spacing(double length, double most) {
 
 }  // namespace
 
+std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader& run) {
+  if (task.times.size() > most_shapes) {
+    throw InputError(fmt::format("{} times are too many for one row of shapes; accepted: at most {}", task.times.size(),
+                                 most_shapes));
+  }
+  std::vector<SnapshotChoice> all;
+  for (const double time : task.times) all.push_back(choose_snapshot(run, task.paths.snapshots(), time));
+  const double start = run.times().front(), end = run.times().back();
+  for (std::size_t i = 0; task.times.empty() && i < most_shapes; ++i) {
+    all.push_back({run.nearest(start + (end - start) * i / (most_shapes - 1.0)), ""});
+  }
+  std::vector<SnapshotChoice> shapes;
+  for (SnapshotChoice& choice : all) {
+    const auto same = std::find_if(shapes.begin(), shapes.end(),
+                                   [&](const SnapshotChoice& other) { return other.snapshot == choice.snapshot; });
+    if (same == shapes.end()) {
+      shapes.push_back(std::move(choice));
+    } else if (!choice.note.empty()) {
+      same->note += (same->note.empty() ? "" : "\n") + choice.note;
+    }
+  }
+  return shapes;
+}
+
 void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
   const RunReader run(task.paths.snapshots());
-  const std::vector<std::size_t> snapshots = chosen_snapshots(run, task.times);
-  const Field field = field_to_show(run, snapshots.front());
+  const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
+  const Field field = field_to_show(run, choices.front().snapshot);
   std::vector<Shape> shapes;
-  for (const std::size_t snapshot : snapshots) shapes.push_back(shape_of(run, snapshot, field));
+  for (const SnapshotChoice& choice : choices) shapes.push_back(shape_of(run, choice.snapshot, field));
   const ColourRange range = range_of(shapes, field);
   for (Shape& shape : shapes) {
     shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);

@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "bie/app/run_directory.hpp"
+#include "bie/app/snapshot_choice.hpp"
 
 namespace vehd {
 
 struct PlotTask {
   RunPaths paths;
-  std::vector<double> times;     ///< of the shapes, nearest snapshots are taken; empty: evenly spread
+  std::vector<double> times;     ///< of the shapes; empty: evenly spread
   std::filesystem::path output;  ///< directory for the pictures
   int shape_width = 520;         ///< pixels of one shape, at most
 };
@@ -18,6 +19,10 @@ struct PlotTask {
 /// @return the pictures
 /// @throws InputError if the run cannot be read or gnuplot is missing
 std::vector<std::filesystem::path> plot_run(const PlotTask& task);
+
+/// The snapshots of the row of shapes, each once; those of given times with a note where they have another time.
+/// @throws InputError if there are too many times or one of them is none of the run
+std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader& run);
 
 /// One row of shapes in perspective, coloured by V_m, or by tension without one.
 void plot_shapes(const PlotTask& task, const std::filesystem::path& picture);
