@@ -55,9 +55,11 @@ Resolution::Tail Resolution::tail_of_cut(int order) const {
   for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);
   constexpr double kSlowest = 0.97;
   constexpr double kFloor = 1e-16;
+  // The last but one holds the last as well, whichever of them is silent.
   const int middle = order / 2;
-  const double end = std::max({bound[order], bound[std::max(0, order - 1)], kFloor});
-  tail.decay = std::min(kSlowest, std::pow(end / std::max(bound[middle], kFloor), 1.0 / (order - middle)));
+  const int end = std::max(middle + 1, order - 1);
+  const double ratio = std::max(bound[end], kFloor) / std::max(bound[middle], kFloor);
+  tail.decay = std::min(kSlowest, std::pow(ratio, 1.0 / (end - middle)));
   return tail;
 }
 
