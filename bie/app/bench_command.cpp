@@ -200,14 +200,14 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_flag("--quick", options->quick, "The short form of every case");
   add_output_options(*command, options->bench);
-  command->footer("Exit code 3 if a criterion does not hold. See docs/robustness.md.");
+  command->footer("Exit code 4 if a criterion does not hold. See docs/hard_cases.md.");
   command->callback([options, &exit_code] {
     Interruption interruption;
     make_bench_directory(options->bench.output());
     const StabilityOutcome outcome =
         bench_stability({scene_files(options->scene_file), options->bench.output(), options->quick}, interruption);
     write_json(options->bench.common, write_bench(outcome.result, options->bench.output()));
-    exit_code = outcome.n_failed == 0 ? ExitCode::done : ExitCode::stopped_early;
+    exit_code = outcome.n_failed == 0 ? ExitCode::done : ExitCode::does_not_hold;
   });
 }
 

@@ -110,7 +110,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
   add_common_options(*command, options->common);
   command->footer(
       "Compares q, V_m, the electric force and the velocity, each with both methods' own error estimates.\n"
-      "Exit code 0 if every field agrees within the two errors, 1 if one does not. See docs/check.md.");
+      "Exit code 0 if every field agrees within the two errors, 4 if one does not. See docs/check.md.");
   command->callback([options, &exit_code] { exit_code = check(*options); });
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr const char* footer =
     "Exit codes: 0 done, 1 wrong input or usage, 2 internal error,\n"
-    "            3 the run stopped early and can be continued with --resume.\n"
+    "            3 the run stopped early and can be continued with --resume,\n"
+    "            4 done, and what was asked does not hold.\n"
     "Scene files to start from: docs/scenes/*.toml; their keys: vehd help scene";
 
 void send_messages_to_standard_error() {
@@ -50,6 +51,10 @@ ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_
     return fail(ExitCode::wrong_input, error.what());
   } catch (const OutputError& error) {
     return fail(ExitCode::wrong_input, error.what());
+  } catch (const ConvergenceError& error) {
+    // No defect of the program: what it was given asks for more than its resolution can do.
+    return fail(ExitCode::wrong_input, fmt::format("vehd {}: what the input asks for cannot be computed: {}",
+                                                   program.get_subcommands().front()->get_name(), error.what()));
   } catch (const std::exception& error) {
     return fail(ExitCode::internal_error, fmt::format("internal error: {}", error.what()));
   }

@@ -15,8 +15,8 @@ namespace {
 
 using namespace vehd::fem_check;
 
-/// Exit codes of vehd: done; wrong input, or methods that do not agree; internal error.
-enum ExitCode { done = 0, refused = 1, internal_error = 2 };
+/// Exit codes of vehd: done; wrong input; internal error; methods that do not agree.
+enum ExitCode { done = 0, refused = 1, internal_error = 2, does_not_hold = 4 };
 
 void write_json(const std::string& path, const nlohmann::json& json) {
   if (path.empty()) return;
@@ -39,7 +39,7 @@ int check(CheckTask task, const std::string& json_file, bool first_rank) {
       fmt::print(stderr, "{}: the two methods do not agree in: {}\n", result.source, result.disagreeing());
     }
   }
-  return result.agrees() ? done : refused;
+  return result.agrees() ? done : does_not_hold;
 }
 
 int mesh(const MeshTask& task, const std::string& json_file) {

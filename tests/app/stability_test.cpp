@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(a_criterion_that_does_not_hold_is_told) {
   const ProgramResult bound =
       judged(directory,
              with_criterion(head + "#: expect = \"completed\"\n#: most = { extent_z = 0.5, iterations_flow = 999 }"));
-  BOOST_TEST(bound.exit_code == 3);
+  BOOST_TEST(bound.exit_code == 4);
   BOOST_TEST(bound.output.find("FAILS: extent_z beyond its bound") != std::string::npos, bound.output);
   BOOST_TEST(judged(directory, with_criterion(head + "#: expect = \"stops\"")).output.find("goes on to its end") !=
              std::string::npos);
