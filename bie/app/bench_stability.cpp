@@ -10,7 +10,7 @@
 #include "bie/app/plots.hpp"
 #include "bie/app/run_loop.hpp"
 #include "bie/app/stability_case.hpp"
-#include "bie/app/summary.hpp"
+#include "bie/app/verdict.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/support/errors.hpp"
 
@@ -72,10 +72,10 @@ std::string end_problem(ExpectedEnd expected, const RunOutcome& outcome, const s
   switch (expected) {
     case ExpectedEnd::completed:
       if (!outcome.completed) return outcome.reason;
-      return verdict == "trustworthy" ? "" : verdict;
+      return verdict == trustworthy ? "" : verdict;
     case ExpectedEnd::doubted:
       if (!outcome.completed) return outcome.reason;
-      return verdict == "trustworthy" ? "is not doubted" : "";
+      return verdict == trustworthy ? "is not doubted" : "";
     case ExpectedEnd::stops:
       return outcome.completed ? "goes on to its end" : "";
   }
@@ -83,7 +83,7 @@ std::string end_problem(ExpectedEnd expected, const RunOutcome& outcome, const s
 }
 
 std::string end_text(const StabilityCase& hard, const RunOutcome& outcome, const std::string& verdict) {
-  if (hard.expect == ExpectedEnd::stops) return "stopped: " + outcome.reason;
+  if (!outcome.completed) return verdict;
   return hard.expect == ExpectedEnd::doubted ? "doubted: " + verdict : "";
 }
 
@@ -105,7 +105,7 @@ BenchTable empty_table() {
 std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, const RunOutcome& outcome, bool brief,
                               bool& failed) {
   const HistoryTable history(run.paths.history());
-  const std::string verdict = verdict_of(history, hard.scene.numerics.tolerance);
+  const std::string verdict = verdict_of(history, hard.scene.numerics.tolerance, outcome.reason);
   const std::vector<Finding> findings = findings_of(hard, history, brief);
   const Finding worst = *std::max_element(findings.begin(), findings.end(),
                                           [](const Finding& a, const Finding& b) { return a.share() < b.share(); });

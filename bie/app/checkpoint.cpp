@@ -59,9 +59,18 @@ RunTotals totals_of(const std::string& text, const Hdf5Reader& file) {
   }
 }
 
+std::vector<SceneChange> read_changes(const Hdf5Reader& file) {
+  try {
+    return changes_of(nlohmann::json::parse(file.text("/changes")));
+  } catch (const nlohmann::json::exception& error) {
+    file.refuse(fmt::format("/changes is damaged ({})", error.what()));
+  }
+}
+
 /// Whole numbers of a checkpoint besides those of its state.
 template <typename CheckpointType, typename Visitor>
 void visit_counts(CheckpointType& checkpoint, Visitor&& visit) {
+  visit("start_order", checkpoint.start_order);
   visit("n_rows", checkpoint.n_rows);
   visit("history_bytes", checkpoint.history_bytes);
   visit("history_checksum", checkpoint.history_checksum);
@@ -137,6 +146,7 @@ void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
     if (!holds) file.refuse(fmt::format("{} is not that of a run", what));
   };
   visit_counts(checkpoint, [&](const char* name, std::int64_t value) { require(value >= 0, name); });
+  require(checkpoint.start_order >= lowest_order && checkpoint.start_order <= highest_order, "start_order");
   const State& state = checkpoint.state;
   require(state.position.cols() == 3 && state.position.allFinite(), "/state/position");
   require(state.position.rows() <= n_coefficients(highest_order), "/state/position");
@@ -169,6 +179,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.attribute("/", "schema_version", checkpoint_schema_version);
   visit_counts(checkpoint, [&](const char* name, std::int64_t value) { file.attribute("/", name, value); });
   file.text("/scene", checkpoint.scene);
+  file.text("/changes", json_of(checkpoint.changes).dump());
   file.text("/totals", totals_text(checkpoint.totals));
   file.group("/state");
   visit_state(checkpoint.state, WriteVisitor{file});
@@ -184,6 +195,7 @@ Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
   Checkpoint checkpoint;
   visit_counts(checkpoint, [&](const char* count, std::int64_t& value) { value = file.integer_attribute("/", count); });
   checkpoint.scene = file.text("/scene");
+  checkpoint.changes = read_changes(file);
   checkpoint.totals = totals_of(file.text("/totals"), file);
   visit_state(checkpoint.state, ReadVisitor{file});
   require_sound(checkpoint, file);

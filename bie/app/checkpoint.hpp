@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "bie/app/scene_changes.hpp"
 #include "bie/stepping/state.hpp"
 
 namespace vehd {
@@ -18,9 +20,12 @@ struct RunTotals {
 
 /// Everything that a resumed run needs to continue bit for bit, and how far the other files had got.
 struct Checkpoint {
-  std::string scene;  ///< effective scene
+  std::string scene;                 ///< effective scene
+  std::vector<SceneChange> changes;  ///< that sessions have made to it, in the order of time
+  /// Empty position: the run starts with the initial state of the scene.
   State state;
-  std::int64_t n_rows = 0;  ///< rows of history.csv; 0: the state itself is not written yet
+  std::int64_t start_order = 0;  ///< degree of the initial shape, in which frame and symmetry were found
+  std::int64_t n_rows = 0;       ///< rows of history.csv; 0: the state itself is not written yet
   std::int64_t history_bytes = 0;
   std::int64_t history_checksum = 0;  ///< of these bytes
   std::int64_t n_snapshots = 0;

@@ -9,12 +9,10 @@
 #include "bie/app/commands.hpp"
 #include "bie/app/file_system.hpp"
 #include "bie/app/plots.hpp"
+#include "bie/app/resumption.hpp"
 #include "bie/app/run_loop.hpp"
 #include "bie/app/summary.hpp"
-#include "bie/scene/effective_scene.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/scene/schema.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -28,26 +26,29 @@ struct RunOptions {
   CommonOptions common;
 };
 
-/// Where and how often a run ends may change between sessions; anything else would make another run of it.
-void require_same_scene(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
-  const Scene stored = parse_scene(checkpoint.scene, paths.checkpoint().string() + " (scene)", paths.directory);
-  for (const std::string& key : differing_keys(scene, stored)) {
-    if (key == "numerics.end_time" || key == "output.every") continue;
-    throw InputError(fmt::format("{}: holds a run of another scene: \"{}\" differs; choose another -o",
-                                 paths.directory.string(), key));
-  }
-  if (scene.numerics.end_time < checkpoint.state.time) {
-    throw InputError(fmt::format("{}: has already reached time {:g}, past the end_time {:g} of the scene",
-                                 paths.directory.string(), checkpoint.state.time, scene.numerics.end_time));
-  }
-}
-
-/// A complete run of exactly this scene.
+/// A run that has reached the end of the scene. How its steps would be computed does not matter any more.
 bool is_complete(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
   if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
   const nlohmann::json summary = nlohmann::json::parse(std::ifstream(paths.summary()), nullptr, false);
-  return summary.is_object() && summary.value("completed", nlohmann::json()) == true &&
-         checkpoint.scene == effective_scene(scene);
+  return summary.is_object() && summary.value("completed", nlohmann::json()) == true;
+}
+
+/// The checkpoint with what the scene changes, which is said.
+Checkpoint resumed(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths) {
+  const std::size_t n_before = checkpoint.changes.size();
+  checkpoint = continued(std::move(checkpoint), scene, paths);
+  for (std::size_t i = n_before; i < checkpoint.changes.size(); ++i) {
+    fmt::print("changed at {}\n", text_of(checkpoint.changes[i]));
+  }
+  return checkpoint;
+}
+
+/// What to do about a run that has stopped.
+std::string next_step(const RunOptions& options, const Scene& scene, const RunOutcome& outcome) {
+  const std::string command = fmt::format("vehd run {} -o {} --resume", options.scene_file, options.directory);
+  if (!outcome.cannot_step) return "continue with: " + command;
+  return fmt::format("unchanged it would stop there again: {} of {}, then continue with: {}",
+                     what_may_help(scene.numerics), options.scene_file, command);
 }
 
 void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
@@ -73,8 +74,7 @@ void plot_if_possible(const RunPaths& paths) {
 
 nlohmann::json summarise(const RunPaths& paths, const Scene& scene, const RunOutcome& outcome) {
   const Checkpoint checkpoint = read_checkpoint(paths.checkpoint());
-  const nlohmann::json summary = summary_of(HistoryTable(paths.history()), scene.numerics.tolerance, checkpoint.totals,
-                                            outcome.completed, outcome.reason);
+  const nlohmann::json summary = summary_of(HistoryTable(paths.history()), scene, checkpoint, outcome);
   replace_file(paths.summary(), summary.dump(2) + "\n");
   return summary;
 }
@@ -89,7 +89,7 @@ ExitCode run(const RunOptions& options) {
   std::optional<Checkpoint> checkpoint;
   if (admit_run(paths, options.resume)) {
     checkpoint = read_checkpoint(paths.checkpoint());
-    require_same_scene(scene, *checkpoint, paths);
+    require_same_physics(scene, options.scene_file, *checkpoint, paths);
     if (is_complete(scene, *checkpoint, paths)) {
       fmt::print("{}: the run is already complete, nothing to do\n", paths.directory.string());
       write_json(options.common, nlohmann::json::parse(std::ifstream(paths.summary())));
@@ -99,6 +99,7 @@ ExitCode run(const RunOptions& options) {
       spdlog::warn("the run was started with {} threads and continues with {}: the last digits may differ",
                    checkpoint->threads, omp_get_max_threads());
     }
+    checkpoint = resumed(std::move(*checkpoint), scene, paths);
   }
   const Progress::Style style = options.quiet ? Progress::Style::none : Progress::suitable_style();
   const RunOutcome outcome = simulate({scene, paths, checkpoint, style}, *interruption);
@@ -115,8 +116,7 @@ ExitCode run(const RunOptions& options) {
   print_summary(summary, paths);
   write_json(options.common, summary);
   if (!outcome.completed) {
-    fmt::print(stderr, "{}; continue with: vehd run {} -o {} --resume\n", outcome.reason, options.scene_file,
-               options.directory);
+    fmt::print(stderr, "{}; {}\n", outcome.reason, next_step(options, scene, outcome));
     return ExitCode::stopped_early;
   }
   if (!options.no_plot) plot_if_possible(paths);
@@ -132,7 +132,8 @@ void add_run_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("-o,--output", options->directory, "Directory for the files of the run; created if missing")
       ->required()
       ->type_name("DIR");
-  command->add_flag("--resume", options->resume, "Continue the run in DIR; start it if there is none");
+  command->add_flag("--resume", options->resume,
+                    "Continue the run in DIR, also with other [numerics] and [output]; start it if there is none");
   command->add_flag("--no-plot", options->no_plot, "Draw no pictures at the end");
   command->add_flag("--quiet", options->quiet, "Show no progress");
   add_common_options(*command, options->common);

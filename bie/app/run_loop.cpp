@@ -1,5 +1,6 @@
 #include "bie/app/run_loop.hpp"
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "bie/app/errors.hpp"
+#include "bie/app/resumption.hpp"
 #include "bie/app/run_recorder.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
@@ -42,58 +44,66 @@ class Simulation {
  public:
   explicit Simulation(const RunTask& task)
       : scene_(task.scene),
-        problem_(problem_of(task.scene)),
-        evolution_(evolution_of(task)),
-        start_(task.checkpoint ? *task.checkpoint : first_checkpoint()),
+        start_(task.checkpoint.value_or(Checkpoint{})),
+        problem_(problem_of(task.scene, start_order())),
+        evolution_(evolution()),
         meter_(start_.totals, instruments_),
-        recorder_(task.paths, problem_.settings, problem_.frame, updated(start_)),
+        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_)),
         progress_(task.progress, evolution_.state().time, task.scene.numerics.end_time) {}
 
   RunOutcome run(Interruption& interruption) {
     RunOutcome outcome;
     try {
-      outcome.reason = advance_to_end(interruption);
+      outcome = advance_to_end(interruption);
       recorder_.end_session(meter_.totals());
-      outcome.completed = outcome.reason.empty();
       if (outcome.completed) recorder_.finish();
     } catch (const OutputError& error) {
-      outcome = {false, error.what()};
+      outcome = {.completed = false, .reason = error.what()};
     }
     progress_.finish();
     return outcome;
   }
 
  private:
-  Evolution evolution_of(const RunTask& task) {
-    if (task.checkpoint) return {setup_of(problem_), task.checkpoint->state, instruments_};
+  [[nodiscard]] bool goes_on() const { return start_.state.position.size() > 0; }
+
+  [[nodiscard]] int start_order() const {
+    return goes_on() ? static_cast<int>(start_.start_order) : scene_.numerics.order;
+  }
+
+  Evolution evolution() {
+    if (goes_on()) return {setup_of(problem_), start_.state, instruments_};
     return {setup_of(problem_), problem_.position, problem_.steady_potential, instruments_};
   }
 
-  [[nodiscard]] Checkpoint first_checkpoint() const {
-    Checkpoint checkpoint;
-    checkpoint.state = evolution_.state();
-    return checkpoint;
+  [[nodiscard]] NumericalSettings settings_of_files(const RunPaths& paths) const {
+    NumericalSettings settings = problem_.settings;
+    settings.order = order_of_files(scene_, start_, paths);
+    return settings;
   }
 
-  /// The end and the snapshot times may differ from those of the former session.
+  /// The numerics, the end and the snapshot times may differ from those of the former session.
   [[nodiscard]] Checkpoint updated(Checkpoint checkpoint) const {
     checkpoint.scene = effective_scene(scene_);
+    checkpoint.state = evolution_.state();
+    checkpoint.start_order = start_order();
     checkpoint.threads = omp_get_max_threads();
     return checkpoint;
   }
 
-  /// @returns why it stopped before the end, empty if it did not
-  std::string advance_to_end(Interruption& interruption) {
+  RunOutcome advance_to_end(Interruption& interruption) {
     try {
       start();
       while (evolution_.state().time < scene_.numerics.end_time) {
-        if (interruption.requested()) return "stopped by a signal";
+        if (interruption.requested()) {
+          return {.completed = false, .reason = fmt::format("a signal came at time {:g}", evolution_.state().time)};
+        }
         record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
       }
-      return {};
+      return {.completed = true, .reason = {}};
     } catch (const ConvergenceError& error) {
       recorder_.keep_last_state(evolution_.evaluation().fields);
-      return error.what();
+      return {.completed = false, .reason = error.what(), .cannot_step = true};
     }
   }
 
@@ -133,9 +143,9 @@ class Simulation {
 
   const Scene& scene_;
   Instruments instruments_;
+  Checkpoint start_;
   Problem problem_;
   Evolution evolution_;
-  Checkpoint start_;
   WorkMeter meter_;
   RunRecorder recorder_;
   Progress progress_;

@@ -15,12 +15,13 @@ namespace vehd {
 struct RunOutcome {
   bool completed = false;
   std::string reason;
+  bool cannot_step = false;  ///< no step is acceptable: continued unchanged, the run would stop there again
 };
 
 struct RunTask {
   const Scene& scene;
   const RunPaths& paths;
-  const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run
+  const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
   Progress::Style progress = Progress::Style::none;
 };
 

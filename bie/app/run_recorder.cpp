@@ -2,6 +2,7 @@
 
 #include "bie/app/file_system.hpp"
 #include "bie/app/run_file.hpp"
+#include "bie/app/snapshot_copy.hpp"
 #include "bie/scene/hdf5_reader.hpp"
 #include "bie/stepping/resolution.hpp"
 
@@ -10,18 +11,31 @@ namespace {
 
 /// Nothing is touched before the files of the run to continue are known to be intact. Then the checkpoint comes first:
 /// whatever a kill leaves behind can be resumed.
-const Checkpoint& written(const RunPaths& paths, const Checkpoint& start) {
-  if (start.n_snapshots > 0) require_snapshots(paths.snapshots(), start.n_snapshots, start.snapshots_checksum);
+Checkpoint written(const RunPaths& paths, Checkpoint start) {
+  if (start.n_snapshots > 0) {
+    start.snapshots_checksum = require_snapshots(paths.snapshots(), start.n_snapshots, start.snapshots_checksum);
+  }
   require_history(paths.history(), start.history_bytes, start.history_checksum);
   write_checkpoint(paths.checkpoint(), start);
-  replace_file(paths.scene(), start.scene);
+  replace_file(paths.scene(), with_changes(start.scene, start.changes));
   return start;
 }
 
-SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start) {
-  return [&output, header = RunHeader{start.scene, static_cast<int>(start.threads)}](Hdf5Writer& file) {
-    write_run_header(file, output, header);
+/// What the last session has left, in the degree of this one.
+SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform& output, const Checkpoint& start) {
+  SnapshotStore::Kept kept{start.n_snapshots, start.snapshots_checksum, {}};
+  if (start.n_snapshots == 0) return kept;
+  const auto present = std::make_shared<const Hdf5Reader>(paths.snapshots());
+  if (present->integer_attribute("/", "order") == output.order()) return kept;
+  kept.convert = [present, &output](Hdf5Writer& file, const std::string& name) {
+    return copy_snapshot(file, *present, name, output);
   };
+  return kept;
+}
+
+SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start) {
+  return [&output, header = RunHeader{with_changes(start.scene, start.changes), static_cast<int>(start.threads)}](
+             Hdf5Writer& file) { write_run_header(file, output, header); };
 }
 
 /// Lists the fields of the snapshots. @param has  whether they have the field of this name
@@ -43,7 +57,7 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
       output_(settings.order, make_grid(settings.order)),
       laboratory_(frame, settings),
       last_(written(paths, start)),
-      snapshots_(paths.snapshots(), header_writer(output_, start), start.n_snapshots, start.snapshots_checksum),
+      snapshots_(paths.snapshots(), header_writer(output_, start), kept_snapshots(paths, output_, last_)),
       history_(paths.history(), start.history_bytes, start.history_checksum) {
   const SphereGrid& grid = output_.grid();
   xdmf_.n_points = grid.n_points() + 2;

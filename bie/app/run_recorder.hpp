@@ -28,6 +28,7 @@ struct RecordedSide {
 class RunRecorder {
  public:
   /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
+  /// @param settings  with the degree of the files, which must not be less than that of files that exist
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start);
 

@@ -11,6 +11,10 @@
 namespace vehd {
 namespace {
 
+/// Attribute of a run.h5 whose snapshots were converted: their checksum before. It vouches for them until the
+/// checkpoint knows the new one.
+constexpr const char* converted_from = "converted_from";
+
 std::string group_of(std::int64_t number) { return "/snapshots/" + snapshot_name(number); }
 
 void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -33,7 +37,7 @@ void or_remove(const std::filesystem::path& file, Write write) {
 
 }  // namespace
 
-void require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t expected) {
+std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t expected) {
   const Hdf5Reader file(path);
   require_run_schema(file);
   Checksum all;
@@ -44,16 +48,20 @@ void require_snapshots(const std::filesystem::path& path, std::int64_t count, st
     require_checksum(file, group, checksum);
     all.add(checksum);
   }
-  if (all.value() != expected) file.refuse("holds other snapshots than those that the checkpoint counts");
+  const bool converted =
+      file.has_attribute("/", converted_from) && file.integer_attribute("/", converted_from) == expected;
+  if (all.value() != expected && !converted) {
+    file.refuse("holds other snapshots than those that the checkpoint counts");
+  }
+  return all.value();
 }
 
-SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept,
-                             std::int64_t checksum)
+SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, const Kept& kept)
     : path_(std::move(path)),
       spare_(path_.parent_path() / fmt::format(".{}.spare", path_.filename().string())),
-      size_(n_kept),
-      spare_size_(n_kept),
-      checksum_(checksum) {
+      size_(kept.count),
+      spare_size_(kept.count),
+      checksum_(kept.convert ? Checksum() : Checksum(kept.checksum)) {
   // A kill can leave a torn spare or snapshots that the checkpoint does not know yet; both are written anew.
   std::error_code ignored;
   std::filesystem::remove(spare_, ignored);
@@ -62,9 +70,14 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
   or_remove(fresh, [&] {
     Hdf5Writer file(fresh, Hdf5Writer::Mode::create);
     write_header(file);
-    if (n_kept > 0) {
-      Hdf5Writer kept(path_, Hdf5Writer::Mode::read);
-      for (std::int64_t number = 0; number < n_kept; ++number) file.copy_from(kept, group_of(number));
+    if (kept.convert) {
+      for (std::int64_t number = 0; number < kept.count; ++number) {
+        checksum_.add(kept.convert(file, snapshot_name(number)));
+      }
+      file.attribute("/", converted_from, kept.checksum);
+    } else if (kept.count > 0) {
+      Hdf5Writer present(path_, Hdf5Writer::Mode::read);
+      for (std::int64_t number = 0; number < kept.count; ++number) file.copy_from(present, group_of(number));
     }
     file.close();
     synchronise_file(fresh);

@@ -13,8 +13,10 @@ namespace vehd {
 
 /// Checks every number of the first snapshots of a run.h5.
 /// @param checksum  of their checksums, in the order of time
+/// @return that of the file: another one where a session that was killed had written the same snapshots in another
+/// degree
 /// @throws InputError if the file is damaged, lacks some of these snapshots or has others in their place
-void require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t checksum);
+std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t checksum);
 
 /// A growing run.h5 that is a complete, closed HDF5 file at every instant.
 ///
@@ -27,11 +29,18 @@ class SnapshotStore {
   /// Returns the checksum of the snapshot.
   using WriteSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
 
-  /// Starts a file without snapshots, or takes over the first `n_kept` snapshots of an existing one.
-  /// @param checksum  of the kept snapshots, which `require_snapshots` has found intact
-  /// @throws OutputError
-  SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, std::int64_t n_kept,
-                std::int64_t checksum);
+  /// Writes a kept snapshot from the present file in another degree. Returns its checksum.
+  using ConvertSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
+
+  /// Snapshots of an existing file that are taken over.
+  struct Kept {
+    std::int64_t count = 0;
+    std::int64_t checksum = 0;  ///< of their checksums; `require_snapshots` has found them intact
+    ConvertSnapshot convert;    ///< empty: they are copied as they are
+  };
+
+  /// Starts a file, with the first snapshots of an existing one or without any. @throws OutputError
+  SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, const Kept& kept);
 
   /// @throws OutputError
   void add(const WriteSnapshot& write_snapshot);

@@ -1,6 +1,5 @@
 #include "bie/app/summary.hpp"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -8,21 +7,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "bie/app/verdict.hpp"
 #include "bie/app/versions.hpp"
 
 namespace vehd {
 namespace {
 
-/// A run that exceeds one of these is reported as not trustworthy.
-struct TrustLimit {
-  const char* column;
-  double largest;
-};
-/// Parts of the membrane that are nearer to each other, in grid spacings, are one to the grid.
-constexpr double least_separation = 1.0;
-constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6},
-                               TrustLimit{"strain_max", 0.05}, TrustLimit{"spectrum_tail", 5e-3},
-                               TrustLimit{"quadrature_error", 1e-3}};
+constexpr std::array largest_of = {"area_drift", "volume_drift", "strain_max", "spectrum_tail", "quadrature_error"};
 
 double largest_magnitude(const std::vector<double>& values) {
   double largest = 0.0;
@@ -37,39 +28,16 @@ double last(const std::vector<double>& values) { return values.empty() ? 0.0 : v
 
 }  // namespace
 
-std::string verdict_of(const HistoryTable& history, std::optional<double> tolerance) {
-  std::string findings;
-  std::vector<TrustLimit> all(limits.begin(), limits.end());
-  // The highest degree that the scene allows was not enough.
-  if (tolerance) all.push_back({"truncation", *tolerance});
-  for (const TrustLimit& limit : all) {
-    const std::vector<double>& values = history.column(limit.column);
-    const auto first =
-        std::find_if(values.begin(), values.end(), [&](double value) { return !(std::abs(value) <= limit.largest); });
-    if (first == values.end()) continue;
-    const double time = history.column("time")[static_cast<std::size_t>(first - values.begin())];
-    findings += fmt::format("{}{} above {:g} since time {:g} (worst {:.3g})", findings.empty() ? "" : "; ",
-                            limit.column, limit.largest, time, largest_magnitude(values));
-  }
-  const std::vector<double>& separation = history.column("separation");
-  const auto near =
-      std::find_if(separation.begin(), separation.end(), [](double value) { return !(value >= least_separation); });
-  if (near != separation.end()) {
-    const double time = history.column("time")[static_cast<std::size_t>(near - separation.begin())];
-    findings += fmt::format("{}separation below {:g} since time {:g} (worst {:.3g})", findings.empty() ? "" : "; ",
-                            least_separation, time, *std::min_element(separation.begin(), separation.end()));
-  }
-  return findings.empty() ? "trustworthy" : findings;
-}
-
-nlohmann::json summary_of(const HistoryTable& history, std::optional<double> tolerance, const RunTotals& totals,
-                          bool completed, const std::string& reason) {
+nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const Checkpoint& checkpoint,
+                          const RunOutcome& outcome) {
+  const RunTotals& totals = checkpoint.totals;
   const auto& rejected = history.column("rejected");
   const std::int64_t steps = history.n_steps();
   nlohmann::json json;
-  json["completed"] = completed;
-  json["verdict"] = verdict_of(history, tolerance);
-  if (!reason.empty()) json["reason"] = reason;
+  json["completed"] = outcome.completed;
+  json["verdict"] = verdict_of(history, scene.numerics.tolerance, outcome.reason);
+  if (!outcome.completed) json["reason"] = outcome.reason;
+  json["changes"] = json_of(checkpoint.changes);
   json["time"] = last(history.column("time"));
   json["steps"] = steps;
   json["rejected_steps"] = static_cast<std::int64_t>(std::accumulate(rejected.begin(), rejected.end(), 0.0));
@@ -77,7 +45,7 @@ nlohmann::json summary_of(const HistoryTable& history, std::optional<double> tol
   json["seconds_per_step"] = steps == 0 ? 0.0 : totals.seconds / static_cast<double>(steps);
   json["seconds_of_parts"] = totals.seconds_of_parts;
   json["peak_memory_bytes"] = peak_memory_bytes();
-  for (const TrustLimit& limit : limits) json[limit.column] = largest_magnitude(history.column(limit.column));
+  for (const char* column : largest_of) json[column] = largest_magnitude(history.column(column));
   json["order_max"] = largest_magnitude(history.column("order"));
   json["truncation"] = largest_magnitude(history.column("truncation"));
   const auto& separation = history.column("separation");

@@ -11,6 +11,14 @@ EvolutionSetup setup_of(const Problem& problem) {
 
 Problem problem_of(const Scene& scene) { return problem_of(scene, model_of(scene)); }
 
+Problem problem_of(const Scene& scene, int start_order) {
+  Scene start = scene;
+  start.numerics.order = start_order;
+  Problem problem = problem_of(start);
+  problem.settings.order = scene.numerics.order;
+  return problem;
+}
+
 Problem problem_of(const Scene& scene, const Model& model) {
   State start;
   start.position = initial_position(scene);

@@ -24,6 +24,10 @@ EvolutionSetup setup_of(const Problem& problem);
 /// @throws InputError if the shape file cannot be used
 Problem problem_of(const Scene& scene);
 
+/// Of a scene that continues a run which began with the initial shape in another degree: its frame and symmetry were
+/// found there, and its state is in them.
+Problem problem_of(const Scene& scene, int start_order);
+
 /// The same with another model, in laboratory coordinates, on the scene's shape.
 Problem problem_of(const Scene& scene, const Model& model);
 

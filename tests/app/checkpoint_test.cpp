@@ -12,6 +12,8 @@ namespace {
 vehd::Checkpoint sample() {
   vehd::Checkpoint checkpoint;
   checkpoint.scene = "[shape]\n";
+  checkpoint.start_order = 16;
+  checkpoint.changes = {{0.05, 3, "numerics.dt", 0.1, 1.0 / 3.0}, {0.05, 3, "numerics.tolerance", nullptr, 1e-3}};
   checkpoint.state.time = 0.1;
   checkpoint.state.step = 7;
   checkpoint.state.dt_next = 1.0 / 3.0;
@@ -44,6 +46,8 @@ BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   vehd::write_checkpoint(directory / "checkpoint.h5", written);
   const vehd::Checkpoint read = vehd::read_checkpoint(directory / "checkpoint.h5");
   BOOST_TEST(read.scene == written.scene);
+  BOOST_TEST(read.start_order == written.start_order);
+  BOOST_TEST((read.changes == written.changes));
   BOOST_TEST(read.state.time == written.state.time);
   BOOST_TEST(read.state.step == written.state.step);
   BOOST_TEST(read.state.dt_next == written.state.dt_next);

@@ -40,6 +40,7 @@ BOOST_FIXTURE_TEST_CASE(interrupt_leaves_a_resumable_run, LongRun) {
     BOOST_TEST(result.errors.find("continue with: vehd run ") != std::string::npos, result.errors);
     const auto summary = nlohmann::json::parse(file_text(output + "/summary.json"));
     BOOST_TEST(!summary.at("completed").get<bool>());
+    BOOST_TEST(summary.at("verdict").get<std::string>().starts_with("stopped: a signal came at time "));
     finish();
   }
 }

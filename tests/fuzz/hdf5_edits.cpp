@@ -105,6 +105,7 @@ std::string good_checkpoint() {
   const TemporaryDirectory directory;
   vehd::Checkpoint checkpoint;
   checkpoint.scene = scene_text;
+  checkpoint.start_order = vehd::lowest_order;
   checkpoint.state.position = ellipsoid();
   checkpoint.state.tension = vehd::Vector::Ones(checkpoint.state.position.rows());
   checkpoint.state.area_strain = vehd::Vector::Zero(checkpoint.state.position.rows());

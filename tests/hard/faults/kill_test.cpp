@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <csignal>
 #include <random>
 #include <thread>
 
+#include "bie/scene/run_reader.hpp"
 #include "tests/hard/faults/faulty_run.hpp"
 
 namespace {
@@ -80,6 +82,38 @@ BOOST_AUTO_TEST_CASE(fixed_steps_lose_nothing_and_reproduce_every_bit) {
 
 BOOST_AUTO_TEST_CASE(chosen_steps_lose_nothing_and_reproduce_every_bit) {
   Killer(adaptive_scene()).kill(wanted_kills() / 3);
+}
+
+// The session that finds another degree writes all snapshots anew before its first step.
+BOOST_AUTO_TEST_CASE(a_change_of_degree_loses_nothing_either) {
+  const FaultyRun run(quick_scene("1.0"));
+  const std::string begun = run.directory / "begun";
+  constexpr auto kAll = std::filesystem::copy_options::recursive;
+  std::filesystem::copy(run.reference, begun, kAll);
+  std::string scene = quick_scene("1.5");
+  scene.replace(scene.find("order = 6"), 9, "order = 8");
+  write_text(run.scene, scene);
+  std::filesystem::copy(begun, run.output, kAll);
+  const FaultyRun::Work work = run.count_work();
+  std::filesystem::remove_all(run.reference);
+  std::filesystem::copy(begun, run.reference, kAll);
+  std::vector<std::string> undisturbed = run.command;
+  *std::ranges::find(undisturbed, run.output) = run.reference;
+  BOOST_TEST_REQUIRE(run_command(undisturbed).exit_code == 0);
+  std::mt19937 random{20240608};
+  std::uniform_int_distribution<std::int64_t> moment(1, work.operations);
+  for (int number = 0; number < wanted_kills(); ++number) {
+    std::filesystem::remove_all(run.output);
+    std::filesystem::copy(begun, run.output, kAll);
+    (void)run_command(run.command_with("kill " + std::to_string(moment(random))));
+    // Whatever degree it has, what was accepted is there.
+    const vehd::RunReader accepted(run.output + "/run.h5");
+    BOOST_TEST_REQUIRE(accepted.times().size() >= 3U);
+    for (std::size_t snapshot = 0; snapshot < accepted.times().size(); ++snapshot) {
+      (void)accepted.coefficients(snapshot, "x");
+    }
+    run.finish();
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

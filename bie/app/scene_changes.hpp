@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// One key of [numerics] that a session of a run has found changed in the scene, and where the run stood then.
+struct SceneChange {
+  double time = 0.0;
+  std::int64_t step = 0;         ///< accepted steps until then
+  std::string key;               ///< "table.key"
+  nlohmann::json before, after;  ///< null where the scene has no value
+
+  bool operator==(const SceneChange&) const = default;
+};
+
+/// Changes between the scenes of two sessions in how steps are computed. Where and how often a run ends is none.
+std::vector<SceneChange> numerical_changes(const Scene& before, const Scene& after, double time, std::int64_t step);
+
+/// An array of objects {time, step, key, from, to}.
+nlohmann::json json_of(const std::vector<SceneChange>& changes);
+/// The other way. @throws nlohmann::json::exception
+std::vector<SceneChange> changes_of(const nlohmann::json& json);
+
+/// "time 1.5 (step 30): numerics.dt = 0.01, before 0.05"
+std::string text_of(const SceneChange& change);
+
+/// The text of a scene with the changes of its run as comments at the top.
+std::string with_changes(const std::string& scene, const std::vector<SceneChange>& changes);
+
+}  // namespace vehd

@@ -1,0 +1,36 @@
+#include "bie/scene/key_lookup.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "bie/scene/schema.hpp"
+#include "bie/scene/toml_text.hpp"
+#include "bie/scene/toml_values.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+std::string key_text(const Scene& scene, const std::string& name) {
+  for (const KeyDescription& key : scene_keys()) {
+    if (fmt::format("{}.{}", key.table, key.name) != name || !applies(key, scene)) continue;
+    const auto value = key.get(scene);
+    return value ? to_toml(key, *value) : "";
+  }
+  return "";
+}
+
+std::string key_place(const std::filesystem::path& file, const std::string& name) {
+  try {
+    const toml::table table = toml::parse_file(file.string());
+    for (std::string path = name; !path.empty();) {
+      if (const auto node = table.at_path(path)) return place(*node.node(), file.string());
+      const std::size_t dot = path.rfind('.');
+      path.resize(dot == std::string::npos ? 0 : dot);
+    }
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.description()));
+  }
+  return file.string() + ":1";
+}
+
+}  // namespace vehd

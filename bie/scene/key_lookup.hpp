@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bie/scene/scene.hpp"
+
+/// Single keys of a scene by their full name, "table.key".
+namespace vehd {
+
+/// Value of a key as TOML; empty where the scene has none.
+std::string key_text(const Scene& scene, const std::string& name);
+
+/// "file:line" of a key in a scene file that can be read: of its table where the key is left out, of the first line
+/// where the table is. @throws InputError if the file cannot be read any more
+std::string key_place(const std::filesystem::path& file, const std::string& name);
+
+}  // namespace vehd
