@@ -13,6 +13,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
 #include "bie/stepping/deferred_correction.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -63,15 +64,23 @@ std::vector<CostModel::Point> measure(const Scene& scene, double budget) {
   const double dt = step_size(scene);
   std::vector<CostModel::Point> points;
   double last_level = 0.0;
+  std::string reason;
   for (const int order : kOrders) {
     if (!points.empty()) {
       const double next = last_level * std::pow(double(order) / points.back().order, kSecondsGrowth);
       if (spent() + next > budget) break;
     }
     const double before = spent();
-    points.push_back(timed(scene, order, dt));
+    try {
+      points.push_back(timed(scene, order, dt));
+    } catch (const ConvergenceError& error) {
+      // What a degree cannot resolve a higher one may.
+      reason = error.what();
+      continue;
+    }
     last_level = spent() - before;
   }
+  if (points.empty()) throw ConvergenceError(reason);
   return points;
 }
 

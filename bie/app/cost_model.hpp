@@ -32,7 +32,7 @@ class CostModel {
 
 /// From the cache; otherwise timed on the scene, at degrees that rise as long as the budget allows, and kept.
 /// @param seconds  budget
-/// @throws ConvergenceError where the first steps cannot be taken at the lowest degree
+/// @throws ConvergenceError where the first steps cannot be taken at any degree
 CostModel cost_model_of(const Scene& scene, double seconds, CostCache& cache);
 
 }  // namespace vehd

@@ -15,6 +15,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/stepping/deferred_correction.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -38,7 +39,7 @@ std::string identity_of(const Scene& scene, const std::vector<double>& tolerance
 nlohmann::json json_of(const std::vector<MenuRow>& rows) {
   nlohmann::json json = nlohmann::json::array();
   for (const MenuRow& row : rows) {
-    json.push_back({row.tolerance, row.order, row.steps, row.seconds, row.memory_bytes, row.measured});
+    json.push_back({row.tolerance, row.order, row.steps, row.seconds, row.memory_bytes, row.measured, row.stops});
   }
   return json;
 }
@@ -48,7 +49,7 @@ std::vector<MenuRow> rows_of(const nlohmann::json& entry, std::size_t count) {
   std::vector<MenuRow> rows;
   try {
     for (const auto& row : entry) {
-      rows.push_back({row.at(0), row.at(1), row.at(2), row.at(3), row.at(4), row.at(5)});
+      rows.push_back({row.at(0), row.at(1), row.at(2), row.at(3), row.at(4), row.at(5), row.at(6)});
     }
   } catch (const nlohmann::json::exception&) {
     return {};
@@ -169,6 +170,13 @@ std::optional<double> order_between(const Pilot& pilot, const Pilot& next) {
   return std::clamp((coarse.change - fine.change) / (coarse.dt - fine.dt), 1.0, static_cast<double>(next.time_order));
 }
 
+/// Rows without any cost.
+std::vector<MenuRow> stopping_rows(const std::vector<double>& tolerances, const std::string& reason) {
+  std::vector<MenuRow> rows;
+  for (const double tolerance : tolerances) rows.push_back({.tolerance = tolerance, .stops = reason});
+  return rows;
+}
+
 std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
   const auto start = std::chrono::steady_clock::now();
   const auto left = [&] {
@@ -181,23 +189,33 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
   Trend trend;
   bool running = true;
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
-    if (running && i > 0) {
+    // What stops at one tolerance may well go on at the next, and says nothing of its cost.
+    const bool foretells = pilot.stops.empty() && !pilot.steps.empty();
+    if (running && foretells) {
       // The next pilot may well take less than what one with a tenth of the accuracy foretells.
       constexpr double kDoubt = 3.0;
       running = foretold(scene, pilot, tolerances, i, model, trend).seconds * ratio < kDoubt * left();
+    } else if (running && i > 0) {
+      running = left() > 0.0;
     }
     if (running) {
       Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left() : std::max(left(), kFirstPilot));
-      running = next.completed;
-      if (i > 0 && next.completed) {
-        trend = {degrees_per_digit(rows.front(), next), order_between(pilot, next)};
+      running = next.completed || !next.stops.empty();
+      if (foretells && next.completed) {
+        const auto first = std::ranges::find_if(rows, [](const MenuRow& row) { return row.stops.empty(); });
+        trend = {degrees_per_digit(*first, next), order_between(pilot, next)};
       }
-      if (i == 0 || next.completed) pilot = std::move(next);
+      if (!foretells || next.completed || !next.stops.empty()) pilot = std::move(next);
       if (const double expected = model_seconds(pilot, model); expected > 0.0) ratio = pilot.seconds / expected;
     }
     MenuRow row;
+    row.tolerance = tolerances[i];
+    row.stops = pilot.stops;
+    if (!row.stops.empty()) {
+      rows.push_back(row);
+      continue;
+    }
     if (running) {
-      row.tolerance = tolerances[i];
       row.measured = true;
       row.seconds = pilot.seconds;
       row.steps = static_cast<std::int64_t>(pilot.steps.size());
@@ -215,8 +233,19 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
     row.memory_bytes = static_cast<std::int64_t>(model.bytes(row.order));
     rows.push_back(row);
   }
-  for (MenuRow& row : rows) row.seconds += file_seconds(scene, row);
+  for (MenuRow& row : rows) {
+    if (row.stops.empty()) row.seconds += file_seconds(scene, row);
+  }
   return rows;
+}
+
+/// The same, or rows that say why no step could be timed.
+std::vector<MenuRow> menu_or_reason(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
+  try {
+    return measured_menu(scene, tolerances, cache);
+  } catch (const ConvergenceError& error) {
+    return stopping_rows(tolerances, error.what());
+  }
 }
 
 }  // namespace
@@ -226,7 +255,7 @@ std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tole
   if (const auto entry = cache.find(kEntry, identity)) {
     if (std::vector<MenuRow> rows = rows_of(*entry, tolerances.size()); !rows.empty()) return rows;
   }
-  std::vector<MenuRow> rows = measured_menu(scene, tolerances, cache);
+  std::vector<MenuRow> rows = menu_or_reason(scene, tolerances, cache);
   cache.keep(kEntry, identity, json_of(rows));
   return rows;
 }

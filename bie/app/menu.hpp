@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "bie/app/cost_cache.hpp"
@@ -16,6 +17,9 @@ struct MenuRow {
   double seconds = 0.0;    ///< of `vehd run`, without pictures
   std::int64_t memory_bytes = 0;
   bool measured = false;  ///< degree and steps are those of a whole run
+  /// Why a run with this tolerance, or where there was no time for it with the last one that was tried, cannot take its
+  /// steps; empty if it can. Nothing else is known then.
+  std::string stops;
 };
 
 /// Cost of a scene at the given tolerances, falling, in less than ten seconds; at once if the cache has it. The loosest
@@ -24,7 +28,6 @@ struct MenuRow {
 /// there says which degree T needs; each step costs what the cost model says at that degree. From two of them come the
 /// order that such steps really have and the most degrees that another digit takes. Degree and time order of the scene
 /// are left to each tolerance.
-/// @throws ConvergenceError
 std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache);
 
 }  // namespace vehd

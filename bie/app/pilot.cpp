@@ -7,24 +7,24 @@
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/resolution.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
-Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, double seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const Scene asked = at_tolerance(scene, tolerance);
-  const Problem problem = problem_of(asked);
+namespace {
+
+/// Takes steps to the end of the scene or as long as there is time, one at least.
+/// @throws ConvergenceError where none is acceptable; the pilot has those before it
+template <typename HasTime>
+void take_steps(const Scene& scene, const std::vector<double>& tolerances, const HasTime& has_time, Pilot& pilot) {
+  const Problem problem = problem_of(scene);
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
   evolution.evaluate_start();
-  Pilot pilot;
-  pilot.tolerance = tolerance;
-  pilot.time_order = asked.numerics.time_order;
   pilot.highest_order = evolution.order();
-  const double end = asked.numerics.end_time;
-  while (evolution.state().time < end && (pilot.steps.empty() || spent() < seconds)) {
-    const EvolutionStep step = evolution.step({asked.output.every, end});
+  const double end = scene.numerics.end_time;
+  while (evolution.state().time < end && (pilot.steps.empty() || has_time())) {
+    const EvolutionStep step = evolution.step({scene.output.every, end});
     PilotStep record{evolution.state().time, step.dt,          step.change, step.rejected + 1,
                      evolution.order(),      step.at_snapshot, {}};
     pilot.highest_order = std::max(pilot.highest_order, evolution.order());
@@ -36,6 +36,23 @@ Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>&
     pilot.steps.push_back(std::move(record));
   }
   pilot.completed = evolution.state().time >= end;
+}
+
+}  // namespace
+
+Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, double seconds) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const Scene asked = at_tolerance(scene, tolerance);
+  Pilot pilot;
+  pilot.tolerance = tolerance;
+  pilot.time_order = asked.numerics.time_order;
+  try {
+    take_steps(
+        asked, tolerances, [&] { return spent() < seconds; }, pilot);
+  } catch (const ConvergenceError& error) {
+    pilot.stops = error.what();
+  }
   pilot.seconds = spent();
   return pilot;
 }

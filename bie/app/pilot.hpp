@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bie/scene/scene.hpp"
@@ -23,13 +24,13 @@ struct Pilot {
   int time_order = 0;
   int highest_order = 0;
   bool completed = false;  ///< reached the end of the scene
+  std::string stops;       ///< why no further step could be taken; empty where that is not what ended it
   double seconds = 0.0;
   std::vector<PilotStep> steps;
 };
 
 /// @param tolerances  for which degrees are foretold from the spectrum of each state
 /// @param seconds     budget; the run stops where it is then, after one step at the earliest
-/// @throws ConvergenceError
 Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, double seconds);
 
 }  // namespace vehd

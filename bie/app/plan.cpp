@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 
+#include "bie/app/errors.hpp"
 #include "bie/app/file_system.hpp"
 #include "bie/app/menu.hpp"
 #include "bie/app/run_loop.hpp"
@@ -19,7 +20,6 @@
 #include "bie/stepping/deferred_correction.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/step_plan.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -123,8 +123,13 @@ RunPlan plan_of(const Scene& scene) {
 
 namespace {
 
-/// Seconds of a real run of so many steps, files and all, in a folder that is gone afterwards.
-double seconds_of_trial(Scene scene, int n_steps) {
+struct Trial {
+  double seconds = 0.0;
+  std::string stops;  ///< why it did not come to its end; empty if it did
+};
+
+/// A real run of so many steps, files and all, in a folder that is gone afterwards.
+Trial trial_of(Scene scene, int n_steps) {
   scene.numerics.end_time = n_steps * *scene.numerics.dt;
   const TemporaryFolder folder("vehd-plan");
   const RunPaths paths{folder.path()};
@@ -132,8 +137,8 @@ double seconds_of_trial(Scene scene, int n_steps) {
   Interruption interruption;
   const auto start = std::chrono::steady_clock::now();
   const RunOutcome outcome = simulate({scene, paths, std::nullopt}, interruption);
-  if (!outcome.completed) throw ConvergenceError("no trial steps: " + outcome.reason);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!outcome.completed && !outcome.cannot_step) throw OutputError(outcome.reason);
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), outcome.reason};
 }
 
 /// A tolerance finds its own steps and degrees, so runs with looser ones have to tell.
@@ -145,6 +150,8 @@ void predict_from_looser_runs(const Scene& scene, RunPlan& plan, CostCache& cach
   }
   tolerances.push_back(*scene.numerics.tolerance);
   const MenuRow row = menu_of(scene, tolerances, cache).back();
+  plan.stops = row.stops;
+  if (!plan.stops.empty()) return;
   plan.n_steps = row.steps;
   plan.seconds_per_step = row.steps > 0 ? row.seconds / static_cast<double>(row.steps) : 0.0;
   plan.memory_bytes = row.memory_bytes;
@@ -159,11 +166,13 @@ void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache) {
   constexpr double kSlowStep = 0.3;
   Scene timed = scene;
   timed.numerics.order = std::min(scene.numerics.order, kLargestTimed);
-  const double warm_up = seconds_of_trial(timed, kWarmUp);
-  const int n_timed = warm_up > kSlowStep * kWarmUp ? 3 : 16;
+  const Trial warm_up = trial_of(timed, kWarmUp);
+  const int n_timed = warm_up.seconds > kSlowStep * kWarmUp ? 3 : 16;
+  const Trial whole = warm_up.stops.empty() ? trial_of(timed, kWarmUp + n_timed) : warm_up;
+  plan.stops = whole.stops;
+  if (!plan.stops.empty()) return;
   const double ratio = double(scene.numerics.order) / timed.numerics.order;
-  plan.seconds_per_step =
-      std::max(0.0, seconds_of_trial(timed, kWarmUp + n_timed) - warm_up) / n_timed * std::pow(ratio, 5);
+  plan.seconds_per_step = std::max(0.0, whole.seconds - warm_up.seconds) / n_timed * std::pow(ratio, 5);
   plan.memory_bytes = static_cast<std::int64_t>(static_cast<double>(peak_memory_bytes()) * std::pow(ratio, 4));
 }
 

@@ -32,15 +32,17 @@ struct RunPlan {
   std::int64_t n_steps = 0;   ///< if none is rejected; with a tolerance known after predict_cost
   double seconds_per_step = 0.0;
   std::int64_t memory_bytes = 0;
+  std::string stops;  ///< why the steps of a trial could not be taken, and when; nothing is predicted then
 };
 
 /// Everything that follows from the scene alone; costs are left at zero.
 RunPlan plan_of(const Scene& scene);
 
 /// Adds cost. Without a tolerance: seconds per step and memory from a short run of the scene, files included, in a
-/// temporary folder. Orders above 32 are timed at 32 and scaled with the growth of assembly, p^5, and of operators,
-/// p^4. With a tolerance: steps, seconds and memory that whole runs with looser tolerances lead to expect, see menu_of.
-/// @throws ConvergenceError where the first steps cannot be taken
+/// temporary folder; where steps cannot be taken that is the finding. Orders above 32 are timed at 32 and scaled with
+/// the growth of assembly, p^5, and of operators, p^4. With a tolerance: steps, seconds and memory that whole runs with
+/// looser tolerances lead to expect, see menu_of.
+/// @throws OutputError
 void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache);
 
 }  // namespace vehd

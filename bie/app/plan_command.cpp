@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "bie/app/commands.hpp"
 #include "bie/app/menu.hpp"
 #include "bie/app/plan.hpp"
 #include "bie/app/progress.hpp"
+#include "bie/app/resumption.hpp"
 #include "bie/scene/reader.hpp"
 
 namespace vehd {
@@ -33,8 +35,13 @@ nlohmann::json json_of(const RunPlan& plan) {
   json["shapes_per_step"] = plan.shapes_per_step;
   json["unknowns"] = plan.unknowns;
   json["steps"] = plan.n_steps;
-  json["seconds_per_step"] = plan.seconds_per_step;
-  json["memory_bytes"] = plan.memory_bytes;
+  if (plan.stops.empty()) {
+    json["seconds_per_step"] = plan.seconds_per_step;
+    json["memory_bytes"] = plan.memory_bytes;
+  } else {
+    json["seconds_per_step"] = json["memory_bytes"] = nullptr;
+    json["stops"] = plan.stops;
+  }
   return json;
 }
 
@@ -49,16 +56,31 @@ void print(const RunPlan& plan) {
              plan.shapes_per_step);
   for (const PlannedOperator& op : plan.operators) fmt::print("  {:<22} {}\n", op.name, op.why);
   fmt::print("unknowns   {} a step\n", plan.unknowns);
+  if (!plan.stops.empty()) {
+    fmt::print("cost       none: {}\n", plan.stops);
+    return;
+  }
   fmt::print("cost       {} steps of {:.2g} s: {}, {:.0f} MB\n", plan.n_steps, plan.seconds_per_step,
              duration_text(static_cast<double>(plan.n_steps) * plan.seconds_per_step),
              static_cast<double>(plan.memory_bytes) / 1e6);
 }
 
-ExitCode menu(const Scene& scene, CostCache& cache, const CommonOptions& common) {
+/// A plan of steps that cannot be taken is none.
+ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
+  fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene_file, what);
+  return ExitCode::does_not_hold;
+}
+
+ExitCode menu(const PlanOptions& options, const Scene& scene, CostCache& cache) {
   const std::vector<MenuRow> rows = menu_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, cache);
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:>9} {:>8} {:>7} {:>9} {:>7}\n", "tolerance", "degree", "steps", "time", "MB");
   for (const MenuRow& row : rows) {
+    if (!row.stops.empty()) {
+      fmt::print("{:>9.0e} {}\n", row.tolerance, row.stops);
+      json.push_back({{"tolerance", row.tolerance}, {"stops", row.stops}});
+      continue;
+    }
     fmt::print("{:>9.0e} {:>8} {:>7} {:>9} {:>7.0f}{}\n", row.tolerance, row.order, row.steps,
                duration_text(row.seconds), static_cast<double>(row.memory_bytes) / 1e6,
                row.measured ? "  measured" : "");
@@ -69,20 +91,22 @@ ExitCode menu(const Scene& scene, CostCache& cache, const CommonOptions& common)
                     {"memory_bytes", row.memory_bytes},
                     {"measured", row.measured}});
   }
-  write_json(common, json);
-  return ExitCode::done;
+  write_json(options.common, json);
+  const bool none = std::ranges::none_of(rows, [](const MenuRow& row) { return row.stops.empty(); });
+  return none ? does_not_hold(options, " at any of these tolerances: " + rows.back().stops) : ExitCode::done;
 }
 
 ExitCode plan(const PlanOptions& options) {
   const Scene scene = read_scene(options.scene_file);
   CostCache cache;
   if (options.fresh) cache.forget();
-  if (options.menu) return menu(scene, cache, options.common);
+  if (options.menu) return menu(options, scene, cache);
   RunPlan result = plan_of(scene);
   predict_cost(scene, result, cache);
   print(result);
   write_json(options.common, json_of(result));
-  return ExitCode::done;
+  if (result.stops.empty()) return ExitCode::done;
+  return does_not_hold(options, fmt::format(": {}; {}", result.stops, what_may_help(scene.numerics)));
 }
 
 }  // namespace
@@ -97,7 +121,8 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   command->footer(
       "Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.\n"
       "Those of a tolerance come from runs with looser ones, in less than 10 s; what these found is kept in\n"
-      "vehd/costs.json in $XDG_CACHE_HOME (~/.cache) for the next time.");
+      "vehd/costs.json in $XDG_CACHE_HOME (~/.cache) for the next time. Exit code 4 where trial steps cannot be "
+      "taken.");
   command->callback([options, &exit_code] { exit_code = plan(*options); });
 }
 

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.hpp"
+#include "tests/app/stopping_scenes.hpp"
 
 namespace {
 
@@ -96,6 +97,43 @@ BOOST_AUTO_TEST_CASE(plan_of_a_tolerance_comes_from_whole_runs) {
   BOOST_TEST(run.summary["steps"].get<int>() == run.plan["steps"].get<int>());
   BOOST_TEST(run.plan["seconds_per_step"].get<double>() > 0.0);
   BOOST_TEST(run.summary["verdict"].get<std::string>() == "trustworthy");
+}
+
+// A scene that cannot be stepped is no defect of the program.
+BOOST_AUTO_TEST_CASE(scene_that_cannot_be_stepped_is_a_finding) {
+  const OwnCache cache;
+  const TemporaryDirectory directory;
+  const std::string scene = directory / "scene.toml";
+  const std::string result_file = directory / "plan.json";
+  const auto finding = [&](const std::string& text, const std::vector<std::string>& options, const std::string& what) {
+    write_text(scene, text);
+    std::vector<std::string> arguments = {"plan", scene, "--json", result_file};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = run_vehd(arguments);
+    BOOST_TEST(result.exit_code == 4);
+    BOOST_TEST(result.errors.starts_with(scene + ": cannot be stepped" + what), result.errors);
+    return json_of(result_file);
+  };
+  const nlohmann::json plan = finding(hopeless_scene, {}, ": no acceptable step from time 0: ");
+  BOOST_TEST(plan["stops"].get<std::string>().starts_with("no acceptable step from time 0: "));
+  BOOST_TEST(plan["effects"].size() == 3U);
+  BOOST_TEST(plan["unknowns"].get<int>() > 0);
+  BOOST_TEST(plan["seconds_per_step"].is_null());
+
+  const std::string what = "two parts of the membrane are ";
+  finding(touching_membrane + "order = 6\ndt = 0.1\nend_time = 1.0\n", {}, ": " + what);
+  finding(touching_membrane + "tolerance = 0.01\nend_time = 1.0\n", {}, ": " + what);
+  for (int call = 0; call < 2; ++call) {
+    const nlohmann::json rows = finding(touching_membrane + "order = 6\ndt = 0.1\nend_time = 1.0\n", {"--menu"},
+                                        " at any of these tolerances: " + what);
+    BOOST_TEST(rows.size() == 7U);
+    for (const auto& row : rows) BOOST_TEST(row["stops"].get<std::string>().starts_with(what), row.dump());
+  }
+  const ProgramResult bench =
+      run_vehd({"bench", "time", scene, "--dt", "0.1", "--at", "0.1", "-o", directory / "bench", "--no-plot"});
+  BOOST_TEST(bench.exit_code == 1);
+  BOOST_TEST(bench.errors.find("vehd bench: what the input asks for cannot be computed: " + what) != std::string::npos,
+             bench.errors);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
