@@ -20,6 +20,7 @@
 #include "bie/stepping/deferred_correction.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/step_plan.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -136,7 +137,12 @@ Trial trial_of(Scene scene, int n_steps) {
   make_run_directory(paths);
   Interruption interruption;
   const auto start = std::chrono::steady_clock::now();
-  const RunOutcome outcome = simulate({scene, paths, std::nullopt}, interruption);
+  RunOutcome outcome;
+  try {
+    outcome = simulate({scene, paths, std::nullopt}, interruption);
+  } catch (const ConvergenceError& error) {
+    outcome = {.completed = false, .reason = error.what(), .cannot_step = true};
+  }
   if (!outcome.completed && !outcome.cannot_step) throw OutputError(outcome.reason);
   return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), outcome.reason};
 }

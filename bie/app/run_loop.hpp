@@ -27,7 +27,7 @@ struct RunTask {
 
 /// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date
 /// after every accepted step. Solver failures and full disks end it early; they are not exceptions.
-/// @throws InputError if the run cannot be started; no file of a run exists then
+/// @throws InputError, ConvergenceError if the run cannot be started; no file of a run exists then
 RunOutcome simulate(const RunTask& task, Interruption& interruption);
 
 }  // namespace vehd
