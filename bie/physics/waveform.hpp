@@ -32,10 +32,9 @@ class Waveform {
   [[nodiscard]] bool is_quiet(double time) const;
 
  private:
-  /// Rounding of a time near a corner.
-  [[nodiscard]] double slack(double time) const;
-
   enum class Kind { constant, alternating, pulse, pulse_train, table };
+
+  /// Rounding of a time near a corner.
   [[nodiscard]] double slack(double time) const;
 
   Kind kind_ = Kind::constant;
