@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vehd {
+
+/// A program to start. It has no input.
+struct ChildProgram {
+  std::vector<std::string> words;  ///< its name, looked for in PATH, and its arguments
+  std::filesystem::path output;    ///< takes its standard output and error; empty: they go where those of this one go
+};
+
+/// How it ended.
+struct ChildEnd {
+  int start_problem = 0;  ///< errno, if it could not be started
+  int exit_code = 0;
+  int signal = 0;  ///< that ended it, if one did
+};
+
+/// Runs a program to its end. Nothing of it outlives this process, whatever ends that, nor its own end: all that it has
+/// started, in whichever process group or session, gets half a second to end by itself and is killed then.
+///
+/// A process between the two sees to that. It is out of reach of what is sent to the terminal or to the process group
+/// of this program; of a Ctrl-C it learns because it ends this program.
+ChildEnd run_child(const ChildProgram& program);
+
+}  // namespace vehd
