@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 
 #include "bie/app/bench_progress.hpp"
 #include "bie/app/check_input.hpp"
@@ -64,8 +63,7 @@ MethodLevel bie_level(int order, int repeats) {
 /// Runs the levels of finite elements; each is a process of its own.
 class FemLevels {
  public:
-  FemLevels(const std::filesystem::path& directory, int shape_order)
-      : input_(directory / "sources.h5"), result_(directory / "level.json") {
+  FemLevels(const std::filesystem::path& directory, int shape_order) : input_(directory / "sources.h5") {
     write_sources_input(input_.path(), example1_position(shape_order), example1_electric(), example1_sources());
   }
 
@@ -78,11 +76,11 @@ class FemLevels {
     level.degree = degree;
     level.cells_per_edge = cells_per_edge;
     while (wants_repeat(level.seconds, repeats)) {
-      const ExitCode code = program_.run({"sources", input_.path().string(), "--degree", std::to_string(degree),
-                                          "--cells", std::to_string(cells_per_edge), "--radius",
-                                          fmt::format("{}", radius), "--json", result_.path().string()});
-      if (code != ExitCode::done) throw std::runtime_error("the finite elements stopped, see above");
-      const nlohmann::json json = nlohmann::json::parse(std::ifstream(result_.path()));
+      const FemProgram::Result result =
+          program_.run({"sources", input_.path().string(), "--degree", std::to_string(degree), "--cells",
+                        std::to_string(cells_per_edge), "--radius", fmt::format("{}", radius)});
+      if (result.code != ExitCode::done) throw std::runtime_error("the finite elements stopped, see above");
+      const nlohmann::json& json = result.json;
       level.seconds.push_back(json["seconds"]);
       level.unknowns = json["dofs"];
       level.peak_memory_bytes = json["memory_bytes"];
@@ -97,7 +95,7 @@ class FemLevels {
 
  private:
   FemProgram program_;
-  TemporaryFile input_, result_;
+  TemporaryFile input_;
 };
 
 BenchTable empty_table() {

@@ -85,10 +85,10 @@ ExitCode check(const CheckOptions& options) {
 
   std::vector<std::string> arguments{"check", input.string(), "-o", directory.string()};
   if (options.quick) arguments.emplace_back("--quick");
-  if (!options.common.json_file.empty()) arguments.insert(arguments.end(), {"--json", options.common.json_file});
-  const ExitCode result = fem.run(arguments, options.ranks);
-  if (!options.no_plot && result != ExitCode::internal_error) draw_if_possible(directory);
-  return result;
+  const FemProgram::Result result = fem.run(arguments, options.ranks);
+  if (!result.json.is_null()) write_json(options.common, result.json);
+  if (!options.no_plot && result.code != ExitCode::internal_error) draw_if_possible(directory);
+  return result.code;
 }
 
 }  // namespace

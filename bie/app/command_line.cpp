@@ -5,7 +5,6 @@
 #include <spdlog/spdlog.h>
 
 #include "bie/app/commands.hpp"
-#include "bie/app/file_system.hpp"
 #include "bie/app/versions.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/memory.hpp"
@@ -64,11 +63,16 @@ ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_
 }  // namespace
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--json", options.json_file, "Also write the result to this file as JSON")->type_name("FILE");
+  const auto choose = [&options](const std::string& file) { options.json.emplace(file); };
+  command
+      .add_option_function<std::string>("--json", choose,
+                                        "Also write the result to this file as JSON; \"-\" is standard output, and "
+                                        "all else then goes to standard error")
+      ->type_name("FILE");
 }
 
 void write_json(const CommonOptions& options, const nlohmann::json& result) {
-  if (!options.json_file.empty()) replace_file(options.json_file, result.dump(2) + "\n");
+  if (options.json) options.json->write(result.dump(2) + "\n");
 }
 
 int run_program(int argc, char** argv) {

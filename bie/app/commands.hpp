@@ -2,9 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <string>
+#include <optional>
 
 #include "bie/app/errors.hpp"
+#include "bie/app/result_file.hpp"
 
 /// One function per command: it adds the command's options and a callback that runs it and sets the exit code.
 namespace vehd {
@@ -20,7 +21,7 @@ void add_help_command(CLI::App& program, ExitCode& exit_code);
 
 /// Options that every command has.
 struct CommonOptions {
-  std::string json_file;
+  std::optional<ResultFile> json;
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
 

@@ -1,16 +1,13 @@
 #include "bie/app/fem_program.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
+#include "bie/app/file_system.hpp"
+#include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -34,7 +31,10 @@ FemProgram::FemProgram() : path_(program_beside_this_one()) {
                   path_.string()));
 }
 
-ExitCode FemProgram::run(const std::vector<std::string>& arguments, int n_ranks) const {
+FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ranks) const {
+  const TemporaryFolder folder("vehd-result");
+  const std::filesystem::path json = folder.path() / "result.json";
+  arguments.insert(arguments.end(), {"--json", json.string()});
   std::vector<std::string> words;
   if (n_ranks > 1) {
     // Containers have root alone, and often fewer slots than Open MPI wants to see.
@@ -44,21 +44,14 @@ ExitCode FemProgram::run(const std::vector<std::string>& arguments, int n_ranks)
   }
   words.push_back(path_.string());
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  // What this program has printed so far comes first.
-  std::fflush(stdout);
-  pid_t process = 0;
-  const int problem = posix_spawnp(&process, pointers[0], nullptr, nullptr, pointers.data(), environ);
-  if (problem != 0) throw InputError(fmt::format("{} cannot be started: {}", words[0], std::strerror(problem)));
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  const ChildEnd end = run_child({words, {}});
+  if (end.start_problem != 0) {
+    throw InputError(fmt::format("{} cannot be started: {}", words[0], std::strerror(end.start_problem)));
   }
-  if (!WIFEXITED(status)) {
-    throw std::runtime_error(fmt::format("{} was ended by signal {}", words[0], WTERMSIG(status)));
-  }
-  return static_cast<ExitCode>(WEXITSTATUS(status));
+  if (end.signal != 0) throw std::runtime_error(fmt::format("{} was ended by signal {}", words[0], end.signal));
+  FemProgram::Result result{static_cast<ExitCode>(end.exit_code), {}};
+  if (std::filesystem::exists(json)) result.json = nlohmann::json::parse(text_of_file(json));
+  return result;
 }
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,16 @@ class FemProgram {
   /// Looks beside the running program. @throws InputError saying how to build it if it is not there
   FemProgram();
 
-  /// Runs it with these arguments on the terminal of this program, and waits.
+  /// What it leaves behind.
+  struct Result {
+    ExitCode code = ExitCode::done;
+    nlohmann::json json;  ///< its result; null if it ended before it had one
+  };
+
+  /// Runs it with these arguments on the terminal of this program, and waits. It ends with this program.
   /// @param n_ranks  processes, started by mpirun if more than one
-  /// @return its exit code, one of ExitCode
   /// @throws InputError if it cannot be started, std::runtime_error if a signal ended it
-  [[nodiscard]] ExitCode run(const std::vector<std::string>& arguments, int n_ranks = 1) const;
+  [[nodiscard]] Result run(std::vector<std::string> arguments, int n_ranks = 1) const;
 
  private:
   std::filesystem::path path_;

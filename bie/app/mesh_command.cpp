@@ -6,7 +6,6 @@
 #include "bie/app/commands.hpp"
 #include "bie/app/fem_program.hpp"
 #include "bie/app/file_system.hpp"
-#include "bie/app/gnuplot.hpp"
 
 namespace vehd {
 namespace {
@@ -24,13 +23,16 @@ ExitCode mesh(const MeshOptions& options) {
   const FemProgram fem;
   const FrozenShape shape = read_frozen_shape(options.file, options.time);
   if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
-  // Hidden beside the mesh: a folder that can hold the one can hold the other.
-  const TemporaryFile input(temporary_of(options.output + ".shape.h5"));
-  write_shape_input(input.path(), shape.position);
-  std::vector<std::string> arguments{"mesh",     input.path().string(), "-o",       options.output,
-                                     "--family", options.family,        "--refine", std::to_string(options.refine)};
-  if (!options.common.json_file.empty()) arguments.insert(arguments.end(), {"--json", options.common.json_file});
-  return fem.run(arguments);
+  const TemporaryFolder folder("vehd-mesh");
+  const std::filesystem::path input = folder.path() / "shape.h5", mesh = folder.path() / "mesh.msh";
+  write_shape_input(input, shape.position);
+  const FemProgram::Result result = fem.run({"mesh", input.string(), "-o", mesh.string(), "--family", options.family,
+                                             "--refine", std::to_string(options.refine)});
+  if (result.code != ExitCode::done) return result.code;
+  replace_file(options.output, text_of_file(mesh));
+  fmt::print("mesh: {}\n", options.output);
+  write_json(options.common, result.json);
+  return result.code;
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t c
 }
 
 SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, const Kept& kept)
-    : path_(std::move(path)),
+    : path_(end_of_links(path).path),
       spare_(path_.parent_path() / fmt::format(".{}.spare", path_.filename().string())),
       size_(kept.count),
       spare_size_(kept.count),

@@ -44,7 +44,7 @@ int check(CheckTask task, const std::string& json_file, bool first_rank) {
 
 int mesh(const MeshTask& task, const std::string& json_file) {
   const MeshResult result = run_mesh(task);
-  fmt::print("{}mesh: {}\n", text_of(result), task.output.string());
+  fmt::print("{}", text_of(result));
   write_json(json_file, json_of(result));
   return done;
 }

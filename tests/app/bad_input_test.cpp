@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "bie/scene/hdf5_reader.hpp"
-#include "tests/app/program.hpp"
+#include "tests/app/reference_run.hpp"
 
 namespace {
 
@@ -24,19 +24,6 @@ struct SceneCase {
     write_text(file, text);
     check_refused({"run", file, "-o", output}, file + message);
     BOOST_TEST(!std::filesystem::exists(output));
-  }
-};
-
-/// A complete short run to damage.
-struct FinishedRun {
-  TemporaryDirectory directory;
-  std::string scene = directory / "scene.toml";
-  std::string output = directory / "out";
-
-  FinishedRun() {
-    write_text(scene, quick_scene("0.5"));
-    const ProgramResult result = run_vehd({"run", scene, "-o", output, "--no-plot"});
-    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
   }
 };
 

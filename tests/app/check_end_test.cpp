@@ -1,0 +1,101 @@
+#include <signal.h>
+
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "tests/app/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+boost::test_tools::assertion_result finite_elements_are_built(boost::unit_test::test_unit_id) {
+  return fs::exists(fs::path(VEHD_PROGRAM).parent_path() / "vehd_fem");
+}
+
+/// Long enough for any machine, and only waited for where something is wrong.
+constexpr std::chrono::seconds most{120};
+
+bool comes_true(const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + most;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+/// A check that takes far longer than the test, in a folder by which its processes are known.
+struct LongCheck {
+  TemporaryDirectory directory;
+  std::vector<std::string> command;
+
+  LongCheck() {
+    write_text(directory / "scene.toml",
+               "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.2, 1.5]\n[membrane]\nconductance = 5.0\n"
+               "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+               "[numerics]\norder = 8\ndt = 0.1\nend_time = 0.0\n");
+    command = vehd_command({"check", directory / "scene.toml", "-o", directory / "out", "--ranks", "2", "--no-plot"});
+  }
+
+  /// Processes of this check that run the program.
+  [[nodiscard]] std::vector<pid_t> processes(const std::string& program) const {
+    std::vector<pid_t> found;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      const pid_t process = std::atoi(entry.path().filename().c_str());
+      if (process == 0) continue;
+      const std::string words = file_text(entry.path() / "cmdline");
+      const std::string name = fs::path(words.substr(0, words.find('\0'))).filename();
+      if (name == program && words.find(directory / "out") != std::string::npos) found.push_back(process);
+    }
+    return found;
+  }
+
+  [[nodiscard]] bool is_at_work() const { return processes("vehd_fem").size() == 2; }
+  [[nodiscard]] bool is_gone() const { return processes("vehd_fem").empty() && processes("mpirun").empty(); }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(check_end, *boost::unit_test::precondition(finite_elements_are_built))
+
+BOOST_AUTO_TEST_CASE(whatever_ends_a_check_ends_its_finite_elements) {
+  for (const int signal : {SIGKILL, SIGTERM, SIGINT}) {
+    const LongCheck check;
+    RunningProgram program(check.command);
+    BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }), signal);
+    program.send(signal);
+    program.wait();
+    BOOST_TEST(comes_true([&] { return check.is_gone(); }), signal);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(time_limit_that_kills_all_it_can_reach_ends_the_finite_elements) {
+  const LongCheck check;
+  std::vector<std::string> command{"timeout", "-s", "KILL", "3600"};
+  command.insert(command.end(), check.command.begin(), check.command.end());
+  RunningProgram program(command);
+  BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }));
+  // What the program timeout does when the time is over, at a moment of our own: it leads the group of the check.
+  const std::vector<pid_t> leader = check.processes("timeout");
+  BOOST_TEST_REQUIRE(leader.size() == 1);
+  ::kill(-leader.front(), SIGKILL);
+  program.wait();
+  BOOST_TEST(comes_true([&] { return check.is_gone(); }));
+}
+
+BOOST_AUTO_TEST_CASE(finite_elements_that_are_killed_end_the_check) {
+  for (const char* victim : {"mpirun", "vehd_fem"}) {
+    const LongCheck check;
+    RunningProgram program(check.command);
+    BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }), victim);
+    for (const pid_t process : check.processes(victim)) ::kill(process, SIGKILL);
+    BOOST_TEST_REQUIRE(comes_true([&] { return program.ended(); }), victim);
+    BOOST_TEST(program.wait().exit_code > 0, victim);
+    BOOST_TEST(check.is_gone(), victim);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
