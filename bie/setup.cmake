@@ -12,12 +12,21 @@
 #   cmake -DSTEP=fuzz -P bie/setup.cmake      installs clang, fuzzes each reader of files for 10 minutes; -DSECONDS=60
 #                                             before -P for another time
 #   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture and table of the pages that the program measures itself
-# With -DVEHD_FEM_CHECK=ON before -P, test, build and docs include the finite-element check and install what it needs; without
-# it they include the check where deal.II and gmsh are there already.
+# Before -P, for every step:
+#   -DVEHD_FEM_CHECK=ON             test, build and docs include the finite-element check and install what it needs; without
+#                                   it they include the check where deal.II and gmsh are there already
+#   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of that of this machine
+#   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON   a warning of the compiler ends the build
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
+# A folder for each instruction set: none is compiled again because another was in between.
 set(build "${source}/build")
+if(NOT DEFINED VEHD_ARCHITECTURE)
+  set(VEHD_ARCHITECTURE native)
+elseif(NOT VEHD_ARCHITECTURE STREQUAL "native")
+  set(build "${source}/build-${VEHD_ARCHITECTURE}")
+endif()
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
@@ -37,7 +46,8 @@ if(STEP MATCHES "^(test|sanitize)$")
 endif()
 if(STEP STREQUAL "callgrind")
   list(APPEND packages valgrind)
-  # Valgrind does not know the instructions of every new processor.
+  # Valgrind does not know the instructions of every new processor: those that the compiler takes by itself.
+  set(VEHD_ARCHITECTURE "")
   set(build "${source}/build-callgrind")
 endif()
 if(STEP MATCHES "^(sanitize|fuzz)$")
@@ -110,18 +120,18 @@ set(generator)
 if(NOT EXISTS "${build}/CMakeCache.txt")
   set(generator -G Ninja)
 endif()
-set(options -DCMAKE_BUILD_TYPE=Release)
-if(STEP STREQUAL "callgrind")
-  list(APPEND options -DVEHD_NATIVE=OFF)
+set(options "-DVEHD_ARCHITECTURE=${VEHD_ARCHITECTURE}")
+if(DEFINED CMAKE_COMPILE_WARNING_AS_ERROR)
+  list(APPEND options -DCMAKE_COMPILE_WARNING_AS_ERROR=${CMAKE_COMPILE_WARNING_AS_ERROR})
 endif()
 if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|docs)$")
   # The other steps leave a build with the check as it is.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
 endif()
 if(STEP MATCHES "^(sanitize|fuzz)$")
-  run_or_stop("${CMAKE_COMMAND}" --preset sanitize)
+  run_or_stop("${CMAKE_COMMAND}" --preset sanitize ${options})
 else()
-  run_or_stop("${CMAKE_COMMAND}" ${generator} -S "${source}" -B "${build}" ${options})
+  run_or_stop("${CMAKE_COMMAND}" ${generator} -S "${source}" -B "${build}" -DCMAKE_BUILD_TYPE=Release ${options})
 endif()
 if(STEP MATCHES "^(test|sanitize)$")
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs})

@@ -1,0 +1,36 @@
+# Read by ctest itself, not when the build is configured: a new suite is an entry as soon as it is compiled.
+cmake_policy(VERSION 3.25)
+
+# Every suite of a test program becomes an entry MODULE/SUITE. Its labels are the given ones and those of the suite in
+# its source: BOOST_AUTO_TEST_SUITE(name, *boost::unit_test::label("slow")). Limits of time only stop what hangs, on any
+# machine: about ten times what suites take, times SLOWER.
+function(register_suites)
+  cmake_parse_arguments(tests "" "PROGRAM;MODULE;FOLDER;SLOWER" "LABELS;ENVIRONMENT" ${ARGN})
+  if(NOT EXISTS "${tests_PROGRAM}")
+    add_test(${tests_MODULE} "${tests_PROGRAM}")
+    set_tests_properties(${tests_MODULE} PROPERTIES LABELS "${tests_LABELS}")
+    return()
+  endif()
+  execute_process(COMMAND "${tests_PROGRAM}" --list_content=DOT OUTPUT_VARIABLE tree ERROR_VARIABLE tree
+                  RESULT_VARIABLE status)
+  # A node is one line, and the next names its parent: the root is tu1. These signs would disturb lists of CMake.
+  string(REGEX REPLACE "[][;]" "" tree "${tree}")
+  string(REGEX MATCHALL "label=\"[^\"|]+\\|[^\"]*\"\ntu1 -> " suites "${tree}")
+  if(NOT status EQUAL 0 OR NOT suites)
+    message(FATAL_ERROR "${tests_PROGRAM} lists no suites of tests:\n${tree}")
+  endif()
+  foreach(suite IN LISTS suites)
+    string(REGEX REPLACE "^label=\"([^\"|]+)\\|.*" "\\1" name "${suite}")
+    string(REGEX MATCHALL "@[A-Za-z0-9_]+" labels "${suite}")
+    list(TRANSFORM labels REPLACE "^@" "")
+    set(seconds 300)
+    if("slow" IN_LIST labels)
+      set(seconds 1800)
+    endif()
+    math(EXPR seconds "${seconds} * ${tests_SLOWER}")
+    add_test(${tests_MODULE}/${name} "${tests_PROGRAM}" --run_test=${name})
+    set_tests_properties(${tests_MODULE}/${name} PROPERTIES
+                         LABELS "${tests_LABELS};${labels}" TIMEOUT ${seconds} WORKING_DIRECTORY "${tests_FOLDER}"
+                         ENVIRONMENT "${tests_ENVIRONMENT}")
+  endforeach()
+endfunction()
