@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 
 #include "bie/scene/reader.hpp"
+#include "bie/scene/toml_values.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -42,30 +44,31 @@ class Criterion {
   }
 
   [[nodiscard]] std::string text(const char* key) const {
-    const auto value = table_[key].value<std::string>();
-    if (!value) throw InputError(fmt::format("{}: the criterion lacks a text \"{}\"", file_, key));
-    return *value;
+    const toml::value<std::string>* value = required(key, "a text").as_string();
+    if (value == nullptr) refuse_value(key, *table_.get(key), "a text");
+    return value->get();
   }
-  [[nodiscard]] double number(const char* key) const {
-    const auto value = table_[key].value<double>();
-    if (!value) throw InputError(fmt::format("{}: the criterion lacks a number \"{}\"", file_, key));
-    return *value;
-  }
+  [[nodiscard]] double number(const char* key) const { return number(key, required(key, "a number")); }
   [[nodiscard]] std::vector<ColumnBound> bounds(const char* key) const {
     std::vector<ColumnBound> result;
-    if (const toml::table* table = table_[key].as_table()) {
-      for (const auto& [column, node] : *table) {
-        const auto bound = node.value<double>();
-        if (!bound) refuse(node, fmt::format("\"{}\" is no number", column.str()));
-        result.push_back({std::string(column.str()), *bound});
-      }
-    }
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return result;
+    const toml::table* table = node->as_table();
+    if (table == nullptr) refuse_value(key, *node, "a table of columns and their bounds");
+    for (const auto& [column, bound] : *table) result.push_back({std::string(column), number(column, bound)});
     return result;
   }
   [[nodiscard]] std::vector<std::string> names(const char* key) const {
+    constexpr const char* accepted = "a list of columns in quotes";
     std::vector<std::string> result;
-    if (const toml::array* array = table_[key].as_array()) {
-      for (const toml::node& node : *array) result.push_back(node.value_or<std::string>(""));
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return result;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) refuse_value(key, *node, accepted);
+    for (const toml::node& entry : *array) {
+      const toml::value<std::string>* name = entry.as_string();
+      if (name == nullptr) refuse_value(key, entry, accepted);
+      result.push_back(name->get());
     }
     return result;
   }
@@ -79,7 +82,20 @@ class Criterion {
 
  private:
   [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
-    throw InputError(fmt::format("{}:{}: {}", file_, node.source().begin.line, what));
+    throw InputError(fmt::format("{}: {}", place(node, file_), what));
+  }
+  [[noreturn]] void refuse_value(std::string_view key, const toml::node& node, const char* accepted) const {
+    refuse(node, fmt::format("\"{}\" is {}; accepted: {}", key, shown(node), accepted));
+  }
+  [[nodiscard]] const toml::node& required(const char* key, const char* type) const {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) throw InputError(fmt::format("{}: the criterion lacks {} \"{}\"", file_, type, key));
+    return *node;
+  }
+  [[nodiscard]] double number(std::string_view key, const toml::node& node) const {
+    const std::optional<double> value = number_of(node);
+    if (!value || !std::isfinite(*value)) refuse_value(key, node, "a finite number");
+    return *value;
   }
 
   std::string file_;

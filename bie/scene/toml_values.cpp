@@ -34,8 +34,8 @@ struct Context {
 };
 
 /// SI value of a text such as "1 kV/cm".
-double si_value(const Context& context, const Dimension& dimension, const toml::node& node) {
-  const auto quantity = parse_quantity(*node.value<std::string_view>());
+double si_value(const Context& context, const Dimension& dimension, const toml::value<std::string>& node) {
+  const auto quantity = parse_quantity(node.get());
   if (!quantity) context.refuse(node, fmt::format("is {}", shown(node)));
   if (quantity->unit.empty()) {
     context.refuse(node, fmt::format("is {}, without a unit", shown(node)), dimension.accepted());
@@ -49,9 +49,9 @@ double si_value(const Context& context, const Dimension& dimension, const toml::
 }
 
 /// Dimensionless value of a text such as "1 kV/cm".
-double value_with_unit(const Context& context, const toml::node& node) {
+double value_with_unit(const Context& context, const toml::value<std::string>& node) {
   const Dimension* dimension = find_dimension(context.key.unit);
-  if (dimension == nullptr || !parse_quantity(*node.value<std::string_view>())) {
+  if (dimension == nullptr || !parse_quantity(node.get())) {
     context.refuse(node, fmt::format("is {}", shown(node)));
   }
   if (!context.units) {
@@ -68,24 +68,33 @@ double value_with_unit(const Context& context, const toml::node& node) {
 }
 
 double quantity(const Context& context, const toml::node& node) {
-  if (!node.is_string()) context.refuse(node, fmt::format("is {}", shown(node)));
-  const double value = si_value(context, *find_dimension(context.key.unit), node);
+  const toml::value<std::string>* text = node.as_string();
+  if (text == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  const double value = si_value(context, *find_dimension(context.key.unit), *text);
   if (!context.key.range.contains(value)) context.refuse(node, fmt::format("is {}", shown(node)));
   return value;
 }
 
 double number(const Context& context, const toml::node& node) {
-  if (!node.is_number() && !node.is_string()) context.refuse(node, fmt::format("is {}", shown(node)));
-  const double value = node.is_string() ? value_with_unit(context, node) : *node.value<double>();
-  if (!std::isfinite(value)) context.refuse(node, fmt::format("is {}, not a finite number", value));
-  if (!context.key.range.contains(value)) context.refuse(node, fmt::format("is {}", shown(node)));
-  return value;
+  const toml::value<std::string>* text = node.as_string();
+  const std::optional<double> value = text != nullptr ? value_with_unit(context, *text) : number_of(node);
+  if (!value) context.refuse(node, fmt::format("is {}", shown(node)));
+  if (!std::isfinite(*value)) context.refuse(node, fmt::format("is {}, not a finite number", *value));
+  if (!context.key.range.contains(*value)) context.refuse(node, fmt::format("is {}", shown(node)));
+  return *value;
 }
 
 std::int64_t integer(const Context& context, const toml::node& node) {
-  if (!node.is_integer()) context.refuse(node, fmt::format("is {}", shown(node)));
+  const toml::value<std::int64_t>* value = node.as_integer();
+  if (value == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
   number(context, node);
-  return *node.value<std::int64_t>();
+  return value->get();
+}
+
+bool boolean(const Context& context, const toml::node& node) {
+  const toml::value<bool>* value = node.as_boolean();
+  if (value == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  return value->get();
 }
 
 const toml::array& array_of(std::size_t size, const Context& context, const toml::node& node) {
@@ -119,8 +128,9 @@ std::vector<double> numbers(const Context& context, const toml::node& node) {
 }
 
 std::string text(const Context& context, const toml::node& node) {
-  if (!node.is_string()) context.refuse(node, fmt::format("is {}", shown(node)));
-  return *node.value<std::string>();
+  const toml::value<std::string>* value = node.as_string();
+  if (value == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  return value->get();
 }
 
 std::string word(const Context& context, const toml::node& node) {
@@ -166,6 +176,13 @@ std::vector<HarmonicMode> modes(const Context& context, const toml::node& node) 
 
 std::string place(const toml::node& node, const std::string& file) {
   return fmt::format("{}:{}", file, node.source().begin.line);
+}
+
+std::optional<double> number_of(const toml::node& node) {
+  if (const auto* value = node.as_floating_point()) return value->get();
+  // value<double>() of the library refuses what lies beyond 2^53.
+  if (const auto* value = node.as_integer()) return static_cast<double>(value->get());
+  return std::nullopt;
 }
 
 std::string shown(const toml::node& node) {
@@ -222,8 +239,7 @@ Value checked_value(const KeyDescription& key, const toml::node& node, const std
   const Context context{key, file, units};
   switch (key.type) {
     case ValueType::boolean:
-      if (!node.is_boolean()) context.refuse(node, fmt::format("is {}", shown(node)));
-      return *node.value<bool>();
+      return boolean(context, node);
     case ValueType::integer:
       return integer(context, node);
     case ValueType::number:

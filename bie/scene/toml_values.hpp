@@ -13,6 +13,10 @@ namespace vehd {
 /// "file:line" of a node.
 std::string place(const toml::node& node, const std::string& file);
 
+/// A number of any notation: an integer is the double nearest to it, as if it were written with a point.
+/// @return nullopt if the node is no number
+std::optional<double> number_of(const toml::node& node);
+
 /// The value as written, cut to a readable length, with its type where that is not plain to see.
 std::string shown(const toml::node& node);
 

@@ -60,6 +60,18 @@ BOOST_AUTO_TEST_CASE(a_wrong_criterion_is_one_clear_line) {
              std::string::npos);
   BOOST_TEST(message("#: family = \"f\"\n#: short_end_time = 1.0\n#: expect = \"luck\"")
                  .find("case.toml:3: \"luck\"; accepted: completed, doubted, stops") != std::string::npos);
+  const std::string family = "#: family = \"f\"\n#: short_end_time = ", rest = "1.0\n#: expect = \"completed\"\n#: ";
+  const auto has = [&](const std::string& criterion, const std::string& part) {
+    const std::string text = message(criterion);
+    BOOST_TEST(text.find("case.toml:" + part) != std::string::npos, text);
+  };
+  has(family + "\"soon\"\n#: expect = \"completed\"",
+      "2: \"short_end_time\" is the text 'soon'; accepted: a finite number");
+  has(family + rest + "most = 3", "4: \"most\" is 3; accepted: a table of columns and their bounds");
+  has(family + rest + "most = { time = \"1\" }", "4: \"time\" is the text '1'; accepted: a finite number");
+  has(family + rest + "falls = \"time\"", "4: \"falls\" is the text 'time'; accepted: a list of columns in quotes");
+  has(family + rest + "falls = [3]", "4: \"falls\" is 3; accepted: a list of columns in quotes");
+  has(family + rest + "steady = { time = true }", "4: \"time\" is true; accepted: a finite number");
   BOOST_TEST(message("# nothing").find("the criterion lacks a text \"family\"") != std::string::npos);
 }
 

@@ -1,7 +1,12 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <optional>
 
+#include "bie/scene/reader.hpp"
+#include "bie/support/errors.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/written_numbers.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -29,6 +34,27 @@ BOOST_AUTO_TEST_CASE(every_seed_is_read_or_refused_in_order) {
       BOOST_TEST_CONTEXT(file) { BOOST_CHECK_NO_THROW(target.run(file_text(file))); }
     }
   }
+}
+
+// A comparison that would accept anything finds nothing.
+BOOST_AUTO_TEST_CASE(numbers_that_were_read_wrongly_are_noticed) {
+  int compared = 0;
+  for (const std::filesystem::path& file : seeds_of("scene")) {
+    const std::string text = file_text(file);
+    std::optional<vehd::Scene> scene;
+    try {
+      scene = vehd::parse_scene(text, "scene.toml", "/nonexistent");
+    } catch (const vehd::InputError&) {
+      continue;
+    }
+    BOOST_TEST_CONTEXT(file) {
+      BOOST_CHECK_NO_THROW(fuzz::require_written_numbers(text, *scene));
+      scene->numerics.end_time = std::nextafter(1.5 * scene->numerics.end_time, 0.0);
+      BOOST_CHECK_THROW(fuzz::require_written_numbers(text, *scene), std::logic_error);
+    }
+    ++compared;
+  }
+  BOOST_TEST(compared >= 4);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

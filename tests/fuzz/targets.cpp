@@ -12,6 +12,7 @@
 #include "bie/scene/waveform_file.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
+#include "tests/fuzz/written_numbers.hpp"
 #include "tests/support/files.hpp"
 
 namespace fuzz {
@@ -53,7 +54,9 @@ void read_run(vehd::Hdf5Reader file) {
 void scene(std::string_view bytes) {
   refuse_or_read([&] {
     const vehd::Scene scene = vehd::parse_scene(std::string(bytes), "scene.toml", "/nonexistent");
+    require_written_numbers(std::string(bytes), scene);
     const std::string text = vehd::effective_scene(scene);
+    require_written_numbers(text, scene);
     try {
       const vehd::Scene again = vehd::parse_scene(text, "effective.toml", "/nonexistent");
       const auto differing = vehd::differing_keys(scene, again);

@@ -8,7 +8,8 @@
 /// InputError, and every result that contradicts itself, leaves as another exception.
 namespace fuzz {
 
-/// A scene file. One that is accepted must come back unchanged from the effective scene written of it.
+/// A scene file. One that is accepted must hold the numbers that are written in it, and come back unchanged from the
+/// effective scene written of it, which must hold the same numbers.
 void scene(std::string_view bytes);
 
 /// The text files beside a scene: the table of a waveform, and a history.csv.

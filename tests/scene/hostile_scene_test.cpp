@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "bie/scene/schema.hpp"
+#include "tests/scene/key_values.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/files.hpp"
 
@@ -31,29 +32,6 @@ std::string scene_with(const vehd::KeyDescription& key, const std::string& value
   return text + std::string(key.name) + " = " + value + "\n";
 }
 
-/// The number as a value of the key's type.
-std::string value_of(const vehd::KeyDescription& key, const std::string& number) {
-  switch (key.type) {
-    case vehd::ValueType::integer:
-    case vehd::ValueType::number:
-      return number;
-    case vehd::ValueType::triple:
-      return "[1, " + number + ", 1]";
-    case vehd::ValueType::matrix:
-      return "[[0, 0, 0], [0, 0, " + number + "], [0, 0, 0]]";
-    case vehd::ValueType::axis_angle:
-      return "[0, 0, 1, " + number + "]";
-    case vehd::ValueType::numbers:
-      return "[0, " + number + "]";
-    case vehd::ValueType::modes:
-      return "[{n = 2, m = 0, a = " + number + "}]";
-    case vehd::ValueType::quantity:
-      return fmt::format("\"{} m\"", number);
-    default:
-      return "";
-  }
-}
-
 std::string numerics(const std::string& text) {
   return "[shape]\nkind = 'ellipsoid'\naxes = [1, 1, 2]\n[numerics]\n" + text;
 }
@@ -66,7 +44,7 @@ BOOST_AUTO_TEST_CASE(no_key_takes_what_is_not_a_finite_number) {
   int count = 0;
   for (const vehd::KeyDescription& key : vehd::scene_keys()) {
     for (const char* number : {"nan", "inf", "-inf"}) {
-      const std::string value = value_of(key, number);
+      const std::string value = value_with_number(key, number);
       if (value.empty()) continue;
       const std::string text = scene_with(key, value);
       const std::string message = message_of(text);
