@@ -122,21 +122,23 @@ class Simulation {
             evaluation.fields};
   }
 
+  [[nodiscard]] std::vector<RecordedSide> sides_of(const EvolutionStep& step) const {
+    const Evaluation& now = evolution_.evaluation();
+    const std::optional<Evaluation>& before = evolution_.before_jump();
+    if (!before) return {side_of(now, step)};
+    EvolutionStep arrival = step;
+    arrival.at_snapshot = false;
+    EvolutionStep jump;
+    jump.at_snapshot = step.at_snapshot;
+    jump.iterations_flow = now.iterations_flow;
+    jump.iterations_electric = now.iterations_electric;
+    return {side_of(*before, arrival), side_of(now, jump)};
+  }
+
   void record(const EvolutionStep& step) {
     const State& state = evolution_.state();
-    const Evaluation& now = evolution_.evaluation();
-    const Diagnostics& diagnostics = now.diagnostics;
-    std::vector<RecordedSide> sides{side_of(now, step)};
-    if (const std::optional<Evaluation>& before = evolution_.before_jump()) {
-      EvolutionStep arrival = step;
-      arrival.at_snapshot = false;
-      EvolutionStep jump;
-      jump.at_snapshot = step.at_snapshot;
-      jump.iterations_flow = now.iterations_flow;
-      jump.iterations_electric = now.iterations_electric;
-      sides = {side_of(*before, arrival), side_of(now, jump)};
-    }
-    recorder_.record(state, sides, meter_.totals());
+    const Diagnostics& diagnostics = evolution_.evaluation().diagnostics;
+    recorder_.record(state, sides_of(step), meter_.totals());
     const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
     progress_.update({state.step, state.time, step.dt, drift});
   }
