@@ -26,13 +26,21 @@ Matrix resized(const Matrix& coefficients, int order) {
   return coefficients.size() == 0 ? coefficients : resize_order(coefficients, order);
 }
 
+double least_potential_scale(const ElectricParameters& electric, double radius) {
+  constexpr double kLeastShare = 0.1;
+  return kLeastShare * electric.field.norm() * radius;
+}
+
+double potential_scale(double least, double largest) {
+  const double scale = std::max(largest, least);
+  // Without a field and a potential any scale serves: the error is zero.
+  return scale > 0.0 ? scale : 1.0;
+}
+
 }  // namespace
 
 double potential_scale(const ElectricParameters& electric, double radius, double largest) {
-  constexpr double kLeastShare = 0.1;
-  const double scale = std::max(largest, kLeastShare * electric.field.norm() * radius);
-  // Without a field and a potential any scale serves: the error is zero.
-  return scale > 0.0 ? scale : 1.0;
+  return potential_scale(least_potential_scale(electric, radius), largest);
 }
 
 Resolution::Resolution(const Model& model, const State& state) {
@@ -41,7 +49,7 @@ Resolution::Resolution(const Model& model, const State& state) {
   shape_[0] = 0.0;  // where the vesicle is
   if (!model.electric || state.transmembrane_potential.size() == 0) return;
   potential_ = degree_bounds(state.transmembrane_potential);
-  least_scale_ = potential_scale(*model.electric, radius, 0.0);
+  least_scale_ = least_potential_scale(*model.electric, radius);
 }
 
 Resolution::Tail Resolution::tail_of_cut(int order) const {
@@ -49,7 +57,7 @@ Resolution::Tail Resolution::tail_of_cut(int order) const {
   Vector& bound = tail.bound;
   if (potential_.size() > 0) {
     const Vector potential = potential_.head(order + 1);
-    bound = bound.cwiseMax(potential / std::max(potential.maxCoeff(), least_scale_));
+    bound = bound.cwiseMax(potential / potential_scale(least_scale_, potential.maxCoeff()));
   }
   // Symmetry can silence every other degree.
   for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);

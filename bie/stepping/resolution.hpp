@@ -36,7 +36,7 @@ class Resolution {
 
   Vector shape_;              // bounds of x over the radius, by degree
   Vector potential_;          // of V_m; empty without electricity
-  double least_scale_ = 0.0;  // of V_m
+  double least_scale_ = 0.0;  // of V_m; 0 without a field
 };
 
 /// The same fields in degrees up to `order`: cut, or continued by zeros, as ScalarResponses do by themselves.

@@ -119,4 +119,20 @@ BOOST_AUTO_TEST_CASE(degree_is_enough_only_where_the_cut_state_says_so_too) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(unit_of_a_potential_without_a_field_does_not_matter) {
+  Model model = field_model();
+  model.electric->field.setZero();
+  State state;
+  state.reference_area = 4.0 * std::acos(-1.0);
+  state.position = ellipsoid(12, {1.0, 1.0, 1.2});
+  const Vector potential = bounds_in_degrees(Vector::LinSpaced(13, 2.0, 0.1));
+  state.transmembrane_potential = potential;
+  const double remainder = Resolution(model, state).remainder();
+  BOOST_TEST(remainder > 0.0);
+  for (const double unit : {0x1p-30, 0x1p30}) {
+    state.transmembrane_potential = unit * potential;
+    BOOST_TEST(Resolution(model, state).remainder() == remainder);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
