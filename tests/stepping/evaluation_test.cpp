@@ -2,8 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <memory>
 #include <numbers>
-#include <optional>
 #include <type_traits>
 
 #include "bie/geometry/surface.hpp"
@@ -136,7 +136,9 @@ static_assert(std::is_same_v<decltype(Membrane::fine), SphereTransform>);
 
 BOOST_AUTO_TEST_CASE(evaluation_outlives_the_discretisation_that_it_was_made_with) {
   const Model model = shear_model();
-  std::optional<Discretisation> discretisation(discretisation_of(6));
+  NumericalSettings settings;
+  settings.order = 6;
+  auto discretisation = std::make_unique<const Discretisation>(settings);
   const Evaluation evaluation = evaluated(model, *discretisation, start(model, *discretisation, prolate(6), 0.1));
   const Matrix values = discretisation->fine_transform().synthesize(evaluation.fields.velocity);
   discretisation.reset();
