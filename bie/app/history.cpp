@@ -43,7 +43,8 @@ std::string header() {
   std::string line = "time,dt";
   for (const DiagnosticColumn& column : diagnostic_columns) line += fmt::format(",{}", column.name);
   return line +
-         ",iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation,raw_area\n";
+         ",iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation,raw_area,"
+         "wrinkle_degree\n";
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
@@ -109,9 +110,10 @@ void HistoryFile::append(const HistoryRow& row) {
     line += fmt::format(",{:.17g}", row.diagnostics.*column.member);
   }
   const EvolutionStep& step = row.step;
-  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", step.iterations_flow,
+  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", step.iterations_flow,
                            step.iterations_electric, step.rejected, row.order, row.truncation, step.change,
-                           row.diagnostics.quadrature_error, row.diagnostics.separation, step.raw_area));
+                           row.diagnostics.quadrature_error, row.diagnostics.separation, step.raw_area,
+                           row.diagnostics.wrinkle_degree));
 }
 
 void HistoryFile::write(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 namespace vehd {
@@ -79,6 +80,25 @@ std::vector<std::string> beyond_limits(const HistoryTable& history, std::optiona
   return findings;
 }
 
+/// Where the membrane is compressed so much that it wrinkles more finely than the degree can show. By itself no fault:
+/// a membrane is compressed at the start of a pulse that ends before anything has grown.
+std::optional<std::string> wrinkling(const HistoryTable& history) {
+  const std::vector<double>& wrinkles = history.column("wrinkle_degree");
+  const std::vector<double>& order = history.column("order");
+  std::size_t worst_row = 0;
+  std::optional<double> since;
+  for (std::size_t i = 0; i < wrinkles.size(); ++i) {
+    if (!(wrinkles[i] > order[i])) continue;
+    if (!since) since = history.column("time")[i];
+    if (wrinkles[i] > wrinkles[worst_row]) worst_row = i;
+  }
+  if (!since) return std::nullopt;
+  const double round = 2.0 * std::numbers::pi;
+  return fmt::format(
+      "compressed since time {:g}: wrinkles of wavelength {:.2g} radii grow fastest, the finest degree {:g} has {:.2g}",
+      *since, round / wrinkles[worst_row], order[worst_row], round / order[worst_row]);
+}
+
 /// Deviation of each value from the straight line between its neighbours; 0 at the ends and where time stands still.
 std::vector<double> kinks(const std::vector<double>& times, const std::vector<double>& values) {
   std::vector<double> result(values.size(), 0.0);
@@ -138,6 +158,9 @@ std::string verdict_of(const HistoryTable& history, std::optional<double> tolera
   // With a tolerance attempts are what finds the step.
   if (!tolerance) {
     if (auto finding = rejections(history)) findings.push_back(std::move(*finding));
+  }
+  if (!findings.empty() || !stop_reason.empty()) {
+    if (auto finding = wrinkling(history)) findings.push_back(std::move(*finding));
   }
   const std::string text = fmt::format("{}", fmt::join(findings, "; "));
   if (stop_reason.empty()) return text.empty() ? trustworthy : text;

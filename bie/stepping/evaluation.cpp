@@ -8,6 +8,7 @@
 #include "bie/stepping/flow_solve.hpp"
 #include "bie/stepping/health.hpp"
 #include "bie/stepping/membrane_at.hpp"
+#include "bie/stepping/wrinkling.hpp"
 
 namespace vehd {
 
@@ -131,6 +132,11 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
     made->velocity = fields.velocity;
   }
   evaluation.diagnostics = diagnose(state, membrane, fields);
+  // The tension of a sphere is known up to its mean.
+  if (fields.tension.size() > 0 && !made->is_sphere) {
+    evaluation.diagnostics.wrinkle_degree =
+        wrinkle_degree(model, membrane.fine.synthesize(fields.tension).minCoeff(), membrane.radius);
+  }
   if (reuse) {
     evaluation.diagnostics.quadrature_error = previous->diagnostics.quadrature_error;
     evaluation.diagnostics.separation = previous->diagnostics.separation;

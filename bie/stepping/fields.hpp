@@ -30,6 +30,7 @@ struct Diagnostics {
   double spectrum_tail = 0;                                     ///< see docs/conventions.md
   double quadrature_error = 0;                                  ///< LayerCheck::error
   double separation = std::numeric_limits<double>::infinity();  ///< see separation()
+  double wrinkle_degree = 0;                                    ///< see wrinkle_degree()
 };
 
 }  // namespace vehd

@@ -36,7 +36,7 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
              "time,dt,area,volume,reduced_volume,bending_energy_scaled,tension_integral,Vm_north,q_north,Vm_max,"
              "extent_x,extent_y,extent_z,inclination_deg,area_drift,volume_drift,strain_max,spectrum_tail,"
              "iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation,"
-             "raw_area");
+             "raw_area,wrinkle_degree");
   const vehd::HistoryTable history(output + "/history.csv");
   BOOST_TEST(history.column("time").front() == 0.0);
   BOOST_TEST(history.column("time").back() == 3.0);
