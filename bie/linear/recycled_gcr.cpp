@@ -130,10 +130,8 @@ void RecycledGcr::search(double wanted, int most, Iterate& iterate, int& iterati
   constexpr double kStagnates = 1e-3;
   // The rounding of the proposals, magnified as what they have in common is taken out, is the part of a direction's
   // image, of norm 1, that its x does not have. A step leaves that part of the residual which it claims to remove, so
-  // half of the digits are worth an application; all later directions inherit the loss. What is known is no more than
-  // an offer, of which three lost digits are enough to take the plain residual instead.
+  // half of the digits are worth an application; all later directions inherit the loss.
   constexpr double kHalfOfTheDigits = 1.5e-8;
-  constexpr double kThreeDigitsLost = 1e3 * map_rounding;
   bool is_known = false;
   double share = 1.0;
   // Not (size > …): a residual that is not a number ends the solve as well.
@@ -145,7 +143,7 @@ void RecycledGcr::search(double wanted, int most, Iterate& iterate, int& iterati
     const bool added = add_direction(stagnates  ? directions_.back().image
                                      : is_known ? secant_.apply(iterate.residual)
                                                 : iterate.residual,
-                                     is_known ? kThreeDigitsLost : kHalfOfTheDigits);
+                                     kHalfOfTheDigits);
     ++iterations;
     if (!added && stagnates) break;
     share = added ? follow(directions_.back(), iterate) : 0.0;
