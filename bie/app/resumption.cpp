@@ -64,9 +64,11 @@ void require_same_physics(const Scene& scene, const std::filesystem::path& scene
     }
   }
   if (scene.numerics.end_time < checkpoint.state.time) {
-    throw InputError(fmt::format("{}: {} has already reached time {:g}, past the end_time {:g} of the scene",
-                                 key_place(scene_file, "numerics.end_time"), paths.directory.string(),
-                                 checkpoint.state.time, scene.numerics.end_time));
+    throw InputError(
+        fmt::format("{}: \"numerics.end_time\" is {:g}, but the run in {} has already reached {:g}; accepted: "
+                    "that or later",
+                    key_place(scene_file, "numerics.end_time"), scene.numerics.end_time, paths.directory.string(),
+                    checkpoint.state.time));
   }
 }
 

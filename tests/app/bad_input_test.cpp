@@ -126,13 +126,16 @@ BOOST_FIXTURE_TEST_CASE(resume_with_another_scene_names_the_key, FinishedRun) {
   other.replace(other.find("bending_modulus = 0.1"), 21, "bending_modulus = 0.2");
   write_text(scene, other);
   check_refused({"run", scene, "-o", output, "--resume"},
-                output + ": holds a run of another scene: \"membrane.bending_modulus\" differs; choose another -o");
+                scene + ":5: \"membrane.bending_modulus\" is 0.2, but the run in " + output +
+                    " has 0.1; --resume accepts changes of [numerics] and [output] alone: keep the value or choose "
+                    "another -o");
 }
 
 BOOST_FIXTURE_TEST_CASE(resume_with_an_earlier_end, FinishedRun) {
   write_text(scene, quick_scene("0.25"));
   check_refused({"run", scene, "-o", output, "--resume"},
-                output + ": has already reached time 0.5, past the end_time 0.25 of the scene");
+                scene + ":14: \"numerics.end_time\" is 0.25, but the run in " + output +
+                    " has already reached 0.5; accepted: that or later");
 }
 
 BOOST_FIXTURE_TEST_CASE(truncated_checkpoint, FinishedRun) {

@@ -197,9 +197,10 @@ BOOST_AUTO_TEST_CASE(other_physics_are_refused_by_name_and_line) {
   // A key that is left out is looked for in its table, a table that is left out in the whole file.
   refused("conductance", "5.0\ncapacitance = 2.0", ":7: \"membrane.capacitance\" is 2.0" + but + "1.0; ");
   refused("axes", "[1.0, 1.0, 1.25]", ":3: \"shape.axes\" is [1.0, 1.0, 1.25]" + but + "[1.0, 1.0, 1.5]; ");
-  refused("every", "0.5\n[flow]\nkind = \"shear\"", ":18: \"flow.kind\" is \"shear\"" + but + "absent; ");
+  refused("every", "0.5\n[flow]\nkind = \"shear\"\nrate = 2.0", ":18: \"flow.kind\" is \"shear\"" + but + "absent; ");
   run.set("end_time", "0.5");
-  BOOST_TEST(run.session().errors.starts_with(run.scene + ":14: " + run.output + " has already reached time 1"));
+  BOOST_TEST(run.session().errors.starts_with(run.scene + ":14: \"numerics.end_time\" is 0.5" + ", but the run in " +
+                                              run.output + " has already reached 1"));
 }
 
 BOOST_AUTO_TEST_CASE(complete_run_has_nothing_to_do_whatever_its_steps_would_be) {

@@ -8,8 +8,8 @@
 namespace {
 
 /// Verdict of a run whose rows are these.
-std::string verdict(const std::vector<vehd::HistoryRow>& rows, std::optional<double> tolerance = std::nullopt,
-                    const std::string& stop_reason = {}) {
+std::string judged(const std::vector<vehd::HistoryRow>& rows, std::optional<double> tolerance = std::nullopt,
+                   const std::string& stop_reason = {}) {
   const TemporaryDirectory directory;
   vehd::HistoryFile file(directory / "history.csv", 0, 0);
   for (const vehd::HistoryRow& row : rows) file.append(row);
@@ -44,24 +44,24 @@ vehd::HistoryRow row_of(const Values& values) {
 BOOST_AUTO_TEST_SUITE(verdict)
 
 BOOST_AUTO_TEST_CASE(good_numbers_are_trustworthy) {
-  BOOST_TEST(verdict({row_at(0, 0, 0), row_at(1, -1e-7, 0.01)}) == "trustworthy");
+  BOOST_TEST(judged({row_at(0, 0, 0), row_at(1, -1e-7, 0.01)}) == "trustworthy");
 }
 
 BOOST_AUTO_TEST_CASE(verdict_says_which_number_and_since_when) {
-  BOOST_TEST(verdict({row_at(0, 0, 0), row_at(1, -2e-6, 0), row_at(2, 1e-6, 0), row_at(3, 5e-6, 0.1)}) ==
+  BOOST_TEST(judged({row_at(0, 0, 0), row_at(1, -2e-6, 0), row_at(2, 1e-6, 0), row_at(3, 5e-6, 0.1)}) ==
              "area_drift above 1e-06 since time 1 (worst 5e-06); strain_max above 0.05 since time 3 (worst 0.1)");
 }
 
 BOOST_AUTO_TEST_CASE(not_a_number_is_not_trustworthy) {
-  BOOST_TEST(verdict({row_at(0, 0, 0), row_at(1, std::nan(""), 0)}).find("area_drift above") == 0);
+  BOOST_TEST(judged({row_at(0, 0, 0), row_at(1, std::nan(""), 0)}).find("area_drift above") == 0);
 }
 
 BOOST_AUTO_TEST_CASE(degree_that_the_tolerance_finds_too_low_is_reported) {
   vehd::HistoryRow row = row_at(1, 0, 0);
   row.truncation = 2e-4;
-  BOOST_TEST(verdict({row_at(0, 0, 0), row}) == "trustworthy");
-  BOOST_TEST(verdict({row_at(0, 0, 0), row}, 1e-3) == "trustworthy");
-  BOOST_TEST(verdict({row_at(0, 0, 0), row}, 1e-4) == "truncation above 0.0001 since time 1 (worst 0.0002)");
+  BOOST_TEST(judged({row_at(0, 0, 0), row}) == "trustworthy");
+  BOOST_TEST(judged({row_at(0, 0, 0), row}, 1e-3) == "trustworthy");
+  BOOST_TEST(judged({row_at(0, 0, 0), row}, 1e-4) == "truncation above 0.0001 since time 1 (worst 0.0002)");
 }
 
 BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is_wrong) {
@@ -82,10 +82,10 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
 
 BOOST_AUTO_TEST_CASE(run_that_stopped_says_so_and_why) {
   const std::vector<vehd::HistoryRow> good = {row_at(0, 0, 0), row_at(1, 0, 0)};
-  BOOST_TEST(verdict(good, {}, "no acceptable step") == "stopped: no acceptable step");
-  BOOST_TEST(verdict({row_at(0, 0, 0), row_at(1, 0, 0.1)}, 1e-3, "a signal came") ==
+  BOOST_TEST(judged(good, {}, "no acceptable step") == "stopped: no acceptable step");
+  BOOST_TEST(judged({row_at(0, 0, 0), row_at(1, 0, 0.1)}, 1e-3, "a signal came") ==
              "stopped: a signal came; until then strain_max above 0.05 since time 1 (worst 0.1)");
-  BOOST_TEST(verdict({}, {}, "no start") == "stopped: no start");
+  BOOST_TEST(judged({}, {}, "no start") == "stopped: no start");
 }
 
 BOOST_AUTO_TEST_CASE(steps_that_ring_are_seen) {
@@ -99,11 +99,11 @@ BOOST_AUTO_TEST_CASE(steps_that_ring_are_seen) {
     }
     return result;
   };
-  BOOST_TEST(verdict(rows(40.0, 5.0)).starts_with("tension_integral and spectrum_tail swing from step to step since "),
-             verdict(rows(40.0, 5.0)));
-  BOOST_TEST(verdict(rows(40.0, 5.0), 1e-3).find("swing") != std::string::npos);
-  BOOST_TEST(verdict(rows(1.0, 5.0)) == "trustworthy");
-  BOOST_TEST(verdict(rows(40.0, 1.5)) == "trustworthy");
+  BOOST_TEST(judged(rows(40.0, 5.0)).starts_with("tension_integral and spectrum_tail swing from step to step since "),
+             judged(rows(40.0, 5.0)));
+  BOOST_TEST(judged(rows(40.0, 5.0), 1e-3).find("swing") != std::string::npos);
+  BOOST_TEST(judged(rows(1.0, 5.0)) == "trustworthy");
+  BOOST_TEST(judged(rows(40.0, 1.5)) == "trustworthy");
 }
 
 BOOST_AUTO_TEST_CASE(jumps_collapses_and_changes_of_degree_are_no_ringing) {
@@ -119,9 +119,9 @@ BOOST_AUTO_TEST_CASE(jumps_collapses_and_changes_of_degree_are_no_ringing) {
     degrees.push_back(
         row_of({.time = t, .tension = raised ? 400.0 : 380.0, .tail = raised ? 0.01 : 1.0, .order = raised ? 12 : 8}));
   }
-  BOOST_TEST(verdict(pulses) == "trustworthy");
-  BOOST_TEST(verdict(collapse) == "trustworthy");
-  BOOST_TEST(verdict(degrees, 0.1) == "trustworthy");
+  BOOST_TEST(judged(pulses) == "trustworthy");
+  BOOST_TEST(judged(collapse) == "trustworthy");
+  BOOST_TEST(judged(degrees, 0.1) == "trustworthy");
 }
 
 BOOST_AUTO_TEST_CASE(fixed_steps_that_fail_again_and_again_are_seen) {
@@ -133,13 +133,13 @@ BOOST_AUTO_TEST_CASE(fixed_steps_that_fail_again_and_again_are_seen) {
     }
     return result;
   };
-  BOOST_TEST(verdict(rows(5)) == "rejected before 20 of 100 steps since time 0.5");
-  BOOST_TEST(verdict(rows(12)) == "trustworthy");
-  BOOST_TEST(verdict(rows(5), 1e-3) == "trustworthy");
+  BOOST_TEST(judged(rows(5)) == "rejected before 20 of 100 steps since time 0.5");
+  BOOST_TEST(judged(rows(12)) == "trustworthy");
+  BOOST_TEST(judged(rows(5), 1e-3) == "trustworthy");
   // One step in three, of a few.
   std::vector<vehd::HistoryRow> few = rows(3);
   few.resize(20);
-  BOOST_TEST(verdict(few) == "trustworthy");
+  BOOST_TEST(judged(few) == "trustworthy");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
