@@ -41,6 +41,8 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
     words = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(n_ranks)};
+    // When mpirun is told to end, it has more to remove than its processes, and no second to spend on them.
+    words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "0"});
   }
   words.push_back(path_.string());
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -17,7 +17,7 @@
 namespace vehd {
 namespace {
 
-constexpr long grace_milliseconds = 500;
+constexpr long grace_milliseconds = 800;
 constexpr long look_milliseconds = 5;
 /// The first that is not one of the three standard ones.
 constexpr int connection_to_owner = STDERR_FILENO + 1;

@@ -20,7 +20,7 @@ struct ChildEnd {
 };
 
 /// Runs a program to its end. Nothing of it outlives this process, whatever ends that, nor its own end: all that it has
-/// started, in whichever process group or session, gets half a second to end by itself and is killed then.
+/// started, in whichever process group or session, gets most of a second to end by itself and is killed then.
 ///
 /// A process between the two sees to that. It is out of reach of what is sent to the terminal or to the process group
 /// of this program; of a Ctrl-C it learns because it ends this program.

@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
 #include <iterator>
 
@@ -20,8 +19,13 @@ struct Feature {
   bool present;
 };
 
-/// Before the initialisers of all other parts, which no longer run here if they use what is missing.
-__attribute__((constructor(101))) void refuse_a_processor_that_lacks_something() {
+/// "vehd" of "build/vehd".
+const char* file_name(const char* path) {
+  const char* slash = std::strrchr(path, '/');
+  return slash == nullptr ? path : slash + 1;
+}
+
+void refuse_a_processor_that_lacks_something(int argc, char** argv, char** /*environment*/) {
   __builtin_cpu_init();
   const Feature features[] = {
       {"sse3", __builtin_cpu_supports("sse3") != 0},
@@ -60,7 +64,7 @@ __attribute__((constructor(101))) void refuse_a_processor_that_lacks_something()
   }
   const char* missing[std::size(features) + 1] = {};
   if (vehd::processor::find_missing(built_for, present, missing) == 0) return;
-  say(program_invocation_short_name);
+  say(argc > 0 ? file_name(argv[0]) : "vehd");
   say(": this program was built for a processor with ");
   for (const char** name = missing; *name != nullptr; ++name) {
     if (name != missing) say(", ");
@@ -69,6 +73,11 @@ __attribute__((constructor(101))) void refuse_a_processor_that_lacks_something()
   say(", which this one lacks; build it on this machine, or for all with -DVEHD_NATIVE=OFF (docs/performance.md)\n");
   ::_exit(1);
 }
+
+/// Before all initialisers, those of shared libraries included: the loader gives them the functions of this program in
+/// place of their own where both have instantiated the same template.
+__attribute__((section(".preinit_array"), used)) void (*first_of_all)(int, char**,
+                                                                      char**) = refuse_a_processor_that_lacks_something;
 
 }  // namespace
 
