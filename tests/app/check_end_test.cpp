@@ -37,7 +37,12 @@ struct LongCheck {
                "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.2, 1.5]\n[membrane]\nconductance = 5.0\n"
                "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
                "[numerics]\norder = 8\ndt = 0.1\nend_time = 0.0\n");
-    command = vehd_command({"check", directory / "scene.toml", "-o", directory / "out", "--ranks", "2", "--no-plot"});
+    // What is killed leaves its temporary files behind: here they go with the folder.
+    command = {"env", "TMPDIR=" + directory / ""};
+    for (const std::string& word :
+         vehd_command({"check", directory / "scene.toml", "-o", directory / "out", "--ranks", "2", "--no-plot"})) {
+      command.push_back(word);
+    }
   }
 
   /// Processes of this check that run the program.
