@@ -70,7 +70,7 @@ void refuse_a_processor_that_lacks_something(int argc, char** argv, char** /*env
     if (name != missing) say(", ");
     say(*name);
   }
-  say(", which this one lacks; build it on this machine, or for all with -DVEHD_NATIVE=OFF (docs/performance.md)\n");
+  say(", which this one lacks; build it on this machine, or for others as well (docs/building.md)\n");
   ::_exit(1);
 }
 
