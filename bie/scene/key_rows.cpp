@@ -31,7 +31,10 @@ void add_units_keys(KeyTable& table) {
   };
   add_scale("length", {"L", "length", "reference length; absent: √(area/4π) of an area in SI units"},
             &UnitsScene::length);
-  add_scale("time", {"T", "time", "reference time; absent: μL³/κ_B of a bending modulus in SI units"},
+  add_scale("time",
+            {"T", "time",
+             "reference time; absent: the shortest that values in SI units give: duration of a pulse, period or "
+             "1/frequency, 1/rate (of a Poiseuille flow R/v_c), LC_m(1/σ_i + 1/(2σ_e)), μ/(εE²), μL³/κ_B"},
             &UnitsScene::time);
   add_scale("viscosity", {"M", "viscosity", "reference viscosity; absent: that of the fluid in SI units"},
             &UnitsScene::viscosity);

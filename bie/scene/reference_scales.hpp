@@ -9,12 +9,12 @@
 namespace vehd {
 
 /// Fills the scales that [units] leaves out from values of the scene that are given in SI units, so that the vesicle's
-/// radius √(area/4π), the viscosity, the bending modulus and the membrane capacitance are 1, each where it is the one
-/// to fix a scale. A scale without such a value stays absent.
+/// radius √(area/4π), the viscosity, the shortest time (reference_time.hpp) and the membrane capacitance are 1, each
+/// where it is the one to fix a scale. A scale without such a value stays absent.
 /// @param file  the whole scene file
 void derive_reference_scales(UnitsScene& units, const toml::table& file);
 
-/// The key whose SI value would give a scale of [units], as it stands in messages: "area" in [shape].
+/// What could have a unit to give a scale of [units], as it stands in messages: "area" in [shape].
 std::string source_of_scale(std::string_view scale);
 
 }  // namespace vehd

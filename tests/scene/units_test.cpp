@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(plain_numbers_stay_dimensionless) {
   BOOST_TEST(*parsed(replaced(si_scene(), "\"2e-20 J\"", "0.25")).membrane.bending_modulus == 0.25);
 }
 
-BOOST_AUTO_TEST_CASE(absent_scales_make_radius_viscosity_bending_and_capacitance_one) {
+BOOST_AUTO_TEST_CASE(absent_scales_make_radius_viscosity_shortest_time_and_capacitance_one) {
   std::string text = si_scene();
   for (const char* line : {"length = ", "time = ", "viscosity = ", "potential = "}) text = without_line(text, line);
   const vehd::Scene scene = parsed(text);
@@ -101,9 +101,53 @@ BOOST_AUTO_TEST_CASE(absent_scales_make_radius_viscosity_bending_and_capacitance
   BOOST_TEST(*scene.units->length == 1e-5, tolerance);
   BOOST_TEST(*scene.shape.area == 12.566370614359172, tolerance);
   BOOST_TEST(scene.fluid.viscosity == 1.0, tolerance);
-  BOOST_TEST(*scene.membrane.bending_modulus == 1.0, tolerance);
   BOOST_TEST(scene.membrane.capacitance == 1.0, tolerance);
-  BOOST_TEST(*scene.units->time == 1e-3 * 1e-15 / 2e-20, tolerance);
+  const double charging_time = 1e-5 * 0.01 * (1.0 / 0.01 + 0.5 / 0.02);
+  BOOST_TEST(*scene.units->time == charging_time, tolerance);
+  BOOST_TEST(*scene.numerics.dt == 0.01 / charging_time, tolerance);
+}
+
+BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
+  const auto tolerance = boost::test_tools::tolerance(1e-14);
+  const auto time = [](const std::string& text) { return parsed(text).units->time.value_or(0.0); };
+  const std::string start = "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\npotential = '1 V'\n" + with_appended("");
+  const auto electric = [](const std::string& conductivities, const std::string& more) {
+    return "[membrane]\ncapacitance = '10 mF/m^2'\n[electric]\nfield = [0, '-4 kV/m', '3 kV/m']\n" + conductivities +
+           more;
+  };
+  const std::string conducting = "conductivity_in = '0.5 mS/cm'\nconductivity_out = '1 mS/cm'\n";
+  const std::string plain = "conductivity_in = 1\nconductivity_out = 0\n";
+  BOOST_TEST(time(start + "[membrane]\nbending_modulus = '2e-20 J'\n") == 1e-3 * 1e-15 / 2e-20, tolerance);
+  BOOST_TEST(time(start + "[flow]\nkind = 'shear'\nrate = '-4 1/s'\n") == 0.25, tolerance);
+  BOOST_TEST(
+      time(start + "[flow]\nkind = 'gradient'\ngradient = [[0, '3 1/s', '-4 1/s'], [0, 0, '1 1/s'], [0, 0, 0]]\n") ==
+          0.2,
+      tolerance);
+  BOOST_TEST(time(start + "[flow]\nkind = 'poiseuille'\ncentre_velocity = '-1 mm/s'\nradius = '50 um'\n") == 0.05,
+             tolerance);
+  BOOST_TEST(
+      time(start + "[flow]\nkind = 'shear'\nrate = '1 1/s'\n[flow.waveform]\nkind = 'ac'\nfrequency = '8 Hz'\n") ==
+          0.125,
+      tolerance);
+  BOOST_TEST(time(start + electric(conducting, "")) == 1e-7 * (1.0 / 0.05 + 0.5 / 0.1), tolerance);
+  BOOST_TEST(time(start + electric(plain, "permittivity = '80 eps0'\n")) == 1e-3 / (80 * 8.8541878188e-12 * 25e6),
+             tolerance);
+  BOOST_TEST(time(start + electric(plain, "[electric.waveform]\nkind = 'pulse'\nduration = '100 us'\n")) == 1e-4,
+             tolerance);
+  BOOST_TEST(time(start + electric(plain,
+                                   "[electric.waveform]\nkind = 'pulse_train'\nduration = '2 ms'\n"
+                                   "period = '50 ms'\n")) == 2e-3,
+             tolerance);
+  // Of several the shortest, whatever their order.
+  const std::string pulse = "[electric.waveform]\nkind = 'pulse'\nduration = '1 us'\n";
+  BOOST_TEST(time(start + electric(conducting, "permittivity = '80 eps0'\n" + pulse)) == 1e-6, tolerance);
+  // What has no unit, or is zero, says nothing; nor does an electric membrane without a field.
+  BOOST_TEST(time(start + "[electric]\nfield = [0, 0, '1 kV/m']\n" + plain +
+                  "[electric.waveform]\nkind = 'pulse'\nduration = 1\n") == 0.0);
+  BOOST_TEST(time(start + "[flow]\nkind = 'shear'\nrate = '0 1/s'\n") == 0.0);
+  BOOST_TEST(time(start + "[membrane]\ncapacitance = 3\n") == 0.0);
+  // A time that the scene states is left alone.
+  BOOST_TEST(time(replaced(start, "[units]\n", "[units]\ntime = '3 s'\n") + electric(conducting, pulse)) == 3.0);
 }
 
 BOOST_AUTO_TEST_CASE(an_absent_scale_that_no_value_needs_is_no_error) {
@@ -114,9 +158,13 @@ BOOST_AUTO_TEST_CASE(an_absent_scale_that_no_value_needs_is_no_error) {
 }
 
 BOOST_AUTO_TEST_CASE(absent_scale_that_a_value_needs) {
-  BOOST_TEST(message_of(replaced(without_line(si_scene(), "time = "), "\"2e-20 J\"", "0.25")) ==
+  std::string text = without_line(si_scene(), "time = ");
+  for (const char* value : {"\"2e-20 J\"", "\"2 1/s\"", "\"0.1 mS/cm\"", "\"80 eps0\""})
+    text = replaced(text, value, "0.25");
+  BOOST_TEST(message_of(text) ==
              "scene.toml:11: \"capacitance\" in [membrane] is the text '1 uF/cm^2', but the scene has no reference "
-             "time; accepted: \"time\" in [units], or a unit for \"bending_modulus\" in [membrane]");
+             "time; accepted: \"time\" in [units], or a unit for a value that sets a time, such as \"duration\" of a "
+             "pulse, \"rate\" in [flow] or \"bending_modulus\" in [membrane]");
 }
 
 BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {

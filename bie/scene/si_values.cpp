@@ -1,0 +1,52 @@
+#include "bie/scene/si_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bie/scene/schema.hpp"
+#include "bie/scene/toml_values.hpp"
+#include "bie/scene/units.hpp"
+
+namespace vehd {
+namespace {
+
+/// nullopt for what is no number with a unit of the dimension; a plain zero has every unit.
+std::optional<double> magnitude(const toml::node& node, const Dimension& dimension) {
+  if (const auto number = number_of(node)) return *number == 0.0 ? number : std::nullopt;
+  const toml::value<std::string>* text = node.as_string();
+  const auto quantity = text == nullptr ? std::nullopt : parse_quantity(text->get());
+  const Unit* unit = quantity ? dimension.find(quantity->unit) : nullptr;
+  return unit == nullptr ? std::nullopt : std::optional<double>(std::abs(quantity->in_si(*unit)));
+}
+
+/// Of an array the length, of an array of arrays the largest length of a row.
+std::optional<double> size_of(const toml::node& node, const Dimension& dimension) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) return magnitude(node, dimension);
+  double length = 0.0, largest_row = 0.0;
+  for (const toml::node& entry : *array) {
+    const auto size = size_of(entry, dimension);
+    if (!size) return std::nullopt;
+    if (entry.is_array()) {
+      largest_row = std::max(largest_row, *size);
+    } else {
+      length = std::hypot(length, *size);
+    }
+  }
+  return std::max(length, largest_row);
+}
+
+}  // namespace
+
+bool SiValues::has_table(std::string_view table) const { return file_.at_path(table).is_table(); }
+
+std::optional<double> SiValues::size(std::string_view table, std::string_view key) const {
+  const KeyDescription* description = find_key(table, key);
+  const Dimension* dimension = description == nullptr ? nullptr : find_dimension(description->unit);
+  const toml::node* node = file_.at_path(table)[key].node();
+  if (dimension == nullptr || node == nullptr) return std::nullopt;
+  const auto size = size_of(*node, *dimension);
+  return size && *size > 0.0 ? size : std::nullopt;
+}
+
+}  // namespace vehd
