@@ -53,7 +53,7 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run) {
   const Problem problem = problem_of(scene);
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
+  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
   evolution.evaluate_start();
   run.highest_order = evolution.order();
   double raw_area = 0.0;

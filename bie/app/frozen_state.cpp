@@ -36,7 +36,7 @@ FrozenState start_of_scene(const std::filesystem::path& file) {
   const Discretisation discretisation(problem.settings, problem.symmetry);
   Instruments instruments;
   const State start =
-      initial_state(problem.model, discretisation, problem.position, problem.steady_potential, 0.0, instruments);
+      initial_state(problem.model, discretisation, problem.position, problem.potential, 0.0, instruments);
   frozen.fields = in_laboratory(problem.frame, evaluate(problem.model, discretisation, start, instruments).fields);
   frozen.state = in_laboratory(problem.frame, start);
   frozen.symmetry = symmetry_of(scene, frozen);

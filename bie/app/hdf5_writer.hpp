@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ namespace vehd {
 struct DatasetLabel {
   std::string unit;
   std::string description;
+  std::optional<double> scale{};  ///< what 1 is in SI base units; NaN where nobody says; absent: not written
 };
 
 /// Writes one HDF5 file. Times of modification are left out, so equal data make equal files.

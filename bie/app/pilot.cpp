@@ -19,7 +19,7 @@ template <typename HasTime>
 void take_steps(const Scene& scene, const std::vector<double>& tolerances, const HasTime& has_time, Pilot& pilot) {
   const Problem problem = problem_of(scene);
   Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
+  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
   evolution.evaluate_start();
   pilot.highest_order = evolution.order();
   const double end = scene.numerics.end_time;

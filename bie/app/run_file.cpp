@@ -5,6 +5,7 @@
 #include "bie/app/surface_mesh.hpp"
 #include "bie/app/versions.hpp"
 #include "bie/geometry/surface.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/checksum.hpp"
 
@@ -20,6 +21,11 @@ const DatasetLabel potential_label{"potential", "transmembrane potential V_m = [
 const DatasetLabel charge_label{"potential/length", "q = [[d phi/d n]], interior minus exterior"};
 const DatasetLabel tension_label{"force/length", "membrane tension lambda"};
 const DatasetLabel strain_label{"1", "area strain W/W_ref - 1 of the material"};
+
+DatasetLabel with_scale(DatasetLabel label, const std::optional<UnitsScene>& units) {
+  label.scale = si_scale(units, label.unit);
+  return label;
+}
 
 /// A field of three components in [n x 3] or of one in [n x 1]: the column-major memory is the file's row-major.
 std::vector<hsize_t> extents_of(Index components, std::vector<hsize_t> points) {
@@ -53,8 +59,9 @@ void write_coefficient_convention(Hdf5Writer& file, int order) {
 /// One snapshot under construction: each field is written on the grid, as coefficients and on the closed surface.
 class SnapshotWriter {
  public:
-  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform)
-      : file_(file), group_("/snapshots/" + name), transform_(transform) {
+  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
+                 const std::optional<UnitsScene>& units)
+      : file_(file), group_("/snapshots/" + name), transform_(transform), units_(units) {
     file_.group(group_);
     file_.group(group_ + "/coefficients");
     file_.group(group_ + "/surface");
@@ -96,7 +103,7 @@ class SnapshotWriter {
  private:
   void numbers(const std::string& name, const Matrix& values, const std::vector<hsize_t>& extents,
                const DatasetLabel& label) {
-    file_.numbers(group_ + "/" + name, memory_of(values), extents, label);
+    file_.numbers(group_ + "/" + name, memory_of(values), extents, with_scale(label, units_));
     checksum_.add(memory_of(values));
   }
 
@@ -104,6 +111,7 @@ class SnapshotWriter {
   Hdf5Writer& file_;
   std::string group_;
   const SphereTransform& transform_;
+  const std::optional<UnitsScene>& units_;
 };
 
 }  // namespace
@@ -116,27 +124,32 @@ void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const 
   file.attribute("/", "program", "vehd " + program_version());
   file.attribute("/", "order", std::int64_t{transform.order()});
   file.attribute("/", "threads", std::int64_t{header.threads});
-  file.attribute("/", "units", std::string("dimensionless; the unit of a dataset names its physical dimension"));
+  file.attribute(
+      "/", "units",
+      std::string("dimensionless; the unit of a dataset names its physical dimension, its scale is what 1 of it "
+                  "is in SI units, NaN where the scene does not say"));
   for (const auto& [library, version] : library_versions()) file.attribute("/", "version_" + library, version);
   file.text("/scene", header.scene);
 
   const hsize_t n_theta = static_cast<hsize_t>(grid.n_theta), n_phi = static_cast<hsize_t>(grid.n_phi);
   file.group("/grid");
-  file.numbers("/grid/theta", memory_of(grid.theta), {n_theta}, {"rad", "polar angle from +z"});
-  file.numbers("/grid/phi", memory_of(grid.phi), {n_phi}, {"rad", "azimuth"});
+  file.numbers("/grid/theta", memory_of(grid.theta), {n_theta}, {"rad", "polar angle from +z", 1.0});
+  file.numbers("/grid/phi", memory_of(grid.phi), {n_phi}, {"rad", "azimuth", 1.0});
   file.numbers("/grid/weight", memory_of(grid.weight), {n_theta},
-               {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element"});
+               {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element", 1.0});
   const std::vector<std::int64_t> triangles = closed_triangles(grid);
   file.group("/surface");
   file.integers("/surface/triangles", triangles, {triangles.size() / 3, 3},
                 {"1", "closed surface on the grid points (theta-major), north pole, south pole"});
   write_coefficient_convention(file, transform.order());
   file.group("/snapshots");
+  file.attribute("/snapshots", "time_unit", std::string("time"));
+  file.attribute("/snapshots", "time_scale", si_scale(header.units, "time"));
 }
 
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
-                            const State& state, const Fields& fields) {
-  SnapshotWriter snapshot(file, name, transform);
+                            const State& state, const Fields& fields, const std::optional<UnitsScene>& units) {
+  SnapshotWriter snapshot(file, name, transform, units);
   snapshot.moment(state.time, state.step);
   snapshot.field("x", state.position, position_label);
   snapshot.field("velocity", fields.velocity, velocity_label);

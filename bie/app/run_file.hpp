@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bie/app/hdf5_writer.hpp"
 #include "bie/scene/run_reader.hpp"
+#include "bie/scene/scene.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/stepping/fields.hpp"
 #include "bie/stepping/state.hpp"
@@ -15,6 +17,7 @@ namespace vehd {
 struct RunHeader {
   std::string scene;  ///< effective scene
   int threads = 1;
+  std::optional<UnitsScene> units{};  ///< of the scene
 };
 
 /// Six digits, so that the order of names is the order of time.
@@ -26,8 +29,9 @@ void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const 
 
 /// Writes /snapshots/<name>: grid fields, coefficients/ and surface/.
 /// @param state, fields  of the degree of the transform
+/// @param units  of the scene: every dataset says in `scale` what 1 is in SI units, NaN without
 /// @return its checksum
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
-                            const State& state, const Fields& fields);
+                            const State& state, const Fields& fields, const std::optional<UnitsScene>& units);
 
 }  // namespace vehd

@@ -73,7 +73,7 @@ class Simulation {
 
   Evolution evolution() {
     if (goes_on()) return {setup_of(problem_), start_.state, instruments_};
-    return {setup_of(problem_), problem_.position, problem_.steady_potential, instruments_};
+    return {setup_of(problem_), problem_.position, problem_.potential, instruments_};
   }
 
   [[nodiscard]] NumericalSettings settings_of_files(const RunPaths& paths) const {

@@ -4,6 +4,7 @@
 #include "bie/app/run_file.hpp"
 #include "bie/app/snapshot_copy.hpp"
 #include "bie/scene/hdf5_reader.hpp"
+#include "bie/scene/reader.hpp"
 #include "bie/stepping/resolution.hpp"
 
 namespace vehd {
@@ -22,20 +23,22 @@ Checkpoint written(const RunPaths& paths, Checkpoint start) {
 }
 
 /// What the last session has left, in the degree of this one.
-SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform& output, const Checkpoint& start) {
+SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform& output, const Checkpoint& start,
+                                   const std::optional<UnitsScene>& units) {
   SnapshotStore::Kept kept{start.n_snapshots, start.snapshots_checksum, {}};
   if (start.n_snapshots == 0) return kept;
   const auto present = std::make_shared<const Hdf5Reader>(paths.snapshots());
   if (present->integer_attribute("/", "order") == output.order()) return kept;
-  kept.convert = [present, &output](Hdf5Writer& file, const std::string& name) {
-    return copy_snapshot(file, *present, name, output);
+  kept.convert = [present, &output, &units](Hdf5Writer& file, const std::string& name) {
+    return copy_snapshot(file, *present, name, output, units);
   };
   return kept;
 }
 
-SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start) {
-  return [&output, header = RunHeader{with_changes(start.scene, start.changes), static_cast<int>(start.threads)}](
-             Hdf5Writer& file) { write_run_header(file, output, header); };
+SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start,
+                                         const std::optional<UnitsScene>& units) {
+  return [&output, header = RunHeader{with_changes(start.scene, start.changes), static_cast<int>(start.threads),
+                                      units}](Hdf5Writer& file) { write_run_header(file, output, header); };
 }
 
 /// Lists the fields of the snapshots. @param has  whether they have the field of this name
@@ -54,10 +57,12 @@ void name_fields(XdmfSeries& series, const Predicate& has) {
 RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame,
                          const Checkpoint& start)
     : paths_(paths),
+      units_(parse_units(start.scene, "scene")),
       output_(settings.order, make_grid(settings.order)),
       laboratory_(frame, settings),
       last_(written(paths, start)),
-      snapshots_(paths.snapshots(), header_writer(output_, start), kept_snapshots(paths, output_, last_)),
+      snapshots_(paths.snapshots(), header_writer(output_, start, units_),
+                 kept_snapshots(paths, output_, last_, units_)),
       history_(paths.history(), start.history_bytes, start.history_checksum) {
   const SphereGrid& grid = output_.grid();
   xdmf_.n_points = grid.n_points() + 2;
@@ -97,7 +102,7 @@ void RunRecorder::keep_last_state(const Fields& fields) {
 void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
   snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
     const std::int64_t checksum =
-        write_snapshot(file, name, output_, laboratory_.state(state), laboratory_.fields(fields));
+        write_snapshot(file, name, output_, laboratory_.state(state), laboratory_.fields(fields), units_);
     const auto has = [&](const std::string& field) { return file.has("/snapshots/" + name + "/" + field); };
     if (xdmf_.times.empty()) name_fields(xdmf_, has);
     return checksum;

@@ -10,6 +10,7 @@
 #include "bie/app/run_directory.hpp"
 #include "bie/app/snapshot_store.hpp"
 #include "bie/app/xdmf.hpp"
+#include "bie/scene/scene.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/stepping/laboratory.hpp"
 #include "bie/stepping/stepper.hpp"
@@ -52,6 +53,7 @@ class RunRecorder {
   void write_xdmf();
 
   const RunPaths& paths_;
+  std::optional<UnitsScene> units_;
   SphereTransform output_;  ///< degree and grid of the files
   Laboratory laboratory_;
   Checkpoint last_;

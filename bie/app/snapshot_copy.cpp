@@ -6,7 +6,7 @@
 namespace vehd {
 
 std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const std::string& name,
-                           const SphereTransform& transform) {
+                           const SphereTransform& transform, const std::optional<UnitsScene>& units) {
   const std::string group = "/snapshots/" + name;
   const auto matrix = [&](const char* field) {
     const std::string dataset = group + "/coefficients/" + field;
@@ -30,7 +30,7 @@ std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const s
   fields.tension = vector("tension");
   fields.charge = vector("q");
   return write_snapshot(target, name, transform, resized(std::move(state), transform.order()),
-                        resized(std::move(fields), transform.order()));
+                        resized(std::move(fields), transform.order()), units);
 }
 
 }  // namespace vehd

@@ -19,8 +19,7 @@ constexpr const char* kOther = "other";
 }  // namespace
 
 StepTimer::StepTimer(const Scene& scene)
-    : problem_(problem_of(scene)),
-      evolution_(setup_of(problem_), problem_.position, problem_.steady_potential, instruments_) {
+    : problem_(problem_of(scene)), evolution_(setup_of(problem_), problem_.position, problem_.potential, instruments_) {
   evolution_.evaluate_start();
   for (int i = 0; i < kWarmUp; ++i) step();
 }

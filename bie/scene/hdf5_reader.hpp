@@ -31,6 +31,8 @@ class Hdf5Reader {
   [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
+  /// What stands for the file in messages.
+  [[nodiscard]] const std::string& name() const { return name_; }
   [[noreturn]] void refuse(const std::string& problem) const;
 
  private:

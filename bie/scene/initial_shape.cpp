@@ -45,26 +45,33 @@ Matrix radial_position(const Scene& scene) {
   }));
 }
 
-Matrix unplaced_position(const Scene& scene) {
+InitialMembrane stored_membrane(const Scene& scene) {
+  const ShapeFile file(scene);
+  InitialMembrane membrane{resize_order(file.position(), scene.numerics.order), {}};
+  if (takes_stored_potential(scene)) membrane.potential = resize_order(file.potential(), scene.numerics.order);
+  return membrane;
+}
+
+InitialMembrane unplaced_membrane(const Scene& scene) {
   const ShapeScene& shape = scene.shape;
   const int order = scene.numerics.order;
   switch (shape.kind) {
     case ShapeKind::ellipsoid:
-      return ellipsoid_position(shape.axes, order);
+      return {ellipsoid_position(shape.axes, order), {}};
     case ShapeKind::prolate:
-      return ellipsoid_position(prolate_axes(shape.reduced_volume), order);
+      return {ellipsoid_position(prolate_axes(shape.reduced_volume), order), {}};
     case ShapeKind::oblate:
-      return ellipsoid_position(oblate_axes(shape.reduced_volume), order);
+      return {ellipsoid_position(oblate_axes(shape.reduced_volume), order), {}};
     case ShapeKind::biconcave:
-      return biconcave_position(shape.reduced_volume, order);
+      return {biconcave_position(shape.reduced_volume, order), {}};
     case ShapeKind::stomatocyte:
-      return stomatocyte_position(shape.reduced_volume, order);
+      return {stomatocyte_position(shape.reduced_volume, order), {}};
     case ShapeKind::radial:
-      return radial_position(scene);
+      return {radial_position(scene), {}};
     case ShapeKind::file:
       break;
   }
-  return resize_order(read_shape_file(shape.path, shape.time), order);
+  return stored_membrane(scene);
 }
 
 bool is_of_unit_size(ShapeKind kind) {
@@ -81,13 +88,20 @@ double size_factor(const ShapeScene& shape, const Matrix& position) {
 
 }  // namespace
 
-Matrix initial_position(const Scene& scene) {
+InitialMembrane initial_membrane(const Scene& scene) {
   const ShapeScene& shape = scene.shape;
-  Matrix position = unplaced_position(scene);
-  position *= size_factor(shape, position);
-  if (shape.rotation) position = rotated(position, rotation_matrix(*shape.rotation));
-  return shifted(std::move(position), shape.centre);
+  InitialMembrane membrane = unplaced_membrane(scene);
+  membrane.position *= size_factor(shape, membrane.position);
+  if (shape.rotation) {
+    const Matrix3 rotation = rotation_matrix(*shape.rotation);
+    membrane.position = rotated(membrane.position, rotation);
+    if (membrane.potential.size() > 0) membrane.potential = rotated_scalar(membrane.potential, rotation);
+  }
+  membrane.position = shifted(std::move(membrane.position), shape.centre);
+  return membrane;
 }
+
+Matrix initial_position(const Scene& scene) { return initial_membrane(scene).position; }
 
 double smallest_radius(const Scene& scene) {
   const Vector radius = radius_on(shape_transform(scene.numerics.order), scene.shape);

@@ -5,8 +5,16 @@
 
 namespace vehd {
 
-/// Position x(θ, φ) of the initial membrane: coefficients of the scene's order, [n_coefficients x 3]; θ from +z.
-/// @throws InputError if the shape file cannot be used
+/// Coefficients of the scene's order.
+struct InitialMembrane {
+  Matrix position;   ///< x(θ, φ), [n_coefficients x 3]; θ from +z
+  Vector potential;  ///< V_m where the scene takes it from its shape file, otherwise empty
+};
+
+/// The membrane at time 0, placed and in units of the scene. @throws InputError if the shape file cannot be used
+InitialMembrane initial_membrane(const Scene& scene);
+
+/// Its position alone.
 Matrix initial_position(const Scene& scene);
 
 /// Smallest radius of a radial shape over a fine grid; NaN if some radius is not finite.

@@ -78,10 +78,10 @@ void add_shape_keys(KeyTable& table) {
       .required = true;
   table.begin("shape", {"file"});
   table
-      .add("path", any_number, {"", "", "run.h5 that holds the shape, relative to the scene file; any order"}, shape,
-           &ShapeScene::path)
+      .add("path", any_number, {"", "", "run.h5 that holds the shape, relative to the scene file; any order and units"},
+           shape, &ShapeScene::path)
       .required = true;
-  table.add("time", not_negative, {"t", "time", "time of the snapshot; absent: the last one"}, shape,
+  table.add("time", not_negative, {"t", "time", "time of the snapshot in that run; absent: the last one"}, shape,
             &ShapeScene::time);
   table.begin("shape");
   table.add("area", positive, {"A", "area", "the shape is scaled to this area; not with scale"}, shape,
@@ -196,8 +196,11 @@ void add_electric_keys(KeyTable& table) {
             &ElectricScene::permittivity);
   table.add("permittivity_ratio", positive, {"ε_i/ε_e", "1", "inside over outside"}, electric,
             &ElectricScene::permittivity_ratio);
-  table.add_word("initial_Vm", {"zero", "steady"}, "transmembrane potential at time 0", electric,
-                 &ElectricScene::initial_potential);
+  table.add_word(
+      "initial_Vm", {"zero", "steady", "file"},
+      "transmembrane potential at time 0: none; that of a membrane fully charged; that of the file of [shape], "
+      "which is the default with a file that has one",
+      electric, &ElectricScene::initial_potential);
   add_waveform_keys(table, "electric.waveform", electric_waveform);
 }
 

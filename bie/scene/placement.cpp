@@ -44,14 +44,18 @@ Matrix rotated(const Matrix& position, const Matrix3& rotation) {
   return without_rounding(turned_fields(position, rotation) * rotation.transpose());
 }
 
+Vector rotated_scalar(const Vector& field, const Matrix3& rotation) {
+  return without_rounding(turned_fields(field, rotation));
+}
+
 Matrix shifted(Matrix position, const Triple& by) {
   for (int i = 0; i < 3; ++i) position(0, i) += by[static_cast<std::size_t>(i)] * std::sqrt(4.0 * std::numbers::pi);
   return position;
 }
 
-Matrix without_rounding(const Matrix& position) {
-  const double smallest = rounding * position.cwiseAbs().maxCoeff();
-  return position.unaryExpr([=](double value) { return std::abs(value) <= smallest ? 0.0 : value; });
+Matrix without_rounding(const Matrix& coefficients) {
+  const double smallest = rounding * coefficients.cwiseAbs().maxCoeff();
+  return coefficients.unaryExpr([=](double value) { return std::abs(value) <= smallest ? 0.0 : value; });
 }
 
 ShapeSize size_of(const Matrix& position) {

@@ -3,7 +3,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/support/types.hpp"
 
-/// Size, direction and place of a shape, all on position coefficients [n_coefficients x 3].
+/// Size, direction and place of a shape, on position coefficients [n_coefficients x 3].
 namespace vehd {
 
 /// Right-handed; exact for quarter turns about the coordinate axes. The axis must not be zero.
@@ -13,11 +13,14 @@ Matrix3 rotation_matrix(const AxisAngle& rotation);
 /// coefficients that are symmetric about the turned one.
 Matrix rotated(const Matrix& position, const Matrix3& rotation);
 
+/// A scalar field on the body, coefficients, turned with it.
+Vector rotated_scalar(const Vector& field, const Matrix3& rotation);
+
 /// The shape moved by the vector.
 Matrix shifted(Matrix position, const Triple& by);
 
 /// Zero in place of coefficients that are nothing but rounding: symmetries are read off the coefficients.
-Matrix without_rounding(const Matrix& position);
+Matrix without_rounding(const Matrix& coefficients);
 
 /// Area and volume of the shape by a rule that is fine enough to be exact for resolved shapes.
 struct ShapeSize {

@@ -21,7 +21,9 @@ Problem problem_of(const Scene& scene, int start_order) {
 
 Problem problem_of(const Scene& scene, const Model& model) {
   State start;
-  start.position = initial_position(scene);
+  InitialMembrane membrane = initial_membrane(scene);
+  start.position = std::move(membrane.position);
+  start.transmembrane_potential = std::move(membrane.potential);
   start.area_strain = Vector::Zero(start.position.rows());
   Problem problem;
   problem.frame = find_frame(model, start);
@@ -29,11 +31,12 @@ Problem problem_of(const Scene& scene, const Model& model) {
   start = in_frame(problem.frame, std::move(start));
   const Symmetry found = find_symmetry(problem.model, start);
   problem.settings = settings_of(scene);
-  problem.steady_potential = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
+  problem.potential.steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   problem.control = step_control_of(scene);
   problem.settings.longitude_fold = found.fold;
   if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = found;
   problem.position = std::move(start.position);
+  problem.potential.given = std::move(start.transmembrane_potential);
   return problem;
 }
 

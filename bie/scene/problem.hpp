@@ -13,9 +13,9 @@ struct Problem {
   Model model;
   NumericalSettings settings;
   StepControl control;
-  Symmetry symmetry;              ///< that the run uses: that of its start, or none where the scene says "off"
-  Matrix position;                ///< of the initial membrane, coefficients [n_coefficients x 3]
-  bool steady_potential = false;  ///< V_m at time 0, otherwise zero
+  Symmetry symmetry;         ///< that the run uses: that of its start, or none where the scene says "off"
+  Matrix position;           ///< of the initial membrane, coefficients [n_coefficients x 3]
+  StartPotential potential;  ///< V_m of it
 };
 
 /// For an Evolution.

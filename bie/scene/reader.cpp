@@ -15,6 +15,7 @@
 #include "bie/scene/reference_scales.hpp"
 #include "bie/scene/scene_checks.hpp"
 #include "bie/scene/schema.hpp"
+#include "bie/scene/shape_file_check.hpp"
 #include "bie/scene/toml_values.hpp"
 #include "bie/scene/waveform_file.hpp"
 #include "bie/support/errors.hpp"
@@ -221,10 +222,19 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   check_scene(scene, file, name);
   if (scene.shape.kind == ShapeKind::file) {
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
-    require_shape_file(scene, file, name);
   }
+  check_shape_file(scene, file, name);
   check_symmetry(scene, file, name);
   return scene;
+}
+
+std::optional<UnitsScene> parse_units(const std::string& text, const std::string& name) {
+  const toml::table file = parse_toml(text, name);
+  const toml::table* table = find_table(file, "units");
+  if (table == nullptr) return std::nullopt;
+  Scene scene;
+  read_table(scene, scene_tables().front(), *table, name);
+  return scene.units;
 }
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "bie/scene/scene.hpp"
@@ -15,5 +16,10 @@ Scene read_scene(const std::filesystem::path& path);
 /// @param name    stands for the file in messages
 /// @param folder  where relative paths in the scene start
 Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder);
+
+/// The table [units] alone, of the text of an effective scene, in which all its scales are spelled out.
+/// @return nullopt if the text has no such table
+/// @throws InputError "name:line: ..."
+std::optional<UnitsScene> parse_units(const std::string& text, const std::string& name);
 
 }  // namespace vehd

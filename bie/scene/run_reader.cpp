@@ -15,7 +15,7 @@
 namespace vehd {
 namespace {
 
-/// Times of snapshots are exact multiples of a decimal number up to rounding.
+/// Times of snapshots are exact multiples of a decimal number up to rounding; relative to the longest of them.
 constexpr double time_tolerance = 1e-9;
 
 }  // namespace
@@ -67,12 +67,17 @@ std::size_t RunReader::nearest(double time) const {
   return best;
 }
 
-std::size_t RunReader::at(double time) const {
+std::optional<std::size_t> RunReader::find(double time) const {
   const std::size_t snapshot = nearest(time);
-  if (!(std::abs(times_[snapshot] - time) <= time_tolerance * std::max(1.0, std::abs(time)))) {
-    file_.refuse(fmt::format("no snapshot at time {:g}; the nearest is at {:g}", time, times_[snapshot]));
-  }
+  double longest = std::abs(time);
+  for (const double each : times_) longest = std::max(longest, std::abs(each));
+  if (!(std::abs(times_[snapshot] - time) <= time_tolerance * longest)) return std::nullopt;
   return snapshot;
+}
+
+std::size_t RunReader::at(double time) const {
+  if (const auto snapshot = find(time)) return *snapshot;
+  file_.refuse(fmt::format("no snapshot at time {:g}; the nearest is at {:g}", time, times_[nearest(time)]));
 }
 
 std::string RunReader::path_of(std::size_t snapshot, const std::string& name) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +39,13 @@ class RunReader {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   /// Number of the snapshot whose time is nearest.
   [[nodiscard]] std::size_t nearest(double time) const;
-  /// Number of the snapshot at this time, up to the rounding of decimal numbers. @throws InputError if there is none
+  /// Number of the snapshot at this time, up to the rounding of decimal numbers; nullopt if there is none.
+  [[nodiscard]] std::optional<std::size_t> find(double time) const;
+  /// The same. @throws InputError if there is none
   [[nodiscard]] std::size_t at(double time) const;
+  /// The path of the file, or what stands for it in messages.
+  [[nodiscard]] const std::string& name() const { return file_.name(); }
+  [[nodiscard]] bool has_scene() const { return file_.has("/scene"); }
   /// The effective scene of the run.
   [[nodiscard]] std::string scene() const { return file_.text("/scene"); }
   [[nodiscard]] bool has_field(std::size_t snapshot, const std::string& name) const;

@@ -28,7 +28,7 @@ struct HarmonicMode {
 enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, stomatocyte, radial, file };
 enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient, poiseuille };
 enum class WaveformKind { dc, ac, pulse, pulse_train, table };
-enum class InitialPotential { zero, steady };
+enum class InitialPotential { zero, steady, file };
 enum class SymmetryUse { automatic, off, axisymmetric };
 
 /// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
@@ -109,8 +109,8 @@ struct ElectricScene {
   double conductivity_out = 1.0;
   double permittivity = 1.0;
   double permittivity_ratio = 1.0;
-  std::optional<WaveformScene> waveform;  ///< absent: constant
-  InitialPotential initial_potential = InitialPotential::zero;
+  std::optional<WaveformScene> waveform;                        ///< absent: constant
+  InitialPotential initial_potential = InitialPotential::zero;  ///< of the file by default, where it has one
   bool operator==(const ElectricScene&) const = default;
 };
 

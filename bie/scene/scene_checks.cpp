@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/problem.hpp"
@@ -215,14 +214,6 @@ void check_symmetry(const Scene& scene, const toml::table& table, const std::str
       "{}: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one axis; they have: "
       "{}",
       place(*table["numerics"]["symmetry"].node(), file), symmetry_text(found.symmetry, found.frame)));
-}
-
-void require_shape_file(const Scene& scene, const toml::table& table, const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(scene.shape.path, error)) {
-    throw InputError(fmt::format("{}: \"path\" in [shape] is {}: no such file",
-                                 place(*table["shape"]["path"].node(), file), scene.shape.path));
-  }
 }
 
 }  // namespace vehd

@@ -15,7 +15,4 @@ void check_scene(const Scene& scene, const toml::table& table, const std::string
 /// The symmetry that the scene insists on; builds its shape. @throws InputError
 void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file);
 
-/// The shape file must exist before a run starts. @throws InputError
-void require_shape_file(const Scene& scene, const toml::table& table, const std::string& file);
-
 }  // namespace vehd

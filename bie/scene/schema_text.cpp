@@ -26,7 +26,22 @@ build/vehd help scene --markdown > docs/scene_keys.md
 Values are dimensionless: any consistent scales will do. `build/vehd help groups SCENE.toml` prints the numbers that do
 not depend on them. With a table `[units]`, even an empty one, any number that has a dimension may instead be a text
 with an SI unit, `"10 um"`, and so may each component of a vector, `[0, 0, "1 kV/cm"]`; it is divided by the reference
-scale of its dimension (last section). A plain number stays what it is, in units of the reference scale.
+scale of its dimension (section Units). A plain number stays what it is, in units of the reference scale; an integer of
+any size is the double nearest to it, as if it were written with a point.
+)";
+
+constexpr const char* page_end = R"(
+## A shape from a file
+
+`kind = "file"` starts with one snapshot of the run.h5 of another run. Taken are the position of the membrane, in any
+order, and its V_m, unless `initial_Vm` says otherwise; V_m turns with the shape and is not scaled with it. Lengths,
+`time` and V_m are converted from the units of that run to those of the scene. Where neither has a reference scale, the
+numbers are taken as they are; where one of them alone has a scale that a value needs, that is an error. A scene with
+`area`, without `time` and with `initial_Vm` zero or steady needs none.
+
+Nothing else is taken. The new run starts at its own time 0, so a waveform that should go on is moved by the time of the
+snapshot (`start`, `phase` or `times`). The start is what its area, volume and area elements are compared with: it has no
+strain, whatever the former run had gathered. Velocity, tension and charge are solved for anew.
 )";
 
 /// Header and keys of a table; the column of kinds only where there are any.
@@ -71,7 +86,7 @@ std::string scene_help_markdown() {
     text += fmt::format("\n## [{}]\n\n{}{}.\n\n", table.name, table.description, presence(table));
     text += markdown_table(key_table(table));
   }
-  return text + "\n## Units\n\n" + markdown_table(unit_table());
+  return text + "\n## Units\n\n" + markdown_table(unit_table()) + page_end;
 }
 
 }  // namespace vehd

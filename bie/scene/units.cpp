@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace vehd {
 namespace {
@@ -34,6 +35,11 @@ std::vector<Dimension> make_dimensions() {
       {"permittivity", {2, -1, 1, -2}, {{"F/m"}, {"pF/m", 1, 1e12}, {"eps0", vacuum_permittivity}}},
       {"capacitance/area", {1, -1, 1, -2}, {{"F/m^2"}, {"mF/m^2", 1, 1e3}, {"uF/cm^2", 1, 1e2}}},
       {"conductance/area", {1, -2, 1, -2}, {{"S/m^2"}, {"S/cm^2", 1e4}, {"mS/cm^2", 1e1}}},
+      // Of results alone, by the names that run.h5 has for them.
+      {"length^2", {2, 0, 0, 0}, {{"m^2"}}},
+      {"force/area", {0, -1, 1, 0}, {{"Pa"}}},
+      {"force/length", {1, -1, 1, 0}, {{"N/m"}}},
+      {"potential/length", {-1, 0, 0, 1}, {{"V/m"}}},
   };
 }
 
@@ -111,6 +117,20 @@ std::optional<double> reference_scale(const UnitsScene& units, const Dimension& 
     if (dimension.powers[i] != 0) scale *= std::pow(*scales(units)[i], dimension.powers[i]);
   }
   return scale;
+}
+
+double si_scale(const std::optional<UnitsScene>& units, std::string_view dimension) {
+  if (dimension == "1" || dimension == "rad") return 1.0;
+  const Dimension* known = find_dimension(dimension);
+  const auto scale = known != nullptr && units ? reference_scale(*units, *known) : std::nullopt;
+  return scale.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::optional<double> conversion(const std::optional<UnitsScene>& from, const std::optional<UnitsScene>& to,
+                                 std::optional<double> UnitsScene::*scale) {
+  const auto of = [scale](const std::optional<UnitsScene>& units) { return units ? *units.*scale : std::nullopt; };
+  if (of(from).has_value() != of(to).has_value()) return std::nullopt;
+  return of(from) ? *of(from) / *of(to) : 1.0;
 }
 
 std::string_view missing_scale(const UnitsScene& units, const Dimension& dimension) {

@@ -54,6 +54,15 @@ std::optional<Quantity> parse_quantity(std::string_view text);
 /// @return nullopt if a scale that the dimension needs is absent
 std::optional<double> reference_scale(const UnitsScene& units, const Dimension& dimension);
 
+/// SI value of 1 of a dimension by its name, 1 of a pure number ("1", "rad").
+/// @return NaN where the scene does not say
+double si_scale(const std::optional<UnitsScene>& units, std::string_view dimension);
+
+/// Factor from numbers of one scene to those of another: the ratio of their reference scales, 1 where neither has one.
+/// @return nullopt if only one of them has the scale
+std::optional<double> conversion(const std::optional<UnitsScene>& from, const std::optional<UnitsScene>& to,
+                                 std::optional<double> UnitsScene::*scale);
+
 /// Name in [units] of the first scale that the dimension needs and [units] lacks; empty if there is none.
 std::string_view missing_scale(const UnitsScene& units, const Dimension& dimension);
 

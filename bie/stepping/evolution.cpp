@@ -51,10 +51,11 @@ int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_
 
 double truncation_target(const EvolutionSetup& setup) { return truncation_share * setup.control.tolerance; }
 
-int starting_order(const EvolutionSetup& setup, const Matrix& position) {
+int starting_order(const EvolutionSetup& setup, const Matrix& position, const Vector& potential) {
   if (setup.control.tolerance == 0.0) return setup.settings.order;
   State shape;
   shape.position = position;
+  if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
   // Exact for a sphere, and only a scale.
   shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
   return Resolution(setup.model, shape).order_for(truncation_target(setup), lowest_order(setup), setup.settings.order);
@@ -78,12 +79,13 @@ double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, con
 
 }  // namespace
 
-Evolution::Evolution(EvolutionSetup setup, const Matrix& position, bool steady_potential, Instruments& instruments)
+Evolution::Evolution(EvolutionSetup setup, const Matrix& position, const StartPotential& potential,
+                     Instruments& instruments)
     : setup_(std::move(setup)), instruments_(instruments) {
-  start_at(starting_order(setup_, position), position, steady_potential);
-  // The area, which is the scale, and a steady V_m are known only now.
+  start_at(starting_order(setup_, position, potential.given), position, potential);
+  // The area, which is the scale, and V_m are known only now.
   for (Resolution start(setup_.model, state_); !resolves(start); start = Resolution(setup_.model, state_)) {
-    start_at(raised_order(start), position, steady_potential);
+    start_at(raised_order(start), position, potential);
   }
 }
 
@@ -102,9 +104,9 @@ void Evolution::evaluate_start() {
 
 double Evolution::truncation() const { return Resolution(setup_.model, state_).remainder(); }
 
-void Evolution::start_at(int order, const Matrix& position, bool steady_potential) {
+void Evolution::start_at(int order, const Matrix& position, const StartPotential& potential) {
   discretisation_ = discretisation_of(setup_, order, 0);
-  state_ = initial_state(setup_.model, *discretisation_, resize_order(position, order), steady_potential,
+  state_ = initial_state(setup_.model, *discretisation_, resize_order(position, order), potential,
                          adapts() ? 0.0 : setup_.control.largest, instruments_);
 }
 

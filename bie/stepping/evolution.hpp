@@ -43,8 +43,8 @@ struct EvolutionStep {
 /// cannot be solved for, the step is taken again with half the size, and the way ends where that becomes too small.
 class Evolution {
  public:
-  /// From a shape at time 0, V_m zero or steady. @throws ConvergenceError
-  Evolution(EvolutionSetup setup, const Matrix& position, bool steady_potential, Instruments& instruments);
+  /// From a shape and V_m at time 0. @throws ConvergenceError
+  Evolution(EvolutionSetup setup, const Matrix& position, const StartPotential& potential, Instruments& instruments);
   /// From a state of such a run.
   Evolution(EvolutionSetup setup, State state, Instruments& instruments);
   ~Evolution();
@@ -68,7 +68,7 @@ class Evolution {
  private:
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
   [[nodiscard]] bool resolves(const Resolution& resolution) const;
-  void start_at(int order, const Matrix& position, bool steady_potential);
+  void start_at(int order, const Matrix& position, const StartPotential& potential);
   void change_discretisation(int order, std::int64_t quadrature_level);
   void arrive(State state);
   Advance advance_within(const StepPlan& plan, double wanted, EvolutionStep& record);

@@ -1,4 +1,5 @@
 #include "bie/physics/membrane_charging.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/deferred_correction.hpp"
 #include "bie/stepping/discretisation_tables.hpp"
 #include "bie/stepping/membrane_at.hpp"
@@ -26,21 +27,25 @@ StepResult step(const Model& model, const Discretisation& discretisation, const 
   return result;
 }
 
-State initial_state(const Model& model, const Discretisation& discretisation, const Matrix& position, bool steady_start,
-                    double dt, Instruments& instruments) {
+State initial_state(const Model& model, const Discretisation& discretisation, const Matrix& position,
+                    const StartPotential& potential, double dt, Instruments& instruments) {
   const Discretisation::Tables& tables = discretisation.tables();
   State state;
   state.dt_next = dt;
   state.position = position;
   state.area_strain = Vector::Zero(position.rows());
+  if (model.electric) {
+    state.transmembrane_potential = Vector::Zero(position.rows());
+    if (potential.given.size() > 0) {
+      state.transmembrane_potential = resize_order(potential.given, order_of(position.rows()));
+    }
+  }
   state = symmetric_part(tables.symmetry, std::move(state));
   const Surface surface = make_surface(tables.fine, position);
   state.reference_area = surface_area(surface);
   state.reference_volume = enclosed_volume(surface);
   if (model.inextensible) state.tension = Vector::Zero(position.rows());
-  if (!model.electric) return state;
-  state.transmembrane_potential = Vector::Zero(position.rows());
-  if (steady_start) {
+  if (model.electric && potential.steady) {
     const Membrane membrane = membrane_at(discretisation, position, {true, true, true, false}, 1.0, instruments);
     require_converged(steady_potential(*model.electric, *model.charging, membrane, tables.settings.electric_tolerance,
                                        state.transmembrane_potential),

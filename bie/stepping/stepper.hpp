@@ -80,8 +80,14 @@ struct Advance {
 Advance advance(const Model& model, const Discretisation& discretisation, const State& state,
                 const Evaluation& evaluation, const StepControl& control, double dt_limit, Instruments& instruments);
 
-/// State at time 0 on the given shape: strain zero, V_m zero or steady (needs the electric model).
+/// V_m at time 0; neither member counts without the electric model.
+struct StartPotential {
+  bool steady = false;  ///< that of the steady state
+  Vector given{};       ///< coefficients of any degree, where it is not steady; empty: zero
+};
+
+/// State at time 0 on the given shape, with its own area, volume and area element as references: strain zero.
 State initial_state(const Model& model, const Discretisation& discretisation, const Matrix& position,
-                    bool steady_potential, double dt, Instruments& instruments);
+                    const StartPotential& potential, double dt, Instruments& instruments);
 
 }  // namespace vehd

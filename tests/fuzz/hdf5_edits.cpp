@@ -95,7 +95,7 @@ std::string good_run() {
   vehd::Fields fields;
   fields.velocity = state.position;
   for (const char* name : {"000000", "000001"}) {
-    vehd::write_snapshot(file, name, transform, state, fields);
+    vehd::write_snapshot(file, name, transform, state, fields, std::nullopt);
     state.time += 1.0;
   }
   return file.image();

@@ -9,6 +9,7 @@
 #include "bie/scene/reader.hpp"
 #include "bie/scene/run_reader.hpp"
 #include "bie/scene/schema.hpp"
+#include "bie/scene/shape_file.hpp"
 #include "bie/scene/waveform_file.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
@@ -35,6 +36,7 @@ void refuse_or_read(Reader reader) {
 void read_run(vehd::Hdf5Reader file) {
   const vehd::RunReader run(std::move(file));
   refuse_or_read([&] { (void)vehd::parse_scene(run.scene(), "run.h5 (scene)", "."); });
+  refuse_or_read([&] { (void)vehd::units_of(run); });
   for (std::size_t snapshot = 0; snapshot < std::min<std::size_t>(run.times().size(), 3); ++snapshot) {
     (void)run.at(run.times()[snapshot]);
     for (const std::string_view field : vehd::snapshot_fields) {

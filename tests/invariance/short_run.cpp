@@ -12,7 +12,7 @@ ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps) {
   ShortRun run;
   run.bending_modulus = scene.membrane.bending_modulus.value_or(0.0);
   try {
-    Evolution evolution(setup_of(problem), problem.position, problem.steady_potential, instruments);
+    Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
     const auto record = [&](const EvolutionStep& step) {
       NumericalSettings settings = problem.settings;
       settings.order = evolution.order();

@@ -167,6 +167,22 @@ BOOST_AUTO_TEST_CASE(absent_scale_that_a_value_needs) {
              "pulse, \"rate\" in [flow] or \"bending_modulus\" in [membrane]");
 }
 
+BOOST_AUTO_TEST_CASE(numbers_convert_by_the_ratio_of_their_scales) {
+  const std::optional<vehd::UnitsScene> um = vehd::UnitsScene{1e-6, {}, {}, {}}, none, empty = vehd::UnitsScene{};
+  const std::optional<vehd::UnitsScene> nm = vehd::UnitsScene{1e-9, 1.0, {}, {}};
+  const auto length = &vehd::UnitsScene::length;
+  BOOST_TEST(*vehd::conversion(um, nm, length) == 1e3, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*vehd::conversion(nm, um, length) == 1e-3, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*vehd::conversion(none, empty, length) == 1.0);
+  BOOST_TEST(!vehd::conversion(um, none, length));
+  BOOST_TEST(!vehd::conversion(empty, um, length));
+  BOOST_TEST(!vehd::conversion(um, nm, &vehd::UnitsScene::time));
+  BOOST_TEST(vehd::si_scale(um, "length") == 1e-6);
+  BOOST_TEST(vehd::si_scale(um, "1") == 1.0);
+  BOOST_TEST(std::isnan(vehd::si_scale(um, "velocity")));
+  BOOST_TEST(std::isnan(vehd::si_scale(none, "length")));
+}
+
 BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {
   BOOST_TEST(message_of(with_appended("[fluid]\nviscosity = '1 mPa s'\n")) ==
              "scene.toml:9: \"viscosity\" in [fluid] is the text '1 mPa s', but the scene has no table [units]; "

@@ -105,15 +105,20 @@ BOOST_AUTO_TEST_CASE(initial_state_starts_where_it_is_told) {
   const Discretisation discretisation = discretisation_of(8);
   Instruments instruments;
   const Model model = field_model();
-  const State zero = initial_state(model, discretisation, sphere(8), false, 0.1, instruments);
+  const State zero = initial_state(model, discretisation, sphere(8), {}, 0.1, instruments);
   BOOST_TEST(zero.transmembrane_potential.isZero(0.0));
   BOOST_TEST(zero.area_strain.isZero(0.0));
   BOOST_TEST(zero.dt_next == 0.1);
   // Steady V = (3E/2) κ/(κ + G_m) with κ = 2σ_iσ_e/(σ_i + 2σ_e) = 4/5.
-  const State steady = initial_state(model, discretisation, sphere(8), true, 0.1, instruments);
+  const State steady = initial_state(model, discretisation, sphere(8), {.steady = true}, 0.1, instruments);
   BOOST_TEST(max_difference(steady.transmembrane_potential, 1.5 * 0.8 / 5.8 * sphere(8).col(2)) < 1e-9);
+  // One that is given is taken over in any degree.
+  const Vector given = Vector::LinSpaced(n_coefficients(5), -1.0, 2.0);
+  const State charged = initial_state(model, discretisation, sphere(8), {.given = given}, 0.1, instruments);
+  BOOST_TEST((charged.transmembrane_potential.head(given.size()) == given));
+  BOOST_TEST(charged.transmembrane_potential.tail(81 - given.size()).isZero(0.0));
   BOOST_TEST(
-      initial_state(shear_model(), discretisation, sphere(8), false, 0.1, instruments).transmembrane_potential.size() ==
+      initial_state(shear_model(), discretisation, sphere(8), {}, 0.1, instruments).transmembrane_potential.size() ==
       0);
 }
 

@@ -20,7 +20,7 @@ struct DrivenScene {
   Model model;
   Vector3 axes;
   double end_time;
-  bool steady_potential = false;
+  StartPotential potential{};
 };
 
 Model driven_by(double field, double flow, const Waveform& waveform) {
@@ -37,7 +37,7 @@ std::vector<DrivenScene> driven_scenes() {
       {"ac that V_m follows", driven_by(4.0, 0.0, Waveform::alternating(1.0, 0.25, 0.0)), oblate, 4.0},
       {"ac that V_m lags behind", driven_by(8.0, 0.0, Waveform::alternating(1.0, 2.0, 0.7)), oblate, 1.5},
       {"pulse", driven_by(6.0, 0.0, Waveform::pulse(1.0, 0.1, 0.3)), prolate, 1.0},
-      {"steady start", driven_by(5.0, 0.0, {}), prolate, 0.4, true},
+      {"steady start", driven_by(5.0, 0.0, {}), prolate, 0.4, {.steady = true}},
       {"shear", driven_by(1.0, 1.0, Waveform::pulse_train(2.0, 0.0, 0.1, 0.3)), prolate, 0.7},
   };
 }
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(no_state_leaves_out_more_than_its_share_below_the_highest_d
     for (const double tolerance : {1e-2, 1e-3}) {
       const Matrix position = ellipsoid(kHighest, scene.axes);
       Instruments instruments;
-      Evolution evolution(setup_of(scene, position, tolerance), position, scene.steady_potential, instruments);
+      Evolution evolution(setup_of(scene, position, tolerance), position, scene.potential, instruments);
       evolution.evaluate_start();
       int lowest = kHighest, highest = 0, n_steps = 0;
       for (;; ++n_steps) {

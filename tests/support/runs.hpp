@@ -49,7 +49,7 @@ inline Discretisation symmetric_discretisation(const Model& model, const Matrix&
 
 inline State start(const Model& model, const Discretisation& discretisation, const Matrix& position, double dt) {
   Instruments instruments;
-  return initial_state(model, discretisation, position, false, dt, instruments);
+  return initial_state(model, discretisation, position, {}, dt, instruments);
 }
 
 inline Evaluation evaluated(const Model& model, const Discretisation& discretisation, const State& state) {
