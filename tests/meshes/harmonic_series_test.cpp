@@ -42,12 +42,12 @@ BOOST_AUTO_TEST_CASE(low_harmonics_are_the_written_formulas) {
     const Eigen::VectorXd y = all.value(direction_of(theta, phi));
     const double s = std::sin(theta);
     const double c = std::cos(theta);
-    BOOST_TEST(std::abs(y[row(0, 0)] - std::sqrt(1.0 / (4.0 * kPi))) < 1e-15);
-    BOOST_TEST(std::abs(y[row(1, 0)] - std::sqrt(3.0 / (4.0 * kPi)) * c) < 1e-15);
-    BOOST_TEST(std::abs(y[row(1, 1)] - std::sqrt(3.0 / (4.0 * kPi)) * s * std::cos(phi)) < 1e-15);
-    BOOST_TEST(std::abs(y[row(1, -1)] - std::sqrt(3.0 / (4.0 * kPi)) * s * std::sin(phi)) < 1e-15);
-    BOOST_TEST(std::abs(y[row(2, 0)] - std::sqrt(5.0 / (16.0 * kPi)) * (3.0 * c * c - 1.0)) < 1e-15);
-    BOOST_TEST(std::abs(y[row(2, -1)] - std::sqrt(15.0 / (4.0 * kPi)) * s * c * std::sin(phi)) < 1e-15);
+    BOOST_TEST(std::abs(y[row(0, 0)] - std::sqrt(1.0 / (4.0 * kPi))) < 1e-14);
+    BOOST_TEST(std::abs(y[row(1, 0)] - std::sqrt(3.0 / (4.0 * kPi)) * c) < 1e-14);
+    BOOST_TEST(std::abs(y[row(1, 1)] - std::sqrt(3.0 / (4.0 * kPi)) * s * std::cos(phi)) < 1e-14);
+    BOOST_TEST(std::abs(y[row(1, -1)] - std::sqrt(3.0 / (4.0 * kPi)) * s * std::sin(phi)) < 1e-14);
+    BOOST_TEST(std::abs(y[row(2, 0)] - std::sqrt(5.0 / (16.0 * kPi)) * (3.0 * c * c - 1.0)) < 1e-14);
+    BOOST_TEST(std::abs(y[row(2, -1)] - std::sqrt(15.0 / (4.0 * kPi)) * s * c * std::sin(phi)) < 1e-14);
     BOOST_TEST(std::abs(y[row(3, 2)] - std::sqrt(105.0 / (16.0 * kPi)) * s * s * c * std::cos(2.0 * phi)) < 1e-14);
     BOOST_TEST(std::abs(y[row(3, -3)] - std::sqrt(35.0 / (32.0 * kPi)) * s * s * s * std::sin(3.0 * phi)) < 1e-14);
   }

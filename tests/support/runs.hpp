@@ -36,6 +36,19 @@ inline Discretisation discretisation_of(int order) {
   return Discretisation(settings);
 }
 
+/// Solves that go on to rounding. With those of a run, what two solvers make of one step differs by where each of them
+/// stopped, on one processor here and on another there.
+inline NumericalSettings solved_to_rounding(int order) {
+  NumericalSettings settings;
+  settings.order = order;
+  settings.flow_tolerance = 1e-12;
+  settings.electric_tolerance = 1e-13;
+  settings.constraint_tolerance = 1e-12;
+  settings.curvature_tolerance = 1e-9;
+  settings.strain_tolerance = 1e-10;
+  return settings;
+}
+
 /// With the symmetry that the shape and the model have.
 inline Discretisation symmetric_discretisation(const Model& model, const Matrix& position, int time_order = 1) {
   NumericalSettings settings;
