@@ -10,7 +10,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Range any_number{};
 constexpr Range positive{0.0, infinity, true};
 constexpr Range not_negative{0.0, infinity, false};
-constexpr Range size_range{1e-6, 1e6, false};
+/// Sizes in any unit of length, whose cubes and their products are far from the limits of a double.
+constexpr Range size_range{1e-30, 1e30, false};
 
 const auto units = [](auto& scene) -> auto& { return *scene.units; };
 const auto shape = [](auto& scene) -> auto& { return scene.shape; };

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <random>
@@ -10,6 +12,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/errors.hpp"
 #include "tests/app/program.hpp"
 
 namespace {

@@ -70,14 +70,14 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
   compressed.diagnostics.wrinkle_degree = 20.0;
   const std::string wrinkles =
       "compressed since time 1: wrinkles of wavelength 0.31 radii grow fastest, the finest degree 10 has 0.63";
-  BOOST_TEST(verdict({row_at(0, 0, 0), compressed}) == "trustworthy");
-  BOOST_TEST(verdict({row_at(0, 0, 0), compressed}, {}, "no acceptable step") ==
+  BOOST_TEST(judged({row_at(0, 0, 0), compressed}) == "trustworthy");
+  BOOST_TEST(judged({row_at(0, 0, 0), compressed}, {}, "no acceptable step") ==
              "stopped: no acceptable step; until then " + wrinkles);
   compressed.truncation = 0.1;
-  BOOST_TEST(verdict({row_at(0, 0, 0), compressed}, 1e-3) ==
+  BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) ==
              "truncation above 0.001 since time 1 (worst 0.1); " + wrinkles);
   compressed.diagnostics.wrinkle_degree = 9.0;
-  BOOST_TEST(verdict({row_at(0, 0, 0), compressed}, 1e-3) == "truncation above 0.001 since time 1 (worst 0.1)");
+  BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) == "truncation above 0.001 since time 1 (worst 0.1)");
 }
 
 BOOST_AUTO_TEST_CASE(run_that_stopped_says_so_and_why) {

@@ -16,9 +16,10 @@ using namespace vehd::testing;
 
 namespace {
 
-constexpr int kSteps = 4;
-/// Solvers stop at 1e-9 of what they solve for, at another iteration where rounding differs.
-constexpr double kSolvers = 1e-7;
+constexpr int kSteps = 3;
+/// Solvers stop at 1e-9 of what they solve for, at another iteration where rounding differs; strain, held to 1e-6 by the
+/// step itself, rides on all of it.
+constexpr double kSolvers = 1e-6;
 
 Vector3 random_vector(std::mt19937_64& random, double size) {
   std::normal_distribution<double> normal;
@@ -36,7 +37,7 @@ AxisAngle random_rotation(std::mt19937_64& random, const Scene& scene) {
 /// The same way through the equations, whatever symmetry the place leaves, and no finer than that takes.
 Scene plain(Scene scene) {
   scene.numerics.symmetry = SymmetryUse::off;
-  scene.numerics.order = std::min(scene.numerics.order, 12);
+  scene.numerics.order = std::min(scene.numerics.order, 10);
   return scene;
 }
 

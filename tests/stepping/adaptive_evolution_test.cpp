@@ -42,7 +42,7 @@ struct Result {
 
 Result run_to(const Model& model, const Matrix& position, double tolerance, double end_time) {
   Instruments instruments;
-  Evolution evolution(setup_of(model, position, tolerance, end_time), position, false, instruments);
+  Evolution evolution(setup_of(model, position, tolerance, end_time), position, {}, instruments);
   evolution.evaluate_start();
   Result result{{}, evolution.order(), evolution.order(), 0};
   while (evolution.state().time < end_time) {
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(degree_follows_the_spectrum_up_and_down) {
 BOOST_AUTO_TEST_CASE(step_of_a_fixed_size_never_changes_the_degree) {
   const Matrix position = prolate(12);
   Instruments instruments;
-  Evolution evolution(fixed_setup(field_model(), position, 0.25), position, false, instruments);
+  Evolution evolution(fixed_setup(field_model(), position, 0.25), position, {}, instruments);
   evolution.evaluate_start();
   for (int i = 0; i < 4; ++i) BOOST_TEST(evolution.step({std::nullopt, 1.0}).dt == 0.25);
   BOOST_TEST(evolution.order() == 12);
@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(state_of_an_evolution_continues_to_the_same_bits) {
   const Matrix position = prolate(kHighestOrder);
   const EvolutionSetup setup = setup_of(field_model(), position, 1e-2, 5.0);
   Instruments instruments;
-  Evolution whole(setup, position, false, instruments);
+  Evolution whole(setup, position, {}, instruments);
   whole.evaluate_start();
   for (int i = 0; i < 4; ++i) whole.step({std::nullopt, 5.0});
   Evolution resumed(setup, whole.state(), instruments);
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(tank_treading_in_long_steps_leaves_high_degrees_alone) {
   EvolutionSetup setup = fixed_setup(shear_model(), position, 0.25);
   setup.settings.time_order = 1;
   Instruments instruments;
-  Evolution evolution(setup, position, false, instruments);
+  Evolution evolution(setup, position, {}, instruments);
   evolution.evaluate_start();
   for (int i = 0; i < 12; ++i) BOOST_TEST(evolution.step({std::nullopt, 3.0}).rejected == 0);
   BOOST_TEST(evolution.truncation() < 3e-6);

@@ -59,7 +59,7 @@ Evolution evolution_from(const EvolutionSetup& setup, const Matrix& position, st
                          Instruments& instruments) {
   const double dt = setup.control.tolerance > 0.0 ? 0.0 : setup.control.largest;
   State state =
-      initial_state(setup.model, Discretisation(setup.settings, setup.symmetry), position, false, dt, instruments);
+      initial_state(setup.model, Discretisation(setup.settings, setup.symmetry), position, {}, dt, instruments);
   state.quadrature_level = quadrature_level;
   return {setup, std::move(state), instruments};
 }
@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_raised_ends_the_run_with_that_reason)
   const Model model = model_with([&](const Situation& situation) { return degree(situation) > solvable; });
   const EvolutionSetup setup = setup_of(model, position, 1e-3);
   Instruments instruments;
-  Evolution evolution(setup, position, false, instruments);
+  Evolution evolution(setup, position, {}, instruments);
   solvable = evolution.order();
   evolution.evaluate_start();
   const auto run_until_it_fails = [&] {

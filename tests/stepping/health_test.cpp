@@ -94,12 +94,12 @@ BOOST_AUTO_TEST_CASE(separation_is_independent_of_place_and_size_and_seen_from_o
 
 BOOST_AUTO_TEST_CASE(quadrature_follows_the_distance_of_the_parts) {
   Instruments instruments;
-  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.25), false, instruments);
+  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.25), {}, instruments);
   evolution.evaluate_start();
   BOOST_TEST(evolution.state().quadrature_level == 0);
   BOOST_TEST(evolution.evaluation().diagnostics.quadrature_error < NumericalSettings{}.quadrature_tolerance);
 
-  Evolution near(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.04), false, instruments);
+  Evolution near(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.04), {}, instruments);
   near.evaluate_start();
   BOOST_TEST(near.state().quadrature_level > 0);
   BOOST_TEST(near.evaluation().diagnostics.quadrature_error < NumericalSettings{}.quadrature_tolerance);
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(quadrature_follows_the_distance_of_the_parts) {
 
 BOOST_AUTO_TEST_CASE(a_start_in_contact_is_refused) {
   Instruments instruments;
-  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.002), false, instruments);
+  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.002), {}, instruments);
   BOOST_CHECK_EXCEPTION(evolution.evaluate_start(), ConvergenceError, [](const ConvergenceError& error) {
     return std::string(error.what()).find("grid spacings from each other") != std::string::npos;
   });
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(a_start_in_contact_is_refused) {
 
 BOOST_AUTO_TEST_CASE(a_disc_whose_sides_meet_is_stopped_before_they_cross) {
   Instruments instruments;
-  Evolution evolution(setup_of(drawing_model(), 10, 0.05), dimpled_disc(10, 0.05), false, instruments);
+  Evolution evolution(setup_of(drawing_model(), 10, 0.05), dimpled_disc(10, 0.05), {}, instruments);
   evolution.evaluate_start();
   std::string reason;
   for (int i = 0; i < 400 && reason.empty(); ++i) {

@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_switch_are_those_of_the_forcing_that_holds_
   pulse.electric->waveform = Waveform::pulse(1.0, 0.0, 4 * kDt);
   off.electric->waveform = Waveform::pulse(1.0, 50.0, 1.0);
   Instruments instruments;
-  Evolution evolution(setup_of(pulse, position), position, false, instruments);
+  Evolution evolution(setup_of(pulse, position), position, {}, instruments);
   evolution.evaluate_start();
   BOOST_TEST(!evolution.before_jump().has_value());
   const EventTimes events{std::nullopt, 1.0};
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(corner_without_a_jump_has_one_side) {
   Model model = field_model();
   model.electric->waveform = Waveform::table({0.0, 0.1, 0.3}, {0.0, 1.0, 0.3});
   Instruments instruments;
-  Evolution evolution(setup_of(model, position), position, false, instruments);
+  Evolution evolution(setup_of(model, position), position, {}, instruments);
   evolution.evaluate_start();
   while (evolution.state().time < 0.3) {
     evolution.step({std::nullopt, 0.3});
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(flow_that_is_switched_has_two_sides_as_well) {
   Model model = shear_model();
   model.flow->waveform = Waveform::table({0.0, 0.1, 0.1, 0.2}, {1.0, 1.0, -2.0, -2.0});
   Instruments instruments;
-  Evolution evolution(setup_of(model, position), position, false, instruments);
+  Evolution evolution(setup_of(model, position), position, {}, instruments);
   evolution.evaluate_start();
   evolution.step({std::nullopt, 0.2});
   BOOST_TEST(!evolution.before_jump().has_value());

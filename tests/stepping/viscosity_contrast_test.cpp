@@ -203,8 +203,9 @@ BOOST_AUTO_TEST_CASE(stiff_vesicle_of_twice_the_critical_ratio_turns_over) {
   const std::vector<double> angles = inclinations(model, slight_prolate(8, 0.0), 0.2, 30);
   const auto over = std::adjacent_find(angles.begin(), angles.end(),
                                        [](double before, double after) { return before < -45.0 && after > 45.0; });
-  BOOST_TEST((over != angles.end()));
-  BOOST_TEST(angles.back() < 30.0);
+  BOOST_TEST_REQUIRE((over != angles.end()));
+  // It goes on turning: how far by then is a matter of the time step (21 to 32 degrees from 0.2 down to 0.025).
+  BOOST_TEST(angles.back() < *(over + 1) - 20.0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
