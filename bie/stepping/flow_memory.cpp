@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "bie/support/errors.hpp"
@@ -20,23 +19,8 @@ ScalarResponses::ScalarResponses(std::vector<Index> entries, KnownResponses know
 }
 
 KnownResponses ScalarResponses::in(const std::vector<Index>& entries, Index n_scalars) const {
-  const auto n_here = static_cast<Index>(entries_.size());
-  const auto n_there = static_cast<Index>(entries.size());
-  // Entries ascend with the degree: those of the lower one come first in both.
-  const Index common = std::min(n_here, n_there);
-  if (known_.arguments.rows() != n_scalars * n_here ||
-      !std::equal(entries_.begin(), entries_.begin() + common, entries.begin())) {
-    return {};
-  }
-  if (n_here == n_there) return known_;
-  const auto in_those = [&](const Matrix& columns) {
-    Matrix result = Matrix::Zero(n_scalars * n_there, columns.cols());
-    for (Index scalar = 0; scalar < n_scalars; ++scalar) {
-      result.middleRows(scalar * n_there, common) = columns.middleRows(scalar * n_here, common);
-    }
-    return result;
-  };
-  return {in_those(known_.arguments), in_those(known_.responses)};
+  const bool same = entries == entries_ && known_.arguments.rows() == n_scalars * static_cast<Index>(entries.size());
+  return same ? known_ : KnownResponses{};
 }
 
 std::shared_ptr<const ScalarResponses> remembered(const std::vector<Index>& entries, KnownResponses known) {

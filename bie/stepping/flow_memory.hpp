@@ -12,15 +12,17 @@ namespace vehd {
 constexpr Index most_known_responses = 128;
 
 /// What is known of a map between scalars of the membrane, together with the coefficients that its rows stand for. It
-/// can be had in the coefficients of a solve alone, so that a change of degree or symmetry never goes unnoticed.
+/// can be had for the coefficients of a solve alone, so that a change of degree or symmetry never goes unnoticed.
 class ScalarResponses {
  public:
   /// @param entries  coefficient_index of the rows of each scalar, ascending; the scalars stand one below the other
   /// @throws ShapeError unless the rows are those of whole scalars
   ScalarResponses(std::vector<Index> entries, KnownResponses known);
 
-  /// In other coefficients of n_scalars scalars: cut, or continued by zeros, where the degree is another; nothing
-  /// where another symmetry leaves other coefficients of the same degrees or the scalars are not as many.
+  /// What is known in these coefficients of n_scalars scalars; nothing if it is known in others. Cut to another degree
+  /// or continued by zeros, responses are those of their arguments only up to what the degrees between them do to each
+  /// other, and solves take more iterations with them than without (25 for 19 down from degree 10 to 8, 17 for 12 up to
+  /// 13; 10 for 18 at the same degree).
   [[nodiscard]] KnownResponses in(const std::vector<Index>& entries, Index n_scalars) const;
 
   [[nodiscard]] const std::vector<Index>& entries() const { return entries_; }

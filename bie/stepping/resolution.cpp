@@ -93,6 +93,7 @@ int Resolution::order_for(double target, int lowest, int highest) const {
 }
 
 State resized(State state, int order) {
+  if (n_coefficients(order) != state.position.rows()) state.flow_memory = {};
   state.position = resized(state.position, order);
   for (Vector* field : {&state.transmembrane_potential, &state.tension, &state.area_strain}) {
     *field = resized(Matrix(*field), order);

@@ -39,7 +39,8 @@ class Resolution {
   double least_scale_ = 0.0;  // of V_m; 0 without a field
 };
 
-/// The same fields in degrees up to `order`: cut, or continued by zeros, as ScalarResponses do by themselves.
+/// The same fields in degrees up to `order`: cut, or continued by zeros. A state of another degree than before knows
+/// nothing of its flow, see ScalarResponses.
 State resized(State state, int order);
 Fields resized(Fields fields, int order);
 
