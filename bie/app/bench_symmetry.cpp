@@ -17,6 +17,7 @@ BenchTable empty_table() {
            {"seconds_full", "full solver", "{:.2g}", true},
            {"seconds", "with symmetry", "{:.2g}", true},
            {"ratio", "ratio", "{:.1f}"},
+           {"kernel_ratio", "", "{:.1f}"},
            {"steps", "steps"},
            {"difference", "difference", "{:.0e}"}}};
 }
@@ -52,6 +53,7 @@ BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repe
     progress.clear();
     const Spread of_full = spread_of(full.seconds().at("step")), of_reduced = spread_of(reduced.seconds().at("step"));
     add_row(table, {std::int64_t{order}, of_full, of_reduced, of_full.median / of_reduced.median,
+                    double(full.kernel_evaluations()) / double(reduced.kernel_evaluations()),
                     std::int64_t{full.state().step}, state_difference(reduced.state(), full.state())});
   }
   BenchPanel panel{.x_label = "degree p",

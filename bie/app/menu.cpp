@@ -21,15 +21,13 @@ namespace vehd {
 namespace {
 
 constexpr const char* kEntry = "menu";
-/// Seconds in which everything has to be done, and those that the cost model may take of them.
-constexpr double kBudget = 9.0, kModelBudget = 3.5;
-/// What the first pilot has in any case: without it there is no menu.
-constexpr double kFirstPilot = 2.0;
 
-/// What decides the menu: every key of the scene but those that a tolerance decides, and the shape that it may read.
-std::string identity_of(const Scene& scene, const std::vector<double>& tolerances) {
+/// What decides the menu: every key of the scene but those that a tolerance decides, the shape that it may read, and
+/// steps of pilots where they are counted.
+std::string identity_of(const Scene& scene, const std::vector<double>& tolerances, const MenuBudget& budget) {
   std::string text = effective_scene(at_tolerance(scene, tolerances.front()));
   for (const double tolerance : tolerances) text += fmt::format("# {:g}\n", tolerance);
+  if (budget.steps) text += fmt::format("# {} steps\n", *budget.steps);
   if (scene.shape.path.empty()) return text;
   std::error_code ignored;
   const auto written = std::filesystem::last_write_time(scene.shape.path, ignored).time_since_epoch().count();
@@ -177,12 +175,43 @@ std::vector<MenuRow> stopping_rows(const std::vector<double>& tolerances, const 
   return rows;
 }
 
-std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto left = [&] {
-    return kBudget - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  const CostModel model = cost_model_of(scene, kModelBudget, cache);
+/// What is left of a budget for pilots.
+class BudgetLeft {
+ public:
+  explicit BudgetLeft(const MenuBudget& budget) : budget_(budget) {}
+
+  [[nodiscard]] PilotBudget of_first_pilot() const {
+    if (budget_.steps) return of_pilot();
+    return {.seconds = std::max(seconds(), budget_.first_pilot)};
+  }
+  [[nodiscard]] PilotBudget of_pilot() const {
+    if (budget_.steps) return {.steps = steps()};
+    return {.seconds = seconds()};
+  }
+  [[nodiscard]] bool any() const { return budget_.steps ? steps() > 0 : seconds() > 0.0; }
+  /// Whether a pilot for which that was predicted may well reach its end: it often takes less than what one with a
+  /// tenth of the accuracy predicts.
+  [[nodiscard]] bool may_do(const MenuRow& predicted) const {
+    constexpr double kDoubt = 3.0;
+    return budget_.steps ? double(predicted.steps) < kDoubt * double(steps()) : predicted.seconds < kDoubt * seconds();
+  }
+  void take(const Pilot& pilot) { taken_ += std::ssize(pilot.steps); }
+
+ private:
+  [[nodiscard]] std::int64_t steps() const { return *budget_.steps - taken_; }
+  [[nodiscard]] double seconds() const {
+    return budget_.seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  MenuBudget budget_;
+  std::int64_t taken_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
+                                   const MenuBudget& budget) {
+  BudgetLeft left(budget);
+  const CostModel model = cost_model_of(scene, budget.model_seconds, cache);
   std::vector<MenuRow> rows;
   Pilot pilot;
   double ratio = 1.0;  // of this scene to others of its kind
@@ -192,14 +221,15 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
     // What stops at one tolerance may well go on at the next, and says nothing of its cost.
     const bool foretells = pilot.stops.empty() && !pilot.steps.empty();
     if (running && foretells) {
-      // The next pilot may well take less than what one with a tenth of the accuracy foretells.
-      constexpr double kDoubt = 3.0;
-      running = foretold(scene, pilot, tolerances, i, model, trend).seconds * ratio < kDoubt * left();
+      MenuRow predicted = foretold(scene, pilot, tolerances, i, model, trend);
+      predicted.seconds *= ratio;
+      running = left.may_do(predicted);
     } else if (running && i > 0) {
-      running = left() > 0.0;
+      running = left.any();
     }
     if (running) {
-      Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left() : std::max(left(), kFirstPilot));
+      Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left.of_pilot() : left.of_first_pilot());
+      left.take(next);
       running = next.completed || !next.stops.empty();
       if (foretells && next.completed) {
         const auto first = std::ranges::find_if(rows, [](const MenuRow& row) { return row.stops.empty(); });
@@ -240,9 +270,10 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
 }
 
 /// The same, or rows that say why no step could be timed.
-std::vector<MenuRow> menu_or_reason(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
+std::vector<MenuRow> menu_or_reason(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
+                                    const MenuBudget& budget) {
   try {
-    return measured_menu(scene, tolerances, cache);
+    return measured_menu(scene, tolerances, cache, budget);
   } catch (const ConvergenceError& error) {
     return stopping_rows(tolerances, error.what());
   }
@@ -250,12 +281,13 @@ std::vector<MenuRow> menu_or_reason(const Scene& scene, const std::vector<double
 
 }  // namespace
 
-std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache) {
-  const std::string identity = identity_of(scene, tolerances);
+std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
+                             const MenuBudget& budget) {
+  const std::string identity = identity_of(scene, tolerances, budget);
   if (const auto entry = cache.find(kEntry, identity)) {
     if (std::vector<MenuRow> rows = rows_of(*entry, tolerances.size()); !rows.empty()) return rows;
   }
-  std::vector<MenuRow> rows = menu_or_reason(scene, tolerances, cache);
+  std::vector<MenuRow> rows = menu_or_reason(scene, tolerances, cache, budget);
   cache.keep(kEntry, identity, json_of(rows));
   return rows;
 }

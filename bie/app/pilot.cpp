@@ -13,17 +13,17 @@ namespace vehd {
 
 namespace {
 
-/// Takes steps to the end of the scene or as long as there is time, one at least.
+/// Takes steps to the end of the scene or as long as the budget lasts, one at least.
 /// @throws ConvergenceError where none is acceptable; the pilot has those before it
-template <typename HasTime>
-void take_steps(const Scene& scene, const std::vector<double>& tolerances, const HasTime& has_time, Pilot& pilot) {
+template <typename InBudget>
+void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget, Pilot& pilot) {
   const Problem problem = problem_of(scene);
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
   evolution.evaluate_start();
   pilot.highest_order = evolution.order();
   const double end = scene.numerics.end_time;
-  while (evolution.state().time < end && (pilot.steps.empty() || has_time())) {
+  while (evolution.state().time < end && (pilot.steps.empty() || in_budget())) {
     const EvolutionStep step = evolution.step({scene.output.every, end});
     PilotStep record{evolution.state().time, step.dt,          step.change, step.rejected + 1,
                      evolution.order(),      step.at_snapshot, {}};
@@ -40,16 +40,17 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
 
 }  // namespace
 
-Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, double seconds) {
+Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
+                const PilotBudget& budget) {
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const Scene asked = at_tolerance(scene, tolerance);
   Pilot pilot;
   pilot.tolerance = tolerance;
   pilot.time_order = asked.numerics.time_order;
+  const auto in_budget = [&] { return std::ssize(pilot.steps) < budget.steps && spent() < budget.seconds; };
   try {
-    take_steps(
-        asked, tolerances, [&] { return spent() < seconds; }, pilot);
+    take_steps(asked, tolerances, in_budget, pilot);
   } catch (const ConvergenceError& error) {
     pilot.stops = error.what();
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,8 +31,14 @@ struct Pilot {
   std::vector<PilotStep> steps;
 };
 
-/// @param tolerances  for which degrees are foretold from the spectrum of each state
-/// @param seconds     budget; the run stops where it is then, after one step at the earliest
-Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, double seconds);
+/// Where a pilot stops before the end of its scene: at whichever comes first, after one step at the earliest. Steps are
+/// the same on every machine.
+struct PilotBudget {
+  double seconds = std::numeric_limits<double>::infinity();
+  std::int64_t steps = std::numeric_limits<std::int64_t>::max();  ///< accepted ones
+};
+
+/// @param tolerances  for which degrees are predicted from the spectrum of each state
+Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, const PilotBudget& budget);
 
 }  // namespace vehd

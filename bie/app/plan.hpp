@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/app/cost_cache.hpp"
+#include "bie/app/menu.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
@@ -42,7 +42,8 @@ RunPlan plan_of(const Scene& scene);
 /// temporary folder; where steps cannot be taken that is the finding. Orders above 32 are timed at 32 and scaled with
 /// the growth of assembly, p^5, and of operators, p^4. With a tolerance: steps, seconds and memory that whole runs with
 /// looser tolerances lead to expect, see menu_of.
+/// @param budget  of the looser runs
 /// @throws OutputError
-void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache);
+void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache, const MenuBudget& budget = {});
 
 }  // namespace vehd

@@ -49,6 +49,7 @@ class Simulation {
         evolution_(evolution()),
         meter_(start_.totals, instruments_),
         recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_)),
+        after_step_(task.after_step),
         progress_(task.progress, evolution_.state().time, task.scene.numerics.end_time) {}
 
   RunOutcome run(Interruption& interruption) {
@@ -99,6 +100,7 @@ class Simulation {
           return {.completed = false, .reason = fmt::format("a signal came at time {:g}", evolution_.state().time)};
         }
         record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
+        if (after_step_) after_step_();
       }
       return {.completed = true, .reason = {}};
     } catch (const ConvergenceError& error) {
@@ -150,6 +152,7 @@ class Simulation {
   Evolution evolution_;
   WorkMeter meter_;
   RunRecorder recorder_;
+  const std::function<void()>& after_step_;
   Progress progress_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,7 @@ struct RunTask {
   const RunPaths& paths;
   const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
   Progress::Style progress = Progress::Style::none;
+  std::function<void()> after_step{};  ///< called when a step is in the files; may be empty
 };
 
 /// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date

@@ -63,6 +63,12 @@ std::vector<std::string> StepTimer::parts() const {
   return parts;
 }
 
+std::uint64_t StepTimer::kernel_evaluations() const {
+  std::uint64_t sum = 0;
+  for (const auto& [kernel, count] : instruments_.kernel_evaluations()) sum += count;
+  return sum;
+}
+
 std::map<std::string, double> StepTimer::operations() const {
   const Discretisation discretisation(problem_.settings, problem_.symmetry);
   const Discretisation::Tables& tables = discretisation.tables();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ class StepTimer {
   /// Floating-point operations of parts in the last step: kernels and matrix products of the assembly, and in the
   /// solves of a first-order step the applications of the Stokes operator, one an iteration.
   [[nodiscard]] std::map<std::string, double> operations() const;
+  /// Of all operators and all steps so far.
+  [[nodiscard]] std::uint64_t kernel_evaluations() const;
   [[nodiscard]] const State& state() const { return evolution_.state(); }
 
  private:

@@ -12,10 +12,12 @@ namespace {
 
 std::string compiler() {
 #ifdef __clang__
-  return __VERSION__;
+  const std::string name = __VERSION__;
 #else
-  return "g++ " __VERSION__;
+  const std::string name = "g++ " __VERSION__;
 #endif
+  const std::string architecture = VEHD_ARCHITECTURE;
+  return architecture.empty() ? name : name + " -march=" + architecture;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bie/app/step_timer.hpp"
+#include "bie/scene/reader.hpp"
 #include "tests/app/program.hpp"
 
 namespace {
@@ -101,7 +103,8 @@ BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
 BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
   const Bench bench({"parts", "SCENE", "--orders", "6,10", "--repeats", "1"});
   files_say_what_they_hold_for(bench);
-  BOOST_TEST(number(bench.json, "peak_operations_per_second") > 1e7);
+  const double peak = number(bench.json, "peak_operations_per_second");
+  vehd::Scene scene = vehd::read_scene(bench.directory / "scene.toml");
   for (const auto& row : bench.json["rows"]) {
     double sum = 0.0;
     for (const auto& [key, value] : row.items()) {
@@ -113,8 +116,11 @@ BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
     BOOST_TEST(number(row, "seconds_other") >= 0.0);
     BOOST_TEST(number(row, "seconds_operator_assembly") > 0.0);
     BOOST_TEST(number(row, "seconds_electric") > 0.0);
-    BOOST_TEST(number(row, "peak_fraction_operator_assembly") > 0.0);
-    BOOST_TEST(number(row, "peak_fraction_operator_assembly") < 1.0);
+    scene.numerics.order = row["order"].get<int>();
+    const double operations = vehd::StepTimer(scene).operations().at("operator assembly");
+    BOOST_TEST(
+        number(row, "peak_fraction_operator_assembly") * peak * number(row, "seconds_operator_assembly") == operations,
+        boost::test_tools::tolerance(1e-9));
     // Both are counted in pages from beginnings of their own.
     constexpr double kPage = 4096.0;
     BOOST_TEST(number(row, "bytes_step") >= number(row, "bytes_operator_assembly") - kPage);
@@ -152,7 +158,8 @@ BOOST_AUTO_TEST_CASE(symmetry_does_not_change_the_result) {
     BOOST_TEST(number(row, "ratio") == number(row, "seconds_full") / number(row, "seconds"),
                boost::test_tools::tolerance(1e-6));
     BOOST_TEST(number(row, "difference") < 1e-9 * number(row, "steps"));
-    BOOST_TEST(number(row, "difference") > 0.0);
+    // An ellipsoid with one axis: the full solver has whole circles of targets where the other has one target.
+    BOOST_TEST(number(row, "kernel_ratio") > number(row, "order"));
   }
 }
 

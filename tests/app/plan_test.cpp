@@ -1,6 +1,9 @@
+#include "bie/app/plan.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
+#include "bie/scene/reader.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/stopping_scenes.hpp"
 
@@ -8,19 +11,29 @@ namespace {
 
 nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(file_text(path)); }
 
-/// Plan and summary of one scene.
-struct PlannedRun {
+/// A scene and what a run of it says at its end.
+struct Run {
   OwnCache cache;
   TemporaryDirectory directory;
-  nlohmann::json plan, summary;
+  std::string scene = directory / "scene.toml";
+  nlohmann::json summary;
 
-  explicit PlannedRun(const std::string& scene) {
-    write_text(directory / "scene.toml", scene);
-    BOOST_REQUIRE(run_vehd({"plan", directory / "scene.toml", "--json", directory / "plan.json"}).exit_code == 0);
-    plan = json_of(directory / "plan.json");
-    const ProgramResult run = run_vehd({"run", directory / "scene.toml", "-o", directory / "out", "--no-plot"});
-    BOOST_REQUIRE(run.exit_code == 0);
+  explicit Run(const std::string& text) {
+    write_text(scene, text);
+    const ProgramResult run = run_vehd({"run", scene, "-o", directory / "out", "--no-plot"});
+    BOOST_TEST_REQUIRE(run.exit_code == 0, run.errors);
     summary = json_of(directory / "out/summary.json");
+  }
+};
+
+/// Together with what the program plans.
+struct PlannedRun : Run {
+  nlohmann::json plan;
+
+  explicit PlannedRun(const std::string& text) : Run(text) {
+    const ProgramResult result = run_vehd({"plan", scene, "--json", directory / "plan.json"});
+    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+    plan = json_of(directory / "plan.json");
   }
 };
 
@@ -90,13 +103,17 @@ BOOST_AUTO_TEST_CASE(symmetry_can_be_switched_off) {
 }
 
 BOOST_AUTO_TEST_CASE(plan_of_a_tolerance_comes_from_whole_runs) {
-  std::string scene = with_numerics("tolerance = 0.01\n");
-  scene.erase(scene.find("dt ="), scene.find('\n', scene.find("dt =")) - scene.find("dt ="));
-  scene.erase(scene.find("order ="), scene.find('\n', scene.find("order =")) - scene.find("order ="));
-  const PlannedRun run(scene);
-  BOOST_TEST(run.summary["steps"].get<int>() == run.plan["steps"].get<int>());
-  BOOST_TEST(run.plan["seconds_per_step"].get<double>() > 0.0);
+  std::string text = with_numerics("tolerance = 0.01\n");
+  text.erase(text.find("dt ="), text.find('\n', text.find("dt =")) - text.find("dt ="));
+  text.erase(text.find("order ="), text.find('\n', text.find("order =")) - text.find("order ="));
+  const Run run(text);
   BOOST_TEST(run.summary["verdict"].get<std::string>() == "trustworthy");
+  const vehd::Scene scene = vehd::read_scene(run.scene);
+  vehd::RunPlan plan = vehd::plan_of(scene);
+  vehd::CostCache none(run.directory / "costs.json");
+  vehd::predict_cost(scene, plan, none, {.model_seconds = 0.0, .steps = 1000});
+  BOOST_TEST(plan.n_steps == run.summary["steps"].get<std::int64_t>());
+  BOOST_TEST(plan.seconds_per_step > 0.0);
 }
 
 // A scene that cannot be stepped is no defect of the program.

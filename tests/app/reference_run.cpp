@@ -2,8 +2,10 @@
 
 #include <boost/test/unit_test.hpp>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
+#include "bie/app/checkpoint.hpp"
 #include "bie/scene/run_reader.hpp"
 
 std::vector<std::pair<std::string, vehd::Vector>> snapshot_data(const std::string& path) {
@@ -39,22 +41,32 @@ FinishedRun::FinishedRun() {
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
 }
 
-ReferenceRun::ReferenceRun(const std::string& text) {
-  write_text(scene, text);
-  const auto start = std::chrono::steady_clock::now();
+void RunPair::run_reference() const {
   const ProgramResult result = run_vehd({"run", scene, "-o", reference, "--no-plot"});
-  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
 }
 
-void ReferenceRun::finish() const {
+ReferenceRun::ReferenceRun(const std::string& text) : RunPair(text) {
+  const auto start = std::chrono::steady_clock::now();
+  run_reference();
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void EndlessRun::finish_soon() const {
+  const double reached = vehd::read_checkpoint(output + "/checkpoint.h5").state.time;
+  write_text(scene, quick_scene(std::to_string(std::ceil(reached) + 1.0)));
+  run_reference();
+  finish();
+}
+
+void RunPair::finish() const {
   const ProgramResult result = run_command(command);
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
   BOOST_TEST(!std::filesystem::exists(output + "/.run.h5.spare"));
   check_same_run(output, reference);
 }
 
-void ReferenceRun::wait_for_rows(RunningProgram& program) const {
+void RunPair::wait_for_rows(RunningProgram& program) const {
   while (!program.ended() && file_text(output + "/history.csv").size() < 1000) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

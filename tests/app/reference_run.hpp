@@ -22,20 +22,35 @@ struct FinishedRun {
   FinishedRun();
 };
 
-/// A scene, its run without any trouble, and the command that makes the same run in `output`, or continues it there.
-struct ReferenceRun {
+/// A scene, a place for its run without any trouble, and the command that makes the same run in `output`, or continues
+/// it there.
+struct RunPair {
   TemporaryDirectory directory;
   std::string scene = directory / "scene.toml";
   std::string reference = directory / "reference";
   std::string output = directory / "out";
   std::vector<std::string> command = vehd_command({"run", scene, "-o", output, "--resume", "--no-plot", "--quiet"});
-  double seconds = 0.0;
 
-  explicit ReferenceRun(const std::string& text = quick_scene());
+  explicit RunPair(const std::string& text) { write_text(scene, text); }
 
+  void run_reference() const;
   /// Runs the command to its end and compares. It must succeed.
   void finish() const;
-
   /// Waits until the run has written at least one row.
   void wait_for_rows(RunningProgram& program) const;
+};
+
+/// With the run without trouble.
+struct ReferenceRun : RunPair {
+  double seconds = 0.0;  ///< that it took
+
+  explicit ReferenceRun(const std::string& text = quick_scene());
+};
+
+/// Met while it runs on any machine: it has hours to go.
+struct EndlessRun : RunPair {
+  EndlessRun() : RunPair(quick_scene("100000.0")) {}
+
+  /// Lets what was interrupted end soon, and compares it with the same run without trouble.
+  void finish_soon() const;
 };

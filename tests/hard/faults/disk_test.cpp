@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(directory_without_permission_is_left_as_it_is) {
 }
 
 BOOST_AUTO_TEST_CASE(directory_that_vanishes_ends_the_run_in_order) {
-  const FaultyRun run(quick_scene("60.0"));
+  const EndlessRun run;
   RunningProgram program(run.command);
   run.wait_for_rows(program);
   std::filesystem::rename(run.output, run.directory / "moved");
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(directory_that_vanishes_ends_the_run_in_order) {
   BOOST_TEST(result.exit_code == 3);
   BOOST_TEST(result.errors.find("cannot be ") != std::string::npos, result.errors);
   std::filesystem::rename(run.directory / "moved", run.output);
-  run.finish();
+  run.finish_soon();
 }
 
 BOOST_AUTO_TEST_SUITE_END()
