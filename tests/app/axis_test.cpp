@@ -75,8 +75,13 @@ BOOST_AUTO_TEST_CASE(scene_about_x_is_the_scene_about_z_with_coordinates_permute
   const std::string snapshot = "/snapshots/000006/coefficients/";
   for (const char* name : {"x", "velocity", "force_bending", "force_tension", "force_electric"}) {
     const Matrix a = on_the_axes(file_z.matrix(snapshot + name)), b = on_the_axes(file_x.matrix(snapshot + name));
+    // Forces are fourth derivatives of x, and what rounding does to x is larger in them by three powers of the degree.
+    const double bound = std::string(name).starts_with("force") ? 1e-7 : 1e-9;
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) BOOST_TEST(std::abs(b((i + 1) % 3, (j + 1) % 3) - a(i, j)) < 1e-9, name);
+      for (int j = 0; j < 3; ++j) {
+        BOOST_TEST(std::abs(b((i + 1) % 3, (j + 1) % 3) - a(i, j)) < bound,
+                   name << " " << b((i + 1) % 3, (j + 1) % 3) - a(i, j));
+      }
     }
   }
   for (const char* name : {"Vm", "q", "tension"}) {

@@ -192,7 +192,8 @@ BOOST_FIXTURE_TEST_CASE(shape_file_without_that_time, FinishedRun) {
              "[shape]\nkind = \"file\"\npath = \"out/run.h5\"\ntime = 0.3\n"
              "[numerics]\norder = 6\ndt = 1\nend_time = 0\n");
   check_refused({"run", directory / "next.toml", "-o", directory / "next"},
-                output + "/run.h5: no snapshot at time 0.3; the nearest is at 0.5");
+                directory / "next.toml" + ":4: \"time\" in [shape] is 0.3, at which " + output +
+                    "/run.h5 has no snapshot; the nearest is at 0.5");
 }
 
 BOOST_AUTO_TEST_CASE(plot_of_no_run) {

@@ -41,7 +41,8 @@ std::string shortened(std::string command) {
   command = std::regex_replace(command, std::regex("--repeats [0-9]+"), "--repeats 1");
   command = std::regex_replace(command, std::regex("--dt [0-9.,]+"), "--dt 0.1,0.05,0.025");
   command = std::regex_replace(command, std::regex("--tolerance [0-9e.,-]+"), "--tolerance 1e-1,1e-2");
-  command = std::regex_replace(command, std::regex("--at [0-9.]+"), "--at 0.3");
+  command = std::regex_replace(command, std::regex("--(at|time) [0-9.]+"), "--$1 0.3");
+  command = std::regex_replace(command, std::regex("--times [0-9.,]+"), "--times 0,0.1,0.3");
   return std::regex_replace(command, std::regex("bench (all|methods|stability)"), "bench $1 --quick");
 }
 

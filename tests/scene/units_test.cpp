@@ -141,10 +141,11 @@ BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
   // Of several the shortest, whatever their order.
   const std::string pulse = "[electric.waveform]\nkind = 'pulse'\nduration = '1 us'\n";
   BOOST_TEST(time(start + electric(conducting, "permittivity = '80 eps0'\n" + pulse)) == 1e-6, tolerance);
-  // What has no unit, or is zero, says nothing; nor does an electric membrane without a field.
+  // What has no unit, or is zero, says nothing.
   BOOST_TEST(time(start + "[electric]\nfield = [0, 0, '1 kV/m']\n" + plain +
                   "[electric.waveform]\nkind = 'pulse'\nduration = 1\n") == 0.0);
-  BOOST_TEST(time(start + "[flow]\nkind = 'shear'\nrate = '0 1/s'\n") == 0.0);
+  BOOST_TEST(time(start + "[flow]\nkind = 'shear'\nrate = '0 1/s'\n[membrane]\nbending_modulus = '1e-18 J'\n") == 1.0,
+             tolerance);
   BOOST_TEST(time(start + "[membrane]\ncapacitance = 3\n") == 0.0);
   // A time that the scene states is left alone.
   BOOST_TEST(time(replaced(start, "[units]\n", "[units]\ntime = '3 s'\n") + electric(conducting, pulse)) == 3.0);
