@@ -93,6 +93,7 @@ RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start,
   Solution solution{{false, 0, 0.0}, {}, {}};
   int& iterations = solution.report.iterations;
   double seen = std::numeric_limits<double>::infinity();  // true residual at the last look
+  bool own = directions_.empty();                         // no direction is older than this solve
   double size = 0.0;
   for (;;) {
     for (const Direction& direction : directions_) follow(direction, iterate);
@@ -103,13 +104,17 @@ RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start,
     look(goal, iterate);
     ++iterations;
     size = iterate.size();
-    // A solve that gains no more than this has come to what rounding leaves.
+    if (size <= wanted) break;
+    // Where a look finds no gain since the last one, the directions misled the search; where they were all found by
+    // this search, it has come to what rounding leaves.
     constexpr double kWorthwhile = 0.5;
-    if (size <= wanted || !(size < kWorthwhile * seen)) break;
+    const bool gained = size < kWorthwhile * seen;
+    if (!gained && own) break;
     seen = size;
-    if (exhausted) {
+    if (!gained || exhausted) {
       directions_.clear();
       rounding_.clear();
+      own = true;
     }
   }
   solution.report.residual = size / scale;
