@@ -134,9 +134,9 @@ void RecycledGcr::search(double wanted, int most, Iterate& iterate, int& iterati
   constexpr double kMisled = 0.8;
   constexpr double kStagnates = 1e-3;
   // The rounding of the proposals, magnified as what they have in common is taken out, is the part of a direction's
-  // image, of norm 1, that its x does not have. A step leaves that part of the residual which it claims to remove, so
-  // half of the digits are worth an application; all later directions inherit the loss.
-  constexpr double kHalfOfTheDigits = 1.5e-8;
+  // image, of norm 1, that its x does not have. A step leaves that part of the residual which it claims to remove, and
+  // the look at the true residual finds it: what is lost is an application, so seven digits are enough to be worth one.
+  constexpr double kFewestDigits = 3e-7;
   bool is_known = false;
   double share = 1.0;
   // Not (size > …): a residual that is not a number ends the solve as well.
@@ -148,7 +148,7 @@ void RecycledGcr::search(double wanted, int most, Iterate& iterate, int& iterati
     const bool added = add_direction(stagnates  ? directions_.back().image
                                      : is_known ? secant_.apply(iterate.residual)
                                                 : iterate.residual,
-                                     kHalfOfTheDigits);
+                                     kFewestDigits);
     ++iterations;
     if (!added && stagnates) break;
     share = added ? follow(directions_.back(), iterate) : 0.0;
