@@ -82,6 +82,18 @@ BOOST_AUTO_TEST_CASE(every_shipped_scene_is_valid) {
   BOOST_TEST(count >= 6);
 }
 
+// A table that was renewed from a part of the scenes would tell of that part alone.
+BOOST_AUTO_TEST_CASE(every_shipped_scene_has_its_row_where_the_scenes_end) {
+  const std::string page = file_text(VEHD_SOURCE_DIR "/docs/scenes.md");
+  const std::size_t start = page.find("<!-- table scenes -->");
+  const std::string table = page.substr(start, page.find("<!-- end of table -->", start) - start);
+  for (const auto& entry : fs::directory_iterator(fs::path(VEHD_SOURCE_DIR) / "docs/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().filename().string();
+    BOOST_TEST(table.find("| " + name + " |") != std::string::npos, name);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {
   int count = 0;
   for (const fs::path& page : pages()) {
