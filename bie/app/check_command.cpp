@@ -5,10 +5,10 @@
 #include <memory>
 #include <thread>
 
-#include "bie/app/check_input.hpp"
-#include "bie/app/check_picture.hpp"
+#include "bie/comparison/check_input.hpp"
+#include "bie/pictures/differences.hpp"
 #include "bie/app/commands.hpp"
-#include "bie/app/fem_program.hpp"
+#include "bie/comparison/fem_program.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"

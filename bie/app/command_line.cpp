@@ -5,7 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "bie/app/commands.hpp"
-#include "bie/app/versions.hpp"
+#include "bie/files/versions.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/memory.hpp"
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bie/app/errors.hpp"
-#include "bie/app/result_file.hpp"
+#include "bie/support/exit_code.hpp"
+#include "bie/support/result_file.hpp"
 
 /// One function per command: it adds the command's options and a callback that runs it and sets the exit code.
 namespace vehd {

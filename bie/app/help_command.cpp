@@ -7,7 +7,7 @@
 #include "bie/scene/key_reference.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/schema_text.hpp"
-#include "bie/scene/text_table.hpp"
+#include "bie/support/text_table.hpp"
 
 namespace vehd {
 namespace {

@@ -2,10 +2,11 @@
 
 #include <memory>
 
-#include "bie/app/check_input.hpp"
+#include "bie/comparison/check_input.hpp"
 #include "bie/app/commands.hpp"
-#include "bie/app/fem_program.hpp"
-#include "bie/app/file_system.hpp"
+#include "bie/comparison/fem_program.hpp"
+#include "bie/support/file_system.hpp"
+#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
-#include "bie/app/menu.hpp"
-#include "bie/app/plan.hpp"
-#include "bie/app/progress.hpp"
-#include "bie/app/resumption.hpp"
+#include "bie/estimate/cost_table.hpp"
+#include "bie/estimate/plan.hpp"
+#include "bie/support/progress.hpp"
+#include "bie/runs/resumption.hpp"
 #include "bie/scene/reader.hpp"
 
 namespace vehd {

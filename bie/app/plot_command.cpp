@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
-#include "bie/app/plots.hpp"
+#include "bie/pictures/plots.hpp"
 
 namespace vehd {
 namespace {

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "bie/app/commands.hpp"
-#include "bie/app/file_system.hpp"
-#include "bie/app/plots.hpp"
-#include "bie/app/resumption.hpp"
-#include "bie/app/run_loop.hpp"
-#include "bie/app/summary.hpp"
+#include "bie/support/file_system.hpp"
+#include "bie/pictures/plots.hpp"
+#include "bie/runs/resumption.hpp"
+#include "bie/runs/run_loop.hpp"
+#include "bie/runs/summary.hpp"
 #include "bie/scene/reader.hpp"
 
 namespace vehd {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
-#include "bie/app/example1.hpp"
+#include "bie/bench/example1.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {

@@ -6,16 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "bie/sphere/harmonics.hpp"
+
 namespace vehd {
 
 using Triple = std::array<double, 3>;
 using TripleOfTriples = std::array<Triple, 3>;
 /// Axis of any length and angle in degrees, right-handed.
 using AxisAngle = std::array<double, 4>;
-
-/// Degrees p of the harmonics that a scene may ask for.
-constexpr int lowest_order = 4;
-constexpr int highest_order = 64;
 
 /// One term amplitude * Re Y_n^m of Eq. (17); m < 0 takes Im Y_n^|m|.
 struct HarmonicMode {

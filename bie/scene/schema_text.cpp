@@ -6,7 +6,7 @@
 
 #include "bie/scene/key_reference.hpp"
 #include "bie/scene/schema.hpp"
-#include "bie/scene/text_table.hpp"
+#include "bie/support/text_table.hpp"
 #include "bie/scene/units.hpp"
 
 namespace vehd {

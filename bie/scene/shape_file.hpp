@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "bie/scene/run_reader.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/support/types.hpp"
 

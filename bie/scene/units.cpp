@@ -126,6 +126,10 @@ double si_scale(const std::optional<UnitsScene>& units, std::string_view dimensi
   return scale.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+std::function<double(std::string_view)> si_scales(const std::optional<UnitsScene>& units) {
+  return [units](std::string_view dimension) { return si_scale(units, dimension); };
+}
+
 std::optional<double> conversion(const std::optional<UnitsScene>& from, const std::optional<UnitsScene>& to,
                                  std::optional<double> UnitsScene::*scale) {
   const auto of = [scale](const std::optional<UnitsScene>& units) { return units ? *units.*scale : std::nullopt; };

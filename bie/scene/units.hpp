@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,6 +58,8 @@ std::optional<double> reference_scale(const UnitsScene& units, const Dimension& 
 /// SI value of 1 of a dimension by its name, 1 of a pure number ("1", "rad").
 /// @return NaN where the scene does not say
 double si_scale(const std::optional<UnitsScene>& units, std::string_view dimension);
+/// The same as a function of the dimension alone, as files take it.
+std::function<double(std::string_view)> si_scales(const std::optional<UnitsScene>& units);
 
 /// Factor from numbers of one scene to those of another: the ratio of their reference scales, 1 where neither has one.
 /// @return nullopt if only one of them has the scale

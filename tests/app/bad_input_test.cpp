@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "bie/scene/hdf5_reader.hpp"
+#include "bie/files/hdf5_reader.hpp"
 #include "tests/app/reference_run.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bie/app/step_timer.hpp"
+#include "bie/bench/step_timer.hpp"
 #include "bie/scene/reader.hpp"
 #include "tests/app/program.hpp"
 

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "bie/scene/run_reader.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "tests/app/reference_run.hpp"
 #include "tests/app/stopping_scenes.hpp"

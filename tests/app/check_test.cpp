@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include "bie/app/check_input.hpp"
+#include "bie/comparison/check_input.hpp"
 #include "tests/app/program.hpp"
 
 namespace {

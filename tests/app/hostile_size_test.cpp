@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
-#include "bie/app/hdf5_writer.hpp"
-#include "bie/scene/run_reader.hpp"
+#include "bie/files/hdf5_writer.hpp"
+#include "bie/files/run_reader.hpp"
 #include "tests/app/program.hpp"
 
 namespace {

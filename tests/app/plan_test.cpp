@@ -1,4 +1,4 @@
-#include "bie/app/plan.hpp"
+#include "bie/estimate/plan.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>

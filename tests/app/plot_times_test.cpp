@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/app/frozen_state.hpp"
+#include "bie/comparison/frozen_state.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/app/program.hpp"
 

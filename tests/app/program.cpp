@@ -8,7 +8,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <regex>
 #include <stdexcept>
 
 namespace {
@@ -76,25 +75,10 @@ ProgramResult run_command(const std::vector<std::string>& command) { return Runn
 
 ProgramResult run_vehd(const std::vector<std::string>& arguments) { return run_command(vehd_command(arguments)); }
 
-std::string quick_scene(const std::string& end_time) {
-  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n"
-         "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
-         "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
-         "[numerics]\norder = 6\ndt = 0.25\nend_time = " +
-         end_time + "\n[output]\nevery = 0.5\n";
-}
-
 void copy_some_hard_cases(const std::filesystem::path& tree) {
   const std::filesystem::path folder = "tests/hard/scenes";
   std::filesystem::create_directories(tree / folder);
   for (const char* name : {"contrast_1e8.toml", "thin_middle.toml"}) {
     std::filesystem::copy_file(VEHD_SOURCE_DIR / folder / name, tree / folder / name);
   }
-}
-
-std::string shortened_scene(std::string scene) {
-  scene = std::regex_replace(scene, std::regex("order = \\d+"), "order = 6");
-  scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
-  scene = std::regex_replace(scene, std::regex("\nend_time = [0-9.e-]+"), "\nend_time = 0.3");
-  return std::regex_replace(scene, std::regex("\nevery = [0-9.e-]+"), "\nevery = 0.1");
 }

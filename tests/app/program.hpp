@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/files.hpp"
+#include "tests/support/scenes.hpp"
 
 /// The real binary as users run it.
 struct ProgramResult {
@@ -56,11 +57,5 @@ class OwnCache {
   TemporaryDirectory directory_;
 };
 
-/// A quick scene: order 6, bending, a field, 12 steps of 0.25, a snapshot every 0.5.
-std::string quick_scene(const std::string& end_time = "3.0");
-
 /// Two scenes of tests/hard/scenes, at the same place below `tree`.
 void copy_some_hard_cases(const std::filesystem::path& tree);
-
-/// A scene of docs/scenes at a low order and with few steps.
-std::string shortened_scene(std::string scene);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bie/app/file_system.hpp"
+#include "bie/support/file_system.hpp"
 #include "tests/app/reference_run.hpp"
 
 namespace {

@@ -6,11 +6,12 @@
 #include <numeric>
 #include <vector>
 
-#include "bie/app/checkpoint.hpp"
-#include "bie/app/run_file.hpp"
-#include "bie/app/sealed_file.hpp"
-#include "bie/scene/hdf5_handle.hpp"
-#include "bie/scene/run_reader.hpp"
+#include "bie/runs/checkpoint.hpp"
+#include "bie/files/run_file.hpp"
+#include "bie/scene/units.hpp"
+#include "bie/files/sealed_file.hpp"
+#include "bie/files/hdf5_handle.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
@@ -88,14 +89,14 @@ vehd::Matrix ellipsoid() {
 std::string good_run() {
   const vehd::SphereTransform transform(order, vehd::make_grid(order));
   vehd::Hdf5Writer file("run.h5", vehd::Hdf5Writer::Mode::in_memory);
-  vehd::write_run_header(file, transform, {scene_text, 1});
+  vehd::write_run_header(file, transform, {scene_text, 1, vehd::si_scales(std::nullopt)});
   vehd::State state;
   state.position = ellipsoid();
   state.transmembrane_potential = vehd::Vector::Ones(state.position.rows());
   vehd::Fields fields;
   fields.velocity = state.position;
   for (const char* name : {"000000", "000001"}) {
-    vehd::write_snapshot(file, name, transform, state, fields, std::nullopt);
+    vehd::write_snapshot(file, name, transform, state, fields, vehd::si_scales(std::nullopt));
     state.time += 1.0;
   }
   return file.image();

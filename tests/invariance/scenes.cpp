@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bie/app/stability_case.hpp"
+#include "bie/bench/stability_case.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/stepping/deferred_correction.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 #include <thread>
 
-#include "bie/scene/run_reader.hpp"
+#include "bie/files/run_reader.hpp"
 #include "tests/hard/faults/faulty_run.hpp"
 
 namespace {

@@ -1,0 +1,298 @@
+#include "bie/bench/all.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "bie/bench/methods.hpp"
+#include "bie/bench/parts.hpp"
+#include "bie/bench/scenes.hpp"
+#include "bie/bench/space.hpp"
+#include "bie/bench/stability.hpp"
+#include "bie/bench/symmetry.hpp"
+#include "bie/bench/threads.hpp"
+#include "bie/bench/time.hpp"
+#include "bie/bench/doc_tables.hpp"
+#include "bie/comparison/fem_program.hpp"
+#include "bie/estimate/cost_table.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is measured, in full and as a trial.
+struct Extent {
+  std::vector<int> space, parts, symmetry;
+  int threads_order;  ///< 0: that of the scene
+  int time_order;     ///< degree of the comparison of integrators, likewise
+  int n_steps;        ///< step sizes
+  std::vector<double> tolerances;
+  int repeats;
+};
+
+/// Where the tightest tolerance of a scene is foretold to take longer than this many seconds, all are compared earlier.
+constexpr double longest_run = 300.0;
+
+Extent extent_of(bool quick) {
+  if (quick) return {{6, 8}, {6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, 2};
+  return {{8, 12, 16, 20, 24, 32},
+          {8, 12, 16, 24, 32},
+          {8, 12, 16, 24},
+          24,
+          24,
+          5,
+          {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7},
+          9};
+}
+
+/// Successive halves.
+std::vector<double> steps_from(double first, int count) {
+  std::vector<double> steps{first};
+  while (static_cast<int>(steps.size()) < count) steps.push_back(0.5 * steps.back());
+  return steps;
+}
+
+/// The whole of what bench all does, one bench after the other.
+class AllBenches {
+ public:
+  explicit AllBenches(const AllTask& task) : task_(task), extent_(extent_of(task.quick)) {
+    scenes_ = scene_files(task.docs / "scenes");
+    make_bench_directory(task.output);
+    fs::create_directories(task.docs / "images");
+    wanted_ = wanted_tables(task.docs);
+  }
+
+  nlohmann::ordered_json run() {
+    for (const Bench& bench : kBenches) {
+      if (task_.only.empty() || std::ranges::find(task_.only, bench.name) != task_.only.end()) (this->*bench.run)();
+    }
+    report();
+    return record_;
+  }
+
+  static std::vector<std::string> names() {
+    std::vector<std::string> names;
+    for (const Bench& bench : kBenches) names.emplace_back(bench.name);
+    return names;
+  }
+
+ private:
+  void begin(const std::string& what) const {
+    fmt::print("\n== {}\n", what);
+    std::fflush(stdout);
+  }
+
+  [[nodiscard]] Scene scene(const std::string& name) const {
+    return read_scene(task_.docs / "scenes" / (name + ".toml"));
+  }
+
+  void keep(const BenchResult& result) {
+    record_[result.name] = write_bench(result, task_.output);
+    for (std::size_t i = 0; i < result.tables.size(); ++i) {
+      const std::string name = i == 0 ? result.name : result.name + "_" + result.tables[i].name;
+      const std::string text =
+          fmt::format("{}\n*{}{}; medians of up to {} repeats.*\n", markdown_of(result.tables[i]),
+                      text_of(result.machine), task_.quick ? "; a trial, not for comparison" : "", result.repeats);
+      if (put_table(task_.docs, name, text) > 0) wanted_.erase(name);
+    }
+    const std::string picture = "bench_" + result.name + ".png";
+    if (!task_.output.plot || !pages_mention(task_.docs, "images/" + picture)) return;
+    std::error_code error;
+    fs::copy_file(task_.output.directory / (result.name + ".png"), task_.docs / "images" / picture,
+                  fs::copy_options::overwrite_existing, error);
+    if (error) spdlog::warn("no new picture of {}: {}", result.name, error.message());
+  }
+
+  void scenes() {
+    begin("every scene");
+    keep(bench_scenes(scenes_, task_.docs / "images"));
+  }
+
+  void space() {
+    begin("space");
+    keep(bench_space(extent_.space, extent_.repeats));
+  }
+
+  /// Example 2 on its way through the tube-like phase, and where it moves fastest.
+  void time() {
+    const Scene figure2 = scene("figure2");
+    for (const int share : {4, 2}) {
+      begin(fmt::format("time: figure2.toml, the paper's scheme, at 1/{} of its end", share));
+      BenchResult result = bench_time({.scene = figure2,
+                                       .at = figure2.numerics.end_time / share,
+                                       .steps = steps_from(*figure2.numerics.dt, extent_.n_steps)});
+      result.name = fmt::format("time_figure2_{}", share == 4 ? "quarter" : "half");
+      keep(result);
+    }
+    begin("time: figure2.toml, integrators and tolerance");
+    Scene resolved = figure2;
+    if (extent_.time_order > 0) resolved.numerics.order = extent_.time_order;
+    keep(bench_time({.scene = resolved,
+                     .at = figure2.numerics.end_time / 4,
+                     .steps = steps_from(*figure2.numerics.dt, extent_.n_steps),
+                     .time_orders = {1, 2, 4},
+                     .tolerances = extent_.tolerances}));
+  }
+
+  /// A scene up to a time at which every tolerance is affordable, and what its menu says of that.
+  struct Affordable {
+    Scene scene;
+    std::vector<MenuRow> menu;  ///< empty in a trial
+  };
+
+  [[nodiscard]] Affordable affordable(const Scene& whole) const {
+    Affordable result{whole, {}};
+    if (task_.quick) return result;
+    CostCache cache;
+    const auto ask = [&] { result.menu = menu_of(result.scene, extent_.tolerances, cache); };
+    ask();
+    double seconds = result.menu.back().seconds;
+    if (seconds <= longest_run) return result;
+    for (; seconds > longest_run; seconds *= 0.5) result.scene.numerics.end_time *= 0.5;
+    ask();
+    return result;
+  }
+
+  void tolerances() {
+    BenchResult all{"tolerances",
+                    machine_record(),
+                    1,
+                    {{"reference", "the run with the last tolerance of the scene"},
+                     {"time", fmt::format("the end of the scene, halved until the reference is foretold to take less "
+                                          "than {:g} s",
+                                          longest_run)},
+                     {"foretold", "seconds of the menu"}},
+                    {{"rows",
+                      {{"scene", "scene", "{}", false, 24},
+                       {"time", "t", "{:g}"},
+                       {"tolerance", "tolerance", "{:.0e}"},
+                       {"steps", "steps"},
+                       {"order", "highest degree"},
+                       {"error_over_tolerance", "error/tolerance", "{:.2f}"},
+                       {"seconds", "seconds", "{:.2g}", true},
+                       {"foretold", "foretold", "{:.2g}"}}}},
+                    {}};
+    for (const fs::path& file : scenes_) {
+      begin("tolerances: " + file.filename().string());
+      const Affordable asked = affordable(read_scene(file));
+      const BenchResult one = bench_time({.scene = asked.scene,
+                                          .at = asked.scene.numerics.end_time,
+                                          .tolerances = extent_.tolerances,
+                                          .every = asked.scene.output.every});
+      const BenchTable& rows = one.tables.front();
+      const auto cell = [&](std::size_t row, const std::string& key) {
+        const auto column = std::find_if(rows.columns.begin(), rows.columns.end(),
+                                         [&](const BenchColumn& candidate) { return candidate.key == key; });
+        return rows.rows[row][static_cast<std::size_t>(column - rows.columns.begin())];
+      };
+      for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+        std::vector<BenchCell> cells{file.filename().string(), asked.scene.numerics.end_time};
+        for (const char* key : {"tolerance", "steps", "order", "error_over_tolerance", "seconds"}) {
+          cells.push_back(cell(row, key));
+        }
+        cells.emplace_back();
+        if (!asked.menu.empty()) cells.back() = asked.menu[row].seconds;
+        all.tables.front().rows.push_back(std::move(cells));
+      }
+    }
+    all.panels = {
+        {.x_label = "seconds", .y_label = "error over tolerance", .curves = {}, .key_place = "outside right top"}};
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      const std::string name = scenes_[i].filename().string();
+      all.panels.front().curves.push_back({.label = name,
+                                           .x = "seconds",
+                                           .y = "error_over_tolerance",
+                                           .key = "scene",
+                                           .value = name,
+                                           .note = "tolerance",
+                                           .colour = static_cast<int>(i)});
+    }
+    keep(all);
+  }
+
+  void parts() {
+    begin("parts: figure5_no_field.toml");
+    keep(bench_parts(scene("figure5_no_field"), extent_.parts, extent_.repeats));
+  }
+
+  void threads() {
+    begin("threads: figure5_no_field.toml");
+    Scene sheared = scene("figure5_no_field");
+    if (extent_.threads_order > 0) sheared.numerics.order = extent_.threads_order;
+    keep(bench_threads(sheared, thread_counts(), extent_.repeats));
+  }
+
+  void symmetry() {
+    begin("symmetry: figure2.toml");
+    keep(bench_symmetry(scene("figure2"), extent_.symmetry, extent_.repeats));
+  }
+
+  void methods() {
+    begin("methods");
+    if (!fem_program_is_built()) {
+      without_.emplace_back("methods (the finite elements are not built: cmake -DSTEP=check -P bie/setup.cmake)");
+      fmt::print("left out: the finite elements are not built\n");
+      return;
+    }
+    keep(bench_methods({task_.quick, task_.quick ? 1 : 3}, task_.output.directory));
+  }
+
+  void stability() {
+    const fs::path scenes = task_.docs.parent_path() / "tests/hard/scenes";
+    if (!fs::is_directory(scenes)) {
+      without_.emplace_back("stability (no scenes in " + scenes.string() + ")");
+      return;
+    }
+    begin("stability");
+    const BenchOutput output{task_.output.directory / "stability", task_.output.plot};
+    Interruption interruption;
+    keep(bench_stability({scene_files(scenes), output, task_.quick}, interruption).result);
+    if (!task_.output.plot) return;
+    fs::create_directories(task_.docs / "images/hard_cases");
+    fs::copy(output.directory / "shapes", task_.docs / "images/hard_cases",
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  }
+
+  void report() const {
+    fmt::print("\npages and pictures in {} are renewed", task_.docs.string());
+    if (!without_.empty()) fmt::print(", without {}", fmt::join(without_, ", "));
+    if (!wanted_.empty()) fmt::print("; tables left as they were: {}", fmt::join(wanted_, ", "));
+    fmt::print("\n");
+  }
+
+  struct Bench {
+    const char* name;
+    void (AllBenches::*run)();
+  };
+  static const std::array<Bench, 9> kBenches;
+
+  const AllTask& task_;
+  Extent extent_;
+  std::vector<fs::path> scenes_;
+  std::set<std::string> wanted_;
+  std::vector<std::string> without_;
+  nlohmann::ordered_json record_;
+};
+
+const std::array<AllBenches::Bench, 9> AllBenches::kBenches = {{{"scenes", &AllBenches::scenes},
+                                                                {"space", &AllBenches::space},
+                                                                {"time", &AllBenches::time},
+                                                                {"tolerances", &AllBenches::tolerances},
+                                                                {"parts", &AllBenches::parts},
+                                                                {"threads", &AllBenches::threads},
+                                                                {"symmetry", &AllBenches::symmetry},
+                                                                {"methods", &AllBenches::methods},
+                                                                {"stability", &AllBenches::stability}}};
+
+}  // namespace
+
+std::vector<std::string> names_of_benches() { return AllBenches::names(); }
+
+nlohmann::ordered_json bench_all(const AllTask& task) { return AllBenches(task).run(); }
+
+}  // namespace vehd

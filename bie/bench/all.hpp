@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bie/bench/result.hpp"
+
+namespace vehd {
+
+struct AllTask {
+  std::filesystem::path docs;  ///< folder with the pages, images/ and scenes/
+  BenchOutput output;
+  bool quick = false;               ///< few degrees and tolerances, one repeat: shows that it works, measures little
+  std::vector<std::string> only{};  ///< names of benches; empty: all
+};
+
+/// In the order in which they are run.
+std::vector<std::string> names_of_benches();
+
+/// Runs every scene and every bench and renews the pictures and the tables of the pages from what they give. What needs
+/// the finite elements is left as it is where they are not built, and said.
+/// @return name and machine of every bench
+/// @throws InputError if there are no pages
+nlohmann::ordered_json bench_all(const AllTask& task);
+
+}  // namespace vehd

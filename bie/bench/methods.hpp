@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bie/bench/result.hpp"
+
+namespace vehd {
+
+/// A sequence of ever finer solutions by one method.
+struct MethodCurve {
+  std::string name;   ///< in the CSV and the JSON
+  std::string label;  ///< in the table and the picture
+};
+
+/// One solution: the point-source problem of Example 1 on shape (33), on one core.
+struct MethodLevel {
+  MethodCurve curve;
+  int degree = 0;          ///< of the harmonics, or of the elements
+  int cells_per_edge = 0;  ///< of a block of the mesh; 0 without a mesh
+  std::int64_t unknowns = 0;
+  std::vector<double> seconds;  ///< of the processor, from the shape to q and f_E: tables, mesh, matrices; each repeat
+  std::int64_t peak_memory_bytes = 0;
+  double charge_l2 = 0.0, charge_max = 0.0, force_l2 = 0.0, force_max = 0.0;  ///< relative errors
+};
+
+struct MethodsTask {
+  bool quick = false;  ///< two levels of each
+  int repeats = 3;
+};
+
+/// Boundary integrals against finite elements, both on one thread.
+/// @param folder  for files that are gone at the end
+/// @throws InputError if the finite-element program is not there
+BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder);
+
+}  // namespace vehd

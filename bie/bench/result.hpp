@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bie/bench/picture.hpp"
+#include "bie/bench/table.hpp"
+#include "bie/files/machine_record.hpp"
+
+namespace vehd {
+
+/// Where the files of a bench go.
+struct BenchOutput {
+  std::filesystem::path directory;
+  bool plot = true;
+};
+
+/// What one bench measured.
+struct BenchResult {
+  std::string name;  ///< of its files
+  MachineRecord machine;
+  int repeats = 1;               ///< of each timing, at most
+  nlohmann::ordered_json facts;  ///< what else the numbers hold for, under its keys
+  std::vector<BenchTable> tables;
+  std::vector<BenchPanel> panels;  ///< of the first table
+};
+
+/// @throws OutputError
+void make_bench_directory(const BenchOutput& output);
+
+/// Prints the heading of a table, then each row when it is known.
+void announce(const BenchTable& table);
+void add_row(BenchTable& table, std::vector<BenchCell> row);
+
+/// The whole as JSON: name, machine, repeats, facts, and the rows of every table under its name.
+nlohmann::ordered_json json_of(const BenchResult& result);
+
+/// Writes NAME.json, NAME.csv with the first table, NAME_TABLE.csv with each further one, and NAME.png; says where. A
+/// picture that cannot be drawn is a warning.
+/// @return json_of
+/// @throws OutputError
+nlohmann::ordered_json write_bench(const BenchResult& result, const BenchOutput& output);
+
+}  // namespace vehd

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bie/bench/progress.hpp"
+#include "bie/bench/stability.hpp"
+#include "bie/bench/stability_case.hpp"
+#include "bie/pictures/plots.hpp"
+#include "bie/runs/run_loop.hpp"
+#include "bie/runs/verdict.hpp"
+#include "bie/scene/effective_scene.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// One line of a criterion, measured.
+struct Finding {
+  std::string what;
+  double value = 0.0;
+  double bound = 0.0;
+
+  [[nodiscard]] bool holds() const { return value <= bound; }
+  /// Over the bound, so that findings can be compared.
+  [[nodiscard]] double share() const { return std::isnan(value) ? INFINITY : value / bound; }
+};
+
+double largest_magnitude(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::isnan(value) ? value : std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// The largest rise between successive rows over the value.
+double largest_rise(const std::vector<double>& values) {
+  double rise = 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    rise = std::max(rise, (values[i] - values[i - 1]) / std::abs(values[i - 1]));
+  }
+  return rise;
+}
+
+/// Largest minus smallest in the second half, over the last.
+double late_change(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin() + static_cast<Index>(values.size() / 2), values.end());
+  return (*most - *least) / std::abs(values.back());
+}
+
+std::vector<Finding> findings_of(const StabilityCase& hard, const HistoryTable& history, bool brief) {
+  // What constraints held to 1e-9 and solvers leave of an energy.
+  constexpr double rounding_of_energy = 1e-8;
+  std::vector<Finding> findings;
+  for (const ColumnBound& bound : hard.most) {
+    findings.push_back({bound.column, largest_magnitude(history.column(bound.column)), bound.bound});
+  }
+  for (const std::string& column : hard.falls) {
+    findings.push_back({column + " rises", largest_rise(history.column(column)), rounding_of_energy});
+  }
+  // A short run has not settled.
+  if (!brief) {
+    for (const ColumnBound& bound : hard.steady) {
+      findings.push_back({bound.column + " moves", late_change(history.column(bound.column)), bound.bound});
+    }
+  }
+  return findings;
+}
+
+std::string end_problem(ExpectedEnd expected, const RunOutcome& outcome, const std::string& verdict) {
+  switch (expected) {
+    case ExpectedEnd::completed:
+      if (!outcome.completed) return outcome.reason;
+      return verdict == trustworthy ? "" : verdict;
+    case ExpectedEnd::doubted:
+      if (!outcome.completed) return outcome.reason;
+      return verdict == trustworthy ? "is not doubted" : "";
+    case ExpectedEnd::stops:
+      return outcome.completed ? "goes on to its end" : "";
+  }
+  return "";
+}
+
+std::string end_text(const StabilityCase& hard, const RunOutcome& outcome, const std::string& verdict) {
+  if (!outcome.completed) return verdict;
+  return hard.expect == ExpectedEnd::doubted ? "doubted: " + verdict : "";
+}
+
+BenchTable empty_table() {
+  return {"rows",
+          {{"case", "case", "{}", false, 26},
+           {"family", ""},
+           {"criterion", "nearest criterion", "{}", false, 28},
+           {"worst", "worst", "{:.2g}"},
+           {"bound", "bound", "{:.2g}"},
+           {"steps", "steps"},
+           {"rejected", "rejected"},
+           {"iterations_flow", "flow it.", "{:.0f}"},
+           {"iterations_electric", "el. it.", "{:.0f}"},
+           {"seconds", "seconds", "{:.2f}"},
+           {"verdict", "verdict", "{}", false, 8}}};
+}
+
+std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, const RunOutcome& outcome, bool brief,
+                              bool& failed) {
+  const HistoryTable history(run.paths.history());
+  const std::string verdict = verdict_of(history, hard.scene.numerics.tolerance, outcome.reason);
+  const std::vector<Finding> findings = findings_of(hard, history, brief);
+  const Finding worst = *std::max_element(findings.begin(), findings.end(),
+                                          [](const Finding& a, const Finding& b) { return a.share() < b.share(); });
+  std::string problem = end_problem(hard.expect, outcome, verdict);
+  if (problem.empty() && !worst.holds()) problem = fmt::format("{} beyond its bound", worst.what);
+  failed = !problem.empty();
+  const auto& rejected = history.column("rejected");
+  const std::string end = end_text(hard, outcome, verdict);
+  return {hard.name,
+          hard.family,
+          worst.what,
+          worst.value,
+          worst.bound,
+          history.n_steps(),
+          static_cast<std::int64_t>(std::accumulate(rejected.begin(), rejected.end(), 0.0)),
+          largest_magnitude(history.column("iterations_flow")),
+          largest_magnitude(history.column("iterations_electric")),
+          read_checkpoint(run.paths.checkpoint()).totals.seconds,
+          failed ? "FAILS: " + problem : "holds" + (end.empty() ? "" : ", " + end)};
+}
+
+}  // namespace
+
+StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption) {
+  std::vector<StabilityCase> cases;
+  for (const std::filesystem::path& path : task.scenes) {
+    cases.push_back(read_stability_case(path));
+    Scene& scene = cases.back().scene;
+    if (task.brief) scene.numerics.end_time = std::min(scene.numerics.end_time, cases.back().short_end_time);
+  }
+  std::stable_sort(cases.begin(), cases.end(),
+                   [](const StabilityCase& a, const StabilityCase& b) { return a.family < b.family; });
+  StabilityOutcome outcome{
+      {"stability",
+       machine_record(),
+       1,
+       {{"brief", task.brief}},
+       {empty_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}},
+       {}}};
+  BenchTable& table = outcome.result.tables.front();
+  BenchProgress progress(static_cast<int>(cases.size()));
+  announce(table);
+  for (const StabilityCase& hard : cases) {
+    progress.next(hard.name);
+    const RunPaths paths{task.output.directory / "runs" / hard.name};
+    std::filesystem::remove_all(paths.directory);
+    make_run_directory(paths);
+    const std::optional<Checkpoint> none;
+    const RunTask run{hard.scene, paths, none};
+    const RunOutcome end = simulate(run, interruption);
+    if (interruption.requested()) throw InputError("stopped by a signal");
+    bool failed = false;
+    const std::vector<BenchCell> row = row_of(hard, run, end, task.brief, failed);
+    progress.clear();
+    add_row(table, row);
+    outcome.n_failed += failed ? 1 : 0;
+    if (task.output.plot) {
+      const std::filesystem::path folder = task.output.directory / "shapes";
+      std::filesystem::create_directories(folder);
+      constexpr int shape_width = 120;
+      plot_shapes({paths, {}, folder, shape_width}, folder / (hard.name + ".png"));
+      outcome.result.tables.back().rows.push_back(
+          {hard.name, fmt::format("![{0}](images/hard_cases/{0}.png)", hard.name)});
+    }
+  }
+  outcome.result.facts["failed"] = outcome.n_failed;
+  return outcome;
+}
+
+}  // namespace vehd

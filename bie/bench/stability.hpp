@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bie/bench/result.hpp"
+#include "bie/support/interruption.hpp"
+
+namespace vehd {
+
+struct StabilityTask {
+  std::vector<std::filesystem::path> scenes;  ///< with their criteria, see StabilityCase
+  /// Each run has a folder of its own below `runs`, always a fresh one; its first and last shape go to shapes/NAME.png.
+  BenchOutput output;
+  bool brief = false;  ///< the short form of every case
+};
+
+struct StabilityOutcome {
+  BenchResult result;
+  int n_failed = 0;
+};
+
+/// Runs every case as `vehd run` would and prints, for each, the criterion that came closest to its bound. The further
+/// table "pictures" shows the shapes to the pages, which look for them in images/hard_cases.
+/// @throws InputError for a scene or criterion that cannot be read
+StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption);
+
+}  // namespace vehd

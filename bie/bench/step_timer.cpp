@@ -1,0 +1,92 @@
+#include "bie/bench/step_timer.hpp"
+
+#include <chrono>
+
+#include "bie/potentials/assembly_arithmetic.hpp"
+#include "bie/stepping/composition.hpp"
+#include "bie/stepping/deferred_correction.hpp"
+#include "bie/stepping/discretisation_tables.hpp"
+#include "bie/stepping/evaluation_parts.hpp"
+
+namespace vehd {
+namespace {
+
+/// The membrane charges, the grid settles, and the solves learn.
+constexpr int kWarmUp = 20;
+constexpr const char* kStep = "step";
+constexpr const char* kOther = "other";
+
+}  // namespace
+
+StepTimer::StepTimer(const Scene& scene)
+    : problem_(problem_of(scene)), evolution_(setup_of(problem_), problem_.position, problem_.potential, instruments_) {
+  evolution_.evaluate_start();
+  for (int i = 0; i < kWarmUp; ++i) step();
+}
+
+void StepTimer::step() {
+  const double no_end = evolution_.state().time + 1e3 * problem_.control.largest;
+  last_ = evolution_.step({std::nullopt, no_end});
+}
+
+void StepTimer::timed_step() {
+  const std::map<std::string, double> before = instruments_.seconds();
+  const auto start = std::chrono::steady_clock::now();
+  step();
+  const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  double in_parts = 0.0;
+  for (const auto& [name, total] : instruments_.seconds()) {
+    const auto earlier = before.find(name);
+    const double seconds = total - (earlier == before.end() ? 0.0 : earlier->second);
+    seconds_[name].push_back(seconds);
+    in_parts += seconds;
+  }
+  seconds_[kOther].push_back(whole - in_parts);
+  seconds_[kStep].push_back(whole);
+  iterations_.push_back(last_.iterations_flow);
+}
+
+void StepTimer::metered_step() {
+  meter_.start();
+  meter_.begin(kStep);
+  step();
+  meter_.end();
+  meter_.stop();
+}
+
+std::vector<std::string> StepTimer::parts() const {
+  std::vector<std::string> parts{kStep};
+  for (const auto& [name, values] : seconds_) {
+    if (name != kStep && name != kOther) parts.push_back(name);
+  }
+  parts.emplace_back(kOther);
+  return parts;
+}
+
+std::uint64_t StepTimer::kernel_evaluations() const {
+  std::uint64_t sum = 0;
+  for (const auto& [kernel, count] : instruments_.kernel_evaluations()) sum += count;
+  return sum;
+}
+
+std::map<std::string, double> StepTimer::operations() const {
+  const Discretisation discretisation(problem_.settings, problem_.symmetry);
+  const Discretisation::Tables& tables = discretisation.tables();
+  const Symmetry& symmetry = problem_.symmetry;
+  std::map<std::string, double> result;
+  result["operator assembly"] =
+      evaluations_per_step(problem_.settings.time_order) * operations_per_assembly(tables.quadrature, tables.targets,
+                                                                                   needed_layers(problem_.model, true),
+                                                                                   symmetry.reflections, tables.fold);
+  const StokesOperator& stokes = evolution_.evaluation().parts->membrane.layers.stokes_single;
+  if (problem_.settings.time_order == 1 && !stokes.empty()) {
+    constexpr double kBlocks = 9.0;
+    const double of_an_iteration = 2.0 * kBlocks * static_cast<double>(stokes.transposed()[0].size());
+    const int in_tension = evolution_.evaluation().iterations_flow;
+    result["tension solve"] = of_an_iteration * in_tension;
+    result["velocity solve"] = of_an_iteration * (last_.iterations_flow - in_tension);
+  }
+  return result;
+}
+
+}  // namespace vehd

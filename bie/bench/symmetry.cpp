@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include "bie/bench/input.hpp"
+#include "bie/bench/progress.hpp"
+#include "bie/bench/step_timer.hpp"
+#include "bie/bench/symmetry.hpp"
+#include "bie/stepping/state_difference.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+BenchTable empty_table() {
+  return {"rows",
+          {{"order", "p"},
+           {"seconds_full", "full solver", "{:.2g}", true},
+           {"seconds", "with symmetry", "{:.2g}", true},
+           {"ratio", "ratio", "{:.1f}"},
+           {"kernel_ratio", "", "{:.1f}"},
+           {"steps", "steps"},
+           {"difference", "difference", "{:.0e}"}}};
+}
+
+Scene with_symmetry(Scene scene, SymmetryUse use) {
+  scene.numerics.symmetry = use;
+  return scene;
+}
+
+}  // namespace
+
+BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repeats) {
+  scene = with_fixed_steps(std::move(scene), "symmetry");
+  require_ascending("--orders", orders);
+  if (!problem_of(with_symmetry(scene, SymmetryUse::automatic)).symmetry.any()) {
+    throw InputError("bench symmetry needs a scene that has one");
+  }
+  BenchResult result{"symmetry", machine_record(), repeats, {}, {empty_table()}, {}};
+  result.facts = {{"dt", *scene.numerics.dt},
+                  {"difference_is", "of x and V_m after the same steps, over the largest coefficient"}};
+  BenchTable& table = result.tables.front();
+  announce(table);
+  BenchProgress progress(static_cast<int>(orders.size()) * (repeats + 1));
+  for (const int order : orders) {
+    scene.numerics.order = order;
+    progress.next(fmt::format("p = {}: first steps", order));
+    StepTimer full(with_symmetry(scene, SymmetryUse::off)), reduced(with_symmetry(scene, SymmetryUse::automatic));
+    for (int i = 0; i < repeats; ++i) {
+      progress.next(fmt::format("p = {}: step {} of {}", order, i + 1, repeats));
+      full.timed_step();
+      reduced.timed_step();
+    }
+    progress.clear();
+    const Spread of_full = spread_of(full.seconds().at("step")), of_reduced = spread_of(reduced.seconds().at("step"));
+    add_row(table, {std::int64_t{order}, of_full, of_reduced, of_full.median / of_reduced.median,
+                    double(full.kernel_evaluations()) / double(reduced.kernel_evaluations()),
+                    std::int64_t{full.state().step}, state_difference(reduced.state(), full.state())});
+  }
+  BenchPanel panel{.x_label = "degree p",
+                   .y_label = "seconds of a step",
+                   .curves = {},
+                   .x_ticks = {orders.begin(), orders.end()},
+                   .key_place = "top left"};
+  panel.curves = {{.label = "full solver", .x = "order", .y = "seconds_full", .colour = 0},
+                  {.label = "with symmetry", .x = "order", .y = "seconds", .colour = 1}};
+  result.panels = {panel};
+  return result;
+}
+
+}  // namespace vehd

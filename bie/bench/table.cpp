@@ -1,0 +1,142 @@
+#include "bie/bench/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vehd {
+namespace {
+
+struct Entry {
+  std::string key;
+  nlohmann::ordered_json value;
+};
+
+nlohmann::ordered_json number(double value) {
+  if (std::isfinite(value)) return value;
+  return nullptr;
+}
+
+/// What a cell is under its key or keys.
+std::vector<Entry> entries_of(const BenchColumn& column, const BenchCell& cell) {
+  if (column.timing) {
+    const std::array keys{column.key, column.key + "_min", column.key + "_max", column.key + "_repeats"};
+    const auto* spread = std::get_if<Spread>(&cell);
+    if (spread == nullptr) return {{keys[0], nullptr}, {keys[1], nullptr}, {keys[2], nullptr}, {keys[3], nullptr}};
+    return {{keys[0], number(spread->median)},
+            {keys[1], number(spread->min)},
+            {keys[2], number(spread->max)},
+            {keys[3], spread->repeats}};
+  }
+  if (const auto* text = std::get_if<std::string>(&cell)) return {{column.key, *text}};
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return {{column.key, *count}};
+  if (const auto* value = std::get_if<double>(&cell)) return {{column.key, number(*value)}};
+  return {{column.key, nullptr}};
+}
+
+std::vector<Entry> entries_of(const BenchTable& table, const std::vector<BenchCell>& row) {
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    for (Entry& entry : entries_of(table.columns[i], row[i])) entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted.append(letter == '"' ? 2 : 1, letter);
+  return quoted + '"';
+}
+
+std::string csv_text(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return "";
+  if (value.is_string()) return csv_quoted(value.get<std::string>());
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  return value.dump();
+}
+
+std::string shown(const BenchColumn& column, const BenchCell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  const auto* spread = std::get_if<Spread>(&cell);
+  const auto* value = spread != nullptr ? &spread->median : std::get_if<double>(&cell);
+  return value != nullptr && std::isfinite(*value) ? fmt::format(fmt::runtime(column.format), *value) : "–";
+}
+
+/// Characters, not bytes.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char letter) { return (letter & 0xC0) != 0x80; }));
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, width_of(text)), ' ') + text;
+}
+
+std::size_t column_width(const BenchColumn& column) { return std::max(column.width, width_of(column.heading)); }
+
+template <typename Text>
+std::string line(const BenchTable& table, const char* before, const char* between, const char* after,
+                 const Text& text) {
+  std::string result = before;
+  bool first = true;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (table.columns[i].heading.empty()) continue;
+    if (!first) result += between;
+    first = false;
+    result += text(i);
+  }
+  return result + after;
+}
+
+}  // namespace
+
+std::string csv_of(const BenchTable& table) {
+  std::string text;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const std::vector<Entry> entries = entries_of(table, table.rows[i]);
+    std::string keys, values;
+    for (const Entry& entry : entries) {
+      const char* comma = keys.empty() ? "" : ",";
+      keys.append(comma).append(entry.key);
+      values.append(comma).append(csv_text(entry.value));
+    }
+    if (i == 0) text += keys + "\n";
+    text += values + "\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json json_of(const BenchTable& table) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const auto& row : table.rows) {
+    nlohmann::ordered_json object;
+    for (Entry& entry : entries_of(table, row)) object[entry.key] = std::move(entry.value);
+    rows.push_back(std::move(object));
+  }
+  return rows;
+}
+
+std::string markdown_of(const BenchTable& table) {
+  std::string text = line(table, "| ", " | ", " |\n", [&](std::size_t i) { return table.columns[i].heading; });
+  text += line(table, "| ", " | ", " |\n", [](std::size_t) { return std::string("---"); });
+  for (const auto& row : table.rows) {
+    text += line(table, "| ", " | ", " |\n", [&](std::size_t i) { return shown(table.columns[i], row[i]); });
+  }
+  return text;
+}
+
+std::string heading_line(const BenchTable& table) {
+  return line(table, "", "  ", "\n",
+              [&](std::size_t i) { return padded(table.columns[i].heading, column_width(table.columns[i])); });
+}
+
+std::string row_line(const BenchTable& table, const std::vector<BenchCell>& row) {
+  return line(table, "", "  ", "\n",
+              [&](std::size_t i) { return padded(shown(table.columns[i], row[i]), column_width(table.columns[i])); });
+}
+
+}  // namespace vehd

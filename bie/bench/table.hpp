@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "bie/bench/repeats.hpp"
+
+namespace vehd {
+
+/// Unknown, a name, a count, a number, or the repeats of a timing.
+using BenchCell = std::variant<std::monostate, std::string, std::int64_t, double, Spread>;
+
+struct BenchColumn {
+  std::string key;      ///< in CSV and JSON
+  std::string heading;  ///< for people; empty: not shown to them
+  std::string format = "{:.3g}";
+  bool timing = false;    ///< holds repeats
+  std::size_t width = 9;  ///< on a terminal, at least
+};
+
+/// Measurements of one bench in the order in which they were made. Repeats take four columns in CSV and JSON: median
+/// under the key, and KEY_min, KEY_max, KEY_repeats.
+struct BenchTable {
+  std::string name;
+  std::vector<BenchColumn> columns;
+  std::vector<std::vector<BenchCell>> rows{};
+};
+
+std::string csv_of(const BenchTable& table);
+nlohmann::ordered_json json_of(const BenchTable& table);
+std::string markdown_of(const BenchTable& table);
+
+/// Lines for a terminal; every row can be printed when it is there.
+std::string heading_line(const BenchTable& table);
+std::string row_line(const BenchTable& table, const std::vector<BenchCell>& row);
+
+}  // namespace vehd

@@ -1,0 +1,282 @@
+#include "bie/bench/time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "bie/support/progress.hpp"
+#include "bie/scene/accuracy.hpp"
+#include "bie/scene/problem.hpp"
+#include "bie/stepping/laboratory.hpp"
+#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/time_rule.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+struct Quantity {
+  const char* name;
+  double Diagnostics::*member;
+  bool shown = true;  ///< among the values that are printed
+};
+constexpr std::array kQuantities = {
+    Quantity{"extent_x", &Diagnostics::extent_x},
+    Quantity{"extent_y", &Diagnostics::extent_y, false},
+    Quantity{"extent_z", &Diagnostics::extent_z},
+    Quantity{"reduced_volume", &Diagnostics::reduced_volume, false},
+    Quantity{"bending_energy_scaled", &Diagnostics::bending_energy_scaled},
+    Quantity{"tension_integral", &Diagnostics::tension_integral},
+    Quantity{"Vm_north", &Diagnostics::Vm_north},
+    Quantity{"q_north", &Diagnostics::q_north, false},
+    Quantity{"Vm_max", &Diagnostics::Vm_max, false},
+    Quantity{"inclination_deg", &Diagnostics::inclination_deg},
+};
+
+struct TimedRun {
+  std::string integrator, setting;
+  BenchCell dt{}, tolerance{};
+  Diagnostics diagnostics{};
+  std::vector<double> seconds{};
+  std::int64_t n_steps = 0;
+  int highest_order = 0;
+  double raw_drift = 0.0;  ///< Σ |raw_area| per unit time
+};
+
+void run_once(const Scene& scene, const EventTimes& events, TimedRun& run) {
+  Progress progress(Progress::suitable_style(), 0.0, events.end_time);
+  const Problem problem = problem_of(scene);
+  const auto start = std::chrono::steady_clock::now();
+  Instruments instruments;
+  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
+  evolution.evaluate_start();
+  run.highest_order = evolution.order();
+  double raw_area = 0.0;
+  while (evolution.state().time < events.end_time) {
+    const EvolutionStep step = evolution.step(events);
+    run.highest_order = std::max(run.highest_order, evolution.order());
+    raw_area += std::abs(step.raw_area);
+    const Diagnostics& now = evolution.evaluation().diagnostics;
+    progress.update({evolution.state().step, evolution.state().time, step.dt,
+                     std::max(std::abs(now.area_drift), std::abs(now.volume_drift))});
+  }
+  const Laboratory laboratory(problem.frame, problem.settings);
+  const State state = resized(evolution.state(), problem.settings.order);
+  const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
+  run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields);
+  run.n_steps = state.step;
+  run.raw_drift = raw_area / events.end_time;
+  run.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void run_to(const Scene& scene, const EventTimes& events, int repeats, TimedRun& run) {
+  while (wants_repeat(run.seconds, repeats)) run_once(scene, events, run);
+}
+
+TimedRun fixed_run(Scene scene, double dt, int time_order, double at, int repeats) {
+  scene.numerics.tolerance.reset();
+  scene.numerics.dt = dt;
+  scene.numerics.time_order = time_order;
+  TimedRun run{fmt::format("order {}", time_order), fmt::format("{:g}", dt), dt};
+  run_to(scene, {std::nullopt, at}, repeats, run);
+  return run;
+}
+
+TimedRun adaptive_run(const TimeTask& task, double tolerance) {
+  Scene asked = at_tolerance(task.scene, tolerance);
+  asked.numerics.end_time = task.at;
+  TimedRun run{"tolerance", fmt::format("{:.0e}", tolerance), {}, tolerance};
+  run_to(asked, {task.every, task.at}, task.repeats, run);
+  return run;
+}
+
+/// Difference of one quantity over its size; angles over a radian.
+double relative_error(const Quantity& quantity, const Diagnostics& d, const Diagnostics& reference) {
+  constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+  const double value = reference.*quantity.member;
+  const double difference = std::abs(d.*quantity.member - value);
+  if (quantity.member == &Diagnostics::inclination_deg) {
+    return std::min(difference, 180.0 - difference) / kDegreesPerRadian;
+  }
+  return difference == 0.0 ? 0.0 : difference / std::abs(value);
+}
+
+BenchTable empty_table() {
+  BenchTable table{"rows",
+                   {{"integrator", "integrator", "{}", false, 20},
+                    {"setting", "dt, tolerance"},
+                    {"dt", ""},
+                    {"tolerance", ""},
+                    {"seconds", "seconds", "{:.2g}", true},
+                    {"steps", "steps"},
+                    {"order", "degree"},
+                    {"error", "error", "{:.1e}"},
+                    {"error_over_tolerance", "error/tolerance", "{:.2f}"},
+                    {"raw_drift", "raw drift", "{:.1e}"}}};
+  for (const Quantity& quantity : kQuantities) table.columns.push_back({std::string("error_") + quantity.name, ""});
+  for (const Quantity& quantity : kQuantities) table.columns.push_back({quantity.name, ""});
+  return table;
+}
+
+std::vector<BenchCell> row_of(const TimedRun& run, const TimedRun& reference) {
+  double largest = 0.0;
+  std::vector<BenchCell> errors;
+  for (const Quantity& quantity : kQuantities) {
+    const double error = relative_error(quantity, run.diagnostics, reference.diagnostics);
+    largest = std::max(largest, error);
+    errors.emplace_back(error);
+  }
+  BenchCell error, over_tolerance;
+  // The reference has none that could be known.
+  if (&run != &reference) {
+    error = largest;
+    if (const double* tolerance = std::get_if<double>(&run.tolerance)) over_tolerance = largest / *tolerance;
+  }
+  std::vector<BenchCell> row{run.integrator,
+                             run.setting,
+                             run.dt,
+                             run.tolerance,
+                             spread_of(run.seconds),
+                             run.n_steps,
+                             std::int64_t{run.highest_order},
+                             error,
+                             over_tolerance,
+                             run.raw_drift};
+  row.insert(row.end(), errors.begin(), errors.end());
+  for (const Quantity& quantity : kQuantities) row.emplace_back(run.diagnostics.*quantity.member);
+  return row;
+}
+
+std::vector<Quantity> shown_quantities() {
+  std::vector<Quantity> shown;
+  std::ranges::copy_if(kQuantities, std::back_inserter(shown), &Quantity::shown);
+  return shown;
+}
+
+/// Values at each step size of one integrator; below them the order and the limit that the last three suggest.
+void add_values(BenchTable& table, const std::vector<TimedRun>& runs) {
+  for (const TimedRun& run : runs) {
+    std::vector<BenchCell> row{run.integrator, run.setting};
+    for (const Quantity& quantity : shown_quantities()) row.emplace_back(run.diagnostics.*quantity.member);
+    add_row(table, std::move(row));
+  }
+  if (runs.size() < 3) return;
+  std::vector<BenchCell> orders{runs.front().integrator, "observed order"};
+  std::vector<BenchCell> limits{runs.front().integrator, "dt → 0"};
+  for (const Quantity& quantity : shown_quantities()) {
+    const auto value = [&](std::size_t from_end) { return runs[runs.size() - from_end].diagnostics.*quantity.member; };
+    const double coarse = value(3), middle = value(2), fine = value(1);
+    const double ratio = (coarse - middle) / (middle - fine);
+    // Values that do not move monotonically, or not at all, have no order.
+    const bool converging = std::isfinite(ratio) && ratio > 1.0 && std::abs(middle - fine) > 1e-9 * std::abs(fine);
+    orders.emplace_back();
+    limits.emplace_back();
+    if (converging) {
+      orders.back() = std::log2(ratio);
+      limits.back() = fine + (fine - middle) / (ratio - 1.0);
+    }
+  }
+  add_row(table, std::move(orders));
+  add_row(table, std::move(limits));
+}
+
+BenchTable values_table() {
+  BenchTable table{"values", {{"integrator", "integrator", "{}", false, 20}, {"setting", "dt", "{}", false, 14}}};
+  for (const Quantity& quantity : shown_quantities()) {
+    table.columns.push_back({quantity.name, quantity.name, "{:.6g}"});
+  }
+  return table;
+}
+
+void require_falling(const TimeTask& task) {
+  for (std::size_t i = 1; i < task.steps.size(); ++i) {
+    if (std::abs(task.steps[i] - 0.5 * task.steps[i - 1]) > 1e-12 * task.steps[i - 1]) {
+      throw InputError(fmt::format("--dt: {} is not half of {}", task.steps[i], task.steps[i - 1]));
+    }
+  }
+  for (std::size_t i = 1; i < task.tolerances.size(); ++i) {
+    if (!(task.tolerances[i] < task.tolerances[i - 1])) {
+      throw InputError(fmt::format("--tolerance: {} is not below {}", task.tolerances[i], task.tolerances[i - 1]));
+    }
+  }
+}
+
+TimedRun reference_of_steps(const TimeTask& task, const std::vector<int>& time_orders) {
+  constexpr int kLowOrder = 2;
+  const bool high = *std::max_element(time_orders.begin(), time_orders.end()) > kLowOrder;
+  const double dt = high ? 0.5 * task.steps.back() : task.steps[task.steps.size() / 2];
+  return fixed_run(task.scene, dt, highest_time_order, task.at, 1);
+}
+
+std::vector<BenchPanel> panels_of(const std::vector<std::string>& integrators) {
+  BenchPanel seconds{"seconds", "largest relative error of the history quantities", {}};
+  for (const std::string& integrator : integrators) {
+    seconds.curves.push_back({.label = integrator,
+                              .x = "seconds",
+                              .y = "error",
+                              .key = "integrator",
+                              .value = integrator,
+                              .note = "setting",
+                              .colour = static_cast<int>(seconds.curves.size())});
+  }
+  BenchPanel steps = seconds;
+  steps.x_label = "steps";
+  steps.y_label.clear();
+  steps.key_place.clear();
+  for (BenchCurve& curve : steps.curves) {
+    curve.x = "steps";
+    curve.note.clear();
+  }
+  return {seconds, steps};
+}
+
+}  // namespace
+
+BenchResult bench_time(const TimeTask& task) {
+  require_falling(task);
+  std::vector<int> time_orders = task.time_orders;
+  if (time_orders.empty()) time_orders.push_back(task.scene.numerics.time_order);
+  if (task.steps.empty()) time_orders.clear();
+  std::vector<std::vector<TimedRun>> runs;
+  std::vector<std::string> integrators;
+  for (const int order : time_orders) {
+    std::vector<TimedRun>& of_order = runs.emplace_back();
+    for (const double dt : task.steps) of_order.push_back(fixed_run(task.scene, dt, order, task.at, task.repeats));
+    integrators.push_back(of_order.front().integrator);
+  }
+  if (!task.tolerances.empty()) {
+    std::vector<TimedRun>& adaptive = runs.emplace_back();
+    for (const double tolerance : task.tolerances) {
+      adaptive.push_back(adaptive_run(task, tolerance));
+    }
+    integrators.push_back(adaptive.front().integrator);
+  } else {
+    runs.push_back({reference_of_steps(task, time_orders)});
+    runs.back().front().integrator = "reference (" + runs.back().front().integrator + ")";
+  }
+  const TimedRun& reference = runs.back().back();
+
+  BenchResult result{"time", machine_record(), task.repeats, {}, {empty_table()}, {}};
+  result.facts = {{"time", task.at},
+                  {"order", task.scene.numerics.order},
+                  {"reference", reference.integrator + " " + reference.setting}};
+  fmt::print("time {}, errors against {} {}\n", task.at, reference.integrator, reference.setting);
+  announce(result.tables.front());
+  for (const auto& of_integrator : runs) {
+    for (const TimedRun& run : of_integrator) add_row(result.tables.front(), row_of(run, reference));
+  }
+  if (!task.steps.empty()) {
+    result.tables.push_back(values_table());
+    announce(result.tables.back());
+    for (std::size_t i = 0; i < time_orders.size(); ++i) add_values(result.tables.back(), runs[i]);
+  }
+  result.panels = panels_of(integrators);
+  return result;
+}
+
+}  // namespace vehd

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bie/bench/result.hpp"
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+struct TimeTask {
+  Scene scene;
+  double at = 0.0;                   ///< time at which the history quantities are compared
+  std::vector<double> steps{};       ///< fixed step sizes, each half of the one before
+  std::vector<int> time_orders{};    ///< integrators that take them; empty: the scene's own
+  std::vector<double> tolerances{};  ///< falling
+  std::optional<double> every{};     ///< steps of a tolerance end on its multiples, as snapshots make them
+  int repeats = 1;
+};
+
+/// Error of the history quantities against the step size, the steps and the seconds, for each integrator and for a
+/// tolerance; with fixed steps also the values, the order observed from the last three and the limit that follows.
+/// The reference is the last tolerance; without any, a run of the highest order with half the smallest step where
+/// orders above 2 are compared, otherwise with the middle one. Errors are relative, those of angles in radians.
+/// @throws InputError, ConvergenceError
+BenchResult bench_time(const TimeTask& task);
+
+}  // namespace vehd

@@ -1,0 +1,126 @@
+#include "bie/comparison/check_input.hpp"
+
+#include "bie/files/hdf5_writer.hpp"
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+namespace {
+
+/// The column-major memory of [n x components] is the file's row-major [components, n].
+void write(Hdf5Writer& file, const std::string& path, const Matrix& values, const DatasetLabel& label) {
+  if (values.size() == 0) return;
+  std::vector<hsize_t> extents{static_cast<hsize_t>(values.rows())};
+  if (values.cols() > 1) extents.insert(extents.begin(), static_cast<hsize_t>(values.cols()));
+  file.numbers(path, {values.data(), static_cast<std::size_t>(values.size())}, extents, label);
+}
+
+void write_header(Hdf5Writer& file, const Matrix& position) {
+  file.attribute("/", "schema_version", check_schema_version);
+  file.attribute("/", "order", std::int64_t{order_of(position.rows())});
+  write(file, "/x", position, {"length", "coefficients of the membrane position"});
+}
+
+void write_physics(Hdf5Writer& file, const CheckInput& input) {
+  const Model& model = input.frozen.model;
+  file.group("/physics");
+  const auto number = [&](const std::string& name, double value) { file.attribute("/physics", name, value); };
+  number("viscosity_in", model.viscosity_ratio * model.viscosity);
+  number("viscosity_out", model.viscosity);
+  const Matrix gradient = flow_gradient(input.frozen).transpose();
+  write(file, "/physics/flow_gradient", gradient, {"velocity/length", "A(i, j) of v_i = A(i, j) x_j, in row i"});
+  const Matrix field = applied_field(input.frozen);
+  write(file, "/physics/field", field, {"potential/length", "E_inf"});
+  if (!model.electric) return;
+  number("conductivity_in", model.electric->conductivity_in);
+  number("conductivity_out", model.electric->conductivity_out);
+  number("permittivity_in", model.electric->permittivity_ratio * model.electric->permittivity);
+  number("permittivity_out", model.electric->permittivity);
+  number("capacitance", model.charging->capacitance);
+  number("conductance", model.charging->conductance);
+}
+
+void write_given(Hdf5Writer& file, const CheckInput& input) {
+  file.group("/given");
+  if (input.contents.electric) {
+    write(file, "/given/Vm", input.frozen.state.transmembrane_potential, {"potential", "V_m of the snapshot"});
+  }
+  if (!input.contents.flow) return;
+  write(file, "/given/force", input.force, {"force/area", "f on the fluid, f_b + f_lambda - f_E and others"});
+  write(file, "/given/force_electric", input.frozen.fields.force_electric, {"force/area", "the f_E in it"});
+  write(file, "/given/velocity", input.frozen.fields.velocity, {"velocity", "dx/dt of the snapshot"});
+}
+
+void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields& fields) {
+  file.group(group);
+  file.attribute(group, "order", std::int64_t{fields.order});
+  file.attribute(group, "seconds", fields.seconds);
+  const auto field = [&](const std::string& name, const Matrix& values, const DatasetLabel& label) {
+    write(file, group + "/" + name, values, label);
+  };
+  field("q", fields.charge, {"potential/length", "q = [[d phi/d n]] of the given V_m"});
+  field("force_electric", fields.force_electric, {"force/area", "f_E of the given V_m"});
+  field("Vm_steady", fields.steady_potential, {"potential", "steady V_m of the membrane law"});
+  field("q_steady", fields.steady_charge, {"potential/length", "q of the steady V_m"});
+  field("velocity", fields.velocity, {"velocity", "v of the given force"});
+  field("velocity_own_force", fields.velocity_own_force, {"velocity", "v with the f_E of this group in the force"});
+  field("sample_potential", fields.sample_potential, {"potential", "phi at /samples/points, V_m given"});
+  field("sample_velocity", fields.sample_velocity, {"velocity", "v at /samples/points, force given"});
+}
+
+void write_samples(Hdf5Writer& file, const CheckInput& input) {
+  const std::vector<bool>& inside = input.at_high_order.is_inside;
+  if (inside.empty()) return;
+  file.group("/samples");
+  const CheckSamples& samples = input.samples;
+  write(file, "/samples/points", samples.points, {"length", "points off the membrane"});
+  write(file, "/samples/distance", samples.distance, {"length", "from the membrane, 0 where it is more than near"});
+  file.attribute("/samples", "near", samples.near);
+  file.integers("/samples/inside", std::vector<std::int64_t>(inside.begin(), inside.end()), {inside.size()},
+                {"1", "1 inside, 0 outside"});
+}
+
+}  // namespace
+
+void write_check_input(const std::filesystem::path& path, const CheckInput& input) {
+  Hdf5Writer file(path, Hdf5Writer::Mode::create);
+  write_header(file, input.frozen.state.position);
+  file.attribute("/", "source", input.frozen.source);
+  file.attribute("/", "time", input.frozen.state.time);
+  write_physics(file, input);
+  write_given(file, input);
+  write_fields(file, "/bie", input.at_order);
+  write_fields(file, "/bie_high", input.at_high_order);
+  write_samples(file, input);
+  file.close();
+}
+
+void write_shape_input(const std::filesystem::path& path, const Matrix& position) {
+  Hdf5Writer file(path, Hdf5Writer::Mode::create);
+  write_header(file, position);
+  file.close();
+}
+
+void write_sources_input(const std::filesystem::path& path, const Matrix& position, const ElectricParameters& electric,
+                         const std::vector<PointSource>& sources) {
+  const auto n = static_cast<Index>(sources.size());
+  Matrix points(n, 3), strength(n, 1);
+  std::vector<std::int64_t> inside;
+  for (Index i = 0; i < n; ++i) {
+    const PointSource& source = sources[static_cast<std::size_t>(i)];
+    points.row(i) = source.position.transpose();
+    strength(i, 0) = source.strength;
+    inside.push_back(source.inside ? 1 : 0);
+  }
+  Hdf5Writer file(path, Hdf5Writer::Mode::create);
+  write_header(file, position);
+  file.group("/physics");
+  file.attribute("/physics", "conductivity_in", electric.conductivity_in);
+  file.attribute("/physics", "conductivity_out", electric.conductivity_out);
+  file.group("/sources");
+  write(file, "/sources/position", points, {"length", "point sources"});
+  write(file, "/sources/strength", strength, {"potential*length", "s of s/(4 pi r)"});
+  file.integers("/sources/inside", inside, {inside.size()}, {"1", "1 inside, 0 outside"});
+  file.close();
+}
+
+}  // namespace vehd

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+
+#include "bie/comparison/check_fields.hpp"
+#include "bie/comparison/check_samples.hpp"
+#include "bie/physics/point_sources.hpp"
+
+/// The file through which the boundary-integral side talks to the finite-element side: docs/check.md has its layout.
+namespace vehd {
+
+constexpr std::int64_t check_schema_version = 1;
+
+struct CheckInput {
+  const FrozenState& frozen;
+  const CheckContents& contents;
+  const Matrix& force;  ///< given_force
+  const CheckSamples& samples;
+  const CheckFields& at_order;
+  const CheckFields& at_high_order;
+};
+
+/// @throws OutputError
+void write_check_input(const std::filesystem::path& file, const CheckInput& input);
+
+/// The same file with the shape alone. @throws OutputError
+void write_shape_input(const std::filesystem::path& file, const Matrix& position);
+
+/// The shape and the point sources that make the exact solution on it. @throws OutputError
+void write_sources_input(const std::filesystem::path& file, const Matrix& position, const ElectricParameters& electric,
+                         const std::vector<PointSource>& sources);
+
+}  // namespace vehd

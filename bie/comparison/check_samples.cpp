@@ -1,0 +1,54 @@
+#include "bie/comparison/check_samples.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bie/geometry/surface.hpp"
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr int directions = 12;
+constexpr std::array offsets_in_spacings{-1.0, -0.5, -0.1, 0.1, 0.5, 1.0};
+constexpr std::array shares_towards_centre{0.25, 0.6};
+constexpr std::array offsets_in_radii{0.7, 1.5, 3.0};
+
+/// Evenly spread over the nodes of the grid: no two on one meridian.
+Index spread(int i, Index n) { return static_cast<Index>((i + 0.5) * static_cast<double>(n) / directions); }
+
+}  // namespace
+
+CheckSamples check_samples(const Matrix& position) {
+  const int order = order_of(position.rows());
+  const SphereTransform transform(order, make_grid(order));
+  const Surface surface = make_surface(transform, position);
+  const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
+  const Vector3 centre = (surface.quadrature.transpose() * surface.position / surface_area(surface)).transpose();
+  CheckSamples samples;
+  samples.near = std::numbers::pi * radius / order;
+  std::vector<Vector3> points;
+  std::vector<double> distances;
+  const auto add = [&](const Vector3& point, double distance) {
+    points.push_back(point);
+    distances.push_back(distance);
+  };
+  for (int i = 0; i < directions; ++i) {
+    const Index node = spread(i, surface.n_points());
+    const Vector3 x = surface.position.row(node).transpose();
+    const Vector3 n = surface.normal.row(node).transpose();
+    const double first = offsets_in_spacings[i % offsets_in_spacings.size()] * samples.near;
+    add(x + first * n, std::abs(first));
+    add(x - first * n, std::abs(first));
+    add(centre + shares_towards_centre[i % shares_towards_centre.size()] * (x - centre), 0.0);
+    add(x + offsets_in_radii[i % offsets_in_radii.size()] * radius * n, 0.0);
+  }
+  samples.points.resize(static_cast<Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) samples.points.row(static_cast<Index>(i)) = points[i].transpose();
+  samples.distance = Eigen::Map<Vector>(distances.data(), static_cast<Index>(distances.size()));
+  return samples;
+}
+
+}  // namespace vehd

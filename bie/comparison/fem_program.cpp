@@ -1,0 +1,60 @@
+#include "bie/comparison/fem_program.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+
+#include "bie/support/file_system.hpp"
+#include "bie/support/child_process.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/temporary.hpp"
+
+namespace vehd {
+namespace {
+
+std::filesystem::path program_beside_this_one() {
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::filesystem::path("vehd_fem") : self.parent_path() / "vehd_fem";
+}
+
+}  // namespace
+
+bool fem_program_is_built() { return ::access(program_beside_this_one().c_str(), X_OK) == 0; }
+
+FemProgram::FemProgram() : path_(program_beside_this_one()) {
+  if (fem_program_is_built()) return;
+  throw InputError(
+      fmt::format("{}: the finite-element program is not built; configure with VEHD_FEM_CHECK=ON "
+                  "(cmake -DSTEP=check -P bie/setup.cmake)",
+                  path_.string()));
+}
+
+FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ranks) const {
+  const TemporaryFolder folder("vehd-result");
+  const std::filesystem::path json = folder.path() / "result.json";
+  arguments.insert(arguments.end(), {"--json", json.string()});
+  std::vector<std::string> words;
+  if (n_ranks > 1) {
+    // Containers have root alone, and often fewer slots than Open MPI wants to see.
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+    words = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(n_ranks)};
+    // When mpirun is told to end, it has more to remove than its processes, and no second to spend on them.
+    words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "0"});
+  }
+  words.push_back(path_.string());
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const ChildEnd end = run_child({words, {}});
+  if (end.start_problem != 0) {
+    throw InputError(fmt::format("{} cannot be started: {}", words[0], std::strerror(end.start_problem)));
+  }
+  if (end.signal != 0) throw std::runtime_error(fmt::format("{} was ended by signal {}", words[0], end.signal));
+  FemProgram::Result result{static_cast<ExitCode>(end.exit_code), {}};
+  if (std::filesystem::exists(json)) result.json = nlohmann::json::parse(text_of_file(json));
+  return result;
+}
+
+}  // namespace vehd

@@ -1,0 +1,92 @@
+#include "bie/comparison/frozen_state.hpp"
+
+#include <fmt/format.h>
+
+#include "bie/files/snapshot_choice.hpp"
+#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/files/run_reader.hpp"
+#include "bie/stepping/stepper.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
+
+void require_start(const std::filesystem::path& file, std::optional<double> time) {
+  if (time.value_or(0.0) == 0.0) return;
+  throw InputError(fmt::format("{}: a scene has no state at time {:g}; run it and give its run.h5, or leave --time out",
+                               file.string(), *time));
+}
+
+/// In the laboratory, where the finite elements are as well.
+Symmetry symmetry_of(const Scene& scene, const FrozenState& frozen) {
+  return scene.numerics.symmetry == SymmetryUse::off ? Symmetry{} : find_symmetry(frozen.model, frozen.state);
+}
+
+FrozenState start_of_scene(const std::filesystem::path& file) {
+  const Scene scene = read_scene(file);
+  FrozenState frozen;
+  frozen.source = file.string();
+  frozen.model = model_of(scene);
+  const Problem problem = problem_of(scene);
+  const Discretisation discretisation(problem.settings, problem.symmetry);
+  Instruments instruments;
+  const State start =
+      initial_state(problem.model, discretisation, problem.position, problem.potential, 0.0, instruments);
+  frozen.fields = in_laboratory(problem.frame, evaluate(problem.model, discretisation, start, instruments).fields);
+  frozen.state = in_laboratory(problem.frame, start);
+  frozen.symmetry = symmetry_of(scene, frozen);
+  return frozen;
+}
+
+FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<double> time) {
+  const RunReader run(file);
+  const SnapshotChoice choice = choose_snapshot(run, file, time);
+  const std::size_t snapshot = choice.snapshot;
+  const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
+  FrozenState frozen;
+  frozen.source = file.string();
+  frozen.note = choice.note;
+  frozen.model = model_of(scene);
+  State& state = frozen.state;
+  state.time = run.times()[snapshot];
+  const auto read = [&](const std::string& name, Index components) {
+    return run.has_field(snapshot, name) ? run.coefficients(snapshot, name, components) : Matrix();
+  };
+  state.position = run.coefficients(snapshot, "x", 3);
+  state.area_strain = Vector::Zero(state.position.rows());
+  if (frozen.model.electric) state.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
+  Fields& fields = frozen.fields;
+  fields.velocity = read("velocity", 3);
+  fields.force_bending = read("force_bending", 3);
+  fields.force_tension = read("force_tension", 3);
+  fields.force_electric = read("force_electric", 3);
+  fields.tension = read("tension", 1);
+  fields.charge = read("q", 1);
+  frozen.symmetry = symmetry_of(scene, frozen);
+  return frozen;
+}
+
+}  // namespace
+
+FrozenState read_frozen_state(const std::filesystem::path& file, std::optional<double> time) {
+  if (!is_scene(file)) return snapshot_of_run(file, time);
+  require_start(file, time);
+  return start_of_scene(file);
+}
+
+FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time) {
+  if (is_scene(file)) {
+    require_start(file, time);
+    return {initial_position(read_scene(file)), ""};
+  }
+  const RunReader run(file);
+  const SnapshotChoice choice = choose_snapshot(run, file, time);
+  return {run.coefficients(choice.snapshot, "x", 3), choice.note};
+}
+
+}  // namespace vehd

@@ -1,0 +1,61 @@
+#include "bie/estimate/trial_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "bie/scene/accuracy.hpp"
+#include "bie/scene/problem.hpp"
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/resolution.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// Takes steps to the end of the scene or as long as the budget lasts, one at least.
+/// @throws ConvergenceError where none is acceptable; the pilot has those before it
+template <typename InBudget>
+void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget, Pilot& pilot) {
+  const Problem problem = problem_of(scene);
+  Instruments instruments;
+  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
+  evolution.evaluate_start();
+  pilot.highest_order = evolution.order();
+  const double end = scene.numerics.end_time;
+  while (evolution.state().time < end && (pilot.steps.empty() || in_budget())) {
+    const EvolutionStep step = evolution.step({scene.output.every, end});
+    PilotStep record{evolution.state().time, step.dt,          step.change, step.rejected + 1,
+                     evolution.order(),      step.at_snapshot, {}};
+    pilot.highest_order = std::max(pilot.highest_order, evolution.order());
+    const Resolution resolution(problem.model, evolution.state());
+    for (const double wanted : tolerances) {
+      record.orders.push_back(
+          resolution.order_for(truncation_share * wanted, lowest_adaptive_order, accuracy_defaults(wanted).order));
+    }
+    pilot.steps.push_back(std::move(record));
+  }
+  pilot.completed = evolution.state().time >= end;
+}
+
+}  // namespace
+
+Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
+                const PilotBudget& budget) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const Scene asked = at_tolerance(scene, tolerance);
+  Pilot pilot;
+  pilot.tolerance = tolerance;
+  pilot.time_order = asked.numerics.time_order;
+  const auto in_budget = [&] { return std::ssize(pilot.steps) < budget.steps && spent() < budget.seconds; };
+  try {
+    take_steps(asked, tolerances, in_budget, pilot);
+  } catch (const ConvergenceError& error) {
+    pilot.stops = error.what();
+  }
+  pilot.seconds = spent();
+  return pilot;
+}
+
+}  // namespace vehd

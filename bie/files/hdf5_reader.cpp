@@ -1,0 +1,178 @@
+#include "bie/files/hdf5_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// No dataset or text of this program is larger, by far; what claims to be would only exhaust the memory.
+constexpr hsize_t most_values = hsize_t{1} << 21;
+constexpr std::size_t longest_text = std::size_t{1} << 24;
+
+herr_t keep_description(unsigned, const H5E_error2_t* error, void* data) {
+  if (error->desc != nullptr) *static_cast<std::string*>(data) = error->desc;
+  return 0;
+}
+
+herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
+  static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+  return 0;
+}
+
+}  // namespace
+
+std::string last_hdf5_error() {
+  std::string description;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &description);
+  // Of a failed system call the reason alone, without time, descriptor and addresses, which fill several lines.
+  const std::string mark = "error message = '";
+  if (const std::size_t start = description.find(mark); start != std::string::npos) {
+    description = description.substr(start + mark.size());
+    description.erase(std::min(description.find('\''), description.size()));
+  }
+  std::replace(description.begin(), description.end(), '\n', ' ');
+  if (!description.empty()) return description;
+  // The library keeps nothing of what fails before it has begun to read or write.
+  return errno != 0 ? std::strerror(errno) : "no details";
+}
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
+  silence_hdf5();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) refuse("no such file");
+  file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  require_open();
+}
+
+Hdf5Reader::Hdf5Reader(const std::string& image, std::string name) : name_(std::move(name)) {
+  silence_hdf5();
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access.id(), 1 << 16, false);
+  // The library copies the image; its interface does not say so with a const.
+  H5Pset_file_image(access.id(), const_cast<char*>(image.data()), image.size());
+  // The library looks for a file of that name, which must not exist.
+  file_ = Hdf5Handle(H5Fopen((name_ + "/image").c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+  require_open();
+}
+
+void Hdf5Reader::require_open() {
+  if (!file_.valid()) {
+    const std::string detail = last_hdf5_error();
+    refuse(fmt::format("no readable HDF5 file, it is truncated, damaged or of another kind ({})", detail));
+  }
+  H5Fget_filesize(file_.id(), &bytes_);
+}
+
+void Hdf5Reader::refuse(const std::string& problem) const { throw InputError(fmt::format("{}: {}", name_, problem)); }
+
+bool Hdf5Reader::has(const std::string& object) const {
+  // H5Lexists wants every group on the way to exist.
+  for (std::size_t slash = object.find('/', 1);; slash = object.find('/', slash + 1)) {
+    if (H5Lexists(file_.id(), object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (slash == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
+  std::vector<std::string> names;
+  const Hdf5Handle handle(H5Gopen2(file_.id(), group.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!handle.valid() || H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0) {
+    refuse(fmt::format("group {} is missing or damaged", group));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Hdf5Reader::OpenDataset Hdf5Reader::open_numbers(const std::string& dataset) const {
+  OpenDataset result{Hdf5Handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose), {}, 1};
+  if (!result.handle.valid()) refuse(fmt::format("dataset {} is missing or damaged", dataset));
+  const Hdf5Handle type(H5Dget_type(result.handle.id()), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(result.handle.id()), H5Sclose);
+  const int rank = space.valid() ? H5Sget_simple_extent_ndims(space.id()) : -1;
+  if (!type.valid() || rank < 1 || rank > 4) refuse(fmt::format("dataset {} has an unknown layout", dataset));
+  if (H5Tget_class(type.id()) != H5T_FLOAT || H5Tget_size(type.id()) != sizeof(double)) {
+    refuse(fmt::format("dataset {} holds no double-precision numbers", dataset));
+  }
+  result.extents.resize(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.id(), result.extents.data(), nullptr);
+  // A damaged layout may claim more than the file has.
+  const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(result.handle.id()), bytes_) / sizeof(double);
+  for (const hsize_t extent : result.extents) {
+    // Checked before each product so that it cannot overflow.
+    if (extent == 0 || result.n_values > stored / extent) {
+      refuse(fmt::format("dataset {} stores {} numbers, less than its size says", dataset, stored));
+    }
+    result.n_values *= extent;
+  }
+  if (result.n_values > most_values) {
+    refuse(fmt::format("dataset {} has {} numbers; accepted: at most {}", dataset, result.n_values, most_values));
+  }
+  return result;
+}
+
+Matrix Hdf5Reader::matrix(const std::string& dataset) const {
+  const OpenDataset open = open_numbers(dataset);
+  const Index n_columns = open.extents.size() == 1 ? 1 : static_cast<Index>(open.extents.front());
+  Matrix values(static_cast<Index>(open.n_values) / n_columns, n_columns);
+  if (H5Dread(open.handle.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    refuse(fmt::format("dataset {} cannot be read", dataset));
+  }
+  return values;
+}
+
+Vector Hdf5Reader::vector(const std::string& dataset) const { return matrix(dataset).reshaped(); }
+
+std::string Hdf5Reader::text(const std::string& dataset) const {
+  const Hdf5Handle handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!handle.valid()) refuse(fmt::format("text {} is missing or damaged", dataset));
+  const Hdf5Handle type(H5Dget_type(handle.id()), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(handle.id()), H5Sclose);
+  if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0 ||
+      H5Sget_simple_extent_npoints(space.id()) != 1 || H5Dget_storage_size(handle.id()) < H5Tget_size(type.id()) ||
+      bytes_ < H5Tget_size(type.id())) {
+    refuse(fmt::format("{} is no text of fixed length", dataset));
+  }
+  if (H5Tget_size(type.id()) > longest_text) {
+    refuse(fmt::format("text {} has {} bytes; accepted: at most {}", dataset, H5Tget_size(type.id()), longest_text));
+  }
+  std::string value(H5Tget_size(type.id()), '\0');
+  const Hdf5Handle memory_type(H5Tcopy(type.id()), H5Tclose);
+  if (H5Dread(handle.id(), memory_type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) {
+    refuse(fmt::format("text {} cannot be read", dataset));
+  }
+  value.resize(std::min(value.size(), value.find('\0')));
+  return value;
+}
+
+void Hdf5Reader::read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const {
+  const Hdf5Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  const Hdf5Handle space(attribute.valid() ? H5Aget_space(attribute.id()) : H5I_INVALID_HID, H5Sclose);
+  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1 || H5Aread(attribute.id(), type, value) < 0) {
+    refuse(fmt::format("attribute {} of {} is missing or damaged", name, object));
+  }
+}
+
+bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
+  return H5Aexists_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+double Hdf5Reader::number_attribute(const std::string& object, const std::string& name) const {
+  double value = 0.0;
+  read_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+  return value;
+}
+
+std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
+  std::int64_t value = 0;
+  read_attribute(object, name, H5T_NATIVE_INT64, &value);
+  return value;
+}
+
+}  // namespace vehd

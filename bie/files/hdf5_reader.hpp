@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bie/files/hdf5_handle.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Reads an HDF5 file that may be damaged or hostile: sizes are checked against what the file stores before memory is
+/// taken. @throws InputError "file: what is wrong" from every member
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& path);
+  /// A file in memory; `name` stands for it in messages.
+  Hdf5Reader(const std::string& image, std::string name);
+
+  [[nodiscard]] bool has(const std::string& object) const;
+  /// Names of a group's members in ascending order.
+  [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
+  /// Dataset of up to 2²¹ numbers of any rank as [last dimensions x first dimension], i.e. [n_points x 3] from [3,
+  /// n_theta, n_phi]; rank 1 gives one column.
+  [[nodiscard]] Matrix matrix(const std::string& dataset) const;
+  /// All values of a dataset in the file's order.
+  [[nodiscard]] Vector vector(const std::string& dataset) const;
+  [[nodiscard]] std::string text(const std::string& dataset) const;
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
+  [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
+  [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+
+  /// What stands for the file in messages.
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[noreturn]] void refuse(const std::string& problem) const;
+
+ private:
+  struct OpenDataset {
+    Hdf5Handle handle;
+    std::vector<hsize_t> extents;
+    hsize_t n_values = 1;
+  };
+  [[nodiscard]] OpenDataset open_numbers(const std::string& dataset) const;
+  void require_open();
+  void read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const;
+
+  std::string name_;
+  Hdf5Handle file_;
+  hsize_t bytes_ = 0;
+};
+
+}  // namespace vehd

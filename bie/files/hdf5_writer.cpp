@@ -1,0 +1,194 @@
+#include "bie/files/hdf5_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+// A snapshot is dozens of small datasets: whole pages spare four of five reads and writes.
+constexpr hsize_t page_bytes = 1 << 16;
+constexpr std::size_t buffered_pages = 16;
+/// What a file in memory grows by: it is cleared, and written up to the next multiple.
+constexpr std::size_t memory_step = 1 << 14;
+
+herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
+  static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+  return 0;
+}
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), std::max<std::size_t>(length, 1));
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  return type;
+}
+
+/// Datasets without modification times, and not filled before they are written.
+Hdf5Handle dataset_properties() {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties.id(), false);
+  H5Pset_fill_time(properties.id(), H5D_FILL_TIME_NEVER);
+  return properties;
+}
+
+/// A snapshot's groups have about a dozen members, which cost least as a plain list.
+Hdf5Handle group_properties() {
+  constexpr unsigned most_in_list = 24;
+  Hdf5Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_link_phase_change(properties.id(), most_in_list, most_in_list / 2);
+  return properties;
+}
+
+bool put_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  Hdf5Handle handle(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  return handle.valid() && H5Awrite(handle.id(), type, value) >= 0 && handle.close();
+}
+
+bool put_attribute(hid_t object, const std::string& name, const std::string& value) {
+  return put_attribute(object, name, text_type(value.size()).id(), value.c_str());
+}
+
+}  // namespace
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
+    : name_(path.string()), dataset_properties_(dataset_properties()), group_properties_(group_properties()) {
+  silence_hdf5();
+  errno = 0;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V110);
+  if (mode == Mode::in_memory) {
+    // Of the later formats the library alters a byte in the image that it returns, and not the checksum over it.
+    H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
+    H5Pset_fapl_core(access.id(), memory_step, false);
+    create(H5P_DEFAULT, access.id());
+  } else if (mode == Mode::create) {
+    const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_file_space_strategy(creation.id(), H5F_FSPACE_STRATEGY_PAGE, false, 1);
+    H5Pset_file_space_page_size(creation.id(), page_bytes);
+    create(creation.id(), access.id());
+  } else {
+    open(access.id(), mode);
+  }
+}
+
+void Hdf5Writer::create(hid_t creation, hid_t access) {
+  file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
+  // Here, as any further call would forget the reason.
+  if (!file_.valid()) fail("cannot be opened");
+}
+
+void Hdf5Writer::open(hid_t access, Mode mode) {
+  const bool extends = mode == Mode::extend;
+  const auto opens_with = [&](std::size_t buffer) {
+    H5Pset_page_buffer_size(access, buffer, 0, 0);
+    file_ = Hdf5Handle(H5Fopen(name_.c_str(), extends ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access), H5Fclose);
+    return file_.valid();
+  };
+  // Of a file to be extended only the groups at its beginning are read. Headers elsewhere must not be: HDF5 1.10
+  // guesses their size and reads beyond a buffered page where one lies at its end.
+  if (extends && opens_with(buffered_pages * page_bytes)) return;
+  // A file that was not made in pages is refused with a page buffer.
+  if (!opens_with(0)) fail("cannot be opened");
+}
+
+void Hdf5Writer::fail(const std::string& what) const {
+  throw OutputError(fmt::format("{}: {} ({})", name_, what, last_hdf5_error()));
+}
+
+bool Hdf5Writer::has(const std::string& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
+
+void Hdf5Writer::group(const std::string& path) {
+  const Hdf5Handle handle(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, group_properties_.id(), H5P_DEFAULT),
+                          H5Gclose);
+  if (!handle.valid()) fail(fmt::format("group {} cannot be written", path));
+}
+
+void Hdf5Writer::numbers(const std::string& path, std::span<const double> values, const std::vector<hsize_t>& extents,
+                         const DatasetLabel& label) {
+  write_dataset(path, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), extents, label);
+}
+
+void Hdf5Writer::integers(const std::string& path, std::span<const std::int64_t> values,
+                          const std::vector<hsize_t>& extents, const DatasetLabel& label) {
+  write_dataset(path, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), extents, label);
+}
+
+void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
+                               const std::vector<hsize_t>& extents, const DatasetLabel& label) {
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
+  Hdf5Handle dataset(
+      H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT, dataset_properties_.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!dataset.valid() || H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0 ||
+      !put_attribute(dataset.id(), "unit", label.unit) ||
+      (label.scale && !put_attribute(dataset.id(), "scale", H5T_NATIVE_DOUBLE, &*label.scale)) ||
+      !put_attribute(dataset.id(), "description", label.description) || !dataset.close()) {
+    fail(fmt::format("dataset {} cannot be written", path));
+  }
+}
+
+void Hdf5Writer::text(const std::string& path, const std::string& value) {
+  const Hdf5Handle type = text_type(value.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle dataset(
+      H5Dcreate2(file_.id(), path.c_str(), type.id(), space.id(), H5P_DEFAULT, dataset_properties_.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!dataset.valid() || H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()) < 0) {
+    fail(fmt::format("text {} cannot be written", path));
+  }
+}
+
+void Hdf5Writer::copy_from(const Hdf5Writer& source, const std::string& path) {
+  if (H5Ocopy(source.file_.id(), path.c_str(), file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+    fail(fmt::format("{} cannot be copied from {}", path, source.name_));
+  }
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
+  write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
+  write_attribute(object, name, H5T_NATIVE_INT64, &value);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  write_attribute(object, name, text_type(value.size()).id(), value.c_str());
+}
+
+void Hdf5Writer::write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value) {
+  const Hdf5Handle handle(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
+  if (!handle.valid() || !put_attribute(handle.id(), name, type, value)) {
+    fail(fmt::format("attribute {} of {} cannot be written", name, object));
+  }
+}
+
+std::vector<std::string> Hdf5Writer::members(const std::string& group_path) const {
+  std::vector<std::string> names;
+  const Hdf5Handle handle(H5Gopen2(file_.id(), group_path.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!handle.valid() || H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0) {
+    fail(fmt::format("group {} cannot be read", group_path));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string Hdf5Writer::image() const {
+  if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) fail("cannot be completed");
+  const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
+  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  if (size <= 0 || H5Fget_file_image(file_.id(), bytes.data(), bytes.size()) != size) fail("cannot be completed");
+  return bytes;
+}
+
+void Hdf5Writer::close() {
+  if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0 || !file_.close()) fail("cannot be written completely");
+}
+
+}  // namespace vehd

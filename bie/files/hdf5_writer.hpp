@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bie/files/hdf5_handle.hpp"
+
+namespace vehd {
+
+/// What a dataset is, for whoever opens the file without this program at hand.
+struct DatasetLabel {
+  std::string unit;
+  std::string description;
+  std::optional<double> scale{};  ///< what 1 is in SI base units; NaN where nobody says; absent: not written
+};
+
+/// Writes one HDF5 file. Times of modification are left out, so equal data make equal files.
+/// @throws OutputError from every member
+class Hdf5Writer {
+ public:
+  /// `read` is for the source of copies: it never touches the file. `in_memory` writes no file:
+  /// its path only names it in messages.
+  enum class Mode { create, in_memory, extend, read };
+  Hdf5Writer(const std::filesystem::path& path, Mode mode);
+
+  void group(const std::string& path);
+  [[nodiscard]] bool has(const std::string& path) const;
+  void numbers(const std::string& path, std::span<const double> values, const std::vector<hsize_t>& extents,
+               const DatasetLabel& label);
+  void integers(const std::string& path, std::span<const std::int64_t> values, const std::vector<hsize_t>& extents,
+                const DatasetLabel& label);
+  void text(const std::string& path, const std::string& value);
+  /// Copies an object with all below it.
+  void copy_from(const Hdf5Writer& source, const std::string& path);
+
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name, std::int64_t value);
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+
+  /// All bytes of the file so far.
+  [[nodiscard]] std::string image() const;
+
+  [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
+
+  /// Must be called; the destructor alone would lose the error of a full disk.
+  void close();
+
+ private:
+  void create(hid_t creation, hid_t access);
+  void open(hid_t access, Mode mode);
+  [[noreturn]] void fail(const std::string& what) const;
+  void write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
+                     const std::vector<hsize_t>& extents, const DatasetLabel& label);
+  void write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value);
+
+  std::string name_;
+  Hdf5Handle dataset_properties_, group_properties_;
+  Hdf5Handle file_;
+};
+
+}  // namespace vehd

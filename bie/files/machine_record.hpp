@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vehd {
+
+/// What a timing holds for.
+struct MachineRecord {
+  std::string processor;  ///< as the operating system names it
+  unsigned hardware_threads = 0;
+  int threads = 0;  ///< that this process uses
+  std::string compiler, version, commit;
+};
+MachineRecord machine_record();
+nlohmann::ordered_json json_of(const MachineRecord& machine);
+/// One line for people.
+std::string text_of(const MachineRecord& machine);
+
+}  // namespace vehd

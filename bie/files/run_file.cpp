@@ -1,0 +1,171 @@
+#include "bie/files/run_file.hpp"
+
+#include <fmt/format.h>
+
+#include "bie/sphere/surface_mesh.hpp"
+#include "bie/files/versions.hpp"
+#include "bie/geometry/surface.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/support/checksum.hpp"
+
+namespace vehd {
+namespace {
+
+const DatasetLabel position_label{"length", "membrane position x"};
+const DatasetLabel velocity_label{"velocity", "membrane velocity dx/dt"};
+const DatasetLabel bending_label{"force/area", "bending force f_b on the fluid"};
+const DatasetLabel tension_force_label{"force/area", "tension force f_lambda on the fluid"};
+const DatasetLabel electric_label{"force/area", "electric force f_E = [[n . Sigma_el]]; f = f_b + f_lambda - f_E"};
+const DatasetLabel potential_label{"potential", "transmembrane potential V_m = [[phi]], interior minus exterior"};
+const DatasetLabel charge_label{"potential/length", "q = [[d phi/d n]], interior minus exterior"};
+const DatasetLabel tension_label{"force/length", "membrane tension lambda"};
+const DatasetLabel strain_label{"1", "area strain W/W_ref - 1 of the material"};
+
+DatasetLabel with_scale(DatasetLabel label, const SiScale& si_scale) {
+  label.scale = si_scale(label.unit);
+  return label;
+}
+
+/// A field of three components in [n x 3] or of one in [n x 1]: the column-major memory is the file's row-major.
+std::vector<hsize_t> extents_of(Index components, std::vector<hsize_t> points) {
+  if (components > 1) points.insert(points.begin(), static_cast<hsize_t>(components));
+  return points;
+}
+
+std::span<const double> memory_of(const Matrix& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+void write_coefficient_convention(Hdf5Writer& file, int order) {
+  std::vector<std::int64_t> degrees, orders;
+  for (int n = 0; n <= order; ++n) {
+    for (int m = -n; m <= n; ++m) {
+      degrees.push_back(n);
+      orders.push_back(m);
+    }
+  }
+  const hsize_t count = degrees.size();
+  file.group("/coefficients_convention");
+  file.integers("/coefficients_convention/degree", degrees, {count}, {"1", "n of each coefficient"});
+  file.integers("/coefficients_convention/order", orders, {count}, {"1", "m of each coefficient"});
+  file.text("/coefficients_convention/text",
+            "Real orthonormal spherical harmonics on the unit sphere without Condon-Shortley sign: "
+            "Y_{n,0} = N P_n^0(cos theta), Y_{n,m} = sqrt(2) N P_n^m(cos theta) cos(m phi), "
+            "Y_{n,-m} = sqrt(2) N P_n^m(cos theta) sin(m phi) for m > 0, "
+            "N = sqrt((2n+1)/(4 pi) (n-m)!/(n+m)!). Coefficient (n, m) has index n^2 + n + m.");
+}
+
+/// One snapshot under construction: each field is written on the grid, as coefficients and on the closed surface.
+class SnapshotWriter {
+ public:
+  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
+                 const SiScale& si_scale)
+      : file_(file), group_("/snapshots/" + name), transform_(transform), si_scale_(si_scale) {
+    file_.group(group_);
+    file_.group(group_ + "/coefficients");
+    file_.group(group_ + "/surface");
+  }
+
+  /// Absent effects have no coefficients and write nothing.
+  void field(const std::string& name, const Matrix& coefficients, const DatasetLabel& label) {
+    if (coefficients.size() == 0) return;
+    const Matrix values = transform_.synthesize(coefficients);
+    grid_field(name, values, label);
+    numbers("coefficients/" + name, coefficients,
+            extents_of(coefficients.cols(), {static_cast<hsize_t>(coefficients.rows())}), label);
+    // Viewers want the components of a point together.
+    const Matrix surface = with_poles(values, coefficients).transpose();
+    std::vector<hsize_t> extents{static_cast<hsize_t>(surface.cols())};
+    if (surface.rows() > 1) extents.push_back(static_cast<hsize_t>(surface.rows()));
+    numbers("surface/" + name, surface, extents, label);
+  }
+
+  void grid_field(const std::string& name, const Matrix& values, const DatasetLabel& label) {
+    const SphereGrid& grid = transform_.grid();
+    numbers(name, values,
+            extents_of(values.cols(), {static_cast<hsize_t>(grid.n_theta), static_cast<hsize_t>(grid.n_phi)}), label);
+  }
+
+  void moment(double time, std::int64_t step) {
+    file_.attribute(group_, "time", time);
+    file_.attribute(group_, "step", step);
+    checksum_.add(std::span(&time, 1));
+    checksum_.add(step);
+  }
+
+  /// Nothing may follow it.
+  std::int64_t seal() {
+    file_.attribute(group_, "checksum", checksum_.value());
+    return checksum_.value();
+  }
+
+ private:
+  void numbers(const std::string& name, const Matrix& values, const std::vector<hsize_t>& extents,
+               const DatasetLabel& label) {
+    file_.numbers(group_ + "/" + name, memory_of(values), extents, with_scale(label, si_scale_));
+    checksum_.add(memory_of(values));
+  }
+
+  Checksum checksum_;
+  Hdf5Writer& file_;
+  std::string group_;
+  const SphereTransform& transform_;
+  const SiScale& si_scale_;
+};
+
+}  // namespace
+
+std::string snapshot_name(std::int64_t number) { return fmt::format("{:06d}", number); }
+
+void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const RunHeader& header) {
+  const SphereGrid& grid = transform.grid();
+  file.attribute("/", "schema_version", run_schema_version);
+  file.attribute("/", "program", "vehd " + program_version());
+  file.attribute("/", "order", std::int64_t{transform.order()});
+  file.attribute("/", "threads", std::int64_t{header.threads});
+  file.attribute(
+      "/", "units",
+      std::string("dimensionless; the unit of a dataset names its physical dimension, its scale is what 1 of it "
+                  "is in SI units, NaN where the scene does not say"));
+  for (const auto& [library, version] : library_versions()) file.attribute("/", "version_" + library, version);
+  file.text("/scene", header.scene);
+
+  const hsize_t n_theta = static_cast<hsize_t>(grid.n_theta), n_phi = static_cast<hsize_t>(grid.n_phi);
+  file.group("/grid");
+  file.numbers("/grid/theta", memory_of(grid.theta), {n_theta}, {"rad", "polar angle from +z", 1.0});
+  file.numbers("/grid/phi", memory_of(grid.phi), {n_phi}, {"rad", "azimuth", 1.0});
+  file.numbers("/grid/weight", memory_of(grid.weight), {n_theta},
+               {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element", 1.0});
+  const std::vector<std::int64_t> triangles = closed_triangles(grid);
+  file.group("/surface");
+  file.integers("/surface/triangles", triangles, {triangles.size() / 3, 3},
+                {"1", "closed surface on the grid points (theta-major), north pole, south pole"});
+  write_coefficient_convention(file, transform.order());
+  file.group("/snapshots");
+  file.attribute("/snapshots", "time_unit", std::string("time"));
+  file.attribute("/snapshots", "time_scale", header.si_scale("time"));
+}
+
+std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
+                            const State& state, const Fields& fields, const SiScale& si_scale) {
+  SnapshotWriter snapshot(file, name, transform, si_scale);
+  snapshot.moment(state.time, state.step);
+  snapshot.field("x", state.position, position_label);
+  snapshot.field("velocity", fields.velocity, velocity_label);
+  snapshot.field("force_bending", fields.force_bending, bending_label);
+  snapshot.field("force_tension", fields.force_tension, tension_force_label);
+  snapshot.field("force_electric", fields.force_electric, electric_label);
+  snapshot.field("Vm", state.transmembrane_potential, potential_label);
+  snapshot.field("q", fields.charge, charge_label);
+  snapshot.field("tension", fields.tension, tension_label);
+  if (state.area_strain.size() == state.position.rows()) {
+    snapshot.field("area_strain", state.area_strain, strain_label);
+  } else if (state.area_strain.size() == transform.grid().n_points()) {
+    snapshot.grid_field("area_strain", state.area_strain, strain_label);
+  }
+  snapshot.grid_field("area_element", make_surface(transform, state.position).area_element,
+                      {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
+  return snapshot.seal();
+}
+
+}  // namespace vehd

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bie/files/hdf5_reader.hpp"
+
+namespace vehd {
+
+constexpr std::int64_t run_schema_version = 1;
+
+/// Datasets that a snapshot may have, in the order in which its checksum takes them; each on the grid, in coefficients/
+/// and in surface/.
+constexpr std::array<std::string_view, 10> snapshot_fields = {
+    "x",  "velocity", "force_bending", "force_tension", "force_electric",
+    "Vm", "q",        "tension",       "area_strain",   "area_element"};
+constexpr std::array<std::string_view, 3> snapshot_parts = {"", "coefficients/", "surface/"};
+
+/// @throws InputError if the file is of another schema version
+void require_run_schema(const Hdf5Reader& file);
+
+/// Checksum of time, step and all numbers of a snapshot as they are in the file.
+std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group);
+
+/// @throws InputError if the snapshot's attribute "checksum" says otherwise
+void require_checksum(const Hdf5Reader& file, const std::string& group, std::int64_t checksum);
+
+/// Access to the snapshots of a run.h5. @throws InputError
+class RunReader {
+ public:
+  explicit RunReader(Hdf5Reader file);
+  explicit RunReader(const std::filesystem::path& path) : RunReader(Hdf5Reader(path)) {}
+
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  /// Number of the snapshot whose time is nearest.
+  [[nodiscard]] std::size_t nearest(double time) const;
+  /// Number of the snapshot at this time, up to the rounding of decimal numbers; nullopt if there is none.
+  [[nodiscard]] std::optional<std::size_t> find(double time) const;
+  /// The same. @throws InputError if there is none
+  [[nodiscard]] std::size_t at(double time) const;
+  /// The path of the file, or what stands for it in messages.
+  [[nodiscard]] const std::string& name() const { return file_.name(); }
+  [[nodiscard]] bool has_scene() const { return file_.has("/scene"); }
+  /// The effective scene of the run.
+  [[nodiscard]] std::string scene() const { return file_.text("/scene"); }
+  [[nodiscard]] bool has_field(std::size_t snapshot, const std::string& name) const;
+  /// Harmonic coefficients, [n_coefficients x components], of a snapshot that is intact as a whole. A run.h5 without
+  /// checksums is of an earlier program and is read as it is.
+  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name) const;
+  /// The same, of the stated number of components and of the order of x.
+  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name, Index components) const;
+
+ private:
+  [[nodiscard]] std::string group_of(std::size_t snapshot) const { return "/snapshots/" + names_.at(snapshot); }
+  [[nodiscard]] std::string path_of(std::size_t snapshot, const std::string& name) const;
+
+  Hdf5Reader file_;
+  std::vector<std::string> names_;
+  std::vector<double> times_;
+};
+
+}  // namespace vehd

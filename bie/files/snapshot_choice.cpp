@@ -1,0 +1,45 @@
+#include "bie/files/snapshot_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// Distance of a snapshot to its neighbour on the side of the time or, at an end, to its only one; 0 if it has none.
+double spacing_at(const std::vector<double>& times, std::size_t snapshot, double time) {
+  const std::size_t last = times.size() - 1;
+  if (last == 0) return 0.0;
+  const std::size_t right = std::clamp<std::size_t>(time < times[snapshot] ? snapshot : snapshot + 1, 1, last);
+  return times[right] - times[right - 1];
+}
+
+}  // namespace
+
+SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time) {
+  // Times of snapshots are multiples of a decimal number up to rounding.
+  constexpr double kSameTime = 1e-9;
+  const std::vector<double>& times = run.times();
+  if (!time) return {times.size() - 1, ""};
+  const std::size_t snapshot = run.nearest(*time);
+  const double spacing = spacing_at(times, snapshot, *time);
+  const double distance = std::abs(times[snapshot] - *time);
+  const double same = kSameTime * std::max(spacing, std::abs(*time));
+  if (distance <= same) return {snapshot, ""};
+  // Written so that a time which is not a number is refused.
+  if (!(distance <= 0.5 * spacing + same)) {
+    throw InputError(
+        fmt::format("{}: no snapshot near time {:.10g}; there are {} from {:.10g} to {:.10g}, the nearest "
+                    "at {:.10g}",
+                    file.string(), *time, times.size(), times.front(), times.back(), times[snapshot]));
+  }
+  return {snapshot, fmt::format("{}: no snapshot at time {:.10g}; taken: the nearest, at {:.10g}", file.string(), *time,
+                                times[snapshot])};
+}
+
+}  // namespace vehd

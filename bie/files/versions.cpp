@@ -1,0 +1,38 @@
+#include "bie/files/versions.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+
+#include "bie/files/hdf5_handle.hpp"
+#include "commit.hpp"
+
+namespace vehd {
+namespace {
+
+std::string compiler() {
+#ifdef __clang__
+  const std::string name = __VERSION__;
+#else
+  const std::string name = "g++ " __VERSION__;
+#endif
+  const std::string architecture = VEHD_ARCHITECTURE;
+  return architecture.empty() ? name : name + " -march=" + architecture;
+}
+
+}  // namespace
+
+std::string program_version() { return VEHD_VERSION; }
+
+std::string program_commit() { return VEHD_COMMIT; }
+
+std::map<std::string, std::string> library_versions() {
+  silence_hdf5();
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return {{"compiler", compiler()},
+          {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"hdf5", fmt::format("{}.{}.{}", major, minor, release)}};
+}
+
+}  // namespace vehd

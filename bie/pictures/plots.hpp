@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bie/runs/run_directory.hpp"
+#include "bie/files/snapshot_choice.hpp"
+
+namespace vehd {
+
+struct PlotTask {
+  RunPaths paths;
+  std::vector<double> times;     ///< of the shapes; empty: evenly spread
+  std::filesystem::path output;  ///< directory for the pictures
+  int shape_width = 520;         ///< pixels of one shape, at most
+};
+
+/// Draws all pictures of a run through gnuplot; needs no display.
+/// @return the pictures
+/// @throws InputError if the run cannot be read or gnuplot is missing
+std::vector<std::filesystem::path> plot_run(const PlotTask& task);
+
+/// The snapshots of the row of shapes, each once; those of given times with a note where they have another time.
+/// @throws InputError if there are too many times or one of them is none of the run
+std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader& run);
+
+/// One row of shapes in perspective, coloured by V_m, or by tension without one.
+void plot_shapes(const PlotTask& task, const std::filesystem::path& picture);
+
+/// Energy and tension, V_m and charge at the north pole (or extents), inclination in flow, against time.
+void plot_history(const PlotTask& task, const std::filesystem::path& picture);
+
+}  // namespace vehd

@@ -1,0 +1,210 @@
+#include "bie/runs/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bie/support/file_system.hpp"
+#include "bie/files/hdf5_writer.hpp"
+#include "bie/files/sealed_file.hpp"
+#include "bie/files/hdf5_reader.hpp"
+#include "bie/scene/scene.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr std::int64_t checkpoint_schema_version = 7;
+
+/// The members of a state with the names under which they are stored.
+template <typename StateType, typename Visitor>
+void visit_state(StateType& state, Visitor&& visit) {
+  visit("time", state.time);
+  visit("step", state.step);
+  visit("dt_next", state.dt_next);
+  visit("quadrature_level", state.quadrature_level);
+  visit("position", state.position);
+  visit("transmembrane_potential", state.transmembrane_potential);
+  visit("tension", state.tension);
+  visit("area_strain", state.area_strain);
+  visit("reference_area", state.reference_area);
+  visit("reference_volume", state.reference_volume);
+  visit("tension", state.flow_memory.tension);
+  visit("flow", state.flow_memory.flow);
+  visit("unaided_iterations", state.flow_memory.unaided_iterations);
+  visit("pause", state.flow_memory.pause);
+}
+
+/// What is known of a map is the coefficients of its rows and two matrices, behind its name.
+constexpr const char* entries_of = "_entries";
+constexpr const char* arguments_of = "_arguments";
+constexpr const char* responses_of = "_responses";
+
+std::string totals_text(const RunTotals& totals) {
+  const nlohmann::json json = {{"seconds", totals.seconds},
+                               {"kernel_evaluations", totals.kernel_evaluations},
+                               {"seconds_of_parts", totals.seconds_of_parts}};
+  return json.dump();
+}
+
+RunTotals totals_of(const std::string& text, const Hdf5Reader& file) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    return {json.at("seconds").get<double>(), json.at("kernel_evaluations").get<std::map<std::string, std::uint64_t>>(),
+            json.at("seconds_of_parts").get<std::map<std::string, double>>()};
+  } catch (const nlohmann::json::exception& error) {
+    file.refuse(fmt::format("/totals is damaged ({})", error.what()));
+  }
+}
+
+std::vector<SceneChange> read_changes(const Hdf5Reader& file) {
+  try {
+    return changes_of(nlohmann::json::parse(file.text("/changes")));
+  } catch (const nlohmann::json::exception& error) {
+    file.refuse(fmt::format("/changes is damaged ({})", error.what()));
+  }
+}
+
+/// Whole numbers of a checkpoint besides those of its state.
+template <typename CheckpointType, typename Visitor>
+void visit_counts(CheckpointType& checkpoint, Visitor&& visit) {
+  visit("start_order", checkpoint.start_order);
+  visit("n_rows", checkpoint.n_rows);
+  visit("history_bytes", checkpoint.history_bytes);
+  visit("history_checksum", checkpoint.history_checksum);
+  visit("n_snapshots", checkpoint.n_snapshots);
+  visit("snapshots_checksum", checkpoint.snapshots_checksum);
+  visit("threads", checkpoint.threads);
+}
+
+struct WriteVisitor {
+  Hdf5Writer& file;
+  void operator()(const char* name, const double& value) { file.attribute("/state", name, value); }
+  void operator()(const char* name, const std::int64_t& value) { file.attribute("/state", name, value); }
+  void operator()(const char* name, const std::shared_ptr<const ScalarResponses>& known) {
+    if (!known) return;
+    const std::vector<Index>& entries = known->entries();
+    const auto n = static_cast<Index>(entries.size());
+    const Vector numbers = Eigen::Map<const Eigen::Matrix<Index, Eigen::Dynamic, 1>>(entries.data(), n).cast<double>();
+    (*this)((std::string(name) + entries_of).c_str(), numbers);
+    (*this)((std::string(name) + arguments_of).c_str(), known->known().arguments);
+    (*this)((std::string(name) + responses_of).c_str(), known->known().responses);
+  }
+  template <typename Derived>
+  void operator()(const char* name, const Eigen::PlainObjectBase<Derived>& values) {
+    if (values.size() == 0) return;
+    std::vector<hsize_t> extents{static_cast<hsize_t>(values.rows())};
+    if (Derived::ColsAtCompileTime != 1) extents.insert(extents.begin(), static_cast<hsize_t>(values.cols()));
+    file.numbers(std::string("/state/") + name, {values.data(), static_cast<std::size_t>(values.size())}, extents,
+                 {"", "member of the state of the run"});
+  }
+};
+
+struct ReadVisitor {
+  const Hdf5Reader& file;
+  void operator()(const char* name, double& value) { value = file.number_attribute("/state", name); }
+  void operator()(const char* name, std::int64_t& value) { value = file.integer_attribute("/state", name); }
+  void operator()(const char* name, std::shared_ptr<const ScalarResponses>& known) {
+    Vector numbers;
+    KnownResponses stored;
+    (*this)((std::string(name) + entries_of).c_str(), numbers);
+    (*this)((std::string(name) + arguments_of).c_str(), stored.arguments);
+    (*this)((std::string(name) + responses_of).c_str(), stored.responses);
+    if (stored.count() == 0) return;
+    std::vector<Index> entries;
+    for (const double number : numbers) {
+      // Neither fractions nor what no degree has nor a second time the same.
+      const bool ascends = entries.empty() || number > static_cast<double>(entries.back());
+      if (!(number >= 0.0 && number < n_coefficients(highest_order) && number == std::floor(number) && ascends)) {
+        file.refuse(fmt::format("/state/{}{} are not those of a run", name, entries_of));
+      }
+      entries.push_back(static_cast<Index>(number));
+    }
+    try {
+      known = std::make_shared<const ScalarResponses>(std::move(entries), std::move(stored));
+    } catch (const ShapeError& error) {
+      file.refuse(fmt::format("/state/{}: {}", name, error.what()));
+    }
+  }
+  template <typename Derived>
+  void operator()(const char* name, Eigen::PlainObjectBase<Derived>& values) {
+    const std::string dataset = std::string("/state/") + name;
+    if (!file.has(dataset)) return;
+    if constexpr (Derived::ColsAtCompileTime == 1) {
+      values.derived() = file.vector(dataset);
+    } else {
+      values.derived() = file.matrix(dataset);
+    }
+  }
+};
+
+/// What no run could have written, though it is sealed.
+void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) file.refuse(fmt::format("{} is not that of a run", what));
+  };
+  visit_counts(checkpoint, [&](const char* name, std::int64_t value) { require(value >= 0, name); });
+  require(checkpoint.start_order >= lowest_order && checkpoint.start_order <= highest_order, "start_order");
+  const State& state = checkpoint.state;
+  require(state.position.cols() == 3 && state.position.allFinite(), "/state/position");
+  require(state.position.rows() <= n_coefficients(highest_order), "/state/position");
+  try {
+    order_of(state.position.rows());
+  } catch (const ShapeError&) {
+    require(false, "/state/position");
+  }
+  for (const Vector* values : {&state.transmembrane_potential, &state.tension}) {
+    require((values->size() == 0 || values->size() == state.position.rows()) && values->allFinite(), "/state");
+  }
+  require(state.area_strain.allFinite(), "/state/area_strain");
+  for (const auto& known : {state.flow_memory.tension, state.flow_memory.flow}) {
+    if (!known) continue;
+    const char* name = "/state, what its solves know,";
+    const Matrix& arguments = known->known().arguments;
+    const Matrix& responses = known->known().responses;
+    require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= most_known_responses, name);
+    require(arguments.allFinite() && responses.allFinite(), name);
+  }
+  for (const double value : {state.time, state.dt_next, state.reference_area, state.reference_volume}) {
+    require(std::isfinite(value), "/state");
+  }
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  Hdf5Writer file(path, Hdf5Writer::Mode::in_memory);
+  file.attribute("/", "schema_version", checkpoint_schema_version);
+  visit_counts(checkpoint, [&](const char* name, std::int64_t value) { file.attribute("/", name, value); });
+  file.text("/scene", checkpoint.scene);
+  file.text("/changes", json_of(checkpoint.changes).dump());
+  file.text("/totals", totals_text(checkpoint.totals));
+  file.group("/state");
+  visit_state(checkpoint.state, WriteVisitor{file});
+  replace_file(path, sealed(file.image()));
+}
+
+Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
+  const Hdf5Reader file(image, name);
+  const std::int64_t version = file.integer_attribute("/", "schema_version");
+  if (version != checkpoint_schema_version) {
+    file.refuse(fmt::format("has schema version {}; accepted: {}", version, checkpoint_schema_version));
+  }
+  Checkpoint checkpoint;
+  visit_counts(checkpoint, [&](const char* count, std::int64_t& value) { value = file.integer_attribute("/", count); });
+  checkpoint.scene = file.text("/scene");
+  checkpoint.changes = read_changes(file);
+  checkpoint.totals = totals_of(file.text("/totals"), file);
+  visit_state(checkpoint.state, ReadVisitor{file});
+  require_sound(checkpoint, file);
+  return checkpoint;
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+  // HDF5 can crash on damaged bytes, so it never sees them.
+  return checkpoint_of(read_sealed_file(path), path.string());
+}
+
+}  // namespace vehd

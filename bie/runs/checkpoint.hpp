@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bie/runs/scene_changes.hpp"
+#include "bie/stepping/state.hpp"
+
+namespace vehd {
+
+/// Work done so far, over all sessions of a run.
+struct RunTotals {
+  double seconds = 0.0;
+  std::map<std::string, std::uint64_t> kernel_evaluations;
+  std::map<std::string, double> seconds_of_parts;
+};
+
+/// Everything that a resumed run needs to continue bit for bit, and how far the other files had got.
+struct Checkpoint {
+  std::string scene;                 ///< effective scene
+  std::vector<SceneChange> changes;  ///< that sessions have made to it, in the order of time
+  /// Empty position: the run starts with the initial state of the scene.
+  State state;
+  std::int64_t start_order = 0;  ///< degree of the initial shape, in which frame and symmetry were found
+  std::int64_t n_rows = 0;       ///< rows of history.csv; 0: the state itself is not written yet
+  std::int64_t history_bytes = 0;
+  std::int64_t history_checksum = 0;  ///< of these bytes
+  std::int64_t n_snapshots = 0;
+  std::int64_t snapshots_checksum = 0;  ///< of the checksums of these snapshots
+  std::int64_t threads = 1;
+  RunTotals totals;
+};
+
+/// Replaces the file in one step. @throws OutputError
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
+
+/// @throws InputError if the file is truncated, altered or of another schema version
+Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+/// The same from the HDF5 image that its seal has vouched for. @throws InputError
+Checkpoint checkpoint_of(const std::string& image, const std::string& name);
+
+}  // namespace vehd

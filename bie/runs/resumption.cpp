@@ -1,0 +1,106 @@
+#include "bie/runs/resumption.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bie/files/hdf5_reader.hpp"
+#include "bie/scene/key_lookup.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/scene/schema.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/resolution.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+Scene stored_scene(const Checkpoint& checkpoint, const RunPaths& paths) {
+  return parse_scene(checkpoint.scene, paths.checkpoint().string() + " (scene)", paths.directory);
+}
+
+bool may_change(const std::string& key) { return key.starts_with("numerics.") || key.starts_with("output."); }
+
+std::string shown(const std::string& value) { return value.empty() ? "absent" : value; }
+
+/// Degree in which the state goes on.
+int order_of_state(const Scene& scene, const State& state) {
+  const NumericsScene& numerics = scene.numerics;
+  if (!numerics.tolerance) return numerics.order;
+  const int lowest = std::max(order_of(state.position.rows()), lowest_adaptive_order);
+  return Resolution(model_of(scene), state)
+      .order_for(truncation_share * *numerics.tolerance, std::min(lowest, numerics.order), numerics.order);
+}
+
+State adapted(State state, const Scene& before, const Scene& scene) {
+  const int order = order_of_state(scene, state);
+  const bool other_operators =
+      order != order_of(state.position.rows()) || before.numerics.symmetry != scene.numerics.symmetry;
+  if (order != order_of(state.position.rows())) state = resized(std::move(state), order);
+  if (other_operators) state.flow_memory = {};
+  // Steps chosen by a tolerance find their first size themselves.
+  state.dt_next = scene.numerics.tolerance ? 0.0 : *scene.numerics.dt;
+  return state;
+}
+
+}  // namespace
+
+void require_same_physics(const Scene& scene, const std::filesystem::path& scene_file, const Checkpoint& checkpoint,
+                          const RunPaths& paths) {
+  const Scene stored = stored_scene(checkpoint, paths);
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(scene_file, key), key,
+                                 shown(key_text(scene, key)), paths.directory.string(), shown(key_text(stored, key)),
+                                 why));
+  };
+  for (const std::string& key : differing_keys(stored, scene)) {
+    if (!may_change(key)) {
+      refuse(key, "--resume accepts changes of [numerics] and [output] alone: keep the value or choose another -o");
+    }
+    if (key == "numerics.symmetry" && stored.numerics.symmetry == SymmetryUse::off) {
+      refuse(key, "a state that was computed without symmetry need not have any: keep \"off\" or choose another -o");
+    }
+  }
+  if (scene.numerics.end_time < checkpoint.state.time) {
+    throw InputError(
+        fmt::format("{}: \"numerics.end_time\" is {:g}, but the run in {} has already reached {:g}; accepted: "
+                    "that or later",
+                    key_place(scene_file, "numerics.end_time"), scene.numerics.end_time, paths.directory.string(),
+                    checkpoint.state.time));
+  }
+}
+
+Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths) {
+  const Scene before = stored_scene(checkpoint, paths);
+  const std::vector<SceneChange> changes =
+      numerical_changes(before, scene, checkpoint.state.time, checkpoint.state.step);
+  if (changes.empty()) return checkpoint;
+  checkpoint.changes.insert(checkpoint.changes.end(), changes.begin(), changes.end());
+  if (checkpoint.state.step > 0) {
+    checkpoint.state = adapted(std::move(checkpoint.state), before, scene);
+    return checkpoint;
+  }
+  Checkpoint anew;
+  anew.changes = std::move(checkpoint.changes);
+  anew.totals = std::move(checkpoint.totals);
+  return anew;
+}
+
+int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
+  if (checkpoint.n_snapshots == 0) return scene.numerics.order;
+  const std::int64_t present = Hdf5Reader(paths.snapshots()).integer_attribute("/", "order");
+  return std::max(scene.numerics.order, static_cast<int>(std::clamp<std::int64_t>(present, 0, highest_order)));
+}
+
+std::string what_may_help(const NumericsScene& numerics) {
+  const std::string order = fmt::format("order (now {})", numerics.order);
+  if (numerics.tolerance) {
+    return fmt::format("change tolerance (now {:g}) or {} in [numerics]", *numerics.tolerance, order);
+  }
+  return fmt::format("change dt (now {:g}), {} or time_order (now {}), or give a tolerance, in [numerics]",
+                     *numerics.dt, order, numerics.time_order);
+}
+
+}  // namespace vehd

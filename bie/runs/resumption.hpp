@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bie/runs/checkpoint.hpp"
+#include "bie/runs/run_directory.hpp"
+#include "bie/scene/scene.hpp"
+
+/// What a session of a run may change of its scene.
+namespace vehd {
+
+/// The physics of a run stay what they were; [numerics] and [output] may change, but for a symmetry that was switched
+/// off and an end that lies in the past.
+/// @param scene_file  of the scene, for messages
+/// @throws InputError naming file and line of the scene, the key and both its values
+void require_same_physics(const Scene& scene, const std::filesystem::path& scene_file, const Checkpoint& checkpoint,
+                          const RunPaths& paths);
+
+/// The checkpoint from which a run goes on with the numerics of the scene, every change recorded. Where nothing has
+/// changed it is the same; where no step was taken yet the run starts anew, with the initial shape in its new degree;
+/// otherwise the state is cut or continued by zeros to the degree that is asked for, steps are chosen as at a start,
+/// and what solves have learned in another degree or symmetry is forgotten.
+Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths);
+
+/// Degree and grid of run.h5: the highest that any session of the run has asked for, so that nothing is cut.
+/// @throws InputError if the run has snapshots and their file cannot be read
+int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths);
+
+/// "change dt (now 0.05), order (now 16) ... in [numerics]": what may help where no step is acceptable.
+std::string what_may_help(const NumericsScene& numerics);
+
+}  // namespace vehd

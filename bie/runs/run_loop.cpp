@@ -1,0 +1,165 @@
+#include "bie/runs/run_loop.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "bie/support/errors.hpp"
+#include "bie/runs/resumption.hpp"
+#include "bie/runs/run_recorder.hpp"
+#include "bie/scene/effective_scene.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
+#include "bie/stepping/evolution.hpp"
+
+namespace vehd {
+namespace {
+
+/// Work of this session on top of that of former ones.
+class WorkMeter {
+ public:
+  WorkMeter(RunTotals before, const Instruments& instruments) : before_(std::move(before)), instruments_(instruments) {}
+
+  [[nodiscard]] RunTotals totals() const {
+    RunTotals totals = before_;
+    totals.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    for (const auto& [name, count] : instruments_.kernel_evaluations()) totals.kernel_evaluations[name] += count;
+    for (const auto& [name, seconds] : instruments_.seconds()) totals.seconds_of_parts[name] += seconds;
+    return totals;
+  }
+
+ private:
+  RunTotals before_;
+  const Instruments& instruments_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+class Simulation {
+ public:
+  explicit Simulation(const RunTask& task)
+      : scene_(task.scene),
+        start_(task.checkpoint.value_or(Checkpoint{})),
+        problem_(problem_of(task.scene, start_order())),
+        evolution_(evolution()),
+        meter_(start_.totals, instruments_),
+        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_)),
+        after_step_(task.after_step),
+        progress_(task.progress, evolution_.state().time, task.scene.numerics.end_time) {}
+
+  RunOutcome run(Interruption& interruption) {
+    RunOutcome outcome;
+    try {
+      outcome = advance_to_end(interruption);
+      recorder_.end_session(meter_.totals());
+      if (outcome.completed) recorder_.finish();
+    } catch (const OutputError& error) {
+      outcome = {.completed = false, .reason = error.what()};
+    }
+    progress_.finish();
+    return outcome;
+  }
+
+ private:
+  [[nodiscard]] bool goes_on() const { return start_.state.position.size() > 0; }
+
+  [[nodiscard]] int start_order() const {
+    return goes_on() ? static_cast<int>(start_.start_order) : scene_.numerics.order;
+  }
+
+  Evolution evolution() {
+    if (goes_on()) return {setup_of(problem_), start_.state, instruments_};
+    return {setup_of(problem_), problem_.position, problem_.potential, instruments_};
+  }
+
+  [[nodiscard]] NumericalSettings settings_of_files(const RunPaths& paths) const {
+    NumericalSettings settings = problem_.settings;
+    settings.order = order_of_files(scene_, start_, paths);
+    return settings;
+  }
+
+  /// The numerics, the end and the snapshot times may differ from those of the former session.
+  [[nodiscard]] Checkpoint updated(Checkpoint checkpoint) const {
+    checkpoint.scene = effective_scene(scene_);
+    checkpoint.state = evolution_.state();
+    checkpoint.start_order = start_order();
+    checkpoint.threads = omp_get_max_threads();
+    return checkpoint;
+  }
+
+  RunOutcome advance_to_end(Interruption& interruption) {
+    try {
+      start();
+      while (evolution_.state().time < scene_.numerics.end_time) {
+        if (interruption.requested()) {
+          return {.completed = false, .reason = fmt::format("a signal came at time {:g}", evolution_.state().time)};
+        }
+        record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
+        if (after_step_) after_step_();
+      }
+      return {.completed = true, .reason = {}};
+    } catch (const ConvergenceError& error) {
+      recorder_.keep_last_state(evolution_.evaluation().fields);
+      return {.completed = false, .reason = error.what(), .cannot_step = true};
+    }
+  }
+
+  void start() {
+    evolution_.evaluate_start();
+    if (recorder_.n_rows() > 0) return;
+    EvolutionStep none;
+    none.iterations_flow = evolution_.evaluation().iterations_flow;
+    none.iterations_electric = evolution_.evaluation().iterations_electric;
+    none.at_snapshot = true;
+    record(none);
+  }
+
+  [[nodiscard]] RecordedSide side_of(const Evaluation& evaluation, const EvolutionStep& step) const {
+    return {{evolution_.state().time, step, evaluation.diagnostics, evolution_.order(), evolution_.truncation()},
+            evaluation.fields};
+  }
+
+  [[nodiscard]] std::vector<RecordedSide> sides_of(const EvolutionStep& step) const {
+    const Evaluation& now = evolution_.evaluation();
+    const std::optional<Evaluation>& before = evolution_.before_jump();
+    if (!before) return {side_of(now, step)};
+    EvolutionStep arrival = step;
+    arrival.at_snapshot = false;
+    EvolutionStep jump;
+    jump.at_snapshot = step.at_snapshot;
+    jump.iterations_flow = now.iterations_flow;
+    jump.iterations_electric = now.iterations_electric;
+    return {side_of(*before, arrival), side_of(now, jump)};
+  }
+
+  void record(const EvolutionStep& step) {
+    const State& state = evolution_.state();
+    const Diagnostics& diagnostics = evolution_.evaluation().diagnostics;
+    recorder_.record(state, sides_of(step), meter_.totals());
+    const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
+    progress_.update({state.step, state.time, step.dt, drift});
+  }
+
+  const Scene& scene_;
+  Instruments instruments_;
+  Checkpoint start_;
+  Problem problem_;
+  Evolution evolution_;
+  WorkMeter meter_;
+  RunRecorder recorder_;
+  const std::function<void()>& after_step_;
+  Progress progress_;
+};
+
+}  // namespace
+
+RunOutcome simulate(const RunTask& task, Interruption& interruption) {
+  Simulation simulation(task);
+  return simulation.run(interruption);
+}
+
+}  // namespace vehd

@@ -1,0 +1,134 @@
+#include "bie/runs/run_recorder.hpp"
+
+#include "bie/support/file_system.hpp"
+#include "bie/files/run_file.hpp"
+#include "bie/runs/snapshot_copy.hpp"
+#include "bie/files/hdf5_reader.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/scene/units.hpp"
+#include "bie/stepping/resolution.hpp"
+
+namespace vehd {
+namespace {
+
+/// Nothing is touched before the files of the run to continue are known to be intact. Then the checkpoint comes first:
+/// whatever a kill leaves behind can be resumed.
+Checkpoint written(const RunPaths& paths, Checkpoint start) {
+  if (start.n_snapshots > 0) {
+    start.snapshots_checksum = require_snapshots(paths.snapshots(), start.n_snapshots, start.snapshots_checksum);
+  }
+  require_history(paths.history(), start.history_bytes, start.history_checksum);
+  write_checkpoint(paths.checkpoint(), start);
+  replace_file(paths.scene(), with_changes(start.scene, start.changes));
+  return start;
+}
+
+/// What the last session has left, in the degree of this one.
+SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform& output, const Checkpoint& start,
+                                   const SiScale& si_scale) {
+  SnapshotStore::Kept kept{start.n_snapshots, start.snapshots_checksum, {}};
+  if (start.n_snapshots == 0) return kept;
+  const auto present = std::make_shared<const Hdf5Reader>(paths.snapshots());
+  if (present->integer_attribute("/", "order") == output.order()) return kept;
+  kept.convert = [present, &output, &si_scale](Hdf5Writer& file, const std::string& name) {
+    return copy_snapshot(file, *present, name, output, si_scale);
+  };
+  return kept;
+}
+
+SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start,
+                                         const SiScale& si_scale) {
+  return [&output, header = RunHeader{with_changes(start.scene, start.changes), static_cast<int>(start.threads),
+                                      si_scale}](Hdf5Writer& file) { write_run_header(file, output, header); };
+}
+
+/// Lists the fields of the snapshots. @param has  whether they have the field of this name
+template <typename Predicate>
+void name_fields(XdmfSeries& series, const Predicate& has) {
+  for (const char* name : {"Vm", "q", "tension"}) {
+    if (has(name)) series.scalars.emplace_back(name);
+  }
+  for (const char* name : {"velocity", "force_bending", "force_tension", "force_electric"}) {
+    if (has(name)) series.vectors.emplace_back(name);
+  }
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame,
+                         const Checkpoint& start)
+    : paths_(paths),
+      si_scale_(si_scales(parse_units(start.scene, "scene"))),
+      output_(settings.order, make_grid(settings.order)),
+      laboratory_(frame, settings),
+      last_(written(paths, start)),
+      snapshots_(paths.snapshots(), header_writer(output_, start, si_scale_),
+                 kept_snapshots(paths, output_, last_, si_scale_)),
+      history_(paths.history(), start.history_bytes, start.history_checksum) {
+  const SphereGrid& grid = output_.grid();
+  xdmf_.n_points = grid.n_points() + 2;
+  xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
+  if (start.n_snapshots == 0) return;
+  const Hdf5Reader file(paths.snapshots());
+  const auto group_of = [](std::int64_t number) { return "/snapshots/" + snapshot_name(number); };
+  for (std::int64_t number = 0; number < start.n_snapshots; ++number) {
+    xdmf_.times.push_back(file.number_attribute(group_of(number), "time"));
+  }
+  name_fields(xdmf_, [&](const std::string& name) { return file.has(group_of(0) + "/" + name); });
+}
+
+void RunRecorder::record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals) {
+  const State written = resized(state, output_.order());
+  for (const auto& [row, fields] : sides) {
+    HistoryRow shown = row;
+    if (laboratory_.is_turned()) {
+      shown.diagnostics = laboratory_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
+    }
+    history_.append(shown);
+    ++last_.n_rows;
+  }
+  const RecordedSide& last = sides.back();
+  if (last.row.step.at_snapshot) add_snapshot(written, resized(last.fields, output_.order()));
+  last_.state = state;
+  last_.history_bytes = history_.bytes();
+  last_.history_checksum = history_.checksum();
+  save(totals);
+}
+
+void RunRecorder::keep_last_state(const Fields& fields) {
+  if (xdmf_.times.empty() || xdmf_.times.back() >= last_.state.time) return;
+  add_snapshot(resized(last_.state, output_.order()), resized(fields, output_.order()));
+}
+
+void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
+  snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
+    const std::int64_t checksum =
+        write_snapshot(file, name, output_, laboratory_.state(state), laboratory_.fields(fields), si_scale_);
+    const auto has = [&](const std::string& field) { return file.has("/snapshots/" + name + "/" + field); };
+    if (xdmf_.times.empty()) name_fields(xdmf_, has);
+    return checksum;
+  });
+  xdmf_.times.push_back(state.time);
+  // Its length grows with the run: written at every snapshot of a burst it would cost more than they do.
+  constexpr std::chrono::milliseconds longest_lag{500};
+  if (!xdmf_written_ || std::chrono::steady_clock::now() - *xdmf_written_ >= longest_lag) write_xdmf();
+}
+
+void RunRecorder::end_session(const RunTotals& totals) {
+  if (!xdmf_.times.empty()) write_xdmf();
+  save(totals);
+}
+
+void RunRecorder::save(const RunTotals& totals) {
+  last_.n_snapshots = snapshots_.size();
+  last_.snapshots_checksum = snapshots_.checksum();
+  last_.totals = totals;
+  write_checkpoint(paths_.checkpoint(), last_);
+}
+
+void RunRecorder::write_xdmf() {
+  replace_file(paths_.xdmf(), xdmf_text(xdmf_));
+  xdmf_written_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace vehd

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bie/runs/checkpoint.hpp"
+#include "bie/runs/history.hpp"
+#include "bie/runs/run_directory.hpp"
+#include "bie/runs/snapshot_store.hpp"
+#include "bie/files/run_file.hpp"
+#include "bie/files/xdmf.hpp"
+#include "bie/sphere/transform.hpp"
+#include "bie/stepping/laboratory.hpp"
+#include "bie/stepping/stepper.hpp"
+
+namespace vehd {
+
+/// A row of the history and the fields that it tells of.
+struct RecordedSide {
+  HistoryRow row;
+  const Fields& fields;
+};
+
+/// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
+/// the checkpoint never counts what is not there. Only run.xdmf may lag, by half a second at most: it is written anew
+/// as a whole, and the next session lists what the last one could not.
+class RunRecorder {
+ public:
+  /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
+  /// @param settings  with the degree of the files, which must not be less than that of files that exist
+  /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
+  RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start);
+
+  /// Records one accepted state, which has two sides where the forcing jumps. A snapshot holds the last side, the one
+  /// with which a run goes on. A kill leaves either none or all of the rows to a resumed run.
+  void record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals);
+
+  /// Adds a snapshot of the state recorded last unless it has one: that of a run which cannot go on.
+  void keep_last_state(const Fields& fields);
+
+  /// Brings every file up to date, with the work that a session has done after its last row.
+  void end_session(const RunTotals& totals);
+
+  [[nodiscard]] std::int64_t n_rows() const { return last_.n_rows; }
+  /// Marks the files as final.
+  void finish() { snapshots_.finish(); }
+
+ private:
+  void add_snapshot(const State& state, const Fields& fields);
+  void save(const RunTotals& totals);
+  void write_xdmf();
+
+  const RunPaths& paths_;
+  SiScale si_scale_;
+  SphereTransform output_;  ///< degree and grid of the files
+  Laboratory laboratory_;
+  Checkpoint last_;
+  SnapshotStore snapshots_;
+  HistoryFile history_;
+  XdmfSeries xdmf_;
+  std::optional<std::chrono::steady_clock::time_point> xdmf_written_;
+};
+
+}  // namespace vehd

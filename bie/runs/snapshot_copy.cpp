@@ -1,0 +1,35 @@
+#include "bie/runs/snapshot_copy.hpp"
+
+#include "bie/stepping/resolution.hpp"
+
+namespace vehd {
+
+std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const std::string& name,
+                           const SphereTransform& transform, const SiScale& si_scale) {
+  const std::string group = "/snapshots/" + name;
+  const auto matrix = [&](const char* field) {
+    const std::string dataset = group + "/coefficients/" + field;
+    return source.has(dataset) ? source.matrix(dataset) : Matrix();
+  };
+  const auto vector = [&](const char* field) {
+    const Matrix values = matrix(field);
+    return values.size() == 0 ? Vector() : Vector(values.col(0));
+  };
+  State state;
+  state.time = source.number_attribute(group, "time");
+  state.step = source.integer_attribute(group, "step");
+  state.position = matrix("x");
+  state.transmembrane_potential = vector("Vm");
+  state.area_strain = vector("area_strain");
+  Fields fields;
+  fields.velocity = matrix("velocity");
+  fields.force_bending = matrix("force_bending");
+  fields.force_tension = matrix("force_tension");
+  fields.force_electric = matrix("force_electric");
+  fields.tension = vector("tension");
+  fields.charge = vector("q");
+  return write_snapshot(target, name, transform, resized(std::move(state), transform.order()),
+                        resized(std::move(fields), transform.order()), si_scale);
+}
+
+}  // namespace vehd

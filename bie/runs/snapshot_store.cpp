@@ -1,0 +1,111 @@
+#include "bie/runs/snapshot_store.hpp"
+
+#include <fmt/format.h>
+
+#include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
+#include "bie/files/run_file.hpp"
+#include "bie/files/hdf5_reader.hpp"
+
+namespace vehd {
+namespace {
+
+/// Attribute of a run.h5 whose snapshots were converted: their checksum before. It vouches for them until the
+/// checkpoint knows the new one.
+constexpr const char* converted_from = "converted_from";
+
+std::string group_of(std::int64_t number) { return "/snapshots/" + snapshot_name(number); }
+
+void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, error);
+  if (error) throw OutputError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+}
+
+/// A file that could not be completed must not keep the room that a full disk lacks.
+template <typename Write>
+void or_remove(const std::filesystem::path& file, Write write) {
+  try {
+    write();
+  } catch (const OutputError&) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+    throw;
+  }
+}
+
+}  // namespace
+
+std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t expected) {
+  const Hdf5Reader file(path);
+  require_run_schema(file);
+  Checksum all;
+  for (std::int64_t number = 0; number < count; ++number) {
+    const std::string group = group_of(number);
+    if (!file.has(group)) file.refuse(fmt::format("lacks {}, which the checkpoint counts", group));
+    const std::int64_t checksum = snapshot_checksum(file, group);
+    require_checksum(file, group, checksum);
+    all.add(checksum);
+  }
+  const bool converted =
+      file.has_attribute("/", converted_from) && file.integer_attribute("/", converted_from) == expected;
+  if (all.value() != expected && !converted) {
+    file.refuse("holds other snapshots than those that the checkpoint counts");
+  }
+  return all.value();
+}
+
+SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, const Kept& kept)
+    : path_(end_of_links(path).path),
+      spare_(path_.parent_path() / fmt::format(".{}.spare", path_.filename().string())),
+      size_(kept.count),
+      spare_size_(kept.count),
+      checksum_(kept.convert ? Checksum() : Checksum(kept.checksum)) {
+  // A kill can leave a torn spare or snapshots that the checkpoint does not know yet; both are written anew.
+  std::error_code ignored;
+  std::filesystem::remove(spare_, ignored);
+  std::filesystem::remove(link_of(path_), ignored);
+  const std::filesystem::path fresh = temporary_of(path_);
+  or_remove(fresh, [&] {
+    Hdf5Writer file(fresh, Hdf5Writer::Mode::create);
+    write_header(file);
+    if (kept.convert) {
+      for (std::int64_t number = 0; number < kept.count; ++number) {
+        checksum_.add(kept.convert(file, snapshot_name(number)));
+      }
+      file.attribute("/", converted_from, kept.checksum);
+    } else if (kept.count > 0) {
+      Hdf5Writer present(path_, Hdf5Writer::Mode::read);
+      for (std::int64_t number = 0; number < kept.count; ++number) file.copy_from(present, group_of(number));
+    }
+    file.close();
+    synchronise_file(fresh);
+  });
+  rename_file(fresh, path_);
+  or_remove(spare_, [&] { copy_whole(path_, spare_); });
+}
+
+void SnapshotStore::add(const WriteSnapshot& write_snapshot) {
+  std::int64_t checksum = 0;
+  or_remove(spare_, [&] {
+    Hdf5Writer spare(spare_, Hdf5Writer::Mode::extend);
+    if (spare_size_ < size_) {
+      Hdf5Writer current(path_, Hdf5Writer::Mode::read);
+      for (; spare_size_ < size_; ++spare_size_) spare.copy_from(current, group_of(spare_size_));
+    }
+    checksum = write_snapshot(spare, snapshot_name(size_));
+    spare.close();
+    synchronise_file(spare_);
+  });
+  exchange_files(path_, spare_);
+  spare_size_ = size_;
+  ++size_;
+  checksum_.add(checksum);
+}
+
+void SnapshotStore::finish() {
+  std::error_code ignored;
+  std::filesystem::remove(spare_, ignored);
+}
+
+}  // namespace vehd

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bie/files/hdf5_writer.hpp"
+#include "bie/support/checksum.hpp"
+
+namespace vehd {
+
+/// Checks every number of the first snapshots of a run.h5.
+/// @param checksum  of their checksums, in the order of time
+/// @return that of the file: another one where a session that was killed had written the same snapshots in another
+/// degree
+/// @throws InputError if the file is damaged, lacks some of these snapshots or has others in their place
+std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t checksum);
+
+/// A growing run.h5 that is a complete, closed HDF5 file at every instant.
+///
+/// A hidden second file lags by one snapshot. A new snapshot is written there, together with the one it lacks, and
+/// then the two names are exchanged: a kill leaves either the old or the new file under the name run.h5.
+/// The cost of a snapshot does not grow with the run.
+class SnapshotStore {
+ public:
+  using WriteHeader = std::function<void(Hdf5Writer&)>;
+  /// Returns the checksum of the snapshot.
+  using WriteSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
+
+  /// Writes a kept snapshot from the present file in another degree. Returns its checksum.
+  using ConvertSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
+
+  /// Snapshots of an existing file that are taken over.
+  struct Kept {
+    std::int64_t count = 0;
+    std::int64_t checksum = 0;  ///< of their checksums; `require_snapshots` has found them intact
+    ConvertSnapshot convert;    ///< empty: they are copied as they are
+  };
+
+  /// Starts a file, with the first snapshots of an existing one or without any. @throws OutputError
+  SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, const Kept& kept);
+
+  /// @throws OutputError
+  void add(const WriteSnapshot& write_snapshot);
+
+  /// Number of snapshots in the file.
+  [[nodiscard]] std::int64_t size() const { return size_; }
+  /// Of their checksums, in the order of time.
+  [[nodiscard]] std::int64_t checksum() const { return checksum_.value(); }
+
+  /// Removes the hidden second file: the run is complete.
+  void finish();
+
+ private:
+  std::filesystem::path path_, spare_;
+  std::int64_t size_ = 0;
+  std::int64_t spare_size_ = 0;
+  Checksum checksum_;
+};
+
+}  // namespace vehd

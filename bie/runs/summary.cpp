@@ -1,0 +1,62 @@
+#include "bie/runs/summary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "bie/files/versions.hpp"
+#include "bie/runs/verdict.hpp"
+#include "bie/support/memory.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr std::array largest_of = {"area_drift", "volume_drift", "strain_max", "spectrum_tail", "quadrature_error"};
+
+double largest_magnitude(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) {
+    if (std::isnan(value)) return value;
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
+
+}  // namespace
+
+nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const Checkpoint& checkpoint,
+                          const RunOutcome& outcome) {
+  const RunTotals& totals = checkpoint.totals;
+  const auto& rejected = history.column("rejected");
+  const std::int64_t steps = history.n_steps();
+  nlohmann::json json;
+  json["completed"] = outcome.completed;
+  json["verdict"] = verdict_of(history, scene.numerics.tolerance, outcome.reason);
+  if (!outcome.completed) json["reason"] = outcome.reason;
+  json["changes"] = json_of(checkpoint.changes);
+  json["time"] = last(history.column("time"));
+  json["steps"] = steps;
+  json["rejected_steps"] = static_cast<std::int64_t>(std::accumulate(rejected.begin(), rejected.end(), 0.0));
+  json["seconds"] = totals.seconds;
+  json["seconds_per_step"] = steps == 0 ? 0.0 : totals.seconds / static_cast<double>(steps);
+  json["seconds_of_parts"] = totals.seconds_of_parts;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  for (const char* column : largest_of) json[column] = largest_magnitude(history.column(column));
+  json["order_max"] = largest_magnitude(history.column("order"));
+  json["truncation"] = largest_magnitude(history.column("truncation"));
+  const auto& separation = history.column("separation");
+  // JSON has no infinity: absent where no part of the membrane faces another.
+  if (const auto least = std::min_element(separation.begin(), separation.end());
+      least != separation.end() && std::isfinite(*least)) {
+    json["separation"] = *least;
+  }
+  json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
+  json["kernel_evaluations"] = totals.kernel_evaluations;
+  json["version"] = program_version();
+  return json;
+}
+
+}  // namespace vehd

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "bie/runs/history.hpp"
+#include "bie/runs/run_loop.hpp"
+
+namespace vehd {
+
+/// Content of summary.json.
+nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const Checkpoint& checkpoint,
+                          const RunOutcome& outcome);
+
+}  // namespace vehd

@@ -1,0 +1,170 @@
+#include "bie/runs/verdict.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+namespace vehd {
+namespace {
+
+/// A run that exceeds one of these is reported as not trustworthy.
+struct TrustLimit {
+  const char* column;
+  double largest;
+};
+constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6},
+                               TrustLimit{"strain_max", 0.05}, TrustLimit{"spectrum_tail", 5e-3},
+                               TrustLimit{"quadrature_error", 1e-3}};
+/// Parts of the membrane that are nearer to each other, in grid spacings, are one to the grid.
+constexpr double least_separation = 1.0;
+
+/// Steps ring where the tension swings from one to the next by this share of its largest value, and the tail of the
+/// spectrum by this factor with it: what a field that jumps does to the tension leaves the shape alone, and a collapse
+/// raises the tail smoothly.
+constexpr double least_swing = 0.01;
+constexpr double least_tail_swing = 2.0;
+/// Tails below are rounding.
+constexpr double least_tail = 1e-9;
+/// A single event is no ringing. Runs that ring near the sphere have 28 such swings in 230 steps and more, all scenes
+/// of docs/scenes and all hard cases none.
+constexpr std::size_t most_swings = 4;
+/// With fixed steps a few may have to be halved; where attempts fail before more than this share of them, and before
+/// more than so many, dt is too large. Runs that ring have 0.12 and more, other hard cases that come to their end 0.03.
+constexpr double largest_rejecting_share = 0.1;
+constexpr std::ptrdiff_t most_rejecting = 10;
+
+/// The value furthest from what is good; not a number where there is one.
+template <typename IsWorse>
+double worst(const std::vector<double>& values, const IsWorse& is_worse) {
+  double result = values.front();
+  for (const double value : values) {
+    if (std::isnan(value)) return value;
+    if (is_worse(value, result)) result = value;
+  }
+  return result;
+}
+
+/// Time of the first row whose value is not good, or nothing.
+template <typename IsGood>
+std::optional<double> first_time(const HistoryTable& history, const std::vector<double>& values,
+                                 const IsGood& is_good) {
+  const auto first = std::find_if_not(values.begin(), values.end(), is_good);
+  if (first == values.end()) return std::nullopt;
+  return history.column("time")[static_cast<std::size_t>(first - values.begin())];
+}
+
+std::vector<std::string> beyond_limits(const HistoryTable& history, std::optional<double> tolerance) {
+  std::vector<TrustLimit> all(limits.begin(), limits.end());
+  // The highest degree that the scene allows was not enough.
+  if (tolerance) all.push_back({"truncation", *tolerance});
+  std::vector<std::string> findings;
+  for (const TrustLimit& limit : all) {
+    const std::vector<double>& values = history.column(limit.column);
+    const auto time = first_time(history, values, [&](double value) { return std::abs(value) <= limit.largest; });
+    if (!time) continue;
+    const double most = std::abs(worst(values, [](double a, double b) { return std::abs(a) > std::abs(b); }));
+    findings.push_back(
+        fmt::format("{} above {:g} since time {:g} (worst {:.3g})", limit.column, limit.largest, *time, most));
+  }
+  const std::vector<double>& separation = history.column("separation");
+  if (const auto time = first_time(history, separation, [](double value) { return value >= least_separation; })) {
+    findings.push_back(fmt::format("separation below {:g} since time {:g} (worst {:.3g})", least_separation, *time,
+                                   worst(separation, std::less<>())));
+  }
+  return findings;
+}
+
+/// Where the membrane is compressed so much that it wrinkles more finely than the degree can show. By itself no fault:
+/// a membrane is compressed at the start of a pulse that ends before anything has grown.
+std::optional<std::string> wrinkling(const HistoryTable& history) {
+  const std::vector<double>& wrinkles = history.column("wrinkle_degree");
+  const std::vector<double>& order = history.column("order");
+  std::size_t worst_row = 0;
+  std::optional<double> since;
+  for (std::size_t i = 0; i < wrinkles.size(); ++i) {
+    if (!(wrinkles[i] > order[i])) continue;
+    if (!since) since = history.column("time")[i];
+    if (wrinkles[i] > wrinkles[worst_row]) worst_row = i;
+  }
+  if (!since) return std::nullopt;
+  const double round = 2.0 * std::numbers::pi;
+  return fmt::format(
+      "compressed since time {:g}: wrinkles of wavelength {:.2g} radii grow fastest, the finest degree {:g} has {:.2g}",
+      *since, round / wrinkles[worst_row], order[worst_row], round / order[worst_row]);
+}
+
+/// Deviation of each value from the straight line between its neighbours; 0 at the ends and where time stands still.
+std::vector<double> kinks(const std::vector<double>& times, const std::vector<double>& values) {
+  std::vector<double> result(values.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double before = times[i] - times[i - 1];
+    const double after = times[i + 1] - times[i];
+    if (!(before > 0.0 && after > 0.0)) continue;
+    result[i] = values[i] - values[i - 1] - (values[i + 1] - values[i - 1]) * before / (before + after);
+  }
+  return result;
+}
+
+/// Steps between which tension and tail swing together.
+std::optional<std::string> ringing(const HistoryTable& history) {
+  const std::vector<double>& times = history.column("time");
+  const std::vector<double>& tension = history.column("tension_integral");
+  const std::vector<double>& tail = history.column("spectrum_tail");
+  const std::vector<double>& order = history.column("order");
+  double largest = 0.0;
+  for (const double value : tension) largest = std::max(largest, std::abs(value));
+  const std::vector<double> kink = kinks(times, tension);
+  std::vector<double> swings;  // times
+  for (std::size_t i = 1; i + 2 < times.size(); ++i) {
+    // The tail of another degree is another one.
+    if (order[i] != order[i - 1] || order[i] != order[i + 1]) continue;
+    const bool alternates = kink[i] * kink[i + 1] < 0.0;
+    const double swing = std::min(std::abs(kink[i]), std::abs(kink[i + 1]));
+    const auto [less, more] = std::minmax(tail[i], tail[i + 1]);
+    if (alternates && swing > least_swing * largest && less > least_tail && more > least_tail_swing * less) {
+      swings.push_back(times[i]);
+    }
+  }
+  if (swings.size() <= most_swings) return std::nullopt;
+  return fmt::format("tension_integral and spectrum_tail swing from step to step since time {:g} ({} times)",
+                     swings.front(), swings.size());
+}
+
+/// Steps of a fixed size that fail again and again.
+std::optional<std::string> rejections(const HistoryTable& history) {
+  const std::vector<double>& rejected = history.column("rejected");
+  const auto fails = [](double attempts) { return attempts > 0.0; };
+  const auto count = std::ranges::count_if(rejected, fails);
+  const std::size_t n_steps = std::max<std::size_t>(rejected.size(), 1) - 1;
+  if (count <= most_rejecting || static_cast<double>(count) <= largest_rejecting_share * static_cast<double>(n_steps)) {
+    return std::nullopt;
+  }
+  const auto first = std::ranges::find_if(rejected, fails) - rejected.begin();
+  return fmt::format("rejected before {} of {} steps since time {:g}", count, n_steps,
+                     history.column("time")[static_cast<std::size_t>(first)]);
+}
+
+}  // namespace
+
+std::string verdict_of(const HistoryTable& history, std::optional<double> tolerance, const std::string& stop_reason) {
+  std::vector<std::string> findings = beyond_limits(history, tolerance);
+  if (auto finding = ringing(history)) findings.push_back(std::move(*finding));
+  // With a tolerance attempts are what finds the step.
+  if (!tolerance) {
+    if (auto finding = rejections(history)) findings.push_back(std::move(*finding));
+  }
+  if (!findings.empty() || !stop_reason.empty()) {
+    if (auto finding = wrinkling(history)) findings.push_back(std::move(*finding));
+  }
+  const std::string text = fmt::format("{}", fmt::join(findings, "; "));
+  if (stop_reason.empty()) return text.empty() ? trustworthy : text;
+  return text.empty() ? "stopped: " + stop_reason : fmt::format("stopped: {}; until then {}", stop_reason, text);
+}
+
+}  // namespace vehd

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace vehd {
+
+/// Closed set of what a program returns to the shell.
+enum class ExitCode {
+  done = 0,
+  wrong_input = 1,     ///< wrong input or usage
+  internal_error = 2,  ///< a defect of the program
+  stopped_early = 3,   ///< and left a checkpoint that can be resumed
+  does_not_hold = 4    ///< done, and what was asked does not hold
+};
+
+}  // namespace vehd

@@ -1,0 +1,159 @@
+#include "bie/support/file_system.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// As many as Linux follows itself.
+constexpr int most_links = 40;
+
+struct DescriptorCloser {
+  int descriptor;
+  ~DescriptorCloser() { ::close(descriptor); }
+};
+
+bool is_link(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_symlink(path, ignored);
+}
+
+/// There, and no regular file.
+bool is_no_regular_file(const std::filesystem::file_status& status) {
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+/// Of /proc/self/fd/N, under any name of that folder. What stands there looks like a link, but opened by its name a
+/// file would begin anew, and a socket not open at all.
+std::optional<int> descriptor_of(const std::filesystem::path& path) {
+  std::error_code problem, self_problem;
+  const std::filesystem::path folder = std::filesystem::canonical(path.parent_path(), problem);
+  if (problem || folder != std::filesystem::canonical("/proc/self/fd", self_problem) || self_problem) return {};
+  const std::string name = path.filename().string();
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size()) return {};
+  return number;
+}
+
+void replace_regular_file(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path temporary = temporary_of(path);
+  {
+    errno = 0;
+    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    stream << text;
+    stream.close();
+    if (!stream) {
+      const std::string problem = write_problem(path);
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      throw OutputError(problem);
+    }
+  }
+  rename_file(temporary, path);
+}
+
+}  // namespace
+
+std::filesystem::path temporary_of(const std::filesystem::path& path) {
+  return path.parent_path() / fmt::format(".{}.new", path.filename().string());
+}
+
+std::filesystem::path link_of(const std::filesystem::path& path) {
+  return path.parent_path() / fmt::format(".{}.old", path.filename().string());
+}
+
+LinkEnd end_of_links(const std::filesystem::path& path) {
+  LinkEnd end{path, descriptor_of(path)};
+  for (int hops = 0; !end.descriptor && is_link(end.path); ++hops) {
+    if (hops == most_links) {
+      errno = ELOOP;
+      throw OutputError(write_problem(path));
+    }
+    const std::filesystem::path target = std::filesystem::read_symlink(end.path);
+    end.path = target.is_absolute() ? target : end.path.parent_path() / target;
+    end.descriptor = descriptor_of(end.path);
+  }
+  return end;
+}
+
+void replace_file(const std::filesystem::path& path, const std::string& text) {
+  const LinkEnd end = end_of_links(path);
+  std::error_code ignored;
+  if (end.descriptor) {
+    write_to_descriptor(*end.descriptor, text, path);
+  } else if (is_no_regular_file(std::filesystem::status(path, ignored))) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    if (descriptor < 0) throw OutputError(write_problem(path));
+    const DescriptorCloser closer{descriptor};
+    write_to_descriptor(descriptor, text, path);
+  } else {
+    replace_regular_file(end.path, text);
+  }
+}
+
+std::string text_of_file(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write_to_descriptor(int descriptor, const std::string& text, const std::filesystem::path& name) {
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t part = ::write(descriptor, text.data() + written, text.size() - written);
+    if (part < 0 && errno != EINTR) throw OutputError(write_problem(name));
+    if (part > 0) written += static_cast<std::size_t>(part);
+  }
+}
+
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) throw OutputError(write_problem(to));
+}
+
+void exchange_files(const std::filesystem::path& path, const std::filesystem::path& other) {
+  if (::renameat2(AT_FDCWD, other.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) throw OutputError(write_problem(path));
+  exchange_by_renames(path, other);
+}
+
+void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other) {
+  const std::filesystem::path link = link_of(path);
+  // The link keeps the file reachable while its name moves to the other one; file systems without hard links get a
+  // copy.
+  std::error_code error;
+  std::filesystem::create_hard_link(path, link, error);
+  if (error) std::filesystem::copy_file(path, link, std::filesystem::copy_options::overwrite_existing, error);
+  if (error) throw OutputError(fmt::format("{}: cannot be written: {}", link.string(), error.message()));
+  rename_file(other, path);
+  rename_file(link, other);
+}
+
+void synchronise_file(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool written = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (!written) {
+    const std::string problem = write_problem(path);
+    if (descriptor >= 0) ::close(descriptor);
+    throw OutputError(problem);
+  }
+  ::close(descriptor);
+}
+
+std::string write_problem(const std::filesystem::path& path) {
+  return fmt::format("{}: cannot be written: {}", path.string(),
+                     errno == 0 ? std::string("unknown reason") : std::string(std::strerror(errno)));
+}
+
+}  // namespace vehd

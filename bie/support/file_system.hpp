@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+/// File operations whose outcome survives a kill at any instant.
+namespace vehd {
+
+/// Path of the hidden link that `exchange_by_renames` may leave behind.
+std::filesystem::path link_of(const std::filesystem::path& path);
+
+/// Path of the temporary file beside `path` that a replacement is written to first.
+std::filesystem::path temporary_of(const std::filesystem::path& path);
+
+/// What stands at the end of a path's links.
+struct LinkEnd {
+  std::filesystem::path path;     ///< no link itself; there need not be a file
+  std::optional<int> descriptor;  ///< of this program, where the path is /dev/stdout, /dev/fd/3 or the like
+};
+
+/// Follows links, also where the last one leads to no file. @throws OutputError if they go in a circle
+LinkEnd end_of_links(const std::filesystem::path& path);
+
+/// Writes the text to where the path leads, links followed. A regular file, or one that is not there yet, is replaced
+/// in one step: a reader sees the old or the new text, never a part. Into anything else (pipe, terminal, device) the
+/// text is written; a pipe waits for its reader. @throws OutputError
+void replace_file(const std::filesystem::path& path, const std::string& text);
+
+/// Content of a file; empty if it cannot be read.
+std::string text_of_file(const std::filesystem::path& path);
+
+/// Writes all of the text. @throws OutputError that names the path
+void write_to_descriptor(int descriptor, const std::string& text, const std::filesystem::path& name);
+
+/// rename(2). @throws OutputError
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Exchanges what two names of a folder stand for, in one step where the file system can; elsewhere by
+/// `exchange_by_renames`. @throws OutputError
+void exchange_files(const std::filesystem::path& path, const std::filesystem::path& other);
+
+/// The same in steps between which `path` always stands for one of the two files; a kill can leave `other` missing and
+/// a hidden link to the file that was `path`. @throws OutputError
+void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other);
+
+/// Waits until the file's data are on the disk. @throws OutputError
+void synchronise_file(const std::filesystem::path& path);
+
+/// "path: cannot be written: reason" with the reason of errno.
+std::string write_problem(const std::filesystem::path& path);
+
+}  // namespace vehd

@@ -1,0 +1,28 @@
+#include "bie/support/interruption.hpp"
+
+#include <pthread.h>
+
+#include <ctime>
+
+namespace vehd {
+
+Interruption::Interruption() {
+  sigemptyset(&signals_);
+  sigaddset(&signals_, SIGINT);
+  sigaddset(&signals_, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals_, &former_mask_);
+}
+
+Interruption::~Interruption() {
+  // Signals that arrived meanwhile have been answered and must not end the process now.
+  while (requested()) requested_ = false;
+  pthread_sigmask(SIG_SETMASK, &former_mask_, nullptr);
+}
+
+bool Interruption::requested() {
+  const timespec at_once{};
+  if (!requested_) requested_ = sigtimedwait(&signals_, nullptr, &at_once) > 0;
+  return requested_;
+}
+
+}  // namespace vehd

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <regex>
+#include <string>
+
+/// A quick scene: order 6, bending, a field, 12 steps of 0.25, a snapshot every 0.5.
+inline std::string quick_scene(const std::string& end_time = "3.0") {
+  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n"
+         "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
+         "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+         "[numerics]\norder = 6\ndt = 0.25\nend_time = " +
+         end_time + "\n[output]\nevery = 0.5\n";
+}
+
+/// A scene of docs/scenes at a low order and with few steps.
+inline std::string shortened_scene(std::string scene) {
+  scene = std::regex_replace(scene, std::regex("order = \\d+"), "order = 6");
+  scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
+  scene = std::regex_replace(scene, std::regex("\nend_time = [0-9.e-]+"), "\nend_time = 0.3");
+  return std::regex_replace(scene, std::regex("\nevery = [0-9.e-]+"), "\nevery = 0.1");
+}
