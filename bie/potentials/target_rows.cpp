@@ -126,6 +126,21 @@ void TargetRows::add_turned(double* to, const double* from, Index columns) const
   }
 }
 
+void TargetRows::rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to,
+                                   bool back) {
+  for (const bool sine : {false, true}) {
+    const Index columns = from.block.columns(sine);
+    for (int i = sine; i <= to.highest; ++i) {
+      double* sum = to.block.row(sine, n, i);
+      std::fill_n(sum, columns, 0.0);
+      for (int k = sine; k <= from.highest; ++k) {
+        load_turns(targets, sine, n, back ? k : i, back ? i : k);
+        add_turned(sum, from.block.row(sine, n, k), columns);
+      }
+    }
+  }
+}
+
 void TargetRows::rotate(std::span<const Target> targets) {
   const RotationY& rotation = q_.rotations[targets.front().latitude];
   for (int n = 0; n <= order_; ++n) {
@@ -138,16 +153,7 @@ void TargetRows::rotate(std::span<const Target> targets) {
           rotation.sine[n].leftCols(m) * shape_.degree_block(true, n, 1, m);
       continue;
     }
-    for (const bool sine : {false, true}) {
-      for (int after = sine; after <= n; ++after) {
-        double* to = rotated_shape_.row(sine, n, after);
-        std::fill_n(to, shape_.columns(sine), 0.0);
-        for (int before = sine; before <= m; ++before) {
-          load_turns(targets, sine, n, after, before);
-          add_turned(to, shape_.row(sine, n, before), shape_.columns(sine));
-        }
-      }
-    }
+    rotate_one_by_one(targets, n, {shape_, m}, {rotated_shape_, n}, false);
   }
 }
 
@@ -163,16 +169,7 @@ void TargetRows::rotate_back(std::span<const Target> targets) {
           rotation.sine[n].leftCols(m).transpose() * rotated_rows_.degree_block(true, n, 1, n);
       continue;
     }
-    for (const bool sine : {false, true}) {
-      for (int before = sine; before <= m; ++before) {
-        double* to = rows_.row(sine, n, before);
-        std::fill_n(to, rows_.columns(sine), 0.0);
-        for (int after = sine; after <= n; ++after) {
-          load_turns(targets, sine, n, after, before);
-          add_turned(to, rotated_rows_.row(sine, n, after), rows_.columns(sine));
-        }
-      }
-    }
+    rotate_one_by_one(targets, n, {rotated_rows_, n}, {rows_, m}, true);
   }
 }
 

@@ -91,6 +91,13 @@ class TargetRows {
   void evaluate_kernels(std::span<const Target> targets);
   void collect_rows();
   void rotate_back(std::span<const Target> targets);
+  /// Orders of one degree, up to the highest.
+  struct Orders {
+    CoefficientBlock& block;
+    int highest;
+  };
+  /// Orders of degree n of every target by its own rotation, or by its transpose.
+  void rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to, bool back);
   /// What the rotation of each target has at one place of the blocks of degree n.
   void load_turns(std::span<const Target> targets, bool sine, int n, int after, int before);
   /// to += turns · from, for every one of the columns, which have as many entries as there are targets.
