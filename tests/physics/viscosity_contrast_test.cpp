@@ -15,17 +15,8 @@ using namespace vehd::testing;
 namespace {
 
 /// A surface with its Stokes layers, for maps of many ratios.
-struct Layered {
-  Space space;
-  Matrix position;
-  Surface surface;
-  LayerOperators layers;
-
-  Layered(int order, Matrix coefficients)
-      : space(order),
-        position(std::move(coefficients)),
-        surface(make_surface(space.fine, position)),
-        layers(assemble(space, position, kStokesLayers)) {}
+struct Layered : LayeredSurface {
+  Layered(int order, Matrix coefficients) : LayeredSurface(order, std::move(coefficients), kStokesLayers) {}
 
   ViscosityContrast map(double ratio) const { return {{ratio}, space.fine, surface, layers.stokes_double}; }
   double flux(const Matrix& velocity) const {

@@ -13,17 +13,8 @@ const Vector3 kInside(0.25, -0.1, 0.3);
 const Vector3 kOutside(2.4, 1.1, -1.6);
 
 /// A surface with its Laplace layers.
-struct Layered {
-  Space space;
-  Matrix position;
-  Surface surface;
-  LayerOperators layers;
-
-  Layered(int order, Matrix coefficients)
-      : space(order),
-        position(std::move(coefficients)),
-        surface(make_surface(space.fine, position)),
-        layers(assemble(space, position, kLaplaceLayers)) {}
+struct Layered : LayeredSurface {
+  Layered(int order, Matrix coefficients) : LayeredSurface(order, std::move(coefficients), kLaplaceLayers) {}
 };
 
 /// Largest error of S[∂φ/∂n] − D[φ] = ½φ (φ harmonic inside) or of its negative (outside), relative to φ.

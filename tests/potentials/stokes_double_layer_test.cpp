@@ -14,17 +14,8 @@ const Vector3 kOutside(2.4, 1.1, -1.6);
 const Vector3 kForce(0.7, -0.4, 0.6);
 
 /// A surface with its Stokes layers.
-struct Layered {
-  Space space;
-  Matrix position;
-  Surface surface;
-  LayerOperators layers;
-
-  Layered(int order, Matrix coefficients)
-      : space(order),
-        position(std::move(coefficients)),
-        surface(make_surface(space.fine, position)),
-        layers(assemble(space, position, kStokesLayers)) {}
+struct Layered : LayeredSurface {
+  Layered(int order, Matrix coefficients) : LayeredSurface(order, std::move(coefficients), kStokesLayers) {}
 };
 
 /// Largest error of S[t] − D[u] = ½u (Stokes flow inside) or of its negative (outside), relative to u.

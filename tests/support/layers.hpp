@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "bie/geometry/surface.hpp"
 #include "bie/potentials/layer_operators.hpp"
 #include "bie/stepping/discretisation.hpp"
@@ -28,6 +30,20 @@ inline LayerOperators assemble(const Space& space, const Matrix& position, const
   Instruments instruments;
   return assemble_layer_operators(space.quadrature, space.coarse, position, selection, instruments);
 }
+
+/// A surface with some of its layers.
+struct LayeredSurface {
+  Space space;
+  Matrix position;
+  Surface surface;
+  LayerOperators layers;
+
+  LayeredSurface(int order, Matrix coefficients, const LayerSelection& selection)
+      : space(order),
+        position(std::move(coefficients)),
+        surface(make_surface(space.fine, position)),
+        layers(assemble(space, position, selection)) {}
+};
 
 /// Coefficients of J f, from values of f on the fine grid.
 inline Matrix weighted(const Space& space, const Surface& surface, const Matrix& values) {
