@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "bie/app/bench_printer.hpp"
+#include "bie/app/commands.hpp"
 #include "bie/bench/all.hpp"
 #include "bie/bench/methods.hpp"
 #include "bie/bench/parts.hpp"
@@ -11,10 +13,10 @@
 #include "bie/bench/symmetry.hpp"
 #include "bie/bench/threads.hpp"
 #include "bie/bench/time.hpp"
-#include "bie/app/commands.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/stepping/time_rule.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -74,8 +76,10 @@ void add_bench(CLI::App& command, const std::shared_ptr<SceneOptions>& options, 
                const Measure& measure) {
   add_output_options(command, options->bench);
   command.callback([options, &exit_code, measure] {
-    make_bench_directory(options->bench.output());
-    write_json(options->bench.common, write_bench(measure(*options), options->bench.output()));
+    BenchPrinter printer;
+    // Before anything is measured: a place that cannot be written is said at once.
+    make_directory(options->bench.directory);
+    write_json(options->bench.common, write_bench(measure(*options, printer), options->bench.output(), printer));
     exit_code = ExitCode::done;
   });
 }
@@ -85,7 +89,9 @@ void add_space(CLI::App& bench, ExitCode& exit_code) {
   const auto options = std::make_shared<SceneOptions>();
   add_orders(*command, *options, {8, 12, 16, 20, 24, 32});
   add_repeats(*command, options->bench, 5);
-  add_bench(*command, options, exit_code, [](const SceneOptions& o) { return bench_space(o.orders, o.bench.repeats); });
+  add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
+    return bench_space(o.orders, o.bench.repeats, observer);
+  });
 }
 
 void add_time(CLI::App& bench, ExitCode& exit_code) {
@@ -110,7 +116,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       ->required()
       ->check(CLI::PositiveNumber);
   add_repeats(*command, options->bench, 1);
-  add_bench(*command, options, exit_code, [](const SceneOptions& o) {
+  add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
     Scene scene = read_scene(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
     return bench_time({.scene = scene,
@@ -118,28 +124,29 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
                        .steps = o.steps,
                        .time_orders = o.time_orders,
                        .tolerances = o.tolerances,
-                       .repeats = o.bench.repeats});
+                       .repeats = o.bench.repeats},
+                      observer);
   });
 }
 
-void add_parts(CLI::App& bench, ExitCode& exit_code) {
-  CLI::App* command = bench.add_subcommand("parts", "Seconds and memory of each part of a step against the degree");
-  const auto options = std::make_shared<SceneOptions>();
-  add_scene(*command, *options);
-  add_orders(*command, *options, {8, 12, 16, 24, 32});
-  add_repeats(*command, options->bench, 5);
-  add_bench(*command, options, exit_code,
-            [](const SceneOptions& o) { return bench_parts(read_scene(o.scene_file), o.orders, o.bench.repeats); });
-}
+/// A bench of single steps of a scene against the degree.
+struct StepBench {
+  const char* name;
+  const char* description;
+  std::vector<int> orders;
+  int repeats;
+  BenchResult (*measure)(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer);
+};
 
-void add_symmetry(CLI::App& bench, ExitCode& exit_code) {
-  CLI::App* command = bench.add_subcommand("symmetry", "Seconds of a step with the symmetry of the scene and without");
+void add_step_bench(CLI::App& bench, ExitCode& exit_code, const StepBench& what) {
+  CLI::App* command = bench.add_subcommand(what.name, what.description);
   const auto options = std::make_shared<SceneOptions>();
   add_scene(*command, *options);
-  add_orders(*command, *options, {8, 12, 16, 24});
-  add_repeats(*command, options->bench, 9);
-  add_bench(*command, options, exit_code,
-            [](const SceneOptions& o) { return bench_symmetry(read_scene(o.scene_file), o.orders, o.bench.repeats); });
+  add_orders(*command, *options, what.orders);
+  add_repeats(*command, options->bench, what.repeats);
+  add_bench(*command, options, exit_code, [measure = what.measure](const SceneOptions& o, BenchObserver& observer) {
+    return measure(read_scene(o.scene_file), o.orders, o.bench.repeats, observer);
+  });
 }
 
 void add_threads(CLI::App& bench, ExitCode& exit_code) {
@@ -153,10 +160,10 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_option("--order", options->order, "Degree p; that of the scene if not given")->check(CLI::Range(4, 64));
   add_repeats(*command, options->bench, 5);
-  add_bench(*command, options, exit_code, [](const SceneOptions& o) {
+  add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
     Scene scene = read_scene(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
-    return bench_threads(scene, o.threads, o.bench.repeats);
+    return bench_threads(scene, o.threads, o.bench.repeats, observer);
   });
 }
 
@@ -167,8 +174,9 @@ void add_methods(CLI::App& bench, ExitCode& exit_code) {
   command->add_flag("--quick", options->quick, "Two levels of each, one repeat");
   const CLI::Option* repeats = add_repeats(*command, options->bench, 3);
   command->footer("Needs the finite-element program (VEHD_FEM_CHECK). See docs/two_methods.md.");
-  add_bench(*command, options, exit_code, [repeats](const SceneOptions& o) {
-    return bench_methods({o.quick, o.quick && repeats->count() == 0 ? 1 : o.bench.repeats}, o.bench.directory);
+  add_bench(*command, options, exit_code, [repeats](const SceneOptions& o, BenchObserver& observer) {
+    return bench_methods({o.quick, o.quick && repeats->count() == 0 ? 1 : o.bench.repeats}, o.bench.directory,
+                         observer);
   });
 }
 
@@ -185,8 +193,9 @@ void add_all(CLI::App& bench, ExitCode& exit_code) {
       ->check(CLI::IsMember(names_of_benches()));
   add_output_options(*command, options->bench);
   command->callback([options, &exit_code] {
+    BenchPrinter printer;
     write_json(options->bench.common,
-               bench_all({options->docs, options->bench.output(), options->quick, options->only}));
+               bench_all({options->docs, options->bench.output(), options->quick, options->only}, printer));
     exit_code = ExitCode::done;
   });
 }
@@ -203,10 +212,11 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
   command->footer("Exit code 4 if a criterion does not hold. See docs/hard_cases.md.");
   command->callback([options, &exit_code] {
     Interruption interruption;
-    make_bench_directory(options->bench.output());
-    const StabilityOutcome outcome =
-        bench_stability({scene_files(options->scene_file), options->bench.output(), options->quick}, interruption);
-    write_json(options->bench.common, write_bench(outcome.result, options->bench.output()));
+    BenchPrinter printer;
+    make_directory(options->bench.directory);
+    const StabilityOutcome outcome = bench_stability(
+        {scene_files(options->scene_file), options->bench.output(), options->quick}, interruption, printer);
+    write_json(options->bench.common, write_bench(outcome.result, options->bench.output(), printer));
     exit_code = outcome.n_failed == 0 ? ExitCode::done : ExitCode::does_not_hold;
   });
 }
@@ -218,9 +228,13 @@ void add_bench_command(CLI::App& program, ExitCode& exit_code) {
   command->require_subcommand(1);
   add_space(*command, exit_code);
   add_time(*command, exit_code);
-  add_parts(*command, exit_code);
+  add_step_bench(
+      *command, exit_code,
+      {"parts", "Seconds and memory of each part of a step against the degree", {8, 12, 16, 24, 32}, 5, bench_parts});
   add_threads(*command, exit_code);
-  add_symmetry(*command, exit_code);
+  add_step_bench(
+      *command, exit_code,
+      {"symmetry", "Seconds of a step with the symmetry of the scene and without", {8, 12, 16, 24}, 9, bench_symmetry});
   add_methods(*command, exit_code);
   add_stability(*command, exit_code);
   add_all(*command, exit_code);

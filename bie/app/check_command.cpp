@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <memory>
 #include <thread>
+#include <utility>
 
-#include "bie/comparison/check_input.hpp"
-#include "bie/pictures/differences.hpp"
 #include "bie/app/commands.hpp"
-#include "bie/comparison/fem_program.hpp"
-#include "bie/scene/scene.hpp"
-#include "bie/sphere/harmonics.hpp"
-#include "bie/support/errors.hpp"
+#include "bie/comparison/check.hpp"
+#include "bie/pictures/differences.hpp"
 
 namespace vehd {
 namespace {
@@ -31,27 +28,11 @@ struct CheckOptions {
   CommonOptions common;
 };
 
-/// Beyond it the quick check would not be quick; an order above it is kept.
-constexpr int highest_quick_order = 28;
-
-int high_order(int order, bool quick) {
-  // Boundary integrals are cheap beside fine elements; their error must not be what the comparison ends on.
-  const int raised = quick ? (3 * order + 1) / 2 : 2 * order;
-  return std::clamp(raised, std::min(order + 2, highest_order),
-                    quick ? std::max(highest_quick_order, order + 2) : highest_order);
-}
-
 std::filesystem::path directory_of(const CheckOptions& options) {
   if (!options.directory.empty()) return options.directory;
   const std::filesystem::path file = options.file;
   if (file.extension() == ".toml") return std::filesystem::path("out") / (file.stem().string() + "_check");
   return file.parent_path() / "check";
-}
-
-void make_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) throw OutputError(fmt::format("{}: cannot be created: {}", directory.string(), error.message()));
 }
 
 /// A missing picture must not spoil a finished comparison.
@@ -63,31 +44,24 @@ void draw_if_possible(const std::filesystem::path& directory) {
   }
 }
 
+/// Called once for each of two degrees.
+void print_solved(const CheckFields& fields, bool first) {
+  fmt::print(stderr, "{}order {} in {:.1f} s{}", first ? "boundary integrals: " : ", ", fields.order, fields.seconds,
+             first ? "" : "\n");
+}
+
 ExitCode check(const CheckOptions& options) {
   const FemProgram fem;
-  const FrozenState frozen = read_frozen_state(options.file, options.time);
-  if (!frozen.note.empty()) fmt::print(stderr, "{}\n", frozen.note);
-  const CheckContents contents = check_contents(frozen);
-  const Matrix force = contents.flow ? given_force(frozen) : Matrix();
-  const std::filesystem::path directory = directory_of(options);
-  make_directory(directory);
-
-  const CheckSamples samples = check_samples(frozen.state.position);
-  const int order = order_of(frozen.state.position.rows());
-  const int raised = high_order(order, options.quick);
-  const CheckFields at_order = check_fields(frozen, contents, force, order, samples.points);
-  fmt::print(stderr, "boundary integrals: order {} in {:.1f} s", order, at_order.seconds);
-  const CheckFields at_high_order = check_fields(frozen, contents, force, raised, samples.points);
-  fmt::print(stderr, ", order {} in {:.1f} s\n", raised, at_high_order.seconds);
-  const std::filesystem::path input = directory / "check_input.h5";
-  std::filesystem::remove(differences_file(directory));
-  write_check_input(input, {frozen, contents, force, samples, at_order, at_high_order});
-
-  std::vector<std::string> arguments{"check", input.string(), "-o", directory.string()};
-  if (options.quick) arguments.emplace_back("--quick");
-  const FemProgram::Result result = fem.run(arguments, options.ranks);
+  CheckTask task{.frozen = read_frozen_state(options.file, options.time),
+                 .directory = directory_of(options),
+                 .quick = options.quick,
+                 .n_ranks = options.ranks};
+  if (!task.frozen.note.empty()) fmt::print(stderr, "{}\n", task.frozen.note);
+  task.tell = [first = true](const CheckFields& fields) mutable { print_solved(fields, std::exchange(first, false)); };
+  std::filesystem::remove(differences_file(task.directory));
+  const FemProgram::Result result = compare_methods(fem, task);
   if (!result.json.is_null()) write_json(options.common, result.json);
-  if (!options.no_plot && result.code != ExitCode::internal_error) draw_if_possible(directory);
+  if (!options.no_plot && result.code != ExitCode::internal_error) draw_if_possible(task.directory);
   return result.code;
 }
 

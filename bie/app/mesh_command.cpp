@@ -2,11 +2,9 @@
 
 #include <memory>
 
-#include "bie/comparison/check_input.hpp"
 #include "bie/app/commands.hpp"
-#include "bie/comparison/fem_program.hpp"
-#include "bie/support/file_system.hpp"
-#include "bie/support/temporary.hpp"
+#include "bie/comparison/frozen_state.hpp"
+#include "bie/comparison/volume_mesh.hpp"
 
 namespace vehd {
 namespace {
@@ -24,13 +22,9 @@ ExitCode mesh(const MeshOptions& options) {
   const FemProgram fem;
   const FrozenShape shape = read_frozen_shape(options.file, options.time);
   if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
-  const TemporaryFolder folder("vehd-mesh");
-  const std::filesystem::path input = folder.path() / "shape.h5", mesh = folder.path() / "mesh.msh";
-  write_shape_input(input, shape.position);
-  const FemProgram::Result result = fem.run({"mesh", input.string(), "-o", mesh.string(), "--family", options.family,
-                                             "--refine", std::to_string(options.refine)});
+  const FemProgram::Result result =
+      write_volume_mesh(fem, {shape.position, options.output, options.family, options.refine});
   if (result.code != ExitCode::done) return result.code;
-  replace_file(options.output, text_of_file(mesh));
   fmt::print("mesh: {}\n", options.output);
   write_json(options.common, result.json);
   return result.code;

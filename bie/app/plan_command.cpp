@@ -6,10 +6,10 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/estimate/cost_table.hpp"
-#include "bie/estimate/plan.hpp"
-#include "bie/support/progress.hpp"
+#include "bie/estimate/plan_cost.hpp"
 #include "bie/runs/resumption.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/support/progress.hpp"
 
 namespace vehd {
 namespace {
@@ -71,11 +71,11 @@ ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
   return ExitCode::does_not_hold;
 }
 
-ExitCode menu(const PlanOptions& options, const Scene& scene, CostCache& cache) {
-  const std::vector<MenuRow> rows = menu_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, cache);
+ExitCode print_costs(const PlanOptions& options, const Scene& scene, CostCache& cache) {
+  const std::vector<CostRow> rows = cost_table_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, cache);
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:>9} {:>8} {:>7} {:>9} {:>7}\n", "tolerance", "degree", "steps", "time", "MB");
-  for (const MenuRow& row : rows) {
+  for (const CostRow& row : rows) {
     if (!row.stops.empty()) {
       fmt::print("{:>9.0e} {}\n", row.tolerance, row.stops);
       json.push_back({{"tolerance", row.tolerance}, {"stops", row.stops}});
@@ -92,7 +92,7 @@ ExitCode menu(const PlanOptions& options, const Scene& scene, CostCache& cache) 
                     {"measured", row.measured}});
   }
   write_json(options.common, json);
-  const bool none = std::ranges::none_of(rows, [](const MenuRow& row) { return row.stops.empty(); });
+  const bool none = std::ranges::none_of(rows, [](const CostRow& row) { return row.stops.empty(); });
   return none ? does_not_hold(options, " at any of these tolerances: " + rows.back().stops) : ExitCode::done;
 }
 
@@ -100,7 +100,7 @@ ExitCode plan(const PlanOptions& options) {
   const Scene scene = read_scene(options.scene_file);
   CostCache cache;
   if (options.fresh) cache.forget();
-  if (options.menu) return menu(options, scene, cache);
+  if (options.menu) return print_costs(options, scene, cache);
   RunPlan result = plan_of(scene);
   predict_cost(scene, result, cache);
   print(result);

@@ -2,16 +2,14 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
-#include <fstream>
 #include <memory>
 #include <optional>
 
 #include "bie/app/commands.hpp"
-#include "bie/support/file_system.hpp"
+#include "bie/app/run_progress.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/runs/resumption.hpp"
-#include "bie/runs/run_loop.hpp"
-#include "bie/runs/summary.hpp"
+#include "bie/runs/session.hpp"
 #include "bie/scene/reader.hpp"
 
 namespace vehd {
@@ -25,23 +23,6 @@ struct RunOptions {
   bool quiet = false;
   CommonOptions common;
 };
-
-/// A run that has reached the end of the scene. How its steps would be computed does not matter any more.
-bool is_complete(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
-  if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
-  const nlohmann::json summary = nlohmann::json::parse(std::ifstream(paths.summary()), nullptr, false);
-  return summary.is_object() && summary.value("completed", nlohmann::json()) == true;
-}
-
-/// The checkpoint with what the scene changes, which is said.
-Checkpoint resumed(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths) {
-  const std::size_t n_before = checkpoint.changes.size();
-  checkpoint = continued(std::move(checkpoint), scene, paths);
-  for (std::size_t i = n_before; i < checkpoint.changes.size(); ++i) {
-    fmt::print("changed at {}\n", text_of(checkpoint.changes[i]));
-  }
-  return checkpoint;
-}
 
 /// What to do about a run that has stopped.
 std::string next_step(const RunOptions& options, const Scene& scene, const RunOutcome& outcome) {
@@ -72,54 +53,42 @@ void plot_if_possible(const RunPaths& paths) {
   }
 }
 
-nlohmann::json summarise(const RunPaths& paths, const Scene& scene, const RunOutcome& outcome) {
-  const Checkpoint checkpoint = read_checkpoint(paths.checkpoint());
-  const nlohmann::json summary = summary_of(HistoryTable(paths.history()), scene, checkpoint, outcome);
-  replace_file(paths.summary(), summary.dump(2) + "\n");
-  return summary;
-}
-
 ExitCode run(const RunOptions& options) {
   // Before anything runs in parallel: threads inherit which signals they leave alone.
   std::optional<Interruption> interruption(std::in_place);
   const Scene scene = read_scene(options.scene_file);
-  const RunPaths paths{options.directory};
-  make_run_directory(paths);
-  const DirectoryLock lock(paths.lock());
-  std::optional<Checkpoint> checkpoint;
-  if (admit_run(paths, options.resume)) {
-    checkpoint = read_checkpoint(paths.checkpoint());
-    require_same_physics(scene, options.scene_file, *checkpoint, paths);
-    if (is_complete(scene, *checkpoint, paths)) {
-      fmt::print("{}: the run is already complete, nothing to do\n", paths.directory.string());
-      write_json(options.common, nlohmann::json::parse(std::ifstream(paths.summary())));
-      return ExitCode::done;
-    }
-    if (checkpoint->threads != omp_get_max_threads()) {
-      spdlog::warn("the run was started with {} threads and continues with {}: the last digits may differ",
-                   checkpoint->threads, omp_get_max_threads());
-    }
-    checkpoint = resumed(std::move(*checkpoint), scene, paths);
+  const RunSession session(scene, options.scene_file, options.directory, options.resume);
+  if (session.is_complete()) {
+    fmt::print("{}: the run is already complete, nothing to do\n", session.paths().directory.string());
+    write_json(options.common, session.last_summary());
+    return ExitCode::done;
   }
-  const Progress::Style style = options.quiet ? Progress::Style::none : Progress::suitable_style();
-  const RunOutcome outcome = simulate({scene, paths, checkpoint, style}, *interruption);
+  if (const auto threads = session.threads_before(); threads && *threads != omp_get_max_threads()) {
+    spdlog::warn("the run was started with {} threads and continues with {}: the last digits may differ", *threads,
+                 omp_get_max_threads());
+  }
+  for (const SceneChange& change : session.changes()) fmt::print("changed at {}\n", text_of(change));
+  Progress progress(options.quiet ? Progress::Style::none : Progress::suitable_style());
+  const RunOutcome outcome =
+      session.simulate(*interruption, [&progress](const RunStatus& status) { show_run(progress, status); });
+  progress.finish();
   interruption.reset();
   nlohmann::json summary;
   try {
-    summary = summarise(paths, scene, outcome);
+    summary = session.summarise(outcome);
   } catch (const std::runtime_error& error) {
     // With a full disk, or the directory gone, there is no summary either; what matters is why the run has stopped.
     if (outcome.completed) throw;
     fmt::print(stderr, "{}\n{}\n", outcome.reason, error.what());
     return ExitCode::stopped_early;
   }
-  print_summary(summary, paths);
+  print_summary(summary, session.paths());
   write_json(options.common, summary);
   if (!outcome.completed) {
     fmt::print(stderr, "{}; {}\n", outcome.reason, next_step(options, scene, outcome));
     return ExitCode::stopped_early;
   }
-  if (!options.no_plot) plot_if_possible(paths);
+  if (!options.no_plot) plot_if_possible(session.paths());
   return ExitCode::done;
 }
 

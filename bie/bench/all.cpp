@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
+#include "bie/bench/doc_tables.hpp"
 #include "bie/bench/methods.hpp"
 #include "bie/bench/parts.hpp"
 #include "bie/bench/scenes.hpp"
@@ -14,11 +14,11 @@
 #include "bie/bench/symmetry.hpp"
 #include "bie/bench/threads.hpp"
 #include "bie/bench/time.hpp"
-#include "bie/bench/doc_tables.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/estimate/cost_table.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -35,7 +35,8 @@ struct Extent {
   int repeats;
 };
 
-/// Where the tightest tolerance of a scene is foretold to take longer than this many seconds, all are compared earlier.
+/// Where the tightest tolerance of a scene is predicted to take longer than this many seconds, all are compared
+/// earlier.
 constexpr double longest_run = 300.0;
 
 Extent extent_of(bool quick) {
@@ -60,10 +61,11 @@ std::vector<double> steps_from(double first, int count) {
 /// The whole of what bench all does, one bench after the other.
 class AllBenches {
  public:
-  explicit AllBenches(const AllTask& task) : task_(task), extent_(extent_of(task.quick)) {
+  AllBenches(const AllTask& task, BenchObserver& observer)
+      : task_(task), observer_(observer), extent_(extent_of(task.quick)) {
     scenes_ = scene_files(task.docs / "scenes");
-    make_bench_directory(task.output);
-    fs::create_directories(task.docs / "images");
+    make_directory(task.output.directory);
+    make_directory(task.docs / "images");
     wanted_ = wanted_tables(task.docs);
   }
 
@@ -82,17 +84,12 @@ class AllBenches {
   }
 
  private:
-  void begin(const std::string& what) const {
-    fmt::print("\n== {}\n", what);
-    std::fflush(stdout);
-  }
-
   [[nodiscard]] Scene scene(const std::string& name) const {
     return read_scene(task_.docs / "scenes" / (name + ".toml"));
   }
 
   void keep(const BenchResult& result) {
-    record_[result.name] = write_bench(result, task_.output);
+    record_[result.name] = write_bench(result, task_.output, observer_);
     for (std::size_t i = 0; i < result.tables.size(); ++i) {
       const std::string name = i == 0 ? result.name : result.name + "_" + result.tables[i].name;
       const std::string text =
@@ -105,53 +102,55 @@ class AllBenches {
     std::error_code error;
     fs::copy_file(task_.output.directory / (result.name + ".png"), task_.docs / "images" / picture,
                   fs::copy_options::overwrite_existing, error);
-    if (error) spdlog::warn("no new picture of {}: {}", result.name, error.message());
+    if (error) observer_.warn(fmt::format("no new picture of {}: {}", result.name, error.message()));
   }
 
   void scenes() {
-    begin("every scene");
-    keep(bench_scenes(scenes_, task_.docs / "images"));
+    observer_.section("every scene");
+    keep(bench_scenes(scenes_, task_.docs / "images", observer_));
   }
 
   void space() {
-    begin("space");
-    keep(bench_space(extent_.space, extent_.repeats));
+    observer_.section("space");
+    keep(bench_space(extent_.space, extent_.repeats, observer_));
   }
 
   /// Example 2 on its way through the tube-like phase, and where it moves fastest.
   void time() {
     const Scene figure2 = scene("figure2");
     for (const int share : {4, 2}) {
-      begin(fmt::format("time: figure2.toml, the paper's scheme, at 1/{} of its end", share));
+      observer_.section(fmt::format("time: figure2.toml, the paper's scheme, at 1/{} of its end", share));
       BenchResult result = bench_time({.scene = figure2,
                                        .at = figure2.numerics.end_time / share,
-                                       .steps = steps_from(*figure2.numerics.dt, extent_.n_steps)});
+                                       .steps = steps_from(*figure2.numerics.dt, extent_.n_steps)},
+                                      observer_);
       result.name = fmt::format("time_figure2_{}", share == 4 ? "quarter" : "half");
       keep(result);
     }
-    begin("time: figure2.toml, integrators and tolerance");
+    observer_.section("time: figure2.toml, integrators and tolerance");
     Scene resolved = figure2;
     if (extent_.time_order > 0) resolved.numerics.order = extent_.time_order;
     keep(bench_time({.scene = resolved,
                      .at = figure2.numerics.end_time / 4,
                      .steps = steps_from(*figure2.numerics.dt, extent_.n_steps),
                      .time_orders = {1, 2, 4},
-                     .tolerances = extent_.tolerances}));
+                     .tolerances = extent_.tolerances},
+                    observer_));
   }
 
-  /// A scene up to a time at which every tolerance is affordable, and what its menu says of that.
+  /// A scene up to a time at which every tolerance is affordable, and what its cost table says of that.
   struct Affordable {
     Scene scene;
-    std::vector<MenuRow> menu;  ///< empty in a trial
+    std::vector<CostRow> costs;  ///< empty in a trial
   };
 
   [[nodiscard]] Affordable affordable(const Scene& whole) const {
     Affordable result{whole, {}};
     if (task_.quick) return result;
     CostCache cache;
-    const auto ask = [&] { result.menu = menu_of(result.scene, extent_.tolerances, cache); };
+    const auto ask = [&] { result.costs = cost_table_of(result.scene, extent_.tolerances, cache); };
     ask();
-    double seconds = result.menu.back().seconds;
+    double seconds = result.costs.back().seconds;
     if (seconds <= longest_run) return result;
     for (; seconds > longest_run; seconds *= 0.5) result.scene.numerics.end_time *= 0.5;
     ask();
@@ -163,10 +162,10 @@ class AllBenches {
                     machine_record(),
                     1,
                     {{"reference", "the run with the last tolerance of the scene"},
-                     {"time", fmt::format("the end of the scene, halved until the reference is foretold to take less "
+                     {"time", fmt::format("the end of the scene, halved until the reference is predicted to take less "
                                           "than {:g} s",
                                           longest_run)},
-                     {"foretold", "seconds of the menu"}},
+                     {"predicted", "seconds of the cost table"}},
                     {{"rows",
                       {{"scene", "scene", "{}", false, 24},
                        {"time", "t", "{:g}"},
@@ -175,15 +174,16 @@ class AllBenches {
                        {"order", "highest degree"},
                        {"error_over_tolerance", "error/tolerance", "{:.2f}"},
                        {"seconds", "seconds", "{:.2g}", true},
-                       {"foretold", "foretold", "{:.2g}"}}}},
+                       {"predicted", "predicted", "{:.2g}"}}}},
                     {}};
     for (const fs::path& file : scenes_) {
-      begin("tolerances: " + file.filename().string());
+      observer_.section("tolerances: " + file.filename().string());
       const Affordable asked = affordable(read_scene(file));
       const BenchResult one = bench_time({.scene = asked.scene,
                                           .at = asked.scene.numerics.end_time,
                                           .tolerances = extent_.tolerances,
-                                          .every = asked.scene.output.every});
+                                          .every = asked.scene.output.every},
+                                         observer_);
       const BenchTable& rows = one.tables.front();
       const auto cell = [&](std::size_t row, const std::string& key) {
         const auto column = std::find_if(rows.columns.begin(), rows.columns.end(),
@@ -196,7 +196,7 @@ class AllBenches {
           cells.push_back(cell(row, key));
         }
         cells.emplace_back();
-        if (!asked.menu.empty()) cells.back() = asked.menu[row].seconds;
+        if (!asked.costs.empty()) cells.back() = asked.costs[row].seconds;
         all.tables.front().rows.push_back(std::move(cells));
       }
     }
@@ -216,30 +216,30 @@ class AllBenches {
   }
 
   void parts() {
-    begin("parts: figure5_no_field.toml");
-    keep(bench_parts(scene("figure5_no_field"), extent_.parts, extent_.repeats));
+    observer_.section("parts: figure5_no_field.toml");
+    keep(bench_parts(scene("figure5_no_field"), extent_.parts, extent_.repeats, observer_));
   }
 
   void threads() {
-    begin("threads: figure5_no_field.toml");
+    observer_.section("threads: figure5_no_field.toml");
     Scene sheared = scene("figure5_no_field");
     if (extent_.threads_order > 0) sheared.numerics.order = extent_.threads_order;
-    keep(bench_threads(sheared, thread_counts(), extent_.repeats));
+    keep(bench_threads(sheared, thread_counts(), extent_.repeats, observer_));
   }
 
   void symmetry() {
-    begin("symmetry: figure2.toml");
-    keep(bench_symmetry(scene("figure2"), extent_.symmetry, extent_.repeats));
+    observer_.section("symmetry: figure2.toml");
+    keep(bench_symmetry(scene("figure2"), extent_.symmetry, extent_.repeats, observer_));
   }
 
   void methods() {
-    begin("methods");
+    observer_.section("methods");
     if (!fem_program_is_built()) {
       without_.emplace_back("methods (the finite elements are not built: cmake -DSTEP=check -P bie/setup.cmake)");
-      fmt::print("left out: the finite elements are not built\n");
+      observer_.note("left out: the finite elements are not built");
       return;
     }
-    keep(bench_methods({task_.quick, task_.quick ? 1 : 3}, task_.output.directory));
+    keep(bench_methods({task_.quick, task_.quick ? 1 : 3}, task_.output.directory, observer_));
   }
 
   void stability() {
@@ -248,21 +248,21 @@ class AllBenches {
       without_.emplace_back("stability (no scenes in " + scenes.string() + ")");
       return;
     }
-    begin("stability");
+    observer_.section("stability");
     const BenchOutput output{task_.output.directory / "stability", task_.output.plot};
     Interruption interruption;
-    keep(bench_stability({scene_files(scenes), output, task_.quick}, interruption).result);
+    keep(bench_stability({scene_files(scenes), output, task_.quick}, interruption, observer_).result);
     if (!task_.output.plot) return;
-    fs::create_directories(task_.docs / "images/hard_cases");
+    make_directory(task_.docs / "images/hard_cases");
     fs::copy(output.directory / "shapes", task_.docs / "images/hard_cases",
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
 
   void report() const {
-    fmt::print("\npages and pictures in {} are renewed", task_.docs.string());
-    if (!without_.empty()) fmt::print(", without {}", fmt::join(without_, ", "));
-    if (!wanted_.empty()) fmt::print("; tables left as they were: {}", fmt::join(wanted_, ", "));
-    fmt::print("\n");
+    std::string text = fmt::format("\npages and pictures in {} are renewed", task_.docs.string());
+    if (!without_.empty()) text += fmt::format(", without {}", fmt::join(without_, ", "));
+    if (!wanted_.empty()) text += fmt::format("; tables left as they were: {}", fmt::join(wanted_, ", "));
+    observer_.note(text);
   }
 
   struct Bench {
@@ -272,6 +272,7 @@ class AllBenches {
   static const std::array<Bench, 9> kBenches;
 
   const AllTask& task_;
+  BenchObserver& observer_;
   Extent extent_;
   std::vector<fs::path> scenes_;
   std::set<std::string> wanted_;
@@ -293,6 +294,8 @@ const std::array<AllBenches::Bench, 9> AllBenches::kBenches = {{{"scenes", &AllB
 
 std::vector<std::string> names_of_benches() { return AllBenches::names(); }
 
-nlohmann::ordered_json bench_all(const AllTask& task) { return AllBenches(task).run(); }
+nlohmann::ordered_json bench_all(const AllTask& task, BenchObserver& observer) {
+  return AllBenches(task, observer).run();
+}
 
 }  // namespace vehd

@@ -22,6 +22,6 @@ std::vector<std::string> names_of_benches();
 /// the finite elements is left as it is where they are not built, and said.
 /// @return name and machine of every bench
 /// @throws InputError if there are no pages
-nlohmann::ordered_json bench_all(const AllTask& task);
+nlohmann::ordered_json bench_all(const AllTask& task, BenchObserver& observer);
 
 }  // namespace vehd

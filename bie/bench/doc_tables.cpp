@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
-#include "bie/support/file_system.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -26,19 +24,13 @@ std::vector<std::filesystem::path> pages_of(const std::filesystem::path& folder)
   return pages;
 }
 
-std::string text_of(const std::filesystem::path& page) {
-  std::ostringstream text;
-  text << std::ifstream(page, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 int put_table(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
   int count = 0;
   const std::string begin = kBegin + name + kBeginEnd;
   for (const auto& page : pages_of(folder)) {
-    const std::string before = text_of(page);
+    const std::string before = text_of_file(page);
     std::string after = before;
     for (std::size_t at = after.find(begin); at != std::string::npos; at = after.find(begin, at + 1)) {
       const std::size_t first = at + begin.size();
@@ -58,7 +50,7 @@ std::set<std::string> wanted_tables(const std::filesystem::path& folder) {
   std::set<std::string> names;
   const std::string begin = kBegin;
   for (const auto& page : pages_of(folder)) {
-    const std::string text = text_of(page);
+    const std::string text = text_of_file(page);
     for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
       const std::size_t first = at + begin.size();
       names.insert(text.substr(first, text.find(kBeginEnd, first) - first));
@@ -70,7 +62,7 @@ std::set<std::string> wanted_tables(const std::filesystem::path& folder) {
 bool pages_mention(const std::filesystem::path& folder, const std::string& text) {
   const std::vector<std::filesystem::path> pages = pages_of(folder);
   return std::any_of(pages.begin(), pages.end(),
-                     [&](const auto& page) { return text_of(page).find(text) != std::string::npos; });
+                     [&](const auto& page) { return text_of_file(page).find(text) != std::string::npos; });
 }
 
 }  // namespace vehd

@@ -1,3 +1,5 @@
+#include "bie/bench/methods.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,8 +7,6 @@
 #include <ctime>
 
 #include "bie/bench/example1.hpp"
-#include "bie/bench/methods.hpp"
-#include "bie/bench/progress.hpp"
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/stepping/discretisation.hpp"
@@ -151,47 +151,44 @@ BenchPanel panel_of(const std::string& column, const std::string& label) {
 
 }  // namespace
 
-BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder) {
+BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder, BenchObserver& observer) {
   // Either method has one core, and its processor time counts: other programs on the machine then do not.
   const ThreadCount one_thread(1);
   const LevelPlan plan = plan_of(task.quick);
   const int shape_order = plan.orders.back();
   FemLevels fem(folder, shape_order);
 
-  fmt::print("Example 1 on shape (33), seconds of one core, up to {} repeats; errors: relative L2\n", task.repeats);
+  observer.note(
+      fmt::format("Example 1 on shape (33), seconds of one core, up to {} repeats; errors: relative L2", task.repeats));
   BenchResult result{"methods", machine_record(), task.repeats, {}, {empty_table()}, {}};
   BenchTable& table = result.tables.front();
-  BenchProgress progress(
-      static_cast<int>(plan.orders.size() + plan.element_degree.size() + plan.cells_per_edge.size() + 1));
-  announce(table);
-  const auto keep = [&](const MethodLevel& level) {
-    progress.clear();
-    add_row(table, row_of(level));
-  };
+  BenchTasks tasks(static_cast<int>(plan.orders.size() + plan.element_degree.size() + plan.cells_per_edge.size() + 1),
+                   observer);
+  observer.heading(table);
+  const auto keep = [&](const MethodLevel& level) { add_row(table, row_of(level), observer); };
   // Peak memory is that of the process so far: ascending orders make it that of the level.
   for (const int order : plan.orders) {
-    progress.next(fmt::format("boundary integrals, p = {}", order));
+    tasks.next(fmt::format("boundary integrals, p = {}", order));
     keep(bie_level(order, task.repeats));
   }
   MethodLevel compared;
   for (const int degree : plan.element_degree) {
-    progress.next(fmt::format("finite elements, k = {}", degree));
+    tasks.next(fmt::format("finite elements, k = {}", degree));
     const MethodLevel level = fem(fem_degree, degree, coarse_cells, task.repeats);
     if (degree <= highest_far_degree) compared = level;
     keep(level);
   }
   for (const int cells : plan.cells_per_edge) {
-    progress.next(fmt::format("finite elements, {} cells per edge", cells));
+    tasks.next(fmt::format("finite elements, {} cells per edge", cells));
     keep(fem(fem_mesh, plan.element_degree.front(), cells, task.repeats));
   }
 
   const double radius = fem.outer_radius;
-  progress.next("finite elements in a larger sphere");
+  tasks.next("finite elements in a larger sphere");
   const MethodLevel far = fem(fem_degree, compared.degree, coarse_cells, 1, far_radius);
-  progress.clear();
   const double change = std::abs(far.charge_l2 - compared.charge_l2);
-  fmt::print("outer sphere at R = {:.3g}; at {:.3g} the error of q at k = {} changes by {:.0e}\n", radius,
-             fem.outer_radius, far.degree, change);
+  observer.note(fmt::format("outer sphere at R = {:.3g}; at {:.3g} the error of q at k = {} changes by {:.0e}", radius,
+                            fem.outer_radius, far.degree, change));
   result.facts = {{"problem", "Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources"},
                   {"seconds_are", "of one core, from the shape to q and f_E: tables, mesh, matrices, solve"},
                   {"shape_order", shape_order},

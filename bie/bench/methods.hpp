@@ -33,6 +33,6 @@ struct MethodsTask {
 /// Boundary integrals against finite elements, both on one thread.
 /// @param folder  for files that are gone at the end
 /// @throws InputError if the finite-element program is not there
-BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder);
+BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder, BenchObserver& observer);
 
 }  // namespace vehd

@@ -1,10 +1,10 @@
+#include "bie/bench/parts.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "bie/bench/input.hpp"
-#include "bie/bench/parts.hpp"
-#include "bie/bench/progress.hpp"
 #include "bie/bench/step_timer.hpp"
 #include "bie/support/machine_peak.hpp"
 #include "bie/support/memory.hpp"
@@ -39,7 +39,7 @@ BenchCell exponent(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 BenchTable growth_table(const std::vector<std::string>& parts, const std::map<std::string, PartCurve>& curves,
-                        double peak) {
+                        double peak, BenchObserver& observer) {
   BenchTable table{"growth",
                    {{"part", "part", "{}", false, 18},
                     {"exponent_seconds", "seconds grow like p^", "{:.1f}"},
@@ -49,7 +49,7 @@ BenchTable growth_table(const std::vector<std::string>& parts, const std::map<st
                     {"bytes", ""},
                     {"megabytes", "MB", "{:.0f}"},
                     {"peak_fraction", "share of peak", "{:.2f}"}}};
-  announce(table);
+  observer.heading(table);
   for (const std::string& part : parts) {
     const PartCurve& curve = curves.at(part);
     BenchCell bytes, megabytes, fraction;
@@ -58,8 +58,10 @@ BenchTable growth_table(const std::vector<std::string>& parts, const std::map<st
       megabytes = curve.bytes.back() / 1e6;
     }
     if (curve.operations > 0.0) fraction = curve.operations / curve.seconds.back() / peak;
-    add_row(table, {part, exponent(curve.orders, curve.seconds), exponent(curve.memory_orders, curve.bytes),
-                    static_cast<std::int64_t>(curve.orders.back()), curve.seconds.back(), bytes, megabytes, fraction});
+    add_row(table,
+            {part, exponent(curve.orders, curve.seconds), exponent(curve.memory_orders, curve.bytes),
+             static_cast<std::int64_t>(curve.orders.back()), curve.seconds.back(), bytes, megabytes, fraction},
+            observer);
   }
   return table;
 }
@@ -85,7 +87,7 @@ std::vector<BenchPanel> panels_of(const std::vector<std::string>& parts, const s
 
 }  // namespace
 
-BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats) {
+BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer) {
   scene = with_fixed_steps(std::move(scene), "parts");
   require_ascending("--orders", orders);
   const MachineRecord machine = machine_record();
@@ -96,25 +98,24 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
                   {"peak_operations_per_second", peak},
                   {"peak_is_of", "products of matrices of 256 rows in double precision"},
                   {"bytes_are", "most memory beyond what was held when the part began"}};
-  fmt::print("{} threads, {:.1f} Gflop/s in matrix products, dt = {}; seconds\n", machine.threads, peak / 1e9,
-             *scene.numerics.dt);
-  BenchProgress progress(static_cast<int>(orders.size()) * (repeats + 1));
+  observer.note(fmt::format("{} threads, {:.1f} Gflop/s in matrix products, dt = {}; seconds", machine.threads,
+                            peak / 1e9, *scene.numerics.dt));
+  BenchTasks tasks(static_cast<int>(orders.size()) * (repeats + 1), observer);
   std::vector<std::string> parts;
   std::map<std::string, PartCurve> curves;
   for (const int order : orders) {
     scene.numerics.order = order;
-    progress.next(fmt::format("p = {}: memory", order));
+    tasks.next(fmt::format("p = {}: memory", order));
     StepTimer timer(scene);
     timer.metered_step();
     for (int i = 0; i < repeats; ++i) {
-      progress.next(fmt::format("p = {}: step {} of {}", order, i + 1, repeats));
+      tasks.next(fmt::format("p = {}: step {} of {}", order, i + 1, repeats));
       timer.timed_step();
     }
     if (parts.empty()) {
       parts = timer.parts();
       result.tables.push_back(empty_table(parts));
-      progress.clear();
-      announce(result.tables.front());
+      observer.heading(result.tables.front());
     }
     const std::map<std::string, double> operations = timer.operations();
     std::vector<BenchCell> seconds_cells, byte_cells, fraction_cells;
@@ -142,10 +143,9 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
       row.insert(row.end(), cells->begin(), cells->end());
     }
     row.emplace_back(peak_memory_bytes());
-    progress.clear();
-    add_row(result.tables.front(), std::move(row));
+    add_row(result.tables.front(), std::move(row), observer);
   }
-  result.tables.push_back(growth_table(parts, curves, peak));
+  result.tables.push_back(growth_table(parts, curves, peak, observer));
   result.panels = panels_of(parts, orders);
   return result;
 }

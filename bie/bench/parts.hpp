@@ -11,6 +11,6 @@ namespace vehd {
 /// the fraction of the machine's measured peak at which their counted operations run, see StepTimer.
 /// @param orders  ascending
 /// @throws InputError for a scene without dt
-BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats);
+BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer);
 
 }  // namespace vehd

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/bench/observer.hpp"
 #include "bie/bench/picture.hpp"
 #include "bie/bench/table.hpp"
 #include "bie/files/machine_record.hpp"
@@ -26,20 +27,16 @@ struct BenchResult {
   std::vector<BenchPanel> panels;  ///< of the first table
 };
 
-/// @throws OutputError
-void make_bench_directory(const BenchOutput& output);
-
-/// Prints the heading of a table, then each row when it is known.
-void announce(const BenchTable& table);
-void add_row(BenchTable& table, std::vector<BenchCell> row);
+/// Adds a row and tells of it.
+void add_row(BenchTable& table, std::vector<BenchCell> row, BenchObserver& observer);
 
 /// The whole as JSON: name, machine, repeats, facts, and the rows of every table under its name.
 nlohmann::ordered_json json_of(const BenchResult& result);
 
-/// Writes NAME.json, NAME.csv with the first table, NAME_TABLE.csv with each further one, and NAME.png; says where. A
+/// Writes NAME.json, NAME.csv with the first table, NAME_TABLE.csv with each further one, and NAME.png; tells where. A
 /// picture that cannot be drawn is a warning.
 /// @return json_of
 /// @throws OutputError
-nlohmann::ordered_json write_bench(const BenchResult& result, const BenchOutput& output);
+nlohmann::ordered_json write_bench(const BenchResult& result, const BenchOutput& output, BenchObserver& observer);
 
 }  // namespace vehd

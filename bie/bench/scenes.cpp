@@ -1,18 +1,16 @@
 #include "bie/bench/scenes.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 
-#include "bie/support/file_system.hpp"
-#include "bie/runs/history.hpp"
 #include "bie/pictures/plots.hpp"
+#include "bie/runs/history.hpp"
 #include "bie/runs/run_loop.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/temporary.hpp"
 
 namespace vehd {
@@ -31,54 +29,51 @@ BenchTable empty_table() {
   return table;
 }
 
-void draw(const RunPaths& paths, const std::string& name, const std::filesystem::path& folder) {
+void draw(const RunPaths& paths, const std::string& name, const std::filesystem::path& folder,
+          BenchObserver& observer) {
   try {
     for (const auto& picture : plot_run({paths, {}, paths.plots()})) {
       std::filesystem::copy_file(picture, folder / (name + "_" + picture.filename().string()),
                                  std::filesystem::copy_options::overwrite_existing);
     }
   } catch (const std::exception& error) {
-    spdlog::warn("no pictures of {}: {}", name, error.what());
+    observer.warn(fmt::format("no pictures of {}: {}", name, error.what()));
   }
 }
 
 }  // namespace
 
-BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const std::filesystem::path& pictures) {
+BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const std::filesystem::path& pictures,
+                         BenchObserver& observer) {
   BenchResult result{"scenes", machine_record(), 1, {}, {empty_table()}, {}};
-  announce(result.tables.front());
+  observer.heading(result.tables.front());
+  const auto tell = [&observer](const RunStatus& status) { observer.status(status); };
   for (const auto& file : scenes) {
     const Scene scene = read_scene(file);
     const TemporaryFolder folder("vehd-bench");
     const RunPaths paths{folder.path()};
-    make_run_directory(paths);
     Interruption interruption;
     const auto start = std::chrono::steady_clock::now();
-    const RunOutcome outcome = simulate({scene, paths, std::nullopt, Progress::suitable_style()}, interruption);
+    const RunOutcome outcome = simulate({scene, paths, std::nullopt, tell}, interruption);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!outcome.completed) throw ConvergenceError(fmt::format("{}: {}", file.string(), outcome.reason));
     const HistoryTable history(paths.history());
     std::vector<BenchCell> row{file.filename().string(), std::int64_t{scene.numerics.order},
                                history.column("time").back(), history.n_steps(), spread_of({seconds})};
     for (const char* name : kQuantities) row.emplace_back(history.column(name).back());
-    add_row(result.tables.front(), std::move(row));
-    draw(paths, file.stem().string(), pictures);
+    add_row(result.tables.front(), std::move(row), observer);
+    draw(paths, file.stem().string(), pictures, observer);
   }
   return result;
 }
 
 std::vector<std::filesystem::path> scene_files(const std::filesystem::path& place) {
   if (std::filesystem::is_regular_file(place)) return {place};
-  std::vector<std::filesystem::path> scenes;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(place, error)) {
-    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
-  }
+  std::vector<std::filesystem::path> scenes = files_ending(place, ".toml");
   if (scenes.empty()) {
     throw InputError(
         fmt::format("{}: no scenes; accepted: a folder of the source tree with scenes (*.toml)", place.string()));
   }
-  std::sort(scenes.begin(), scenes.end());
   return scenes;
 }
 

@@ -1,3 +1,5 @@
+#include "bie/bench/space.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -5,8 +7,6 @@
 
 #include "bie/bench/example1.hpp"
 #include "bie/bench/example_prolate.hpp"
-#include "bie/bench/progress.hpp"
-#include "bie/bench/space.hpp"
 
 namespace vehd {
 namespace {
@@ -35,20 +35,20 @@ BenchTable empty_table() {
 
 }  // namespace
 
-BenchResult bench_space(const std::vector<int>& orders, int repeats) {
+BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserver& observer) {
   BenchResult result{"space", machine_record(), repeats, {}, {empty_table()}, {}};
   result.facts = {{"charge_problem", "Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources"},
                   {"velocity_problem", "2:1 prolate pulled along and across its axis, poles of the grid off the axis"},
                   {"seconds_are", "from the shape to the fields, tables of the degree excluded"}};
   BenchTable& table = result.tables.front();
-  BenchProgress progress(static_cast<int>(orders.size()) * repeats);
-  announce(table);
+  BenchTasks tasks(static_cast<int>(orders.size()) * repeats, observer);
+  observer.heading(table);
   for (const int order : orders) {
     std::vector<double> electric_seconds, stokes_seconds;
     Example1Result electric;
     ProlateResult stokes;
     while (wants_repeat(electric_seconds, repeats)) {
-      progress.next(fmt::format("p = {}", order));
+      tasks.next(fmt::format("p = {}", order));
       electric = solve_example1(order);
       stokes = solve_translating_prolate(order);
       electric_seconds.push_back(electric.seconds);
@@ -59,10 +59,11 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats) {
       paper_q = paper->second.charge;
       paper_force = paper->second.force;
     }
-    progress.clear();
-    add_row(table, {std::int64_t{order}, std::int64_t{order + 1} * (order + 1), electric.errors.charge,
-                    electric.errors.force, std::int64_t{electric.errors.report.iterations}, spread_of(electric_seconds),
-                    paper_q, paper_force, stokes.error, spread_of(stokes_seconds)});
+    add_row(table,
+            {std::int64_t{order}, std::int64_t{order + 1} * (order + 1), electric.errors.charge, electric.errors.force,
+             std::int64_t{electric.errors.report.iterations}, spread_of(electric_seconds), paper_q, paper_force,
+             stokes.error, spread_of(stokes_seconds)},
+            observer);
   }
   const std::vector<BenchCurve> against_seconds{
       {.label = "q, Example 1", .x = "seconds", .y = "error_q", .note = "order", .colour = 0},

@@ -1,17 +1,18 @@
+#include "bie/bench/stability.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "bie/bench/progress.hpp"
-#include "bie/bench/stability.hpp"
 #include "bie/bench/stability_case.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/runs/run_loop.hpp"
 #include "bie/runs/verdict.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -26,12 +27,6 @@ struct Finding {
   /// Over the bound, so that findings can be compared.
   [[nodiscard]] double share() const { return std::isnan(value) ? INFINITY : value / bound; }
 };
-
-double largest_magnitude(const std::vector<double>& values) {
-  double largest = 0.0;
-  for (const double value : values) largest = std::isnan(value) ? value : std::max(largest, std::abs(value));
-  return largest;
-}
 
 /// The largest rise between successive rows over the value.
 double largest_rise(const std::vector<double>& values) {
@@ -53,7 +48,7 @@ std::vector<Finding> findings_of(const StabilityCase& hard, const HistoryTable& 
   constexpr double rounding_of_energy = 1e-8;
   std::vector<Finding> findings;
   for (const ColumnBound& bound : hard.most) {
-    findings.push_back({bound.column, largest_magnitude(history.column(bound.column)), bound.bound});
+    findings.push_back({bound.column, history.largest_magnitude(bound.column), bound.bound});
   }
   for (const std::string& column : hard.falls) {
     findings.push_back({column + " rises", largest_rise(history.column(column)), rounding_of_energy});
@@ -72,9 +67,9 @@ std::string end_problem(ExpectedEnd expected, const RunOutcome& outcome, const s
     case ExpectedEnd::completed:
       if (!outcome.completed) return outcome.reason;
       return verdict == trustworthy ? "" : verdict;
-    case ExpectedEnd::doubted:
+    case ExpectedEnd::flagged:
       if (!outcome.completed) return outcome.reason;
-      return verdict == trustworthy ? "is not doubted" : "";
+      return verdict == trustworthy ? "is not flagged" : "";
     case ExpectedEnd::stops:
       return outcome.completed ? "goes on to its end" : "";
   }
@@ -83,7 +78,7 @@ std::string end_problem(ExpectedEnd expected, const RunOutcome& outcome, const s
 
 std::string end_text(const StabilityCase& hard, const RunOutcome& outcome, const std::string& verdict) {
   if (!outcome.completed) return verdict;
-  return hard.expect == ExpectedEnd::doubted ? "doubted: " + verdict : "";
+  return hard.expect == ExpectedEnd::flagged ? "flagged: " + verdict : "";
 }
 
 BenchTable empty_table() {
@@ -120,15 +115,15 @@ std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, con
           worst.bound,
           history.n_steps(),
           static_cast<std::int64_t>(std::accumulate(rejected.begin(), rejected.end(), 0.0)),
-          largest_magnitude(history.column("iterations_flow")),
-          largest_magnitude(history.column("iterations_electric")),
+          history.largest_magnitude("iterations_flow"),
+          history.largest_magnitude("iterations_electric"),
           read_checkpoint(run.paths.checkpoint()).totals.seconds,
           failed ? "FAILS: " + problem : "holds" + (end.empty() ? "" : ", " + end)};
 }
 
 }  // namespace
 
-StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption) {
+StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption, BenchObserver& observer) {
   std::vector<StabilityCase> cases;
   for (const std::filesystem::path& path : task.scenes) {
     cases.push_back(read_stability_case(path));
@@ -145,25 +140,24 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
        {empty_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}},
        {}}};
   BenchTable& table = outcome.result.tables.front();
-  BenchProgress progress(static_cast<int>(cases.size()));
-  announce(table);
+  BenchTasks tasks(static_cast<int>(cases.size()), observer);
+  observer.heading(table);
   for (const StabilityCase& hard : cases) {
-    progress.next(hard.name);
+    tasks.next(hard.name);
     const RunPaths paths{task.output.directory / "runs" / hard.name};
     std::filesystem::remove_all(paths.directory);
-    make_run_directory(paths);
+    make_directory(paths.directory);
     const std::optional<Checkpoint> none;
     const RunTask run{hard.scene, paths, none};
     const RunOutcome end = simulate(run, interruption);
     if (interruption.requested()) throw InputError("stopped by a signal");
     bool failed = false;
     const std::vector<BenchCell> row = row_of(hard, run, end, task.brief, failed);
-    progress.clear();
-    add_row(table, row);
+    add_row(table, row, observer);
     outcome.n_failed += failed ? 1 : 0;
     if (task.output.plot) {
       const std::filesystem::path folder = task.output.directory / "shapes";
-      std::filesystem::create_directories(folder);
+      make_directory(folder);
       constexpr int shape_width = 120;
       plot_shapes({paths, {}, folder, shape_width}, folder / (hard.name + ".png"));
       outcome.result.tables.back().rows.push_back(

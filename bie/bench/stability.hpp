@@ -23,6 +23,6 @@ struct StabilityOutcome {
 /// Runs every case as `vehd run` would and prints, for each, the criterion that came closest to its bound. The further
 /// table "pictures" shows the shapes to the pages, which look for them in images/hard_cases.
 /// @throws InputError for a scene or criterion that cannot be read
-StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption);
+StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption, BenchObserver& observer);
 
 }  // namespace vehd

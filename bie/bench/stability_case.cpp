@@ -75,9 +75,9 @@ class Criterion {
   [[nodiscard]] ExpectedEnd expected_end() const {
     const std::string word = text("expect");
     if (word == "completed") return ExpectedEnd::completed;
-    if (word == "doubted") return ExpectedEnd::doubted;
+    if (word == "flagged") return ExpectedEnd::flagged;
     if (word == "stops") return ExpectedEnd::stops;
-    refuse(*table_.get("expect"), fmt::format("\"{}\"; accepted: completed, doubted, stops", word));
+    refuse(*table_.get("expect"), fmt::format("\"{}\"; accepted: completed, flagged, stops", word));
   }
 
  private:

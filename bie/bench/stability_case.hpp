@@ -10,7 +10,7 @@ namespace vehd {
 
 /// How a hard case has to end: at its end time and trustworthy; at its end time with a verdict that names what is not;
 /// before its end, with a reason.
-enum class ExpectedEnd { completed, doubted, stops };
+enum class ExpectedEnd { completed, flagged, stops };
 
 /// A bound on one column of history.csv.
 struct ColumnBound {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bie/support/memory_meter.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/support/memory_meter.hpp"
 
 namespace vehd {
 

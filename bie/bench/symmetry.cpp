@@ -1,9 +1,9 @@
+#include "bie/bench/symmetry.hpp"
+
 #include <fmt/format.h>
 
 #include "bie/bench/input.hpp"
-#include "bie/bench/progress.hpp"
 #include "bie/bench/step_timer.hpp"
-#include "bie/bench/symmetry.hpp"
 #include "bie/stepping/state_difference.hpp"
 #include "bie/support/errors.hpp"
 
@@ -28,7 +28,7 @@ Scene with_symmetry(Scene scene, SymmetryUse use) {
 
 }  // namespace
 
-BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repeats) {
+BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer) {
   scene = with_fixed_steps(std::move(scene), "symmetry");
   require_ascending("--orders", orders);
   if (!problem_of(with_symmetry(scene, SymmetryUse::automatic)).symmetry.any()) {
@@ -38,22 +38,23 @@ BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repe
   result.facts = {{"dt", *scene.numerics.dt},
                   {"difference_is", "of x and V_m after the same steps, over the largest coefficient"}};
   BenchTable& table = result.tables.front();
-  announce(table);
-  BenchProgress progress(static_cast<int>(orders.size()) * (repeats + 1));
+  observer.heading(table);
+  BenchTasks tasks(static_cast<int>(orders.size()) * (repeats + 1), observer);
   for (const int order : orders) {
     scene.numerics.order = order;
-    progress.next(fmt::format("p = {}: first steps", order));
+    tasks.next(fmt::format("p = {}: first steps", order));
     StepTimer full(with_symmetry(scene, SymmetryUse::off)), reduced(with_symmetry(scene, SymmetryUse::automatic));
     for (int i = 0; i < repeats; ++i) {
-      progress.next(fmt::format("p = {}: step {} of {}", order, i + 1, repeats));
+      tasks.next(fmt::format("p = {}: step {} of {}", order, i + 1, repeats));
       full.timed_step();
       reduced.timed_step();
     }
-    progress.clear();
     const Spread of_full = spread_of(full.seconds().at("step")), of_reduced = spread_of(reduced.seconds().at("step"));
-    add_row(table, {std::int64_t{order}, of_full, of_reduced, of_full.median / of_reduced.median,
-                    double(full.kernel_evaluations()) / double(reduced.kernel_evaluations()),
-                    std::int64_t{full.state().step}, state_difference(reduced.state(), full.state())});
+    add_row(table,
+            {std::int64_t{order}, of_full, of_reduced, of_full.median / of_reduced.median,
+             double(full.kernel_evaluations()) / double(reduced.kernel_evaluations()), std::int64_t{full.state().step},
+             state_difference(reduced.state(), full.state())},
+            observer);
   }
   BenchPanel panel{.x_label = "degree p",
                    .y_label = "seconds of a step",

@@ -11,6 +11,6 @@ namespace vehd {
 /// the states are from each other after the same steps. Both take their steps in turn, so that they see the same load
 /// of the machine.
 /// @throws InputError for a scene without dt or without symmetry
-BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repeats);
+BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer);
 
 }  // namespace vehd

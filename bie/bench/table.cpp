@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "bie/support/csv.hpp"
+#include "bie/support/text_table.hpp"
+
 namespace vehd {
 namespace {
 
@@ -44,16 +47,9 @@ std::vector<Entry> entries_of(const BenchTable& table, const std::vector<BenchCe
   return entries;
 }
 
-std::string csv_quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) quoted.append(letter == '"' ? 2 : 1, letter);
-  return quoted + '"';
-}
-
 std::string csv_text(const nlohmann::ordered_json& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return csv_quoted(value.get<std::string>());
+  if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   return value.dump();
 }
@@ -66,17 +62,11 @@ std::string shown(const BenchColumn& column, const BenchCell& cell) {
   return value != nullptr && std::isfinite(*value) ? fmt::format(fmt::runtime(column.format), *value) : "–";
 }
 
-/// Characters, not bytes.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char letter) { return (letter & 0xC0) != 0x80; }));
-}
-
 std::string padded(const std::string& text, std::size_t width) {
-  return std::string(width - std::min(width, width_of(text)), ' ') + text;
+  return std::string(width - std::min(width, display_width(text)), ' ') + text;
 }
 
-std::size_t column_width(const BenchColumn& column) { return std::max(column.width, width_of(column.heading)); }
+std::size_t column_width(const BenchColumn& column) { return std::max(column.width, display_width(column.heading)); }
 
 template <typename Text>
 std::string line(const BenchTable& table, const char* before, const char* between, const char* after,
@@ -97,15 +87,13 @@ std::string line(const BenchTable& table, const char* before, const char* betwee
 std::string csv_of(const BenchTable& table) {
   std::string text;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const std::vector<Entry> entries = entries_of(table, table.rows[i]);
-    std::string keys, values;
-    for (const Entry& entry : entries) {
-      const char* comma = keys.empty() ? "" : ",";
-      keys.append(comma).append(entry.key);
-      values.append(comma).append(csv_text(entry.value));
+    std::vector<std::string> keys, values;
+    for (const Entry& entry : entries_of(table, table.rows[i])) {
+      keys.push_back(entry.key);
+      values.push_back(csv_text(entry.value));
     }
-    if (i == 0) text += keys + "\n";
-    text += values + "\n";
+    if (i == 0) text += csv_line(keys);
+    text += csv_line(values);
   }
   return text;
 }

@@ -1,3 +1,5 @@
+#include "bie/bench/threads.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,9 +7,7 @@
 #include <thread>
 
 #include "bie/bench/input.hpp"
-#include "bie/bench/progress.hpp"
 #include "bie/bench/step_timer.hpp"
-#include "bie/bench/threads.hpp"
 #include "bie/stepping/state_difference.hpp"
 #include "bie/support/thread_count.hpp"
 
@@ -34,24 +34,23 @@ std::vector<int> thread_counts() {
   return counts;
 }
 
-BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repeats) {
+BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repeats, BenchObserver& observer) {
   scene = with_fixed_steps(std::move(scene), "threads");
   require_ascending("--threads", counts);
   std::vector<std::unique_ptr<StepTimer>> timers;
-  BenchProgress progress(static_cast<int>(counts.size()) * (repeats + 1));
+  BenchTasks tasks(static_cast<int>(counts.size()) * (repeats + 1), observer);
   for (const int count : counts) {
     const ThreadCount threads(count);
-    progress.next(fmt::format("{} threads: first steps", count));
+    tasks.next(fmt::format("{} threads: first steps", count));
     timers.push_back(std::make_unique<StepTimer>(scene));
   }
   for (int i = 0; i < repeats; ++i) {
     for (std::size_t k = 0; k < counts.size(); ++k) {
       const ThreadCount threads(counts[k]);
-      progress.next(fmt::format("{} threads: step {} of {}", counts[k], i + 1, repeats));
+      tasks.next(fmt::format("{} threads: step {} of {}", counts[k], i + 1, repeats));
       timers[k]->timed_step();
     }
   }
-  progress.clear();
 
   BenchResult result{"threads", machine_record(), repeats, {}, {empty_table(counts.front())}, {}};
   result.facts = {{"order", scene.numerics.order},
@@ -63,8 +62,8 @@ BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repea
                    .curves = {},
                    .x_ticks = {counts.begin(), counts.end()},
                    .key_place = "outside right top"};
-  fmt::print("p = {}\n", scene.numerics.order);
-  announce(table);
+  observer.note(fmt::format("p = {}", scene.numerics.order));
+  observer.heading(table);
   int colour = 0;
   const auto add_part = [&](const std::string& part) {
     const double first = spread_of(timers.front()->seconds().at(part)).median;
@@ -74,7 +73,8 @@ BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repea
       BenchCell deviation;
       if (part == "step") deviation = state_difference(timers[k]->state(), timers.front()->state());
       add_row(table,
-              {part, std::int64_t{counts[k]}, seconds, speed_up, speed_up * counts.front() / counts[k], deviation});
+              {part, std::int64_t{counts[k]}, seconds, speed_up, speed_up * counts.front() / counts[k], deviation},
+              observer);
     }
     panel.curves.push_back({.label = part,
                             .x = "threads",

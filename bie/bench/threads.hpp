@@ -14,6 +14,6 @@ std::vector<int> thread_counts();
 /// count, and how far the state after the same steps is from the one that the first count reaches. Repeats go round
 /// the counts, so that all see the same load of the machine.
 /// @throws InputError for a scene without dt
-BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repeats);
+BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repeats, BenchObserver& observer);
 
 }  // namespace vehd

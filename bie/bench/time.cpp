@@ -9,7 +9,6 @@
 #include <iterator>
 #include <numbers>
 
-#include "bie/support/progress.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/laboratory.hpp"
@@ -48,10 +47,12 @@ struct TimedRun {
   double raw_drift = 0.0;  ///< Σ |raw_area| per unit time
 };
 
-void run_once(const Scene& scene, const EventTimes& events, TimedRun& run) {
-  Progress progress(Progress::suitable_style(), 0.0, events.end_time);
+void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, BenchObserver& observer) {
   const Problem problem = problem_of(scene);
   const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [start] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
   evolution.evaluate_start();
@@ -62,8 +63,8 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run) {
     run.highest_order = std::max(run.highest_order, evolution.order());
     raw_area += std::abs(step.raw_area);
     const Diagnostics& now = evolution.evaluation().diagnostics;
-    progress.update({evolution.state().step, evolution.state().time, step.dt,
-                     std::max(std::abs(now.area_drift), std::abs(now.volume_drift))});
+    observer.status({evolution.state().step, 0.0, evolution.state().time, events.end_time, step.dt,
+                     std::max(std::abs(now.area_drift), std::abs(now.volume_drift)), elapsed()});
   }
   const Laboratory laboratory(problem.frame, problem.settings);
   const State state = resized(evolution.state(), problem.settings.order);
@@ -71,27 +72,27 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run) {
   run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields);
   run.n_steps = state.step;
   run.raw_drift = raw_area / events.end_time;
-  run.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  run.seconds.push_back(elapsed());
 }
 
-void run_to(const Scene& scene, const EventTimes& events, int repeats, TimedRun& run) {
-  while (wants_repeat(run.seconds, repeats)) run_once(scene, events, run);
+void run_to(const Scene& scene, const EventTimes& events, int repeats, TimedRun& run, BenchObserver& observer) {
+  while (wants_repeat(run.seconds, repeats)) run_once(scene, events, run, observer);
 }
 
-TimedRun fixed_run(Scene scene, double dt, int time_order, double at, int repeats) {
+TimedRun fixed_run(Scene scene, double dt, int time_order, double at, int repeats, BenchObserver& observer) {
   scene.numerics.tolerance.reset();
   scene.numerics.dt = dt;
   scene.numerics.time_order = time_order;
   TimedRun run{fmt::format("order {}", time_order), fmt::format("{:g}", dt), dt};
-  run_to(scene, {std::nullopt, at}, repeats, run);
+  run_to(scene, {std::nullopt, at}, repeats, run, observer);
   return run;
 }
 
-TimedRun adaptive_run(const TimeTask& task, double tolerance) {
+TimedRun adaptive_run(const TimeTask& task, double tolerance, BenchObserver& observer) {
   Scene asked = at_tolerance(task.scene, tolerance);
   asked.numerics.end_time = task.at;
   TimedRun run{"tolerance", fmt::format("{:.0e}", tolerance), {}, tolerance};
-  run_to(asked, {task.every, task.at}, task.repeats, run);
+  run_to(asked, {task.every, task.at}, task.repeats, run, observer);
   return run;
 }
 
@@ -159,11 +160,11 @@ std::vector<Quantity> shown_quantities() {
 }
 
 /// Values at each step size of one integrator; below them the order and the limit that the last three suggest.
-void add_values(BenchTable& table, const std::vector<TimedRun>& runs) {
+void add_values(BenchTable& table, const std::vector<TimedRun>& runs, BenchObserver& observer) {
   for (const TimedRun& run : runs) {
     std::vector<BenchCell> row{run.integrator, run.setting};
     for (const Quantity& quantity : shown_quantities()) row.emplace_back(run.diagnostics.*quantity.member);
-    add_row(table, std::move(row));
+    add_row(table, std::move(row), observer);
   }
   if (runs.size() < 3) return;
   std::vector<BenchCell> orders{runs.front().integrator, "observed order"};
@@ -181,8 +182,8 @@ void add_values(BenchTable& table, const std::vector<TimedRun>& runs) {
       limits.back() = fine + (fine - middle) / (ratio - 1.0);
     }
   }
-  add_row(table, std::move(orders));
-  add_row(table, std::move(limits));
+  add_row(table, std::move(orders), observer);
+  add_row(table, std::move(limits), observer);
 }
 
 BenchTable values_table() {
@@ -206,11 +207,11 @@ void require_falling(const TimeTask& task) {
   }
 }
 
-TimedRun reference_of_steps(const TimeTask& task, const std::vector<int>& time_orders) {
+TimedRun reference_of_steps(const TimeTask& task, const std::vector<int>& time_orders, BenchObserver& observer) {
   constexpr int kLowOrder = 2;
   const bool high = *std::max_element(time_orders.begin(), time_orders.end()) > kLowOrder;
   const double dt = high ? 0.5 * task.steps.back() : task.steps[task.steps.size() / 2];
-  return fixed_run(task.scene, dt, highest_time_order, task.at, 1);
+  return fixed_run(task.scene, dt, highest_time_order, task.at, 1, observer);
 }
 
 std::vector<BenchPanel> panels_of(const std::vector<std::string>& integrators) {
@@ -237,7 +238,7 @@ std::vector<BenchPanel> panels_of(const std::vector<std::string>& integrators) {
 
 }  // namespace
 
-BenchResult bench_time(const TimeTask& task) {
+BenchResult bench_time(const TimeTask& task, BenchObserver& observer) {
   require_falling(task);
   std::vector<int> time_orders = task.time_orders;
   if (time_orders.empty()) time_orders.push_back(task.scene.numerics.time_order);
@@ -246,17 +247,18 @@ BenchResult bench_time(const TimeTask& task) {
   std::vector<std::string> integrators;
   for (const int order : time_orders) {
     std::vector<TimedRun>& of_order = runs.emplace_back();
-    for (const double dt : task.steps) of_order.push_back(fixed_run(task.scene, dt, order, task.at, task.repeats));
+    for (const double dt : task.steps)
+      of_order.push_back(fixed_run(task.scene, dt, order, task.at, task.repeats, observer));
     integrators.push_back(of_order.front().integrator);
   }
   if (!task.tolerances.empty()) {
     std::vector<TimedRun>& adaptive = runs.emplace_back();
     for (const double tolerance : task.tolerances) {
-      adaptive.push_back(adaptive_run(task, tolerance));
+      adaptive.push_back(adaptive_run(task, tolerance, observer));
     }
     integrators.push_back(adaptive.front().integrator);
   } else {
-    runs.push_back({reference_of_steps(task, time_orders)});
+    runs.push_back({reference_of_steps(task, time_orders, observer)});
     runs.back().front().integrator = "reference (" + runs.back().front().integrator + ")";
   }
   const TimedRun& reference = runs.back().back();
@@ -265,15 +267,15 @@ BenchResult bench_time(const TimeTask& task) {
   result.facts = {{"time", task.at},
                   {"order", task.scene.numerics.order},
                   {"reference", reference.integrator + " " + reference.setting}};
-  fmt::print("time {}, errors against {} {}\n", task.at, reference.integrator, reference.setting);
-  announce(result.tables.front());
+  observer.note(fmt::format("time {}, errors against {} {}", task.at, reference.integrator, reference.setting));
+  observer.heading(result.tables.front());
   for (const auto& of_integrator : runs) {
-    for (const TimedRun& run : of_integrator) add_row(result.tables.front(), row_of(run, reference));
+    for (const TimedRun& run : of_integrator) add_row(result.tables.front(), row_of(run, reference), observer);
   }
   if (!task.steps.empty()) {
     result.tables.push_back(values_table());
-    announce(result.tables.back());
-    for (std::size_t i = 0; i < time_orders.size(); ++i) add_values(result.tables.back(), runs[i]);
+    observer.heading(result.tables.back());
+    for (std::size_t i = 0; i < time_orders.size(); ++i) add_values(result.tables.back(), runs[i], observer);
   }
   result.panels = panels_of(integrators);
   return result;

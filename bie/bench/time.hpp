@@ -23,6 +23,6 @@ struct TimeTask {
 /// The reference is the last tolerance; without any, a run of the highest order with half the smallest step where
 /// orders above 2 are compared, otherwise with the middle one. Errors are relative, those of angles in radians.
 /// @throws InputError, ConvergenceError
-BenchResult bench_time(const TimeTask& task);
+BenchResult bench_time(const TimeTask& task, BenchObserver& observer);
 
 }  // namespace vehd

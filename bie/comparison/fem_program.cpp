@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "bie/support/file_system.hpp"
 #include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/temporary.hpp"
 
 namespace vehd {

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "bie/files/run_reader.hpp"
 #include "bie/files/snapshot_choice.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/files/run_reader.hpp"
 #include "bie/stepping/stepper.hpp"
 #include "bie/support/errors.hpp"
 

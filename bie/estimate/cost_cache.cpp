@@ -55,9 +55,8 @@ void CostCache::keep(const std::string& name, const std::string& what, const nlo
   if (!entries.is_object() || entries.size() >= kMost) entries = nlohmann::json::object();
   entries[what] = entry;
   if (file_.empty()) return;
-  std::error_code ignored;
-  std::filesystem::create_directories(file_.parent_path(), ignored);
   try {
+    make_directory(file_.parent_path());
     replace_file(file_, content_.dump(1) + "\n");
   } catch (const OutputError&) {
   }

@@ -16,7 +16,7 @@ class CostCache {
   CostCache();
   explicit CostCache(std::filesystem::path file);
 
-  /// Entry of a name, e.g. "menu" of a scene. @param what  anything that identifies it
+  /// Entry of a name, e.g. "cost table" of a scene. @param what  anything that identifies it
   [[nodiscard]] std::optional<nlohmann::json> find(const std::string& name, const std::string& what) const;
   /// Everything is to be measured again.
   void forget() { content_["entries"] = nlohmann::json::object(); }

@@ -8,12 +8,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "bie/support/memory.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/composition.hpp"
 #include "bie/stepping/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/memory.hpp"
 
 namespace vehd {
 namespace {

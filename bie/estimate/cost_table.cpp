@@ -9,22 +9,22 @@
 #include <optional>
 
 #include "bie/estimate/cost_model.hpp"
-#include "bie/support/file_system.hpp"
 #include "bie/estimate/trial_run.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/stepping/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
 
-constexpr const char* kEntry = "menu";
+constexpr const char* kEntry = "cost table";
 
-/// What decides the menu: every key of the scene but those that a tolerance decides, the shape that it may read, and
-/// steps of pilots where they are counted.
-std::string identity_of(const Scene& scene, const std::vector<double>& tolerances, const MenuBudget& budget) {
+/// What decides the cost table: every key of the scene but those that a tolerance decides, the shape that it may read,
+/// and steps of trial runs where they are counted.
+std::string identity_of(const Scene& scene, const std::vector<double>& tolerances, const CostBudget& budget) {
   std::string text = effective_scene(at_tolerance(scene, tolerances.front()));
   for (const double tolerance : tolerances) text += fmt::format("# {:g}\n", tolerance);
   if (budget.steps) text += fmt::format("# {} steps\n", *budget.steps);
@@ -34,17 +34,17 @@ std::string identity_of(const Scene& scene, const std::vector<double>& tolerance
   return text + fmt::format("# {} bytes, {}\n", std::filesystem::file_size(scene.shape.path, ignored), written);
 }
 
-nlohmann::json json_of(const std::vector<MenuRow>& rows) {
+nlohmann::json json_of(const std::vector<CostRow>& rows) {
   nlohmann::json json = nlohmann::json::array();
-  for (const MenuRow& row : rows) {
+  for (const CostRow& row : rows) {
     json.push_back({row.tolerance, row.order, row.steps, row.seconds, row.memory_bytes, row.measured, row.stops});
   }
   return json;
 }
 
 /// Empty where the entry is not what is expected.
-std::vector<MenuRow> rows_of(const nlohmann::json& entry, std::size_t count) {
-  std::vector<MenuRow> rows;
+std::vector<CostRow> rows_of(const nlohmann::json& entry, std::size_t count) {
+  std::vector<CostRow> rows;
   try {
     for (const auto& row : entry) {
       rows.push_back({row.at(0), row.at(1), row.at(2), row.at(3), row.at(4), row.at(5), row.at(6)});
@@ -52,49 +52,49 @@ std::vector<MenuRow> rows_of(const nlohmann::json& entry, std::size_t count) {
   } catch (const nlohmann::json::exception&) {
     return {};
   }
-  return rows.size() == count ? rows : std::vector<MenuRow>();
+  return rows.size() == count ? rows : std::vector<CostRow>();
 }
 
-/// Seconds that the model gives to the steps that a pilot took.
-double model_seconds(const Pilot& pilot, const CostModel& model) {
+/// Seconds that the model gives to the steps that a trial run took.
+double model_seconds(const TrialRun& trial, const CostModel& model) {
   double seconds = 0.0;
-  for (const PilotStep& step : pilot.steps) {
-    seconds += step.attempts * evaluations_per_step(pilot.time_order) * model.seconds_per_shape(step.order);
+  for (const TrialStep& step : trial.steps) {
+    seconds += step.attempts * evaluations_per_step(trial.time_order) * model.seconds_per_shape(step.order);
   }
   return seconds;
 }
 
-/// What pilots tell of tighter tolerances beside the steps of the last of them.
+/// What trial runs tell of tighter tolerances beside the steps of the last of them.
 struct Trend {
   int degrees_per_digit = 4;    ///< that runs take, at most
-  std::optional<double> order;  ///< in dt, at the steps of the pilots; nothing: that of the scheme
+  std::optional<double> order;  ///< in dt, at the steps of the trial runs; nothing: that of the scheme
 };
 
 /// Charging and other stiff motions follow long steps with a lower order than that of the scheme, and come to it as
 /// steps shrink: the order over that many digits.
-double order_over(double digits, const Pilot& pilot, int time_order, const Trend& trend) {
+double order_over(double digits, const TrialRun& trial, int time_order, const Trend& trend) {
   if (!trend.order) return time_order;
-  const double measured = *trend.order + time_order - pilot.time_order;
+  const double measured = *trend.order + time_order - trial.time_order;
   return measured + (time_order - measured) * (1.0 - 1.0 / std::max(1.0, digits));
 }
 
-/// The menu's row for the tolerance of that index, from the steps of a pilot with a looser one.
-MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<double>& tolerances, std::size_t index,
-                 const CostModel& model, const Trend& trend) {
+/// The cost table's row for the tolerance of that index, from the steps of a trial run with a looser one.
+CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vector<double>& tolerances,
+                      std::size_t index, const CostModel& model, const Trend& trend) {
   constexpr double kSafety = 0.85;  // as steps are chosen
   constexpr double kLongest = 4.0;  // beyond that a change says nothing any more
-  MenuRow row;
+  CostRow row;
   row.tolerance = tolerances[index];
   const int time_order = accuracy_defaults(row.tolerance).time_order;
   const double largest = step_control_of(at_tolerance(scene, row.tolerance)).largest;
-  const double digits = std::log10(pilot.tolerance / row.tolerance);
-  const double order_in_dt = order_over(digits, pilot, time_order, trend);
-  const int highest = pilot.highest_order + static_cast<int>(std::lround(digits * trend.degrees_per_digit));
+  const double digits = std::log10(trial.tolerance / row.tolerance);
+  const double order_in_dt = order_over(digits, trial, time_order, trend);
+  const int highest = trial.highest_order + static_cast<int>(std::lround(digits * trend.degrees_per_digit));
   const double attempts =
-      static_cast<double>(std::accumulate(pilot.steps.begin(), pilot.steps.end(), 0,
-                                          [](int sum, const PilotStep& step) { return sum + step.attempts; })) /
-      static_cast<double>(std::max<std::size_t>(1, pilot.steps.size()));
-  int order = 0, pilot_order = 0;
+      static_cast<double>(std::accumulate(trial.steps.begin(), trial.steps.end(), 0,
+                                          [](int sum, const TrialStep& step) { return sum + step.attempts; })) /
+      static_cast<double>(std::max<std::size_t>(1, trial.steps.size()));
+  int order = 0, trial_order = 0;
   double steps = 0.0, seconds = 0.0;
   struct {
     double steps = 0.0, seconds = 0.0;
@@ -106,13 +106,13 @@ MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<doubl
     seconds += interval.steps > 0.0 ? interval.seconds * whole / interval.steps : 0.0;
     interval = {};
   };
-  for (const PilotStep& step : pilot.steps) {
+  for (const TrialStep& step : trial.steps) {
     const double room = step.change > 0.0 ? std::pow(row.tolerance / step.change, 1.0 / order_in_dt) : kLongest;
     const double size = std::min(largest, step.dt * kSafety * std::min(room, kLongest));
     const double share = step.dt / size;
-    // Runs lower their degree only where it has long been idle, at other tolerances about where the pilot did.
-    if (step.order < pilot_order) order = 0;
-    pilot_order = step.order;
+    // Runs lower their degree only where it has long been idle, at other tolerances about where the trial run did.
+    if (step.order < trial_order) order = 0;
+    trial_order = step.order;
     order = std::max({order, step.order, std::min(step.orders[index], highest)});
     interval.steps += share;
     interval.seconds += share * attempts * evaluations_per_step(time_order) * model.seconds_per_shape(order);
@@ -120,7 +120,7 @@ MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<doubl
     if (step.at_snapshot) close();
   }
   close();
-  const double covered = pilot.steps.empty() ? 1.0 : pilot.steps.back().time / scene.numerics.end_time;
+  const double covered = trial.steps.empty() ? 1.0 : trial.steps.back().time / scene.numerics.end_time;
   row.steps = std::llround(steps / covered);
   row.seconds = seconds / covered;
   return row;
@@ -128,27 +128,27 @@ MenuRow foretold(const Scene& scene, const Pilot& pilot, const std::vector<doubl
 
 /// Files of a run beside its steps: each snapshot is written in the highest degree. Measured once, 2.5 ms a snapshot at
 /// p = 16 and 6.5 ms at p = 40: a small share of any run.
-double file_seconds(const Scene& scene, const MenuRow& row) {
+double file_seconds(const Scene& scene, const CostRow& row) {
   constexpr double kPerRow = 2e-4, kPerSnapshot = 2e-3, kPerPoint = 1.4e-6;
   const double snapshots = 2.0 + (scene.output.every ? scene.numerics.end_time / *scene.output.every : 0.0);
   const double order = accuracy_defaults(row.tolerance).order;
   return kPerRow * static_cast<double>(row.steps) + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
 }
 
-/// Degrees that a pilot needed more than the first of all, for every digit between them. The tail of a spectrum that
-/// is cut falls more slowly than the degrees beyond it, so what it foretells for many digits is too much.
-int degrees_per_digit(const MenuRow& first, const Pilot& pilot) {
+/// Degrees that a trial run needed more than the first of all, for every digit between them. The tail of a spectrum
+/// that is cut falls more slowly than the degrees beyond it, so what it predicts for many digits is too much.
+int degrees_per_digit(const CostRow& first, const TrialRun& trial) {
   constexpr double kLeast = 4.0;
-  const double more = pilot.highest_order - first.order;
-  return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(first.tolerance / pilot.tolerance))));
+  const double more = trial.highest_order - first.order;
+  return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(first.tolerance / trial.tolerance))));
 }
 
-/// Means over the time of a pilot.
+/// Means over the time of a trial run.
 struct MeanLogarithms {
   double dt = 0.0, change = 0.0;
-  explicit MeanLogarithms(const Pilot& pilot) {
+  explicit MeanLogarithms(const TrialRun& trial) {
     double whole = 0.0;
-    for (const PilotStep& step : pilot.steps) {
+    for (const TrialStep& step : trial.steps) {
       if (step.change <= 0.0) continue;
       whole += step.dt;
       dt += step.dt * std::log(step.dt);
@@ -160,42 +160,42 @@ struct MeanLogarithms {
   }
 };
 
-/// Order in dt of the changes of two pilots of one time order, whose steps differ enough.
-std::optional<double> order_between(const Pilot& pilot, const Pilot& next) {
+/// Order in dt of the changes of two trial runs of one time order, whose steps differ enough.
+std::optional<double> order_between(const TrialRun& trial, const TrialRun& next) {
   constexpr double kLeastRatio = 1.3;
-  const MeanLogarithms coarse(pilot), fine(next);
-  if (pilot.time_order != next.time_order || coarse.dt - fine.dt < std::log(kLeastRatio)) return std::nullopt;
+  const MeanLogarithms coarse(trial), fine(next);
+  if (trial.time_order != next.time_order || coarse.dt - fine.dt < std::log(kLeastRatio)) return std::nullopt;
   return std::clamp((coarse.change - fine.change) / (coarse.dt - fine.dt), 1.0, static_cast<double>(next.time_order));
 }
 
 /// Rows without any cost.
-std::vector<MenuRow> stopping_rows(const std::vector<double>& tolerances, const std::string& reason) {
-  std::vector<MenuRow> rows;
+std::vector<CostRow> stopping_rows(const std::vector<double>& tolerances, const std::string& reason) {
+  std::vector<CostRow> rows;
   for (const double tolerance : tolerances) rows.push_back({.tolerance = tolerance, .stops = reason});
   return rows;
 }
 
-/// What is left of a budget for pilots.
+/// What is left of a budget for trial runs.
 class BudgetLeft {
  public:
-  explicit BudgetLeft(const MenuBudget& budget) : budget_(budget) {}
+  explicit BudgetLeft(const CostBudget& budget) : budget_(budget) {}
 
-  [[nodiscard]] PilotBudget of_first_pilot() const {
-    if (budget_.steps) return of_pilot();
-    return {.seconds = std::max(seconds(), budget_.first_pilot)};
+  [[nodiscard]] TrialBudget of_first_trial() const {
+    if (budget_.steps) return of_trial();
+    return {.seconds = std::max(seconds(), budget_.first_trial)};
   }
-  [[nodiscard]] PilotBudget of_pilot() const {
+  [[nodiscard]] TrialBudget of_trial() const {
     if (budget_.steps) return {.steps = steps()};
     return {.seconds = seconds()};
   }
   [[nodiscard]] bool any() const { return budget_.steps ? steps() > 0 : seconds() > 0.0; }
-  /// Whether a pilot for which that was predicted may well reach its end: it often takes less than what one with a
+  /// Whether a trial run for which that was predicted may well reach its end: it often takes less than what one with a
   /// tenth of the accuracy predicts.
-  [[nodiscard]] bool may_do(const MenuRow& predicted) const {
+  [[nodiscard]] bool may_do(const CostRow& predicted) const {
     constexpr double kDoubt = 3.0;
     return budget_.steps ? double(predicted.steps) < kDoubt * double(steps()) : predicted.seconds < kDoubt * seconds();
   }
-  void take(const Pilot& pilot) { taken_ += std::ssize(pilot.steps); }
+  void take(const TrialRun& trial) { taken_ += std::ssize(trial.steps); }
 
  private:
   [[nodiscard]] std::int64_t steps() const { return *budget_.steps - taken_; }
@@ -203,55 +203,55 @@ class BudgetLeft {
     return budget_.seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  MenuBudget budget_;
+  CostBudget budget_;
   std::int64_t taken_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
-                                   const MenuBudget& budget) {
+std::vector<CostRow> measured_table(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
+                                    const CostBudget& budget) {
   BudgetLeft left(budget);
   const CostModel model = cost_model_of(scene, budget.model_seconds, cache);
-  std::vector<MenuRow> rows;
-  Pilot pilot;
+  std::vector<CostRow> rows;
+  TrialRun trial;
   double ratio = 1.0;  // of this scene to others of its kind
   Trend trend;
   bool running = true;
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     // What stops at one tolerance may well go on at the next, and says nothing of its cost.
-    const bool foretells = pilot.stops.empty() && !pilot.steps.empty();
-    if (running && foretells) {
-      MenuRow predicted = foretold(scene, pilot, tolerances, i, model, trend);
+    const bool predicts = trial.stops.empty() && !trial.steps.empty();
+    if (running && predicts) {
+      CostRow predicted = predicted_row(scene, trial, tolerances, i, model, trend);
       predicted.seconds *= ratio;
       running = left.may_do(predicted);
     } else if (running && i > 0) {
       running = left.any();
     }
     if (running) {
-      Pilot next = run_pilot(scene, tolerances[i], tolerances, i > 0 ? left.of_pilot() : left.of_first_pilot());
+      TrialRun next = run_trial(scene, tolerances[i], tolerances, i > 0 ? left.of_trial() : left.of_first_trial());
       left.take(next);
       running = next.completed || !next.stops.empty();
-      if (foretells && next.completed) {
-        const auto first = std::ranges::find_if(rows, [](const MenuRow& row) { return row.stops.empty(); });
-        trend = {degrees_per_digit(*first, next), order_between(pilot, next)};
+      if (predicts && next.completed) {
+        const auto first = std::ranges::find_if(rows, [](const CostRow& row) { return row.stops.empty(); });
+        trend = {degrees_per_digit(*first, next), order_between(trial, next)};
       }
-      if (!foretells || next.completed || !next.stops.empty()) pilot = std::move(next);
-      if (const double expected = model_seconds(pilot, model); expected > 0.0) ratio = pilot.seconds / expected;
+      if (!predicts || next.completed || !next.stops.empty()) trial = std::move(next);
+      if (const double expected = model_seconds(trial, model); expected > 0.0) ratio = trial.seconds / expected;
     }
-    MenuRow row;
+    CostRow row;
     row.tolerance = tolerances[i];
-    row.stops = pilot.stops;
+    row.stops = trial.stops;
     if (!row.stops.empty()) {
       rows.push_back(row);
       continue;
     }
     if (running) {
       row.measured = true;
-      row.seconds = pilot.seconds;
-      row.steps = static_cast<std::int64_t>(pilot.steps.size());
-      row.order = pilot.highest_order;
+      row.seconds = trial.seconds;
+      row.steps = static_cast<std::int64_t>(trial.steps.size());
+      row.order = trial.highest_order;
     } else {
-      row = foretold(scene, pilot, tolerances, i, model, trend);
+      row = predicted_row(scene, trial, tolerances, i, model, trend);
       row.seconds *= ratio;
       // A tighter tolerance is never cheaper.
       if (i > 0) {
@@ -263,17 +263,17 @@ std::vector<MenuRow> measured_menu(const Scene& scene, const std::vector<double>
     row.memory_bytes = static_cast<std::int64_t>(model.bytes(row.order));
     rows.push_back(row);
   }
-  for (MenuRow& row : rows) {
+  for (CostRow& row : rows) {
     if (row.stops.empty()) row.seconds += file_seconds(scene, row);
   }
   return rows;
 }
 
 /// The same, or rows that say why no step could be timed.
-std::vector<MenuRow> menu_or_reason(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
-                                    const MenuBudget& budget) {
+std::vector<CostRow> table_or_reason(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
+                                     const CostBudget& budget) {
   try {
-    return measured_menu(scene, tolerances, cache, budget);
+    return measured_table(scene, tolerances, cache, budget);
   } catch (const ConvergenceError& error) {
     return stopping_rows(tolerances, error.what());
   }
@@ -281,13 +281,13 @@ std::vector<MenuRow> menu_or_reason(const Scene& scene, const std::vector<double
 
 }  // namespace
 
-std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
-                             const MenuBudget& budget) {
+std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
+                                   const CostBudget& budget) {
   const std::string identity = identity_of(scene, tolerances, budget);
   if (const auto entry = cache.find(kEntry, identity)) {
-    if (std::vector<MenuRow> rows = rows_of(*entry, tolerances.size()); !rows.empty()) return rows;
+    if (std::vector<CostRow> rows = rows_of(*entry, tolerances.size()); !rows.empty()) return rows;
   }
-  std::vector<MenuRow> rows = menu_or_reason(scene, tolerances, cache, budget);
+  std::vector<CostRow> rows = table_or_reason(scene, tolerances, cache, budget);
   cache.keep(kEntry, identity, json_of(rows));
   return rows;
 }

@@ -11,7 +11,7 @@
 namespace vehd {
 
 /// What one accuracy costs.
-struct MenuRow {
+struct CostRow {
   double tolerance = 0.0;
   int order = 0;           ///< highest degree that the run takes
   std::int64_t steps = 0;  ///< accepted ones
@@ -23,23 +23,23 @@ struct MenuRow {
   std::string stops;
 };
 
-/// What measuring a menu may take.
-struct MenuBudget {
+/// What measuring a cost table may take.
+struct CostBudget {
   double seconds = 9.0;        ///< in which everything has to be done
   double model_seconds = 3.5;  ///< that the cost model may take of them
-  double first_pilot = 2.0;    ///< seconds that the first pilot has in any case: without it there is no menu
-  /// Accepted steps of all pilots together. They take the place of the seconds of pilots, and the degrees and steps of
-  /// the menu are the same however fast the machine is.
+  double first_trial = 2.0;    ///< seconds that the first trial run has in any case: without it there is no cost table
+  /// Accepted steps of all trial runs together. They take the place of the seconds of trial runs, and the degrees and
+  /// steps of the cost table are the same however fast the machine is.
   std::optional<std::int64_t> steps{};
 };
 
 /// Cost of a scene at the given tolerances, falling, in less than ten seconds; at once if the cache has it. The loosest
-/// ones are run to the end, as long as the budget allows. The last of these foretells the others: where one step of it
+/// ones are run to the end, as long as the budget allows. The last of these predicts the others: where one step of it
 /// was changed by its last correction by e, a tolerance T allows a step of (T/e)^(1/order) its size, and the spectrum
 /// there says which degree T needs; each step costs what the cost model says at that degree. From two of them come the
 /// order that such steps really have and the most degrees that another digit takes. Degree and time order of the scene
 /// are left to each tolerance.
-std::vector<MenuRow> menu_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
-                             const MenuBudget& budget = {});
+std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
+                                   const CostBudget& budget = {});
 
 }  // namespace vehd

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "bie/estimate/cost_table.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
@@ -37,13 +36,5 @@ struct RunPlan {
 
 /// Everything that follows from the scene alone; costs are left at zero.
 RunPlan plan_of(const Scene& scene);
-
-/// Adds cost. Without a tolerance: seconds per step and memory from a short run of the scene, files included, in a
-/// temporary folder; where steps cannot be taken that is the finding. Orders above 32 are timed at 32 and scaled with
-/// the growth of assembly, p^5, and of operators, p^4. With a tolerance: steps, seconds and memory that whole runs with
-/// looser tolerances lead to expect, see menu_of.
-/// @param budget  of the looser runs
-/// @throws OutputError
-void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache, const MenuBudget& budget = {});
 
 }  // namespace vehd

@@ -14,48 +14,48 @@ namespace vehd {
 namespace {
 
 /// Takes steps to the end of the scene or as long as the budget lasts, one at least.
-/// @throws ConvergenceError where none is acceptable; the pilot has those before it
+/// @throws ConvergenceError where none is acceptable; the trial run has those before it
 template <typename InBudget>
-void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget, Pilot& pilot) {
+void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget, TrialRun& trial) {
   const Problem problem = problem_of(scene);
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
   evolution.evaluate_start();
-  pilot.highest_order = evolution.order();
+  trial.highest_order = evolution.order();
   const double end = scene.numerics.end_time;
-  while (evolution.state().time < end && (pilot.steps.empty() || in_budget())) {
+  while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
     const EvolutionStep step = evolution.step({scene.output.every, end});
-    PilotStep record{evolution.state().time, step.dt,          step.change, step.rejected + 1,
+    TrialStep record{evolution.state().time, step.dt,          step.change, step.rejected + 1,
                      evolution.order(),      step.at_snapshot, {}};
-    pilot.highest_order = std::max(pilot.highest_order, evolution.order());
+    trial.highest_order = std::max(trial.highest_order, evolution.order());
     const Resolution resolution(problem.model, evolution.state());
     for (const double wanted : tolerances) {
       record.orders.push_back(
           resolution.order_for(truncation_share * wanted, lowest_adaptive_order, accuracy_defaults(wanted).order));
     }
-    pilot.steps.push_back(std::move(record));
+    trial.steps.push_back(std::move(record));
   }
-  pilot.completed = evolution.state().time >= end;
+  trial.completed = evolution.state().time >= end;
 }
 
 }  // namespace
 
-Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
-                const PilotBudget& budget) {
+TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
+                   const TrialBudget& budget) {
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const Scene asked = at_tolerance(scene, tolerance);
-  Pilot pilot;
-  pilot.tolerance = tolerance;
-  pilot.time_order = asked.numerics.time_order;
-  const auto in_budget = [&] { return std::ssize(pilot.steps) < budget.steps && spent() < budget.seconds; };
+  TrialRun trial;
+  trial.tolerance = tolerance;
+  trial.time_order = asked.numerics.time_order;
+  const auto in_budget = [&] { return std::ssize(trial.steps) < budget.steps && spent() < budget.seconds; };
   try {
-    take_steps(asked, tolerances, in_budget, pilot);
+    take_steps(asked, tolerances, in_budget, trial);
   } catch (const ConvergenceError& error) {
-    pilot.stops = error.what();
+    trial.stops = error.what();
   }
-  pilot.seconds = spent();
-  return pilot;
+  trial.seconds = spent();
+  return trial;
 }
 
 }  // namespace vehd

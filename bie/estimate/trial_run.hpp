@@ -9,8 +9,8 @@
 
 namespace vehd {
 
-/// One accepted step of a pilot run and what it foretells.
-struct PilotStep {
+/// One accepted step of a trial run and what it predicts.
+struct TrialStep {
   double time = 0.0;  ///< at its end
   double dt = 0.0;
   double change = 0.0;  ///< see StepResult
@@ -21,24 +21,25 @@ struct PilotStep {
 };
 
 /// A run with one tolerance, without files.
-struct Pilot {
+struct TrialRun {
   double tolerance = 0.0;
   int time_order = 0;
   int highest_order = 0;
   bool completed = false;  ///< reached the end of the scene
   std::string stops;       ///< why no further step could be taken; empty where that is not what ended it
   double seconds = 0.0;
-  std::vector<PilotStep> steps;
+  std::vector<TrialStep> steps;
 };
 
-/// Where a pilot stops before the end of its scene: at whichever comes first, after one step at the earliest. Steps are
-/// the same on every machine.
-struct PilotBudget {
+/// Where a trial run stops before the end of its scene: at whichever comes first, after one step at the earliest. Steps
+/// are the same on every machine.
+struct TrialBudget {
   double seconds = std::numeric_limits<double>::infinity();
   std::int64_t steps = std::numeric_limits<std::int64_t>::max();  ///< accepted ones
 };
 
 /// @param tolerances  for which degrees are predicted from the spectrum of each state
-Pilot run_pilot(const Scene& scene, double tolerance, const std::vector<double>& tolerances, const PilotBudget& budget);
+TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
+                   const TrialBudget& budget);
 
 }  // namespace vehd

@@ -2,8 +2,10 @@
 
 #include <hdf5.h>
 
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace vehd {
 
@@ -47,5 +49,8 @@ inline void silence_hdf5() {
 
 /// Deepest message of the library's error stack, for the end of an error line.
 std::string last_hdf5_error();
+
+/// Names of the members of a group in ascending order; nothing if the group cannot be read.
+std::optional<std::vector<std::string>> hdf5_members(hid_t file, const std::string& group);
 
 }  // namespace vehd

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <utility>
 
 #include "bie/support/errors.hpp"
 
@@ -15,32 +14,7 @@ namespace {
 constexpr hsize_t most_values = hsize_t{1} << 21;
 constexpr std::size_t longest_text = std::size_t{1} << 24;
 
-herr_t keep_description(unsigned, const H5E_error2_t* error, void* data) {
-  if (error->desc != nullptr) *static_cast<std::string*>(data) = error->desc;
-  return 0;
-}
-
-herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
-  static_cast<std::vector<std::string>*>(data)->emplace_back(name);
-  return 0;
-}
-
 }  // namespace
-
-std::string last_hdf5_error() {
-  std::string description;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &description);
-  // Of a failed system call the reason alone, without time, descriptor and addresses, which fill several lines.
-  const std::string mark = "error message = '";
-  if (const std::size_t start = description.find(mark); start != std::string::npos) {
-    description = description.substr(start + mark.size());
-    description.erase(std::min(description.find('\''), description.size()));
-  }
-  std::replace(description.begin(), description.end(), '\n', ' ');
-  if (!description.empty()) return description;
-  // The library keeps nothing of what fails before it has begun to read or write.
-  return errno != 0 ? std::strerror(errno) : "no details";
-}
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
   silence_hdf5();
@@ -80,13 +54,9 @@ bool Hdf5Reader::has(const std::string& object) const {
 }
 
 std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
-  std::vector<std::string> names;
-  const Hdf5Handle handle(H5Gopen2(file_.id(), group.c_str(), H5P_DEFAULT), H5Gclose);
-  if (!handle.valid() || H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0) {
-    refuse(fmt::format("group {} is missing or damaged", group));
-  }
-  std::sort(names.begin(), names.end());
-  return names;
+  auto names = hdf5_members(file_.id(), group);
+  if (!names) refuse(fmt::format("group {} is missing or damaged", group));
+  return std::move(*names);
 }
 
 Hdf5Reader::OpenDataset Hdf5Reader::open_numbers(const std::string& dataset) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include "bie/support/errors.hpp"
 
@@ -15,11 +16,6 @@ constexpr hsize_t page_bytes = 1 << 16;
 constexpr std::size_t buffered_pages = 16;
 /// What a file in memory grows by: it is cleared, and written up to the next multiple.
 constexpr std::size_t memory_step = 1 << 14;
-
-herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
-  static_cast<std::vector<std::string>*>(data)->emplace_back(name);
-  return 0;
-}
 
 Hdf5Handle text_type(std::size_t length) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -170,13 +166,9 @@ void Hdf5Writer::write_attribute(const std::string& object, const std::string& n
 }
 
 std::vector<std::string> Hdf5Writer::members(const std::string& group_path) const {
-  std::vector<std::string> names;
-  const Hdf5Handle handle(H5Gopen2(file_.id(), group_path.c_str(), H5P_DEFAULT), H5Gclose);
-  if (!handle.valid() || H5Literate(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0) {
-    fail(fmt::format("group {} cannot be read", group_path));
-  }
-  std::sort(names.begin(), names.end());
-  return names;
+  auto names = hdf5_members(file_.id(), group_path);
+  if (!names) fail(fmt::format("group {} cannot be read", group_path));
+  return std::move(*names);
 }
 
 std::string Hdf5Writer::image() const {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "bie/sphere/surface_mesh.hpp"
 #include "bie/files/versions.hpp"
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/surface_mesh.hpp"
 #include "bie/support/checksum.hpp"
 
 namespace vehd {
@@ -58,8 +58,7 @@ void write_coefficient_convention(Hdf5Writer& file, int order) {
 /// One snapshot under construction: each field is written on the grid, as coefficients and on the closed surface.
 class SnapshotWriter {
  public:
-  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
-                 const SiScale& si_scale)
+  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform, const SiScale& si_scale)
       : file_(file), group_("/snapshots/" + name), transform_(transform), si_scale_(si_scale) {
     file_.group(group_);
     file_.group(group_ + "/coefficients");

@@ -5,9 +5,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "bie/support/file_system.hpp"
 #include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/temporary.hpp"
 
 namespace vehd {

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bie/support/file_system.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/renderer.hpp"
-#include "bie/sphere/surface_mesh.hpp"
-#include "bie/files/run_reader.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/surface_mesh.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/temporary.hpp"
 
 namespace vehd {

@@ -4,6 +4,7 @@
 
 #include "bie/runs/history.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 
@@ -11,9 +12,7 @@ std::vector<std::filesystem::path> plot_run(const PlotTask& task) {
   if (!std::filesystem::exists(task.paths.snapshots())) {
     throw InputError(fmt::format("{}: holds no run (no run.h5)", task.paths.directory.string()));
   }
-  std::error_code error;
-  std::filesystem::create_directories(task.output, error);
-  if (error) throw InputError(fmt::format("{}: cannot be written: {}", task.output.string(), error.message()));
+  make_directory(task.output);
   std::vector<std::filesystem::path> pictures = {task.output / "shapes.png"};
   plot_shapes(task, pictures.back());
   if (HistoryTable(task.paths.history()).n_rows() > 1) {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "bie/runs/run_directory.hpp"
 #include "bie/files/snapshot_choice.hpp"
+#include "bie/runs/run_directory.hpp"
 
 namespace vehd {
 

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bie/support/file_system.hpp"
+#include "bie/files/hdf5_reader.hpp"
 #include "bie/files/hdf5_writer.hpp"
 #include "bie/files/sealed_file.hpp"
-#include "bie/files/hdf5_reader.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {

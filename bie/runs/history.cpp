@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
 
+#include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -39,11 +41,13 @@ constexpr std::array diagnostic_columns = {
 };
 
 std::string header() {
-  std::string line = "time,dt";
-  for (const DiagnosticColumn& column : diagnostic_columns) line += fmt::format(",{}", column.name);
-  return line +
-         ",iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation,raw_area,"
-         "wrinkle_degree\n";
+  std::vector<std::string> names{"time", "dt"};
+  for (const DiagnosticColumn& column : diagnostic_columns) names.emplace_back(column.name);
+  for (const char* name : {"iterations_flow", "iterations_electric", "rejected", "order", "truncation", "change",
+                           "quadrature_error", "separation", "raw_area", "wrinkle_degree"}) {
+    names.emplace_back(name);
+  }
+  return csv_line(names);
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
@@ -54,18 +58,6 @@ Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
     bytes -= stream.gcount();
   }
   return checksum;
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char letter : line) {
-    if (letter == ',') {
-      cells.emplace_back();
-    } else if (letter != '\r') {
-      cells.back() += letter;
-    }
-  }
-  return cells;
 }
 
 }  // namespace
@@ -104,15 +96,19 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_by
 }
 
 void HistoryFile::append(const HistoryRow& row) {
-  std::string line = fmt::format("{:.17g},{:.17g}", row.time, row.step.dt);
-  for (const DiagnosticColumn& column : diagnostic_columns) {
-    line += fmt::format(",{:.17g}", row.diagnostics.*column.member);
-  }
+  std::vector<std::string> cells;
+  const auto number = [&cells](double value) { cells.push_back(fmt::format("{:.17g}", value)); };
+  const auto count = [&cells](std::int64_t value) { cells.push_back(std::to_string(value)); };
   const EvolutionStep& step = row.step;
-  write(line + fmt::format(",{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", step.iterations_flow,
-                           step.iterations_electric, step.rejected, row.order, row.truncation, step.change,
-                           row.diagnostics.quadrature_error, row.diagnostics.separation, step.raw_area,
-                           row.diagnostics.wrinkle_degree));
+  number(row.time);
+  number(step.dt);
+  for (const DiagnosticColumn& column : diagnostic_columns) number(row.diagnostics.*column.member);
+  for (const int value : {step.iterations_flow, step.iterations_electric, step.rejected, row.order}) count(value);
+  for (const double value : {row.truncation, step.change, row.diagnostics.quadrature_error, row.diagnostics.separation,
+                             step.raw_area, row.diagnostics.wrinkle_degree}) {
+    number(value);
+  }
+  write(csv_line(cells));
 }
 
 void HistoryFile::write(const std::string& text) {
@@ -137,10 +133,10 @@ HistoryTable::HistoryTable(const std::filesystem::path& path) {
 HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::move(name)) {
   std::string line;
   if (!std::getline(stream, line)) throw InputError(fmt::format("{}: no such file or empty", file_));
-  names_ = split(line);
+  names_ = csv_cells(line);
   columns_.resize(names_.size());
   while (std::getline(stream, line)) {
-    const std::vector<std::string> cells = split(line);
+    const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != names_.size()) {
       throw InputError(
           fmt::format("{}:{}: has {} columns; accepted: {}", file_, n_rows_ + 2, cells.size(), names_.size()));
@@ -153,6 +149,15 @@ HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::
 std::int64_t HistoryTable::n_steps() const {
   const std::vector<double>& sizes = column("dt");
   return std::count_if(sizes.begin(), sizes.end(), [](double dt) { return dt > 0.0; });
+}
+
+double HistoryTable::largest_magnitude(const std::string& name) const {
+  double largest = 0.0;
+  for (const double value : column(name)) {
+    if (std::isnan(value)) return value;
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest;
 }
 
 const std::vector<double>& HistoryTable::column(const std::string& name) const {

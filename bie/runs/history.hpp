@@ -60,6 +60,8 @@ class HistoryTable {
   /// Steps that the rows tell of: neither the start nor the other side of a jump took one.
   /// @throws InputError if there is no column of step sizes
   [[nodiscard]] std::int64_t n_steps() const;
+  /// Largest magnitude in a column, 0 of none; not a number where there is one. @throws InputError as `column`
+  [[nodiscard]] double largest_magnitude(const std::string& name) const;
   /// @throws InputError if there is no such column
   [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
 

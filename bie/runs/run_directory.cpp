@@ -28,15 +28,6 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& lock_file)
 
 DirectoryLock::~DirectoryLock() { ::close(descriptor_); }
 
-void make_run_directory(const RunPaths& paths) {
-  std::error_code error;
-  std::filesystem::create_directories(paths.directory, error);
-  if (error || !std::filesystem::is_directory(paths.directory)) {
-    throw InputError(fmt::format("{}: cannot be used as output directory: {}", paths.directory.string(),
-                                 error ? error.message() : "not a directory"));
-  }
-}
-
 bool admit_run(const RunPaths& paths, bool resume) {
   const bool resumable = std::filesystem::exists(paths.checkpoint());
   if (resume && resumable) return true;

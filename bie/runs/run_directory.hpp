@@ -31,9 +31,6 @@ class DirectoryLock {
   int descriptor_ = -1;
 };
 
-/// Creates the directory with its parents. @throws InputError
-void make_run_directory(const RunPaths& paths);
-
 /// Nothing of a former run is ever overwritten: refuses a directory that holds files of a run, unless these can be
 /// resumed and `resume` asks for it. @throws InputError
 /// @return whether there is a run to resume

@@ -9,13 +9,13 @@
 #include <optional>
 #include <vector>
 
-#include "bie/support/errors.hpp"
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_recorder.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evolution.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -25,9 +25,14 @@ class WorkMeter {
  public:
   WorkMeter(RunTotals before, const Instruments& instruments) : before_(std::move(before)), instruments_(instruments) {}
 
+  /// Of this session.
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
   [[nodiscard]] RunTotals totals() const {
     RunTotals totals = before_;
-    totals.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    totals.seconds += seconds();
     for (const auto& [name, count] : instruments_.kernel_evaluations()) totals.kernel_evaluations[name] += count;
     for (const auto& [name, seconds] : instruments_.seconds()) totals.seconds_of_parts[name] += seconds;
     return totals;
@@ -49,7 +54,8 @@ class Simulation {
         meter_(start_.totals, instruments_),
         recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_)),
         after_step_(task.after_step),
-        progress_(task.progress, evolution_.state().time, task.scene.numerics.end_time) {}
+        tell_(task.tell),
+        start_time_(evolution_.state().time) {}
 
   RunOutcome run(Interruption& interruption) {
     RunOutcome outcome;
@@ -60,7 +66,6 @@ class Simulation {
     } catch (const OutputError& error) {
       outcome = {.completed = false, .reason = error.what()};
     }
-    progress_.finish();
     return outcome;
   }
 
@@ -141,7 +146,7 @@ class Simulation {
     const Diagnostics& diagnostics = evolution_.evaluation().diagnostics;
     recorder_.record(state, sides_of(step), meter_.totals());
     const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
-    progress_.update({state.step, state.time, step.dt, drift});
+    if (tell_) tell_({state.step, start_time_, state.time, scene_.numerics.end_time, step.dt, drift, meter_.seconds()});
   }
 
   const Scene& scene_;
@@ -152,7 +157,8 @@ class Simulation {
   WorkMeter meter_;
   RunRecorder recorder_;
   const std::function<void()>& after_step_;
-  Progress progress_;
+  const TellStatus& tell_;
+  double start_time_;
 };
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "bie/runs/checkpoint.hpp"
-#include "bie/support/interruption.hpp"
-#include "bie/support/progress.hpp"
 #include "bie/runs/run_directory.hpp"
+#include "bie/runs/run_status.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/support/interruption.hpp"
 
 namespace vehd {
 
@@ -23,8 +23,8 @@ struct RunTask {
   const Scene& scene;
   const RunPaths& paths;
   const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
-  Progress::Style progress = Progress::Style::none;
-  std::function<void()> after_step{};  ///< called when a step is in the files; may be empty
+  TellStatus tell{};                            ///< called when the start and each step are in the files
+  std::function<void()> after_step{};           ///< called when a step is in the files; may be empty
 };
 
 /// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date

@@ -1,12 +1,12 @@
 #include "bie/runs/run_recorder.hpp"
 
-#include "bie/support/file_system.hpp"
+#include "bie/files/hdf5_reader.hpp"
 #include "bie/files/run_file.hpp"
 #include "bie/runs/snapshot_copy.hpp"
-#include "bie/files/hdf5_reader.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/stepping/resolution.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {

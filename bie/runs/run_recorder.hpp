@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "bie/files/run_file.hpp"
+#include "bie/files/xdmf.hpp"
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/runs/run_directory.hpp"
 #include "bie/runs/snapshot_store.hpp"
-#include "bie/files/run_file.hpp"
-#include "bie/files/xdmf.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/stepping/laboratory.hpp"
 #include "bie/stepping/stepper.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "bie/files/run_file.hpp"
 #include "bie/files/hdf5_reader.hpp"
+#include "bie/files/run_file.hpp"
 #include "bie/sphere/transform.hpp"
 
 namespace vehd {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "bie/files/hdf5_reader.hpp"
+#include "bie/files/run_file.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
-#include "bie/files/run_file.hpp"
-#include "bie/files/hdf5_reader.hpp"
 
 namespace vehd {
 namespace {

@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::array largest_of = {"area_drift", "volume_drift", "strain_max", "spectrum_tail", "quadrature_error"};
 
-double largest_magnitude(const std::vector<double>& values) {
-  double largest = 0.0;
-  for (const double value : values) {
-    if (std::isnan(value)) return value;
-    largest = std::max(largest, std::abs(value));
-  }
-  return largest;
-}
-
 double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
 
 }  // namespace
@@ -44,9 +35,9 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   json["seconds_per_step"] = steps == 0 ? 0.0 : totals.seconds / static_cast<double>(steps);
   json["seconds_of_parts"] = totals.seconds_of_parts;
   json["peak_memory_bytes"] = peak_memory_bytes();
-  for (const char* column : largest_of) json[column] = largest_magnitude(history.column(column));
-  json["order_max"] = largest_magnitude(history.column("order"));
-  json["truncation"] = largest_magnitude(history.column("truncation"));
+  for (const char* column : largest_of) json[column] = history.largest_magnitude(column);
+  json["order_max"] = history.largest_magnitude("order");
+  json["truncation"] = history.largest_magnitude("truncation");
   const auto& separation = history.column("separation");
   // JSON has no infinity: absent where no part of the membrane faces another.
   if (const auto least = std::min_element(separation.begin(), separation.end());

@@ -6,8 +6,8 @@
 
 #include "bie/scene/key_reference.hpp"
 #include "bie/scene/schema.hpp"
-#include "bie/support/text_table.hpp"
 #include "bie/scene/units.hpp"
+#include "bie/support/text_table.hpp"
 
 namespace vehd {
 namespace {

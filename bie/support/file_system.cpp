@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -102,6 +103,24 @@ void replace_file(const std::filesystem::path& path, const std::string& text) {
   } else {
     replace_regular_file(end.path, text);
   }
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (!error && std::filesystem::is_directory(directory, error)) return;
+  throw OutputError(fmt::format("{}: cannot be used as output directory: {}", directory.string(),
+                                error ? error.message() : "not a directory"));
+}
+
+std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder, const std::string& extension) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 std::string text_of_file(const std::filesystem::path& path) {

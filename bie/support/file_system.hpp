@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// File operations whose outcome survives a kill at any instant.
 namespace vehd {
@@ -26,6 +27,12 @@ LinkEnd end_of_links(const std::filesystem::path& path);
 /// in one step: a reader sees the old or the new text, never a part. Into anything else (pipe, terminal, device) the
 /// text is written; a pipe waits for its reader. @throws OutputError
 void replace_file(const std::filesystem::path& path, const std::string& text);
+
+/// Creates a folder with its parents; one that is there already is as good. @throws OutputError
+void make_directory(const std::filesystem::path& directory);
+
+/// Files of a folder whose names end like that (".toml"), in the order of their names; none if it cannot be read.
+std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder, const std::string& extension);
 
 /// Content of a file; empty if it cannot be read.
 std::string text_of_file(const std::filesystem::path& path);

@@ -31,18 +31,23 @@ std::string bar(double fraction, int width) {
 
 Progress::Style Progress::suitable_style() { return isatty(STDERR_FILENO) == 1 ? Style::bar : Style::lines; }
 
-Progress::Progress(Style style, double start_time, double end_time)
-    : style_(style), start_time_(start_time), end_time_(end_time) {}
+Progress::Progress(Style style) : style_(style) {}
 
 Progress::~Progress() {
   if (line_open_) std::fputs("\n", stderr);
 }
 
-void Progress::update(const ProgressState& state) {
-  state_ = state;
+void Progress::update(double share, const std::string& text) {
+  share_ = std::clamp(share, 0.0, 1.0);
+  text_ = text;
   pending_ = true;
   const Clock::duration since = Clock::now() - last_drawn_;
   if (style_ == Style::bar ? since >= bar_interval : since >= line_interval) draw();
+}
+
+void Progress::begin(double share, const std::string& text) {
+  update(share, text);
+  if (pending_ && style_ == Style::bar) draw();
 }
 
 void Progress::finish() {
@@ -51,28 +56,25 @@ void Progress::finish() {
   line_open_ = false;
 }
 
-std::string Progress::text() const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  const double done = state_.time - start_time_;
-  const std::string left =
-      done > 0.0 ? duration_text(elapsed / done * std::max(0.0, end_time_ - state_.time)) : std::string("?");
-  return fmt::format("step {}  t {:.4g}/{:.4g}  dt {:.3g}  drift {:.1e}  left {}", state_.step, state_.time, end_time_,
-                     state_.dt, state_.drift, left);
+void Progress::clear() {
+  pending_ = false;
+  if (!line_open_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  line_open_ = false;
 }
 
 void Progress::draw() {
   last_drawn_ = Clock::now();
   pending_ = false;
   if (style_ == Style::none) return;
-  const double fraction = end_time_ > 0.0 ? std::clamp(state_.time / end_time_, 0.0, 1.0) : 1.0;
   if (style_ == Style::lines) {
-    fmt::print(stderr, "{:3.0f}%  {}\n", 100.0 * fraction, text());
+    fmt::print(stderr, "{:3.0f}%  {}\n", 100.0 * share_, text_);
     return;
   }
-  const std::string numbers = text();
-  const int room = terminal_width() - static_cast<int>(numbers.size()) - 8;
+  const int room = terminal_width() - static_cast<int>(text_.size()) - 8;
   const int width = std::clamp(room, 0, widest_bar);
-  fmt::print(stderr, "\r{} {:3.0f}%  {}\033[K", bar(fraction, width), 100.0 * fraction, numbers);
+  fmt::print(stderr, "\r{} {:3.0f}%  {}\033[K", bar(share_, width), 100.0 * share_, text_);
   std::fflush(stderr);
   line_open_ = true;
 }

@@ -1,45 +1,40 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <string>
 
 namespace vehd {
 
-/// What the progress line shows.
-struct ProgressState {
-  std::int64_t step = 0;
-  double time = 0.0;
-  double dt = 0.0;
-  double drift = 0.0;  ///< larger of area and volume drift
-};
-
-/// Progress on standard error: a bar redrawn in place on a terminal, otherwise a plain line now and then.
+/// How far some work is, on standard error: a bar redrawn in place on a terminal, otherwise a plain line now and then.
 class Progress {
  public:
   enum class Style { bar, lines, none };
   /// Bar on a terminal, lines elsewhere.
   static Style suitable_style();
 
-  Progress(Style style, double start_time, double end_time);
+  explicit Progress(Style style);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void update(const ProgressState& state);
+  /// @param share  of the work that is done, 0 ... 1
+  /// @param text   beside it, one line
+  void update(double share, const std::string& text);
+  /// The same where another piece of work begins that may take long: a bar shows it at once.
+  void begin(double share, const std::string& text);
   /// Draws the last state whatever the interval, and leaves the line.
   void finish();
+  /// Takes the line away, so that results can be printed in its place.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
   void draw();
-  [[nodiscard]] std::string text() const;
 
   Style style_;
-  double start_time_, end_time_;
-  Clock::time_point start_ = Clock::now();
   Clock::time_point last_drawn_{};
-  ProgressState state_;
+  double share_ = 0.0;
+  std::string text_;
   bool pending_ = false;
   bool line_open_ = false;
 };

@@ -7,18 +7,6 @@
 namespace vehd {
 namespace {
 
-/// Columns on a terminal: one for each character but combining marks (U+0300 ... U+036F).
-std::size_t display_width(const std::string& text) {
-  std::size_t width = 0;
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    const bool continues = (byte & 0xC0U) == 0x80U;
-    const bool combines = byte == 0xCCU || byte == 0xCDU;
-    if (!continues && !combines) ++width;
-  }
-  return width;
-}
-
 /// A bar would end the cell.
 std::string escaped(const std::string& cell) {
   std::string result;
@@ -30,6 +18,17 @@ std::string escaped(const std::string& cell) {
 }
 
 }  // namespace
+
+std::size_t display_width(const std::string& text) {
+  std::size_t width = 0;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool continues = (byte & 0xC0U) == 0x80U;
+    const bool combines = byte == 0xCCU || byte == 0xCDU;
+    if (!continues && !combines) ++width;
+  }
+  return width;
+}
 
 std::string aligned(const TextTable& rows, const std::string& indent) {
   std::vector<std::size_t> widths;

@@ -2,8 +2,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bie/runs/history.hpp"
 #include "bie/files/hdf5_reader.hpp"
+#include "bie/runs/history.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "tests/app/program.hpp"
 

@@ -10,25 +10,12 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace {
-
-std::filesystem::path unique_path(const std::string& stem) {
-  std::string pattern = (std::filesystem::temp_directory_path() / (stem + ".XXXXXX")).string();
-  const int descriptor = ::mkstemp(pattern.data());
-  if (descriptor < 0) throw std::runtime_error("no temporary file");
-  ::close(descriptor);
-  return pattern;
-}
-
-}  // namespace
-
-RunningProgram::RunningProgram(const std::vector<std::string>& command)
-    : output_(unique_path("vehd-output")), errors_(unique_path("vehd-errors")) {
+RunningProgram::RunningProgram(const std::vector<std::string>& command) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output_.c_str(), O_WRONLY | O_TRUNC, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors_.c_str(), O_WRONLY | O_TRUNC, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output_.c_str(), O_WRONLY | O_CREAT, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors_.c_str(), O_WRONLY | O_CREAT, 0600);
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
@@ -38,12 +25,9 @@ RunningProgram::RunningProgram(const std::vector<std::string>& command)
 }
 
 RunningProgram::~RunningProgram() {
-  if (!ended()) {
-    send(SIGKILL);
-    wait();
-  }
-  std::filesystem::remove(output_);
-  std::filesystem::remove(errors_);
+  if (ended()) return;
+  send(SIGKILL);
+  wait();
 }
 
 void RunningProgram::send(int signal) const { ::kill(process_, signal); }

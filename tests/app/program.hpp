@@ -36,7 +36,8 @@ class RunningProgram {
   bool ended_ = false;
   int status_ = 0;
   long peak_kilobytes_ = 0;
-  std::filesystem::path output_, errors_;
+  TemporaryDirectory files_;
+  std::string output_ = files_ / "output", errors_ = files_ / "errors";
 };
 
 /// Runs `vehd` with these arguments to its end.

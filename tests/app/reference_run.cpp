@@ -5,8 +5,8 @@
 #include <cmath>
 #include <thread>
 
-#include "bie/runs/checkpoint.hpp"
 #include "bie/files/run_reader.hpp"
+#include "bie/runs/checkpoint.hpp"
 
 std::vector<std::pair<std::string, vehd::Vector>> snapshot_data(const std::string& path) {
   const vehd::Hdf5Reader file(path);

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bie/runs/history.hpp"
-#include "bie/files/run_file.hpp"
-#include "bie/scene/effective_scene.hpp"
 #include "bie/files/hdf5_reader.hpp"
+#include "bie/files/run_file.hpp"
+#include "bie/runs/history.hpp"
+#include "bie/scene/effective_scene.hpp"
 #include "bie/scene/reader.hpp"
 #include "tests/app/program.hpp"
 

@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_wrong_criterion_is_one_clear_line) {
   BOOST_TEST(message("#: family = \"f\"\n#: wrong = 1").find("case.toml:2: unknown key \"wrong\"") !=
              std::string::npos);
   BOOST_TEST(message("#: family = \"f\"\n#: short_end_time = 1.0\n#: expect = \"luck\"")
-                 .find("case.toml:3: \"luck\"; accepted: completed, doubted, stops") != std::string::npos);
+                 .find("case.toml:3: \"luck\"; accepted: completed, flagged, stops") != std::string::npos);
   const std::string family = "#: family = \"f\"\n#: short_end_time = ", rest = "1.0\n#: expect = \"completed\"\n#: ";
   const auto has = [&](const std::string& criterion, const std::string& part) {
     const std::string text = message(criterion);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bie/runs/history.hpp"
 #include "bie/files/run_reader.hpp"
+#include "bie/runs/history.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "tests/app/reference_run.hpp"
 

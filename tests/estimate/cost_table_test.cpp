@@ -8,23 +8,23 @@
 
 namespace {
 
-/// Menus of a quick scene with a cache that starts empty, from so many steps of pilots: the same at any speed.
+/// Menus of a quick scene with a cache that starts empty, from so many steps of trial runs: the same at any speed.
 struct Menu {
   TemporaryDirectory directory;
   std::string cache = directory / "costs.json";
   std::string scene = quick_scene("1.0");
 
-  std::vector<vehd::MenuRow> read(std::int64_t steps = 1) const {
+  std::vector<vehd::CostRow> read(std::int64_t steps = 1) const {
     write_text(directory / "scene.toml", scene);
     vehd::CostCache costs(cache);
-    return vehd::menu_of(vehd::read_scene(directory / "scene.toml"), {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, costs,
-                         {.model_seconds = 0.0, .steps = steps});
+    return vehd::cost_table_of(vehd::read_scene(directory / "scene.toml"), {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7},
+                               costs, {.model_seconds = 0.0, .steps = steps});
   }
 
   [[nodiscard]] bool is_read_from_cache() const { return read().front().steps == kForged; }
 };
 
-bool is_measured(const vehd::MenuRow& row) { return row.measured; }
+bool is_measured(const vehd::CostRow& row) { return row.measured; }
 
 }  // namespace
 
@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_SUITE(menu)
 
 BOOST_FIXTURE_TEST_CASE(every_digit_has_a_price_and_no_digit_is_free, Menu) {
   for (const std::int64_t steps : {1, 60, 600}) {
-    const std::vector<vehd::MenuRow> rows = read(steps);
+    const std::vector<vehd::CostRow> rows = read(steps);
     BOOST_TEST_REQUIRE(rows.size() == 7);
     for (std::size_t i = 1; i < rows.size(); ++i) {
       BOOST_TEST(rows[i].tolerance < rows[i - 1].tolerance);
@@ -47,11 +47,11 @@ BOOST_FIXTURE_TEST_CASE(every_digit_has_a_price_and_no_digit_is_free, Menu) {
 
 BOOST_FIXTURE_TEST_CASE(pilots_measure_as_many_digits_as_their_budget_allows, Menu) {
   const auto n_measured = [this](std::int64_t steps) {
-    const std::vector<vehd::MenuRow> rows = read(steps);
+    const std::vector<vehd::CostRow> rows = read(steps);
     // The loosest ones, and no other.
     BOOST_TEST(std::is_partitioned(rows.begin(), rows.end(), is_measured));
     std::int64_t used = 0;
-    for (const vehd::MenuRow& row : rows) used += row.measured ? row.steps : 0;
+    for (const vehd::CostRow& row : rows) used += row.measured ? row.steps : 0;
     BOOST_TEST(used <= steps);
     return std::count_if(rows.begin(), rows.end(), is_measured);
   };
@@ -62,7 +62,7 @@ BOOST_FIXTURE_TEST_CASE(pilots_measure_as_many_digits_as_their_budget_allows, Me
 }
 
 BOOST_FIXTURE_TEST_CASE(degrees_and_steps_from_steps_of_pilots_do_not_depend_on_the_clock, Menu) {
-  const std::vector<vehd::MenuRow> rows = read(60), again = Menu().read(60);
+  const std::vector<vehd::CostRow> rows = read(60), again = Menu().read(60);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BOOST_TEST((rows[i].order == again[i].order && rows[i].steps == again[i].steps));
     BOOST_TEST(rows[i].measured == again[i].measured);
@@ -83,7 +83,7 @@ BOOST_FIXTURE_TEST_CASE(damaged_or_foreign_cache_is_made_again, Menu) {
   const std::string whole = file_text(cache);
   write_text(cache, whole.substr(0, whole.size() / 2));
   BOOST_TEST(!is_read_from_cache());
-  BOOST_TEST(json_of(cache)["entries"]["menu"].size() == 1);
+  BOOST_TEST(json_of(cache)["entries"]["cost table"].size() == 1);
 
   for (const char* part : {"commit", "processor", "threads", "version"}) {
     forge(cache);
@@ -93,8 +93,9 @@ BOOST_FIXTURE_TEST_CASE(damaged_or_foreign_cache_is_made_again, Menu) {
     BOOST_TEST(!is_read_from_cache(), part);
   }
 
-  const std::vector<vehd::MenuRow> rows = read();
-  for (const char* entries : {"[]", "7", R"({"menu": 3})", R"({"menu": {}, "seconds per shape": [1, "x"]})"}) {
+  const std::vector<vehd::CostRow> rows = read();
+  for (const char* entries :
+       {"[]", "7", R"({"cost table": 3})", R"({"cost table": {}, "seconds per shape": [1, "x"]})"}) {
     nlohmann::json odd = json_of(cache);
     odd["entries"] = nlohmann::json::parse(entries);
     write_text(cache, odd.dump());

@@ -7,12 +7,12 @@
 
 inline nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(file_text(path)); }
 
-/// Gives every menu kept in a file another number of steps, which no run would find.
+/// Gives every cost table kept in a file another number of steps, which no run would find.
 inline constexpr int kForged = 12345;
 inline void forge(const std::string& cache) {
   nlohmann::json kept = json_of(cache);
-  for (auto& menu : kept["entries"]["menu"]) {
-    for (auto& row : menu) row[2] = kForged;
+  for (auto& table : kept["entries"]["cost table"]) {
+    for (auto& row : table) row[2] = kForged;
   }
   write_text(cache, kept.dump());
 }

@@ -6,12 +6,12 @@
 #include <numeric>
 #include <vector>
 
-#include "bie/runs/checkpoint.hpp"
-#include "bie/files/run_file.hpp"
-#include "bie/scene/units.hpp"
-#include "bie/files/sealed_file.hpp"
 #include "bie/files/hdf5_handle.hpp"
+#include "bie/files/run_file.hpp"
 #include "bie/files/run_reader.hpp"
+#include "bie/files/sealed_file.hpp"
+#include "bie/runs/checkpoint.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"

@@ -3,11 +3,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bie/files/run_reader.hpp"
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/files/run_reader.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/shape_file.hpp"
 #include "bie/scene/waveform_file.hpp"

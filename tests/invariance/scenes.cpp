@@ -9,26 +9,16 @@
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/stepping/deferred_correction.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd::testing {
-namespace {
-
-std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
-}  // namespace
 
 std::vector<NamedScene> all_scenes() {
   const std::filesystem::path source(VEHD_SOURCE_DIR);
   std::vector<NamedScene> result;
-  for (const auto& path : scenes_in(source / "docs/scenes")) result.push_back({path.stem().string(), read_scene(path)});
-  for (const auto& path : scenes_in(source / "tests/hard/scenes")) {
+  for (const auto& path : files_ending(source / "docs/scenes", ".toml"))
+    result.push_back({path.stem().string(), read_scene(path)});
+  for (const auto& path : files_ending(source / "tests/hard/scenes", ".toml")) {
     StabilityCase hard = read_stability_case(path);
     hard.scene.numerics.end_time = std::min(hard.scene.numerics.end_time, hard.short_end_time);
     result.push_back({hard.name, hard.scene});

@@ -57,9 +57,8 @@ BOOST_AUTO_TEST_CASE(wrong_types) {
              "scene.toml:9: \"inextensible\" in [membrane] is 1; accepted: true or false");
   BOOST_TEST(message_with("[fluid]\nviscosity = [1]\n").find("the array [ 1 ]") != std::string::npos);
   BOOST_TEST(message_with("[fluid]\nviscosity = true\n").find("is true; accepted: a number > 0") != std::string::npos);
-  BOOST_TEST(
-      message_of("[shape]\nkind='ellipsoid'\naxes=[1,2]\n") ==
-      "scene.toml:3: \"axes\" in [shape] has 2 components; accepted: 3 numbers [x, y, z], each 1e-30 ... 1e+30");
+  BOOST_TEST(message_of("[shape]\nkind='ellipsoid'\naxes=[1,2]\n") ==
+             "scene.toml:3: \"axes\" in [shape] has 2 components; accepted: 3 numbers [x, y, z], each 1e-30 ... 1e+30");
   BOOST_TEST(message_of("[shape]\nkind=3\n") ==
              "scene.toml:2: \"kind\" in [shape] is 3; accepted: ellipsoid, prolate, oblate, biconcave, stomatocyte, "
              "radial, file");

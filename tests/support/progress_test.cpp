@@ -1,6 +1,6 @@
-#include <boost/test/unit_test.hpp>
-
 #include "bie/support/progress.hpp"
+
+#include <boost/test/unit_test.hpp>
 
 BOOST_AUTO_TEST_SUITE(summary)
 

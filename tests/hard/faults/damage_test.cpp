@@ -2,10 +2,10 @@
 #include <functional>
 #include <random>
 
-#include "bie/runs/checkpoint.hpp"
 #include "bie/files/hdf5_writer.hpp"
-#include "bie/files/sealed_file.hpp"
 #include "bie/files/run_reader.hpp"
+#include "bie/files/sealed_file.hpp"
+#include "bie/runs/checkpoint.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/hard/faults/faulty_run.hpp"
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <sstream>
 
-#include "bie/runs/checkpoint.hpp"
 #include "bie/files/run_reader.hpp"
+#include "bie/runs/checkpoint.hpp"
 
 namespace {
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "bie/bench/observer.hpp"
+#include "bie/support/progress.hpp"
+
+namespace vehd {
+
+/// Prints what benches tell: results on standard output, what they are at on standard error.
+class BenchPrinter : public BenchObserver {
+ public:
+  void section(const std::string& title) override;
+  void note(const std::string& line) override;
+  void warn(const std::string& problem) override;
+  void heading(const BenchTable& table) override;
+  void row(const BenchTable& table, const std::vector<BenchCell>& row) override;
+  void task(int number, int n_tasks, const std::string& what) override;
+  void status(const RunStatus& status) override;
+
+ private:
+  void print(const std::string& text);
+
+  Progress progress_{Progress::suitable_style()};
+};
+
+}  // namespace vehd

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "bie/comparison/check_fields.hpp"
+#include "bie/comparison/fem_program.hpp"
+#include "bie/comparison/frozen_state.hpp"
+
+namespace vehd {
+
+struct CheckTask {
+  FrozenState frozen;
+  std::filesystem::path directory;  ///< for the files of both sides; created if missing
+  bool quick = false;               ///< coarse elements, and boundary integrals that are not finer than they need
+  int n_ranks = 1;                  ///< processes of the finite elements
+  /// Told when the boundary integrals are solved in the degree of the state, and then in a higher one; may be empty.
+  std::function<void(const CheckFields&)> tell{};
+};
+
+/// Solves the frozen state by boundary integrals, lets the finite elements solve and compare it, and waits for them.
+/// @throws InputError if the state has something that the finite elements do not know, OutputError
+FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task);
+
+}  // namespace vehd

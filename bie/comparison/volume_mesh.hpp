@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bie/comparison/fem_program.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+struct MeshTask {
+  const Matrix& position;        ///< coefficients [n_coefficients x 3]
+  std::filesystem::path output;  ///< MSH 4.1; untouched where the mesh cannot be made
+  std::string family = "hex";    ///< "hex": curved blocks; "tet": unstructured tetrahedra
+  int refine = 0;                ///< how often the element size is divided by 1.5
+};
+
+/// Has the finite-element side mesh the inside and the outside of a shape.
+/// @return its figures of quality
+/// @throws OutputError
+FemProgram::Result write_volume_mesh(const FemProgram& fem, const MeshTask& task);
+
+}  // namespace vehd

@@ -1,0 +1,58 @@
+#include "bie/runs/session.hpp"
+
+#include <fstream>
+#include <utility>
+
+#include "bie/runs/history.hpp"
+#include "bie/runs/resumption.hpp"
+#include "bie/runs/summary.hpp"
+#include "bie/support/file_system.hpp"
+
+namespace vehd {
+namespace {
+
+DirectoryLock lock_in(const RunPaths& paths) {
+  make_directory(paths.directory);
+  return DirectoryLock(paths.lock());
+}
+
+/// A run that has reached the end of the scene. How its steps would be computed does not matter any more.
+bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
+  if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
+  const nlohmann::json summary = nlohmann::json::parse(std::ifstream(paths.summary()), nullptr, false);
+  return summary.is_object() && summary.value("completed", nlohmann::json()) == true;
+}
+
+}  // namespace
+
+RunSession::RunSession(Scene scene, const std::filesystem::path& scene_file, const std::filesystem::path& directory,
+                       bool resume)
+    : scene_(std::move(scene)), paths_{directory}, lock_(lock_in(paths_)) {
+  if (!admit_run(paths_, resume)) return;
+  checkpoint_ = read_checkpoint(paths_.checkpoint());
+  require_same_physics(scene_, scene_file, *checkpoint_, paths_);
+  complete_ = has_ended(scene_, *checkpoint_, paths_);
+  threads_before_ = checkpoint_->threads;
+  n_changes_before_ = checkpoint_->changes.size();
+  if (!complete_) checkpoint_ = continued(std::move(*checkpoint_), scene_, paths_);
+}
+
+std::vector<SceneChange> RunSession::changes() const {
+  if (!checkpoint_) return {};
+  return {checkpoint_->changes.begin() + static_cast<std::ptrdiff_t>(n_changes_before_), checkpoint_->changes.end()};
+}
+
+RunOutcome RunSession::simulate(Interruption& interruption, TellStatus tell) const {
+  return vehd::simulate({scene_, paths_, checkpoint_, std::move(tell)}, interruption);
+}
+
+nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {
+  const nlohmann::json summary =
+      summary_of(HistoryTable(paths_.history()), scene_, read_checkpoint(paths_.checkpoint()), outcome);
+  replace_file(paths_.summary(), summary.dump(2) + "\n");
+  return summary;
+}
+
+nlohmann::json RunSession::last_summary() const { return nlohmann::json::parse(std::ifstream(paths_.summary())); }
+
+}  // namespace vehd

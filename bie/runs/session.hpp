@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "bie/runs/checkpoint.hpp"
+#include "bie/runs/run_directory.hpp"
+#include "bie/runs/run_loop.hpp"
+#include "bie/runs/scene_changes.hpp"
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// One session of a run: alone in the directory of the run, from where the last session has left it.
+class RunSession {
+ public:
+  /// Creates the directory if it is missing. Nothing of a former run in it is touched yet.
+  /// @param scene_file  of the scene, for messages
+  /// @param resume  whether a former run may go on
+  /// @throws InputError if another session is at it, or if what the directory holds cannot go on with this scene
+  /// @throws OutputError if the directory cannot be used
+  RunSession(Scene scene, const std::filesystem::path& scene_file, const std::filesystem::path& directory, bool resume);
+
+  [[nodiscard]] const RunPaths& paths() const { return paths_; }
+  /// A former session has reached the end of the scene: nothing is left to do.
+  [[nodiscard]] bool is_complete() const { return complete_; }
+  /// Number of threads of the first session, where a run goes on.
+  [[nodiscard]] std::optional<std::int64_t> threads_before() const { return threads_before_; }
+  /// What this session finds changed in the scene.
+  [[nodiscard]] std::vector<SceneChange> changes() const;
+
+  /// See `simulate`.
+  RunOutcome simulate(Interruption& interruption, TellStatus tell) const;
+
+  /// Writes summary.json. @return its content
+  /// @throws InputError, OutputError if files of the run are gone or the disk is full
+  [[nodiscard]] nlohmann::json summarise(const RunOutcome& outcome) const;
+  /// That of the last session.
+  [[nodiscard]] nlohmann::json last_summary() const;
+
+ private:
+  Scene scene_;
+  RunPaths paths_;
+  DirectoryLock lock_;
+  std::optional<Checkpoint> checkpoint_;
+  std::optional<std::int64_t> threads_before_;
+  std::size_t n_changes_before_ = 0;
+  bool complete_ = false;
+};
+
+}  // namespace vehd

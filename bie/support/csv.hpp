@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Lines of CSV files: cells between commas, quoted where they must be (RFC 4180).
+namespace vehd {
+
+/// One line with its end.
+std::string csv_line(const std::vector<std::string>& cells);
+
+/// Cells of a line of numbers and names, which hold no quotes. A carriage return at the end is left out.
+std::vector<std::string> csv_cells(const std::string& line);
+
+}  // namespace vehd
