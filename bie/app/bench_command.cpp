@@ -15,6 +15,7 @@
 #include "bie/bench/time.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/sphere/degrees.hpp"
 #include "bie/stepping/time_rule.hpp"
 #include "bie/support/file_system.hpp"
 

@@ -8,6 +8,7 @@
 #include "bie/files/versions.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/memory.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

@@ -5,6 +5,7 @@
 #include "bie/app/commands.hpp"
 #include "bie/bench/example1.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/sphere/degrees.hpp"
 
 namespace vehd {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/check_samples.hpp"
+#include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/file_system.hpp"
 

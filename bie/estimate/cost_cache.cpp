@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "bie/files/machine_record.hpp"
-#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

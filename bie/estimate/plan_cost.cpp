@@ -7,6 +7,7 @@
 #include "bie/runs/run_loop.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/memory.hpp"
+#include "bie/support/output_error.hpp"
 #include "bie/support/temporary.hpp"
 
 namespace vehd {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "bie/support/errors.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

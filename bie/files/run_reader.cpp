@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/checksum.hpp"
 #include "bie/support/errors.hpp"

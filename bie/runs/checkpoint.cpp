@@ -9,6 +9,7 @@
 #include "bie/files/hdf5_writer.hpp"
 #include "bie/files/sealed_file.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"

@@ -9,6 +9,7 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/schema.hpp"
+#include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/resolution.hpp"

@@ -16,6 +16,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bie/scene/scene.hpp"
+#include "bie/sphere/degrees.hpp"
 #include "bie/stepping/time_rule.hpp"
 
 namespace vehd {

@@ -1,6 +1,7 @@
 #include "bie/scene/key_rows.hpp"
 
 #include "bie/scene/key_table.hpp"
+#include "bie/sphere/degrees.hpp"
 #include "bie/stepping/deferred_correction.hpp"
 
 namespace vehd {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/degrees.hpp"
 
 namespace vehd {
 

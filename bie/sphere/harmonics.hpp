@@ -7,10 +7,6 @@
 /// The complex harmonic of Eq. (17) has Re = Y_{n,m}/√2, Im = Y_{n,-m}/√2 for m > 0.
 namespace vehd {
 
-/// Degrees p that scenes and files may have.
-constexpr int lowest_order = 4;
-constexpr int highest_order = 64;
-
 constexpr Index n_coefficients(int order) { return Index{order + 1} * (order + 1); }
 
 /// Position of (n, m), −n ≤ m ≤ n, in a coefficient vector: degree-major, so truncation keeps a prefix.

@@ -12,12 +12,6 @@ class InputError : public std::runtime_error {
   explicit InputError(std::string message);
 };
 
-/// A file of the run could not be written: no permission, disk full, directory gone. Exit code 1.
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// Sizes of arguments that do not belong together: a mistake of the caller, never of the user.
 class ShapeError : public std::logic_error {
  public:

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "bie/support/errors.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

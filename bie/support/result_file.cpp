@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cstdlib>
 
-#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 

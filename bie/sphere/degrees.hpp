@@ -1,0 +1,9 @@
+#pragma once
+
+namespace vehd {
+
+/// Degrees p of the harmonics that scenes and files may have.
+constexpr int lowest_order = 4;
+constexpr int highest_order = 64;
+
+}  // namespace vehd
