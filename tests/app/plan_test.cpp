@@ -1,4 +1,4 @@
-#include "bie/estimate/plan.hpp"
+#include "bie/estimate/plan_cost.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
