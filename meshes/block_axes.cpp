@@ -57,7 +57,7 @@ PrincipalAxes find_principal_axes(const Matrix3& affine) {
   return result;
 }
 
-BlockAxes turned(const BlockAxes& axes, const Matrix3& turn) {
+BlockAxes rotated(const BlockAxes& axes, const Matrix3& turn) {
   return {axes.in_directions * turn, axes.in_space * turn};
 }
 
@@ -155,7 +155,7 @@ BlockAxes best_axes(const FrozenShape& shape) {
   const auto [principal, stretch] = find_principal_axes(shape.affine_part());
   const std::array<bool, 3> free = free_components(stretch);
   const auto error_of = [&](const Point& r) {
-    return truncation_error(shape, turned(principal, rotation_of(r)).in_directions);
+    return truncation_error(shape, rotated(principal, rotation_of(r)).in_directions);
   };
 
   Point best = Point::Zero();
@@ -177,7 +177,7 @@ BlockAxes best_axes(const FrozenShape& shape) {
       }
     }
   }
-  return least < (1.0 - kClearGain) * unturned ? turned(principal, rotation_of(best)) : principal;
+  return least < (1.0 - kClearGain) * unturned ? rotated(principal, rotation_of(best)) : principal;
 }
 
 }  // namespace vehd::meshes

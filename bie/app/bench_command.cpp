@@ -16,7 +16,7 @@
 #include "bie/scene/reader.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/degrees.hpp"
-#include "bie/stepping/time_rule.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {

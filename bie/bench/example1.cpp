@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bie/scene/initial_shape.hpp"
-#include "bie/stepping/membrane_at.hpp"
+#include "bie/stepping/space/membrane_at.hpp"
 
 namespace vehd {
 
@@ -41,13 +41,13 @@ Example1Result solve_example1(int order, int upsampling) {
   NumericalSettings settings;
   settings.order = order;
   settings.upsampling = upsampling;
-  const Discretisation discretisation(settings);
+  const MembraneSpace space(settings, {});
   const Matrix position = example1_position(order);
 
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
   const LayerSelection selection{true, true, true, false};
-  const Membrane membrane = membrane_at(discretisation, position, selection, 1.0, instruments);
+  const Membrane membrane = membrane_at(space, position, selection, 1.0, instruments);
   const PointSourceErrors errors = point_source_errors(example1_electric(), example1_sources(), membrane, 1e-10);
   require_converged(errors.report, "charge density, Eq. (35)");
   return {order, errors, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};

@@ -7,7 +7,7 @@
 
 #include "bie/potentials/translating_prolate.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/membrane_at.hpp"
+#include "bie/stepping/space/membrane_at.hpp"
 
 namespace vehd {
 namespace {
@@ -34,7 +34,7 @@ Matrix linear_image_of_sphere(int order, const Matrix3& map) {
 ProlateResult solve_translating_prolate(int order) {
   NumericalSettings settings;
   settings.order = order;
-  const Discretisation discretisation(settings);
+  const MembraneSpace space(settings, {});
   const Matrix3 frame = turned_frame();
   const Matrix3 stretch = Vector3(1.0, 1.0, 2.0).asDiagonal();
   const Matrix position = linear_image_of_sphere(order, frame * stretch * frame.transpose());
@@ -43,7 +43,7 @@ ProlateResult solve_translating_prolate(int order) {
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
   const LayerSelection selection{.stokes_single = true};
-  const Membrane membrane = membrane_at(discretisation, position, selection, 1.0, instruments);
+  const Membrane membrane = membrane_at(space, position, selection, 1.0, instruments);
   const Vector support = membrane.surface.position.cwiseProduct(membrane.surface.normal).rowwise().sum();
   ProlateResult result;
   const auto pull = [&](const Vector3& axis, double speed) {

@@ -9,7 +9,7 @@
 #include "bie/bench/example1.hpp"
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/fem_program.hpp"
-#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "bie/support/memory.hpp"
 #include "bie/support/temporary.hpp"
 #include "bie/support/thread_count.hpp"

@@ -3,10 +3,10 @@
 #include <chrono>
 
 #include "bie/potentials/assembly_arithmetic.hpp"
-#include "bie/stepping/composition.hpp"
-#include "bie/stepping/deferred_correction.hpp"
-#include "bie/stepping/discretisation_tables.hpp"
-#include "bie/stepping/evaluation_parts.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
 
 namespace vehd {
 namespace {
@@ -19,7 +19,7 @@ constexpr const char* kOther = "other";
 }  // namespace
 
 StepTimer::StepTimer(const Scene& scene)
-    : problem_(problem_of(scene)), evolution_(setup_of(problem_), problem_.position, problem_.potential, instruments_) {
+    : problem_(problem_of(scene)), evolution_(setup_of(problem_), problem_.start, instruments_) {
   evolution_.evaluate_start();
   for (int i = 0; i < kWarmUp; ++i) step();
 }
@@ -70,15 +70,15 @@ std::uint64_t StepTimer::kernel_evaluations() const {
 }
 
 std::map<std::string, double> StepTimer::operations() const {
-  const Discretisation discretisation(problem_.settings, problem_.symmetry);
-  const Discretisation::Tables& tables = discretisation.tables();
+  const MembraneSpace space(problem_.settings, problem_.symmetry);
   const Symmetry& symmetry = problem_.symmetry;
   std::map<std::string, double> result;
   result["operator assembly"] =
-      evaluations_per_step(problem_.settings.time_order) * operations_per_assembly(tables.quadrature, tables.targets,
-                                                                                   needed_layers(problem_.model, true),
-                                                                                   symmetry.reflections, tables.fold);
-  const StokesOperator& stokes = evolution_.evaluation().parts->membrane.layers.stokes_single;
+      evaluations_per_step(problem_.settings.time_order) *
+      operations_per_assembly(space.quadrature(), space.targets(),
+                              needed_layers(problem_.model, problem_.model.vesicles.front(), true),
+                              symmetry.reflections, space.fold());
+  const StokesOperator& stokes = evolution_.evaluation().vesicles.front().membrane->layers.stokes_single;
   if (problem_.settings.time_order == 1 && !stokes.empty()) {
     constexpr double kBlocks = 9.0;
     const double of_an_iteration = 2.0 * kBlocks * static_cast<double>(stokes.transposed()[0].size());

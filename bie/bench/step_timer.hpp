@@ -44,7 +44,7 @@ class StepTimer {
   MemoryMeter meter_;
   Instruments instruments_{&meter_};
   Evolution evolution_;
-  EvolutionStep last_;
+  StepAttempt last_;
   std::map<std::string, std::vector<double>> seconds_;
   std::vector<double> iterations_;
 };

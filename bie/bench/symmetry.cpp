@@ -4,7 +4,7 @@
 
 #include "bie/bench/input.hpp"
 #include "bie/bench/step_timer.hpp"
-#include "bie/stepping/state_difference.hpp"
+#include "bie/stepping/state/state_difference.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

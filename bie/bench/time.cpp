@@ -11,9 +11,10 @@
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/laboratory.hpp"
-#include "bie/stepping/resolution.hpp"
-#include "bie/stepping/time_rule.hpp"
+#include "bie/stepping/evaluation/lab_frame_output.hpp"
+#include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -21,26 +22,26 @@ namespace {
 
 struct Quantity {
   const char* name;
-  double Diagnostics::*member;
+  double VesicleDiagnostics::*member;
   bool shown = true;  ///< among the values that are printed
 };
 constexpr std::array kQuantities = {
-    Quantity{"extent_x", &Diagnostics::extent_x},
-    Quantity{"extent_y", &Diagnostics::extent_y, false},
-    Quantity{"extent_z", &Diagnostics::extent_z},
-    Quantity{"reduced_volume", &Diagnostics::reduced_volume, false},
-    Quantity{"bending_energy_scaled", &Diagnostics::bending_energy_scaled},
-    Quantity{"tension_integral", &Diagnostics::tension_integral},
-    Quantity{"Vm_north", &Diagnostics::Vm_north},
-    Quantity{"q_north", &Diagnostics::q_north, false},
-    Quantity{"Vm_max", &Diagnostics::Vm_max, false},
-    Quantity{"inclination_deg", &Diagnostics::inclination_deg},
+    Quantity{"extent_x", &VesicleDiagnostics::extent_x},
+    Quantity{"extent_y", &VesicleDiagnostics::extent_y, false},
+    Quantity{"extent_z", &VesicleDiagnostics::extent_z},
+    Quantity{"reduced_volume", &VesicleDiagnostics::reduced_volume, false},
+    Quantity{"bending_energy_scaled", &VesicleDiagnostics::bending_energy_scaled},
+    Quantity{"tension_integral", &VesicleDiagnostics::tension_integral},
+    Quantity{"Vm_north", &VesicleDiagnostics::Vm_north},
+    Quantity{"q_north", &VesicleDiagnostics::q_north, false},
+    Quantity{"Vm_max", &VesicleDiagnostics::Vm_max, false},
+    Quantity{"inclination_deg", &VesicleDiagnostics::inclination_deg},
 };
 
 struct TimedRun {
   std::string integrator, setting;
   BenchCell dt{}, tolerance{};
-  Diagnostics diagnostics{};
+  VesicleDiagnostics diagnostics{};
   std::vector<double> seconds{};
   std::int64_t n_steps = 0;
   int highest_order = 0;
@@ -54,22 +55,22 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
+  Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
-  run.highest_order = evolution.order();
+  run.highest_order = evolution.order(0);
   double raw_area = 0.0;
   while (evolution.state().time < events.end_time) {
-    const EvolutionStep step = evolution.step(events);
-    run.highest_order = std::max(run.highest_order, evolution.order());
+    const StepAttempt step = evolution.step(events);
+    run.highest_order = std::max(run.highest_order, evolution.order(0));
     raw_area += std::abs(step.raw_area);
-    const Diagnostics& now = evolution.evaluation().diagnostics;
+    const VesicleDiagnostics& now = evolution.evaluation().diagnostics.vesicles.front();
     observer.status({evolution.state().step, 0.0, evolution.state().time, events.end_time, step.dt,
                      std::max(std::abs(now.area_drift), std::abs(now.volume_drift)), elapsed()});
   }
-  const Laboratory laboratory(problem.frame, problem.settings);
+  const LabFrameOutput laboratory(problem.frame, problem.settings);
   const State state = resized(evolution.state(), problem.settings.order);
   const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
-  run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields);
+  run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields).vesicles.front();
   run.n_steps = state.step;
   run.raw_drift = raw_area / events.end_time;
   run.seconds.push_back(elapsed());
@@ -97,11 +98,11 @@ TimedRun adaptive_run(const TimeTask& task, double tolerance, BenchObserver& obs
 }
 
 /// Difference of one quantity over its size; angles over a radian.
-double relative_error(const Quantity& quantity, const Diagnostics& d, const Diagnostics& reference) {
+double relative_error(const Quantity& quantity, const VesicleDiagnostics& d, const VesicleDiagnostics& reference) {
   constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
   const double value = reference.*quantity.member;
   const double difference = std::abs(d.*quantity.member - value);
-  if (quantity.member == &Diagnostics::inclination_deg) {
+  if (quantity.member == &VesicleDiagnostics::inclination_deg) {
     return std::min(difference, 180.0 - difference) / kDegreesPerRadian;
   }
   return difference == 0.0 ? 0.0 : difference / std::abs(value);

@@ -30,13 +30,13 @@ FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task)
   const CheckContents contents = check_contents(frozen);
   const Matrix force = contents.flow ? given_force(frozen) : Matrix();
   make_directory(task.directory);
-  const CheckSamples samples = check_samples(frozen.state.position);
+  const CheckSamples samples = check_samples(frozen.state.vesicles.front().position);
   const auto solved_at = [&](int order) {
     CheckFields fields = check_fields(frozen, contents, force, order, samples.points);
     if (task.tell) task.tell(fields);
     return fields;
   };
-  const int order = order_of(frozen.state.position.rows());
+  const int order = order_of(frozen.state.vesicles.front().position.rows());
   const CheckFields at_order = solved_at(order);
   const CheckFields at_high_order = solved_at(high_order(order, task.quick));
   const std::filesystem::path input = task.directory / "check_input.h5";

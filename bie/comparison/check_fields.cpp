@@ -11,24 +11,28 @@
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/discretisation_tables.hpp"
-#include "bie/stepping/membrane_at.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/state/composition.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
 
-Discretisation discretisation_at(const FrozenState& frozen, int order) {
+const VesicleState& membrane_of(const FrozenState& frozen) { return frozen.state.vesicles.front(); }
+const VesicleModel& vesicle_of(const FrozenState& frozen) { return frozen.model.vesicles.front(); }
+
+MembraneSpace space_at(const FrozenState& frozen, int order) {
   NumericalSettings settings;
   settings.order = order;
-  return Discretisation(settings, frozen.symmetry);
+  return {settings, frozen.symmetry};
 }
 
-LayerSelection layers_for(const CheckContents& contents, const Model& model) {
+LayerSelection layers_for(const CheckContents& contents, const VesicleModel& vesicle) {
   LayerSelection selection;
   selection.laplace_single = selection.laplace_double = selection.laplace_adjoint = contents.electric;
   selection.stokes_single = contents.flow;
-  selection.stokes_double = contents.flow && model.viscosity_ratio != 1.0;
+  selection.stokes_double = contents.flow && vesicle.viscosity_ratio != 1.0;
   return selection;
 }
 
@@ -37,18 +41,19 @@ class FrozenSolver {
  public:
   FrozenSolver(const FrozenState& frozen, const CheckContents& contents, int order)
       : frozen_(frozen),
-        discretisation_(discretisation_at(frozen, order)),
-        position_(resize_order(frozen.state.position, order)),
-        membrane_(membrane_at(discretisation_, position_, layers_for(contents, frozen.model),
-                              frozen.model.viscosity_ratio, instruments_)) {
+        space_(space_at(frozen, order)),
+        position_(resize_order(membrane_of(frozen).position, order)),
+        membrane_(membrane_at(space_, position_, layers_for(contents, vesicle_of(frozen)),
+                              vesicle_of(frozen).viscosity_ratio, instruments_)) {
     result.order = order;
-    if (contents.electric) electric_ = frozen.model.electric->at(frozen.state.time, Limit::after);
+    if (contents.electric)
+      electric_ = electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after);
   }
 
   CheckFields result;
 
   void solve_prescribed(const Matrix& samples) {
-    const Vector potential = resize_order(frozen_.state.transmembrane_potential, result.order);
+    const Vector potential = resize_order(membrane_of(frozen_).transmembrane_potential, result.order);
     const SecondKindSolution density = charge_density(potential);
     const ElectricTraces traces = electric_traces(electric_, membrane_, potential, density);
     result.charge = membrane_.fine.analyze(traces.charge);
@@ -61,7 +66,7 @@ class FrozenSolver {
   }
 
   void solve_steady() {
-    const ChargingParameters& charging = *frozen_.model.charging;
+    const ChargingParameters& charging = vesicle_of(frozen_).charging;
     require_converged(steady_potential(electric_, charging, membrane_, tolerance(), result.steady_potential),
                       "steady membrane potential");
     result.steady_charge = membrane_.fine.analyze(
@@ -76,7 +81,8 @@ class FrozenSolver {
     const Matrix driven = position_ * gradient.transpose() + layer(weighted);
     result.velocity = membrane_.velocity(driven);
     if (result.force_electric.size() > 0) {
-      const Matrix change = resize_order(frozen_.fields.force_electric, result.order) - result.force_electric;
+      const Matrix change =
+          resize_order(frozen_.fields.vesicles.front().force_electric, result.order) - result.force_electric;
       result.velocity_own_force =
           membrane_.velocity(driven + layer(membrane_.weighted(membrane_.fine.synthesize(change))));
     }
@@ -90,7 +96,7 @@ class FrozenSolver {
   }
 
  private:
-  [[nodiscard]] double tolerance() const { return discretisation_.settings().electric_tolerance; }
+  [[nodiscard]] double tolerance() const { return NumericalSettings{}.electric_tolerance; }
 
   [[nodiscard]] SecondKindSolution charge_density(const Vector& potential) const {
     SecondKindSolution density = solve_second_kind(
@@ -118,7 +124,7 @@ class FrozenSolver {
 
   const FrozenState& frozen_;
   Instruments instruments_;
-  Discretisation discretisation_;
+  MembraneSpace space_;
   Matrix position_;
   Membrane membrane_;
   ElectricParameters electric_;
@@ -130,18 +136,19 @@ CheckContents check_contents(const FrozenState& frozen) {
   const Model& model = frozen.model;
   CheckContents contents;
   contents.flow = model.mobile;
-  if (contents.flow && !(model.viscosity_ratio > 0.0)) {
+  const double viscosity_ratio = vesicle_of(frozen).viscosity_ratio;
+  if (contents.flow && !(viscosity_ratio > 0.0)) {
     throw InputError(fmt::format("{}: the viscosity inside is {:g}; the finite-element check needs it above zero",
-                                 frozen.source, model.viscosity_ratio * model.viscosity));
+                                 frozen.source, viscosity_ratio * model.viscosity));
   }
   if (model.electric) {
-    for (const double sigma : {model.electric->conductivity_in, model.electric->conductivity_out}) {
+    for (const double sigma : {vesicle_of(frozen).inside.conductivity, model.electric->conductivity}) {
       if (sigma > 0.0) continue;
       throw InputError(fmt::format("{}: a conductivity is {:g}; the finite-element check needs both above zero",
                                    frozen.source, sigma));
     }
     contents.steady = !applied_field(frozen).isZero(0.0);
-    contents.electric = contents.steady || !frozen.state.transmembrane_potential.isZero(0.0);
+    contents.electric = contents.steady || !membrane_of(frozen).transmembrane_potential.isZero(0.0);
   }
   if (!contents.electric && !contents.flow) {
     throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",
@@ -152,7 +159,7 @@ CheckContents check_contents(const FrozenState& frozen) {
 
 Vector3 applied_field(const FrozenState& frozen) {
   if (!frozen.model.electric) return Vector3::Zero();
-  return frozen.model.electric->at(frozen.state.time, Limit::after).field;
+  return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).field;
 }
 
 Matrix3 flow_gradient(const FrozenState& frozen) {
@@ -161,19 +168,21 @@ Matrix3 flow_gradient(const FrozenState& frozen) {
 }
 
 Matrix given_force(const FrozenState& frozen) {
-  const Matrix& position = frozen.state.position;
+  const Matrix& position = membrane_of(frozen).position;
   Matrix force = Matrix::Zero(position.rows(), 3);
-  const Fields& fields = frozen.fields;
+  const VesicleFields& fields = frozen.fields.vesicles.front();
   if (fields.force_bending.size() > 0) force += fields.force_bending;
   if (fields.force_tension.size() > 0) force += fields.force_tension;
   if (fields.force_electric.size() > 0) force -= fields.force_electric;
-  if (frozen.model.effects.empty()) return force;
+  Model others = frozen.model;
+  others.flow.reset();
+  const auto effects = explicit_effects(others);
+  if (effects.empty()) return force;
 
   // The run file stores no other forces: they follow from the shape and the time.
   Instruments instruments;
-  const Discretisation discretisation = discretisation_at(frozen, order_of(position.rows()));
-  const Membrane membrane = membrane_at(discretisation, position, {}, 1.0, instruments);
-  for (const auto& effect : frozen.model.effects) {
+  const Membrane membrane = membrane_at(space_at(frozen, order_of(position.rows())), position, {}, 1.0, instruments);
+  for (const auto& effect : effects) {
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};
     effect->add({membrane, position, frozen.state.time}, forcing);
     if (!forcing.velocity.isZero(0.0)) {

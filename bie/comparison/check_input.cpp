@@ -24,30 +24,33 @@ void write_physics(Hdf5Writer& file, const CheckInput& input) {
   const Model& model = input.frozen.model;
   file.group("/physics");
   const auto number = [&](const std::string& name, double value) { file.attribute("/physics", name, value); };
-  number("viscosity_in", model.viscosity_ratio * model.viscosity);
+  const VesicleModel& vesicle = model.vesicles.front();
+  number("viscosity_in", vesicle.viscosity_ratio * model.viscosity);
   number("viscosity_out", model.viscosity);
   const Matrix gradient = flow_gradient(input.frozen).transpose();
   write(file, "/physics/flow_gradient", gradient, {"velocity/length", "A(i, j) of v_i = A(i, j) x_j, in row i"});
   const Matrix field = applied_field(input.frozen);
   write(file, "/physics/field", field, {"potential/length", "E_inf"});
   if (!model.electric) return;
-  number("conductivity_in", model.electric->conductivity_in);
-  number("conductivity_out", model.electric->conductivity_out);
-  number("permittivity_in", model.electric->permittivity_ratio * model.electric->permittivity);
+  number("conductivity_in", vesicle.inside.conductivity);
+  number("conductivity_out", model.electric->conductivity);
+  number("permittivity_in", vesicle.inside.permittivity_ratio * model.electric->permittivity);
   number("permittivity_out", model.electric->permittivity);
-  number("capacitance", model.charging->capacitance);
-  number("conductance", model.charging->conductance);
+  number("capacitance", vesicle.charging.capacitance);
+  number("conductance", vesicle.charging.conductance);
 }
 
 void write_given(Hdf5Writer& file, const CheckInput& input) {
   file.group("/given");
   if (input.contents.electric) {
-    write(file, "/given/Vm", input.frozen.state.transmembrane_potential, {"potential", "V_m of the snapshot"});
+    write(file, "/given/Vm", input.frozen.state.vesicles.front().transmembrane_potential,
+          {"potential", "V_m of the snapshot"});
   }
   if (!input.contents.flow) return;
   write(file, "/given/force", input.force, {"force/area", "f on the fluid, f_b + f_lambda - f_E and others"});
-  write(file, "/given/force_electric", input.frozen.fields.force_electric, {"force/area", "the f_E in it"});
-  write(file, "/given/velocity", input.frozen.fields.velocity, {"velocity", "dx/dt of the snapshot"});
+  write(file, "/given/force_electric", input.frozen.fields.vesicles.front().force_electric,
+        {"force/area", "the f_E in it"});
+  write(file, "/given/velocity", input.frozen.fields.vesicles.front().velocity, {"velocity", "dx/dt of the snapshot"});
 }
 
 void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields& fields) {
@@ -83,7 +86,7 @@ void write_samples(Hdf5Writer& file, const CheckInput& input) {
 
 void write_check_input(const std::filesystem::path& path, const CheckInput& input) {
   Hdf5Writer file(path, Hdf5Writer::Mode::create);
-  write_header(file, input.frozen.state.position);
+  write_header(file, input.frozen.state.vesicles.front().position);
   file.attribute("/", "source", input.frozen.source);
   file.attribute("/", "time", input.frozen.state.time);
   write_physics(file, input);

@@ -26,7 +26,7 @@ CheckSamples check_samples(const Matrix& position) {
   const SphereTransform transform(order, make_grid(order));
   const Surface surface = make_surface(transform, position);
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
-  const Vector3 centre = (surface.quadrature.transpose() * surface.position / surface_area(surface)).transpose();
+  const Vector3 centre = centroid(surface);
   CheckSamples samples;
   samples.near = std::numbers::pi * radius / order;
   std::vector<Vector3> points;

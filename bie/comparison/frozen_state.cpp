@@ -8,7 +8,7 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/stepping/stepper.hpp"
+#include "bie/stepping/evaluation/initial_state.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -35,9 +35,8 @@ FrozenState start_of_scene(const std::filesystem::path& file) {
   const Problem problem = problem_of(scene);
   const Discretisation discretisation(problem.settings, problem.symmetry);
   Instruments instruments;
-  const State start =
-      initial_state(problem.model, discretisation, problem.position, problem.potential, 0.0, instruments);
-  frozen.fields = in_laboratory(problem.frame, evaluate(problem.model, discretisation, start, instruments).fields);
+  const State start = initial_state(problem.model, discretisation, problem.start, 0.0, instruments);
+  frozen.fields = in_laboratory(problem.frame, solve_fields(problem.model, discretisation, start, instruments).fields);
   frozen.state = in_laboratory(problem.frame, start);
   frozen.symmetry = symmetry_of(scene, frozen);
   return frozen;
@@ -57,10 +56,11 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<dou
   const auto read = [&](const std::string& name, Index components) {
     return run.has_field(snapshot, name) ? run.coefficients(snapshot, name, components) : Matrix();
   };
-  state.position = run.coefficients(snapshot, "x", 3);
-  state.area_strain = Vector::Zero(state.position.rows());
-  if (frozen.model.electric) state.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
-  Fields& fields = frozen.fields;
+  VesicleState& vesicle = state.vesicles.emplace_back();
+  vesicle.position = run.coefficients(snapshot, "x", 3);
+  vesicle.area_strain = Vector::Zero(vesicle.position.rows());
+  if (frozen.model.electric) vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
+  VesicleFields& fields = frozen.fields.vesicles.emplace_back();
   fields.velocity = read("velocity", 3);
   fields.force_bending = read("force_bending", 3);
   fields.force_tension = read("force_tension", 3);

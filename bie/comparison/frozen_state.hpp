@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "bie/stepping/fields.hpp"
-#include "bie/stepping/model.hpp"
-#include "bie/stepping/state.hpp"
-#include "bie/stepping/symmetry.hpp"
+#include "bie/stepping/state/fields.hpp"
+#include "bie/stepping/state/model.hpp"
+#include "bie/stepping/state/state.hpp"
+#include "bie/stepping/state/symmetry.hpp"
 
 namespace vehd {
 

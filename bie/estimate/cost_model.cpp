@@ -10,8 +10,8 @@
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/composition.hpp"
-#include "bie/stepping/deferred_correction.hpp"
+#include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/memory.hpp"
 
@@ -35,7 +35,7 @@ double step_size(const Scene& scene) {
   constexpr double kTolerance = 1e-3;
   const Problem problem = problem_of(at_tolerance(scene, kTolerance));
   Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
+  Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
   const double longest = scene.output.every.value_or(std::max(scene.numerics.end_time, kTolerance));
   return std::min(evolution.state().dt_next, longest);
@@ -49,7 +49,7 @@ CostModel::Point timed(Scene scene, int order, double dt) {
   scene.numerics.time_order = kTimeOrder;
   const Problem problem = problem_of(scene);
   Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
+  Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
   evolution.step({std::nullopt, 10.0 * dt});
   const auto start = std::chrono::steady_clock::now();

@@ -13,7 +13,7 @@
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
-#include "bie/stepping/deferred_correction.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 

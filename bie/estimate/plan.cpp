@@ -10,10 +10,10 @@
 
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/composition.hpp"
-#include "bie/stepping/deferred_correction.hpp"
-#include "bie/stepping/discretisation_tables.hpp"
-#include "bie/stepping/step_plan.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
+#include "bie/stepping/time/step_plan.hpp"
 
 namespace vehd {
 namespace {
@@ -35,12 +35,18 @@ constexpr std::array kKnownEffects = {
 /// The model without one of its effects.
 Model without(const Model& model, const std::string& name) {
   Model result = model;
-  if (name == "bending") result.bending.reset();
-  if (name == "inextensibility") result.inextensible = false;
+  const auto erase_from = [&](auto& effects) {
+    std::erase_if(effects, [&](const auto& effect) { return effect->description().name == name; });
+  };
+  for (VesicleModel& vesicle : result.vesicles) {
+    if (name == "bending") vesicle.bending.reset();
+    if (name == "inextensibility") vesicle.inextensible = false;
+    if (name == "viscosity contrast") vesicle.viscosity_ratio = 1.0;
+    erase_from(vesicle.effects);
+  }
   if (name == "electric field") result.electric.reset();
   if (name == "background flow") result.flow.reset();
-  if (name == "viscosity contrast") result.viscosity_ratio = 1.0;
-  std::erase_if(result.effects, [&](const auto& effect) { return effect->description().name == name; });
+  erase_from(result.effects);
   return result;
 }
 
@@ -56,8 +62,8 @@ std::string text_of(const Problem& problem) { return symmetry_text(problem.symme
 std::string difference_text(const Scene& scene, const Model& model, const Model& reduced, const RunPlan& plan,
                             std::size_t n_unknowns) {
   std::vector<std::string> parts;
-  const LayerSelection needed = needed_layers(model, true);
-  const LayerSelection left = needed_layers(reduced, true);
+  const LayerSelection needed = needed_layers(model, model.vesicles.front(), true);
+  const LayerSelection left = needed_layers(reduced, reduced.vesicles.front(), true);
   std::vector<std::string> saved;
   for (const OperatorFlag& op : kOperators) {
     if (needed.*op.flag && !(left.*op.flag)) saved.emplace_back(op.name);
@@ -88,7 +94,7 @@ RunPlan plan_of(const Scene& scene) {
     const auto present = [&](const EffectDescription& effect) { return effect.name == name; };
     if (std::none_of(effects.begin(), effects.end(), present)) plan.absent.emplace_back(name);
   }
-  const LayerSelection needed = needed_layers(model, true);
+  const LayerSelection needed = needed_layers(model, model.vesicles.front(), true);
   for (const OperatorFlag& op : kOperators) {
     if (!(needed.*op.flag)) continue;
     std::vector<std::string> reasons;
@@ -99,15 +105,14 @@ RunPlan plan_of(const Scene& scene) {
     }
     plan.operators.push_back({op.name, fmt::format("{}", fmt::join(reasons, "; "))});
   }
-  const Discretisation discretisation(problem.settings, symmetry);
-  const Discretisation::Tables& tables = discretisation.tables();
+  const MembraneSpace space(problem.settings, symmetry);
   plan.kernel_evaluations =
-      evaluations_per_assembly(tables.quadrature, tables.targets, symmetry.reflections, tables.fold);
+      evaluations_per_assembly(space.quadrature(), space.targets(), symmetry.reflections, space.fold());
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
   while (!scene.numerics.tolerance && time < scene.numerics.end_time) {
-    const EventTimes events{scene.output.every, scene.numerics.end_time, next_corner(model, time)};
+    const EventTimes events{scene.output.every, scene.numerics.end_time, next_discontinuity(model, time)};
     const StepPlan step = plan_step(time, *scene.numerics.dt, events);
     plan.n_steps += std::lround((step.event_time - time) / step.dt_limit);
     time = step.event_time;

@@ -6,7 +6,7 @@
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/space/resolution.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -19,16 +19,16 @@ template <typename InBudget>
 void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget, TrialRun& trial) {
   const Problem problem = problem_of(scene);
   Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
+  Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
-  trial.highest_order = evolution.order();
+  trial.highest_order = evolution.order(0);
   const double end = scene.numerics.end_time;
   while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
-    const EvolutionStep step = evolution.step({scene.output.every, end});
-    TrialStep record{evolution.state().time, step.dt,          step.change, step.rejected + 1,
-                     evolution.order(),      step.at_snapshot, {}};
-    trial.highest_order = std::max(trial.highest_order, evolution.order());
-    const Resolution resolution(problem.model, evolution.state());
+    const StepAttempt step = evolution.step({scene.output.every, end});
+    TrialStep record{evolution.state().time, step.dt, step.error_estimate, step.rejected + 1, evolution.order(0),
+                     step.at_snapshot,       {}};
+    trial.highest_order = std::max(trial.highest_order, evolution.order(0));
+    const Resolution resolution(problem.model, evolution.state().vesicles.front());
     for (const double wanted : tolerances) {
       record.orders.push_back(
           resolution.order_for(truncation_share * wanted, lowest_adaptive_order, accuracy_defaults(wanted).order));

@@ -149,20 +149,22 @@ std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Sph
                             const State& state, const Fields& fields, const SiScale& si_scale) {
   SnapshotWriter snapshot(file, name, transform, si_scale);
   snapshot.moment(state.time, state.step);
-  snapshot.field("x", state.position, position_label);
-  snapshot.field("velocity", fields.velocity, velocity_label);
-  snapshot.field("force_bending", fields.force_bending, bending_label);
-  snapshot.field("force_tension", fields.force_tension, tension_force_label);
-  snapshot.field("force_electric", fields.force_electric, electric_label);
-  snapshot.field("Vm", state.transmembrane_potential, potential_label);
-  snapshot.field("q", fields.charge, charge_label);
-  snapshot.field("tension", fields.tension, tension_label);
-  if (state.area_strain.size() == state.position.rows()) {
-    snapshot.field("area_strain", state.area_strain, strain_label);
-  } else if (state.area_strain.size() == transform.grid().n_points()) {
-    snapshot.grid_field("area_strain", state.area_strain, strain_label);
+  const VesicleState& vesicle = state.vesicles.front();
+  const VesicleFields& f = fields.vesicles.front();
+  snapshot.field("x", vesicle.position, position_label);
+  snapshot.field("velocity", f.velocity, velocity_label);
+  snapshot.field("force_bending", f.force_bending, bending_label);
+  snapshot.field("force_tension", f.force_tension, tension_force_label);
+  snapshot.field("force_electric", f.force_electric, electric_label);
+  snapshot.field("Vm", vesicle.transmembrane_potential, potential_label);
+  snapshot.field("q", f.charge, charge_label);
+  snapshot.field("tension", f.tension, tension_label);
+  if (vesicle.area_strain.size() == vesicle.position.rows()) {
+    snapshot.field("area_strain", vesicle.area_strain, strain_label);
+  } else if (vesicle.area_strain.size() == transform.grid().n_points()) {
+    snapshot.grid_field("area_strain", vesicle.area_strain, strain_label);
   }
-  snapshot.grid_field("area_element", make_surface(transform, state.position).area_element,
+  snapshot.grid_field("area_element", make_surface(transform, vesicle.position).area_element,
                       {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
   return snapshot.seal();
 }

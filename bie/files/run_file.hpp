@@ -7,8 +7,8 @@
 #include "bie/files/hdf5_writer.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/sphere/transform.hpp"
-#include "bie/stepping/fields.hpp"
-#include "bie/stepping/state.hpp"
+#include "bie/stepping/state/fields.hpp"
+#include "bie/stepping/state/state.hpp"
 
 /// Layout of run.h5. Stable: the finite-element side and users' scripts read it.
 namespace vehd {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "bie/linear/gmres.hpp"
-#include "bie/linear/known_responses.hpp"
+#include "bie/linear/recycled_subspace.hpp"
+#include "bie/linear/solve_report.hpp"
 
 namespace vehd {
 
@@ -22,7 +22,7 @@ class RecycledGcr {
   /// @param preconditioner  approximate inverse of A
   /// @param known           of an operator similar to A
   RecycledGcr(LinearMap map, LinearMap preconditioner, Index size, Index n_further = 0,
-              const KnownResponses& known = {});
+              const RecycledSubspace& known = {});
 
   struct Solution {
     SolveReport report;  ///< of a bound of the true residual, a look at which counts as an iteration
@@ -30,10 +30,10 @@ class RecycledGcr {
     Vector further;  ///< the map's further entries at x
   };
   /// @param start  where the solve starts, of size 0 for x = 0; options as for gmres
-  Solution solve(const Vector& rhs, const Vector& start, const GmresOptions& options);
+  Solution solve(const Vector& rhs, const Vector& start, const SolveOptions& options);
 
   /// What the solves so far have found of A.
-  [[nodiscard]] KnownResponses learned() const;
+  [[nodiscard]] RecycledSubspace learned() const;
   /// The columns of `known` that say something new.
   [[nodiscard]] const std::vector<Index>& kept() const { return secant_.kept(); }
 
@@ -64,7 +64,8 @@ class RecycledGcr {
   /// How far the residual can be from the true one.
   [[nodiscard]] double uncertainty(const Vector& shares) const;
   /// New directions until the residual is as small as wanted, the iterations are used up, or none can be had.
-  void search(double wanted, int most, Iterate& iterate, int& iterations);
+  /// @param allowed  uncertainty of a direction
+  void search(double wanted, int most, double allowed, Iterate& iterate, int& iterations);
   /// b − A x itself takes the place of the recurrence.
   void look(const Vector& goal, Iterate& iterate) const;
 

@@ -1,22 +1,25 @@
 #include "bie/linear/subspace_solve.hpp"
 
+#include <utility>
+
+#include "bie/linear/recycled_gcr.hpp"
+
 namespace vehd {
 
-SolveReport gmres_within(const std::vector<Index>& support, const LinearMap& map, const LinearMap& preconditioner,
-                         const Vector& rhs, Vector& x, const GmresOptions& options) {
-  if (support.empty()) return gmres(map, preconditioner, rhs, x, options);
-  const auto expanded = [&](const Vector& entries) {
+SolveReport solve_within(const std::vector<Index>& entries, const LinearMap& map, const LinearMap& preconditioner,
+                         const Vector& rhs, Vector& x, const SolveOptions& options) {
+  const auto expanded = [&](const Vector& within) {
     Vector all = Vector::Zero(rhs.size());
-    all(support) = entries;
+    all(entries) = within;
     return all;
   };
-  const auto within = [&](const LinearMap& of_all) -> LinearMap {
-    return [&](const Vector& entries) -> Vector { return of_all(expanded(entries))(support); };
+  const auto restricted = [&](const LinearMap& of_all) -> LinearMap {
+    return [&](const Vector& within) -> Vector { return of_all(expanded(within))(entries); };
   };
-  Vector entries = x(support);
-  const SolveReport report = gmres(within(map), within(preconditioner), rhs(support), entries, options);
-  x = expanded(entries);
-  return report;
+  RecycledGcr solver(restricted(map), restricted(preconditioner), static_cast<Index>(entries.size()));
+  const RecycledGcr::Solution solution = solver.solve(rhs(entries), x(entries), options);
+  x = expanded(solution.x);
+  return solution.report;
 }
 
 }  // namespace vehd

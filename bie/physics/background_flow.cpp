@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "bie/physics/turned.hpp"
+#include "bie/physics/rotated.hpp"
 
 namespace vehd {
 
@@ -29,12 +29,11 @@ EffectDescription LinearFlowEffect::description() const {
   return {"background flow", "v_inf = gradient x on the right of Eq. (5)", {}, {}};
 }
 
-void LinearFlowEffect::add(const Situation& situation, Forcing& forcing) const {
-  forcing.velocity +=
-      flow_.waveform.at(situation.time, situation.limit) * situation.position * flow_.gradient.transpose();
+void LinearFlowEffect::add(const EffectInput& input, Forcing& forcing) const {
+  forcing.velocity += flow_.waveform.at(input.time, input.limit) * input.position * flow_.gradient.transpose();
 }
 
-bool LinearFlowEffect::allows(const Reflection& g) const {
+bool LinearFlowEffect::is_invariant_under(const Reflection& g) const {
   const Matrix3& a = flow_.gradient;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -54,21 +53,21 @@ bool are_equal(const Matrix3& a, const Matrix3& b) {
 
 }  // namespace
 
-bool LinearFlowEffect::allows_axis() const {
+bool LinearFlowEffect::is_axisymmetric() const {
   Matrix3 axisymmetric = Matrix3::Zero();
   axisymmetric.diagonal() << flow_.gradient(0, 0), flow_.gradient(0, 0), flow_.gradient(2, 2);
   return are_equal(flow_.gradient, axisymmetric);
 }
 
-bool LinearFlowEffect::allows_turns() const {
+bool LinearFlowEffect::is_invariant_under_turns() const {
   const Matrix3& a = flow_.gradient;
   Matrix3 swirling = Matrix3::Zero();
   swirling << a(0, 0), a(0, 1), 0.0, -a(0, 1), a(0, 0), 0.0, 0.0, 0.0, a(2, 2);
   return are_equal(a, swirling);
 }
 
-std::shared_ptr<const ExplicitEffect> LinearFlowEffect::turned(const Matrix3& rotation) const {
-  return std::make_shared<LinearFlowEffect>(BackgroundFlow{turned_tensor(rotation, flow_.gradient), flow_.waveform});
+std::shared_ptr<const ExplicitEffect> LinearFlowEffect::rotated(const Matrix3& rotation) const {
+  return std::make_shared<LinearFlowEffect>(BackgroundFlow{rotated_tensor(rotation, flow_.gradient), flow_.waveform});
 }
 
 std::vector<Vector3> LinearFlowEffect::axis_candidates() const {
@@ -77,7 +76,9 @@ std::vector<Vector3> LinearFlowEffect::axis_candidates() const {
   return {axes.col(0), axes.col(1), axes.col(2)};
 }
 
-std::optional<double> LinearFlowEffect::next_corner(double time) const { return flow_.waveform.next_corner(time); }
+std::optional<double> LinearFlowEffect::next_discontinuity(double time) const {
+  return flow_.waveform.next_discontinuity(time);
+}
 
 bool LinearFlowEffect::jumps_at(double time) const { return flow_.waveform.jumps_at(time); }
 

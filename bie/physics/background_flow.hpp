@@ -24,13 +24,13 @@ class LinearFlowEffect : public ExplicitEffect {
   explicit LinearFlowEffect(BackgroundFlow flow) : flow_(std::move(flow)) {}
 
   [[nodiscard]] EffectDescription description() const override;
-  void add(const Situation& situation, Forcing& forcing) const override;
-  [[nodiscard]] bool allows(const Reflection& g) const override;
-  [[nodiscard]] bool allows_axis() const override;
-  [[nodiscard]] bool allows_turns() const override;
-  [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const override;
+  void add(const EffectInput& input, Forcing& forcing) const override;
+  [[nodiscard]] bool is_invariant_under(const Reflection& g) const override;
+  [[nodiscard]] bool is_axisymmetric() const override;
+  [[nodiscard]] bool is_invariant_under_turns() const override;
+  [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const override;
   [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
-  [[nodiscard]] std::optional<double> next_corner(double time) const override;
+  [[nodiscard]] std::optional<double> next_discontinuity(double time) const override;
   [[nodiscard]] bool jumps_at(double time) const override;
 
  private:

@@ -26,7 +26,7 @@ struct EffectDescription {
 };
 
 /// What an effect sees: a frozen membrane at one time.
-struct Situation {
+struct EffectInput {
   const Membrane& membrane;
   const Matrix& position;  ///< coefficients of x
   double time;
@@ -45,21 +45,21 @@ class ExplicitEffect {
   virtual ~ExplicitEffect() = default;
 
   [[nodiscard]] virtual EffectDescription description() const = 0;
-  virtual void add(const Situation& situation, Forcing& forcing) const = 0;
+  virtual void add(const EffectInput& input, Forcing& forcing) const = 0;
   /// Is the effect its own image under the reflection g?
-  [[nodiscard]] virtual bool allows(const Reflection& g) const = 0;
+  [[nodiscard]] virtual bool is_invariant_under(const Reflection& g) const = 0;
   /// Is it axisymmetric about z, without swirl?
-  [[nodiscard]] virtual bool allows_axis() const = 0;
+  [[nodiscard]] virtual bool is_axisymmetric() const = 0;
   /// Is it its own image under every turn about z? Unlike an axisymmetric one it may swirl.
-  [[nodiscard]] virtual bool allows_turns() const { return allows_axis(); }
+  [[nodiscard]] virtual bool is_invariant_under_turns() const { return is_axisymmetric(); }
   /// Does it do the same to a membrane wherever that is?
   [[nodiscard]] virtual bool is_same_everywhere() const { return false; }
   /// The same effect turned by the rotation R.
-  [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const = 0;
+  [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const = 0;
   /// Where to look for an axis about which it is axisymmetric; none where every axis is one.
   [[nodiscard]] virtual std::vector<Vector3> axis_candidates() const { return {}; }
   /// The next time after `time` at which a step should end because the effect changes abruptly.
-  [[nodiscard]] virtual std::optional<double> next_corner(double) const { return std::nullopt; }
+  [[nodiscard]] virtual std::optional<double> next_discontinuity(double) const { return std::nullopt; }
   /// Is the effect another one just after this time than just before it?
   [[nodiscard]] virtual bool jumps_at(double) const { return false; }
 };

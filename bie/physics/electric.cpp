@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "bie/linear/subspace_solve.hpp"
-#include "bie/physics/scalar_support.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
@@ -63,7 +62,9 @@ SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const
   // Equal conductivities: the membrane carries no charge layer that S′ could act on.
   if (eta == 0.0) {
     const Vector weighted = 2.0 * weighted_rhs;
-    return {membrane.fine.analyze(weighted), weighted.cwiseQuotient(membrane.surface.area_element), {true, 0, 0.0}};
+    return {membrane.fine.analyze(weighted),
+            weighted.cwiseQuotient(membrane.surface.area_element),
+            {SolveEnd::converged, 0, 0.0}};
   }
   const LinearMap map = [&](const Vector& g) { return second_kind_operator(membrane, eta, g); };
   // At η = 1 the mean of the density is free and the right-hand side has none: any number but zero will do.
@@ -78,7 +79,7 @@ SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const
   SecondKindSolution solution;
   solution.weighted = start.size() == rhs.size() ? start : Vector::Zero(rhs.size());
   solution.report =
-      gmres_within(scalar_support(membrane.fine), map, preconditioner, rhs, solution.weighted, {tolerance, 60});
+      solve_within(membrane.subspace.potentials(), map, preconditioner, rhs, solution.weighted, {tolerance, 60});
   const Vector smoothed = membrane.fine.synthesize(membrane.layers.laplace_adjoint.apply(solution.weighted));
   solution.values = (2.0 * (weighted_rhs - eta * smoothed)).cwiseQuotient(membrane.surface.area_element);
   return solution;

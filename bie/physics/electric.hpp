@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/linear/gmres.hpp"
+#include "bie/linear/solve_report.hpp"
 #include "bie/physics/effect.hpp"
 #include "bie/physics/membrane.hpp"
 #include "bie/physics/parameters.hpp"

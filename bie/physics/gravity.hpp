@@ -16,10 +16,10 @@ class GravityEffect : public ExplicitEffect {
   explicit GravityEffect(GravityParameters parameters) : parameters_(std::move(parameters)) {}
 
   [[nodiscard]] EffectDescription description() const override;
-  void add(const Situation& situation, Forcing& forcing) const override;
-  [[nodiscard]] bool allows(const Reflection& g) const override;
-  [[nodiscard]] bool allows_axis() const override;
-  [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const override;
+  void add(const EffectInput& input, Forcing& forcing) const override;
+  [[nodiscard]] bool is_invariant_under(const Reflection& g) const override;
+  [[nodiscard]] bool is_axisymmetric() const override;
+  [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const override;
   [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
 
  private:

@@ -6,6 +6,7 @@
 #include "bie/geometry/surface.hpp"
 #include "bie/physics/viscosity_contrast.hpp"
 #include "bie/potentials/layer_operators.hpp"
+#include "bie/sphere/symmetry.hpp"
 
 namespace vehd {
 
@@ -16,6 +17,7 @@ struct Membrane {
   Surface surface;       ///< on the upsampled grid
   LayerOperators layers;
   double radius;                                ///< √(area/4π), of the sphere behind the preconditioners
+  SymmetrySubspace subspace;                    ///< of the fields on it
   std::optional<ViscosityContrast> contrast{};  ///< empty where both fluids have the same viscosity
 
   /// Coefficients of J f from values on the upsampled grid.

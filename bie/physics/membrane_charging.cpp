@@ -1,7 +1,6 @@
 #include "bie/physics/membrane_charging.hpp"
 
 #include "bie/linear/subspace_solve.hpp"
-#include "bie/physics/scalar_support.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 
@@ -46,7 +45,7 @@ SolveReport solve_charging(const ElectricParameters& electric, const Membrane& m
   Vector rhs = conduction * fine.analyze(weighted_field_flux(membrane, electric.field));
   if (!b.isZero(0.0)) rhs += second_kind_operator(membrane, eta, weighted_b);
   rhs[0] = storage > 0.0 ? weighted_b[0] : 0.0;
-  return gmres_within(scalar_support(fine), map, preconditioner, rhs, potential, {tolerance, 60});
+  return solve_within(membrane.subspace.potentials(), map, preconditioner, rhs, potential, {tolerance, 60});
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/linear/gmres.hpp"
+#include "bie/linear/solve_report.hpp"
 #include "bie/physics/electric.hpp"
 
 namespace vehd {

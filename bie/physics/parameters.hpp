@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "bie/physics/waveform.hpp"
 #include "bie/support/types.hpp"
 
@@ -10,7 +12,29 @@ struct BendingParameters {
   double modulus = 0.0;  ///< kappa_B
 };
 
-/// Leaky-dielectric bulk fluids in a uniform applied field, Eq. (4).
+/// What the velocity of one membrane depends on besides its shape and the forces.
+struct FlowParameters {
+  double viscosity = 1.0;        ///< μ_e, outside
+  double viscosity_ratio = 1.0;  ///< μ_i/μ_e
+  bool inextensible = true;
+  std::optional<BendingParameters> bending{};
+};
+
+/// The uniform field far away and the fluid that it is applied to.
+struct AppliedField {
+  Vector3 field = Vector3::Zero();  ///< E_inf where the waveform is 1
+  double conductivity = 1.0;        ///< sigma_e
+  double permittivity = 1.0;        ///< epsilon outside
+  Waveform waveform{};              ///< of the field
+};
+
+/// The leaky dielectric inside one vesicle.
+struct InnerDielectric {
+  double conductivity = 1.0;        ///< sigma_i
+  double permittivity_ratio = 1.0;  ///< epsilon inside over outside
+};
+
+/// Leaky-dielectric bulk fluids on both sides of one membrane in a uniform applied field, Eq. (4).
 struct ElectricParameters {
   Vector3 field = Vector3::Zero();  ///< E_inf where the waveform is 1
   double conductivity_in = 1.0;     ///< sigma_i

@@ -1,6 +1,6 @@
 #include "bie/physics/poiseuille_flow.hpp"
 
-#include "bie/physics/turned.hpp"
+#include "bie/physics/rotated.hpp"
 
 namespace vehd {
 
@@ -8,37 +8,37 @@ EffectDescription PoiseuilleFlowEffect::description() const {
   return {"Poiseuille flow", "v_inf = v_c (1 - (y^2 + z^2)/R^2) e_x on the right of Eq. (5)", {}, {}};
 }
 
-void PoiseuilleFlowEffect::add(const Situation& situation, Forcing& forcing) const {
-  const Matrix& x = situation.membrane.surface.position;
+void PoiseuilleFlowEffect::add(const EffectInput& input, Forcing& forcing) const {
+  const Matrix& x = input.membrane.surface.position;
   const Vector3& d = parameters_.direction;
   const Matrix off_axis = x - (x * d) * d.transpose();
-  const double amplitude = parameters_.centre_velocity * parameters_.waveform.at(situation.time, situation.limit);
+  const double amplitude = parameters_.centre_velocity * parameters_.waveform.at(input.time, input.limit);
   const Vector profile =
       amplitude * (1.0 - off_axis.rowwise().squaredNorm().array() / (parameters_.radius * parameters_.radius));
-  forcing.velocity += situation.membrane.fine.analyze(profile) * d.transpose();
+  forcing.velocity += input.membrane.fine.analyze(profile) * d.transpose();
 }
 
-bool PoiseuilleFlowEffect::allows(const Reflection& g) const {
+bool PoiseuilleFlowEffect::is_invariant_under(const Reflection& g) const {
   for (int i = 0; i < 3; ++i) {
     if (g.sign(i) < 0 && parameters_.direction[i] != 0.0) return false;
   }
   return true;
 }
 
-bool PoiseuilleFlowEffect::allows_axis() const {
+bool PoiseuilleFlowEffect::is_axisymmetric() const {
   return parameters_.direction.x() == 0.0 && parameters_.direction.y() == 0.0;
 }
 
-std::shared_ptr<const ExplicitEffect> PoiseuilleFlowEffect::turned(const Matrix3& rotation) const {
+std::shared_ptr<const ExplicitEffect> PoiseuilleFlowEffect::rotated(const Matrix3& rotation) const {
   PoiseuilleParameters result = parameters_;
-  result.direction = turned_vector(rotation, parameters_.direction);
+  result.direction = rotated_vector(rotation, parameters_.direction);
   return std::make_shared<PoiseuilleFlowEffect>(result);
 }
 
 std::vector<Vector3> PoiseuilleFlowEffect::axis_candidates() const { return {parameters_.direction}; }
 
-std::optional<double> PoiseuilleFlowEffect::next_corner(double time) const {
-  return parameters_.waveform.next_corner(time);
+std::optional<double> PoiseuilleFlowEffect::next_discontinuity(double time) const {
+  return parameters_.waveform.next_discontinuity(time);
 }
 
 bool PoiseuilleFlowEffect::jumps_at(double time) const { return parameters_.waveform.jumps_at(time); }

@@ -9,8 +9,8 @@ EffectDescription SpontaneousCurvatureEffect::description() const {
           {}};
 }
 
-void SpontaneousCurvatureEffect::add(const Situation& situation, Forcing& forcing) const {
-  const Surface& s = situation.membrane.surface;
+void SpontaneousCurvatureEffect::add(const EffectInput& input, Forcing& forcing) const {
+  const Surface& s = input.membrane.surface;
   const double c = parameters_.curvature;
   const Vector magnitude = -2.0 * parameters_.bending_modulus * c * (s.gauss_curvature - c * s.mean_curvature);
   forcing.force += magnitude.asDiagonal() * s.normal;

@@ -16,11 +16,11 @@ class SpontaneousCurvatureEffect : public ExplicitEffect {
   explicit SpontaneousCurvatureEffect(SpontaneousCurvatureParameters parameters) : parameters_(parameters) {}
 
   [[nodiscard]] EffectDescription description() const override;
-  void add(const Situation& situation, Forcing& forcing) const override;
-  [[nodiscard]] bool allows(const Reflection&) const override { return true; }
-  [[nodiscard]] bool allows_axis() const override { return true; }
+  void add(const EffectInput& input, Forcing& forcing) const override;
+  [[nodiscard]] bool is_invariant_under(const Reflection&) const override { return true; }
+  [[nodiscard]] bool is_axisymmetric() const override { return true; }
   [[nodiscard]] bool is_same_everywhere() const override { return true; }
-  [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3&) const override {
+  [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3&) const override {
     return std::make_shared<SpontaneousCurvatureEffect>(parameters_);
   }
 

@@ -21,21 +21,15 @@ struct Unknown {
   int component;
 };
 
-std::vector<Unknown> symmetric_unknowns(int order, const std::vector<Index>& active,
-                                        const std::vector<Reflection>& reflections) {
-  const Index n_all = n_coefficients(order);
-  const Index n_active = active.empty() ? n_all : static_cast<Index>(active.size());
+/// @param active  coefficient_index of each row of the operator, ascending; empty: all
+std::vector<Unknown> symmetric_unknowns(const SymmetrySubspace& subspace, Index n_all,
+                                        const std::vector<Index>& active) {
   std::vector<Unknown> result;
-  for (int component = 0; component < 3; ++component) {
-    for (Index position = 0; position < n_active; ++position) {
-      const Index index = active.empty() ? position : active[position];
-      const int n = static_cast<int>(std::sqrt(double(index)));
-      const int m = static_cast<int>(index - coefficient_index(n, 0));
-      const auto keeps = [&](const Reflection& g) { return g.sign(component) * g.parity(n, m) > 0; };
-      if (std::all_of(reflections.begin(), reflections.end(), keeps)) {
-        result.push_back({position, component * n_all + index, component});
-      }
-    }
+  for (const Index entry : subspace.vectors()) {
+    const Index index = entry % n_all;
+    const auto row = std::lower_bound(active.begin(), active.end(), index);
+    const Index position = active.empty() ? index : row - active.begin();
+    result.push_back({position, entry, static_cast<int>(entry / n_all)});
   }
   return result;
 }
@@ -82,11 +76,11 @@ Matrix rigid_motions(const Matrix& position, double radius, const std::vector<In
 
 ViscosityContrast::ViscosityContrast(const ViscosityContrastParameters& parameters, const SphereTransform& fine,
                                      const Surface& surface, const StokesOperator& double_layer,
-                                     const std::vector<Reflection>& reflections)
+                                     const SymmetrySubspace& subspace)
     : n_coefficients_(n_coefficients(fine.order())), largest_(std::max(1.0, parameters.ratio)) {
   const double ratio = parameters.ratio;
   if (!(ratio >= 0.0)) throw InputError(fmt::format("viscosity ratio is {} but must not be negative", ratio));
-  const std::vector<Unknown> unknowns = symmetric_unknowns(fine.order(), double_layer.active(), reflections);
+  const std::vector<Unknown> unknowns = symmetric_unknowns(subspace, n_coefficients_, double_layer.active());
   for (const Unknown& unknown : unknowns) unknowns_.push_back(unknown.entry);
 
   const double radius = std::cbrt(std::abs(enclosed_volume(surface)));

@@ -5,7 +5,7 @@
 
 #include "bie/geometry/surface.hpp"
 #include "bie/potentials/layer_operators.hpp"
-#include "bie/sphere/reflection.hpp"
+#include "bie/sphere/symmetry.hpp"
 
 namespace vehd {
 
@@ -33,11 +33,11 @@ class ViscosityContrast {
   /// @param fine         degree p ↔ upsampled grid
   /// @param surface      on the upsampled grid
   /// @param double_layer Stokes double layer on the surface, not needed afterwards
-  /// @param reflections  under which surface and velocities are their own images, v(g s) = g v(s); parts of w that are
-  ///                     not are ignored
+  /// @param subspace     of fields under whose mirrors surface and velocities are their own images, v(g s) = g v(s);
+  ///                     parts of w that are not are ignored
   /// @throws InputError unless ratio ≥ 0
   ViscosityContrast(const ViscosityContrastParameters& parameters, const SphereTransform& fine, const Surface& surface,
-                    const StokesOperator& double_layer, const std::vector<Reflection>& reflections = {});
+                    const StokesOperator& double_layer, const SymmetrySubspace& subspace);
 
   /// v from w, coefficients [n_coefficients x 3]. @throws ShapeError
   [[nodiscard]] Matrix velocity(const Matrix& equal_viscosity_velocity) const;

@@ -85,7 +85,7 @@ double Waveform::at(double time, Limit limit) const {
   return values_[i - 1] + part * (values_[i] - values_[i - 1]);
 }
 
-std::optional<double> Waveform::next_corner(double time) const {
+std::optional<double> Waveform::next_discontinuity(double time) const {
   const double after = time + slack(time);
   switch (kind_) {
     case Kind::constant:
@@ -118,7 +118,7 @@ bool Waveform::jumps_at(double time) const {
 bool Waveform::is_quiet(double time) const {
   if (kind_ == Kind::constant) return false;
   if (kind_ == Kind::alternating) return amplitude_ == 0.0;
-  const std::optional<double> corner = next_corner(time);
+  const std::optional<double> corner = next_discontinuity(time);
   return at(time) == 0.0 && (!corner || at(*corner, Limit::before) == 0.0);
 }
 

@@ -25,7 +25,7 @@ class Waveform {
 
   [[nodiscard]] double at(double time, Limit limit = Limit::after) const;
   /// The first time after `time` at which the factor or its slope jumps: a step should end there.
-  [[nodiscard]] std::optional<double> next_corner(double time) const;
+  [[nodiscard]] std::optional<double> next_discontinuity(double time) const;
   /// Does the factor itself jump at this time, not only its slope?
   [[nodiscard]] bool jumps_at(double time) const;
   /// Is the factor zero from `time` up to the next corner?

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/sphere/legendre.hpp"
 #include "bie/sphere/neighbourhood.hpp"
+#include "bie/sphere/point_derivatives.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -61,47 +61,20 @@ FootPoint foot_point_at(const TangentFrame& direction, const PointDerivatives& y
 
 }  // namespace
 
-PointDerivatives point_derivatives(const Matrix& coefficients, double theta, double phi) {
-  const int order = order_of(coefficients.rows());
-  const LegendreTables tables = legendre_tables(order, Vector::Constant(1, theta));
-  const auto zero = Eigen::RowVectorXd::Zero(coefficients.cols());
-  PointDerivatives p{zero, zero, zero, zero, zero, zero};
-  for (int m = 0; m <= order; ++m) {
-    const double cosine = std::cos(m * phi);
-    const double sine = std::sin(m * phi);
-    for (int n = m; n <= order; ++n) {
-      const auto a = coefficients.row(coefficient_index(n, m));
-      const auto b = coefficients.row(coefficient_index(n, -m));
-      const double b_factor = m > 0 ? 1.0 : 0.0;
-      const Eigen::RowVectorXd even = cosine * a + (b_factor * sine) * b;
-      const Eigen::RowVectorXd odd = (b_factor * cosine) * b - sine * a;
-      const double value = tables.value[m](0, n - m);
-      const double d11 = tables.d2_theta[m](0, n - m);
-      p.value += value * even;
-      p.d1 += tables.d_theta[m](0, n - m) * even;
-      p.d2 += tables.m_over_sin[m](0, n - m) * odd;
-      p.d11 += d11 * even;
-      p.d12 += tables.d_m_over_sin[m](0, n - m) * odd;
-      p.d22 += (-double(n) * (n + 1) * value - d11) * even;
-    }
-  }
-  return p;
-}
-
 FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Vector3& target) {
   constexpr int kMaxSteps = 60;
   constexpr int kMaxHalvings = 30;
   constexpr double kTolerance = 1e-13;
   require_size("position (Cartesian components)", position.cols(), 3);
   TangentFrame direction(point_of(start));
-  PointDerivatives y = point_derivatives(position, direction.point.theta, direction.point.phi);
+  PointDerivatives y = point_derivatives(position, direction.point);
   SquaredDistance q = squared_distance(y, target);
   for (int steps = 0; steps < kMaxSteps; ++steps) {
     Eigen::Vector2d step = descent_step(q);
     const bool last = step.norm() < kTolerance;
     for (int halvings = 0;; ++halvings) {
       const TangentFrame next(point_of(direction.moved(step)));
-      const PointDerivatives y_next = point_derivatives(position, next.point.theta, next.point.phi);
+      const PointDerivatives y_next = point_derivatives(position, next.point);
       const SquaredDistance q_next = squared_distance(y_next, target);
       // The square of a tiny distance is flat to rounding: the gradient decides when the value cannot.
       const bool nearer = q_next.value <= q.value || q_next.gradient.norm() < q.gradient.norm();

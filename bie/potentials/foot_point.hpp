@@ -4,16 +4,6 @@
 
 namespace vehd {
 
-/// Fields at one point of the unit sphere with covariant derivatives in its frame (e_θ, e_φ), one column per field.
-/// Finite at the poles.
-struct PointDerivatives {
-  Eigen::RowVectorXd value, d1, d2, d11, d12, d22;
-};
-
-/// @param coefficients  [n_coefficients x n_fields]
-/// @throws ShapeError if the count of rows is no (p + 1)²
-PointDerivatives point_derivatives(const Matrix& coefficients, double theta, double phi);
-
 /// The point y of the surface nearest to a target x.
 struct FootPoint {
   double theta = 0.0, phi = 0.0;

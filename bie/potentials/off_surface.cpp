@@ -13,6 +13,7 @@
 #include "bie/potentials/target_frame.hpp"
 #include "bie/potentials/target_values.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/point_derivatives.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -129,11 +130,11 @@ struct OffSurfaceLayers::Data {
   [[nodiscard]] FootDensities foot_densities(const FootPoint& foot) const {
     FootDensities result;
     if (fields.single >= 0) {
-      result.single = point_derivatives(densities.laplace_single, foot.theta, foot.phi).value[0] / foot.area_element;
+      result.single = point_derivatives(densities.laplace_single, {foot.theta, foot.phi}).value[0] / foot.area_element;
     }
     if (fields.columns.double_1 >= 0) {
-      const PointDerivatives f = point_derivatives(densities.laplace_double, foot.theta, foot.phi);
-      const PointDerivatives x = point_derivatives(position, foot.theta, foot.phi);
+      const PointDerivatives f = point_derivatives(densities.laplace_double, {foot.theta, foot.phi});
+      const PointDerivatives x = point_derivatives(position, {foot.theta, foot.phi});
       const Vector3 u = x.d1.transpose();
       const Vector3 v = x.d2.transpose();
       // J n×∇_γ f = f_1 x_2 − f_2 x_1, and ∇_γ f = −n×(n×∇_γ f).

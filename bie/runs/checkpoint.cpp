@@ -25,17 +25,18 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("time", state.time);
   visit("step", state.step);
   visit("dt_next", state.dt_next);
-  visit("quadrature_level", state.quadrature_level);
-  visit("position", state.position);
-  visit("transmembrane_potential", state.transmembrane_potential);
-  visit("tension", state.tension);
-  visit("area_strain", state.area_strain);
-  visit("reference_area", state.reference_area);
-  visit("reference_volume", state.reference_volume);
-  visit("tension", state.flow_memory.tension);
-  visit("flow", state.flow_memory.flow);
-  visit("unaided_iterations", state.flow_memory.unaided_iterations);
-  visit("pause", state.flow_memory.pause);
+  auto& vesicle = state.vesicles.front();
+  visit("quadrature_level", vesicle.quadrature_level);
+  visit("position", vesicle.position);
+  visit("transmembrane_potential", vesicle.transmembrane_potential);
+  visit("tension", vesicle.tension);
+  visit("area_strain", vesicle.area_strain);
+  visit("reference_area", vesicle.reference_area);
+  visit("reference_volume", vesicle.reference_volume);
+  visit("tension", vesicle.recycled.tension);
+  visit("flow", vesicle.recycled.flow);
+  visit("unaided_iterations", vesicle.recycled.unaided_iterations);
+  visit("pause", vesicle.recycled.pause);
 }
 
 /// What is known of a map is the coefficients of its rows and two matrices, behind its name.
@@ -84,14 +85,14 @@ struct WriteVisitor {
   Hdf5Writer& file;
   void operator()(const char* name, const double& value) { file.attribute("/state", name, value); }
   void operator()(const char* name, const std::int64_t& value) { file.attribute("/state", name, value); }
-  void operator()(const char* name, const std::shared_ptr<const ScalarResponses>& known) {
+  void operator()(const char* name, const std::shared_ptr<const RecycledScalars>& known) {
     if (!known) return;
     const std::vector<Index>& entries = known->entries();
     const auto n = static_cast<Index>(entries.size());
     const Vector numbers = Eigen::Map<const Eigen::Matrix<Index, Eigen::Dynamic, 1>>(entries.data(), n).cast<double>();
     (*this)((std::string(name) + entries_of).c_str(), numbers);
-    (*this)((std::string(name) + arguments_of).c_str(), known->known().arguments);
-    (*this)((std::string(name) + responses_of).c_str(), known->known().responses);
+    (*this)((std::string(name) + arguments_of).c_str(), known->subspace().arguments);
+    (*this)((std::string(name) + responses_of).c_str(), known->subspace().responses);
   }
   template <typename Derived>
   void operator()(const char* name, const Eigen::PlainObjectBase<Derived>& values) {
@@ -107,9 +108,9 @@ struct ReadVisitor {
   const Hdf5Reader& file;
   void operator()(const char* name, double& value) { value = file.number_attribute("/state", name); }
   void operator()(const char* name, std::int64_t& value) { value = file.integer_attribute("/state", name); }
-  void operator()(const char* name, std::shared_ptr<const ScalarResponses>& known) {
+  void operator()(const char* name, std::shared_ptr<const RecycledScalars>& known) {
     Vector numbers;
-    KnownResponses stored;
+    RecycledSubspace stored;
     (*this)((std::string(name) + entries_of).c_str(), numbers);
     (*this)((std::string(name) + arguments_of).c_str(), stored.arguments);
     (*this)((std::string(name) + responses_of).c_str(), stored.responses);
@@ -124,7 +125,7 @@ struct ReadVisitor {
       entries.push_back(static_cast<Index>(number));
     }
     try {
-      known = std::make_shared<const ScalarResponses>(std::move(entries), std::move(stored));
+      known = std::make_shared<const RecycledScalars>(std::move(entries), std::move(stored));
     } catch (const ShapeError& error) {
       file.refuse(fmt::format("/state/{}: {}", name, error.what()));
     }
@@ -149,26 +150,27 @@ void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
   visit_counts(checkpoint, [&](const char* name, std::int64_t value) { require(value >= 0, name); });
   require(checkpoint.start_order >= lowest_order && checkpoint.start_order <= highest_order, "start_order");
   const State& state = checkpoint.state;
-  require(state.position.cols() == 3 && state.position.allFinite(), "/state/position");
-  require(state.position.rows() <= n_coefficients(highest_order), "/state/position");
+  const VesicleState& vesicle = state.vesicles.front();
+  require(vesicle.position.cols() == 3 && vesicle.position.allFinite(), "/state/position");
+  require(vesicle.position.rows() <= n_coefficients(highest_order), "/state/position");
   try {
-    order_of(state.position.rows());
+    order_of(vesicle.position.rows());
   } catch (const ShapeError&) {
     require(false, "/state/position");
   }
-  for (const Vector* values : {&state.transmembrane_potential, &state.tension}) {
-    require((values->size() == 0 || values->size() == state.position.rows()) && values->allFinite(), "/state");
+  for (const Vector* values : {&vesicle.transmembrane_potential, &vesicle.tension}) {
+    require((values->size() == 0 || values->size() == vesicle.position.rows()) && values->allFinite(), "/state");
   }
-  require(state.area_strain.allFinite(), "/state/area_strain");
-  for (const auto& known : {state.flow_memory.tension, state.flow_memory.flow}) {
+  require(vesicle.area_strain.allFinite(), "/state/area_strain");
+  for (const auto& known : {vesicle.recycled.tension, vesicle.recycled.flow}) {
     if (!known) continue;
     const char* name = "/state, what its solves know,";
-    const Matrix& arguments = known->known().arguments;
-    const Matrix& responses = known->known().responses;
-    require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= most_known_responses, name);
+    const Matrix& arguments = known->subspace().arguments;
+    const Matrix& responses = known->subspace().responses;
+    require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= most_recycled, name);
     require(arguments.allFinite() && responses.allFinite(), name);
   }
-  for (const double value : {state.time, state.dt_next, state.reference_area, state.reference_volume}) {
+  for (const double value : {state.time, state.dt_next, vesicle.reference_area, vesicle.reference_volume}) {
     require(std::isfinite(value), "/state");
   }
 }
@@ -198,6 +200,7 @@ Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
   checkpoint.scene = file.text("/scene");
   checkpoint.changes = read_changes(file);
   checkpoint.totals = totals_of(file.text("/totals"), file);
+  checkpoint.state.vesicles.resize(1);
   visit_state(checkpoint.state, ReadVisitor{file});
   require_sound(checkpoint, file);
   return checkpoint;

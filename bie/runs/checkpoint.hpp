@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bie/runs/scene_changes.hpp"
-#include "bie/stepping/state.hpp"
+#include "bie/stepping/state/state.hpp"
 
 namespace vehd {
 

@@ -19,26 +19,26 @@ namespace {
 
 struct DiagnosticColumn {
   std::string_view name;
-  double Diagnostics::*member;
+  double VesicleDiagnostics::*member;
 };
 
 constexpr std::array diagnostic_columns = {
-    DiagnosticColumn{"area", &Diagnostics::area},
-    DiagnosticColumn{"volume", &Diagnostics::volume},
-    DiagnosticColumn{"reduced_volume", &Diagnostics::reduced_volume},
-    DiagnosticColumn{"bending_energy_scaled", &Diagnostics::bending_energy_scaled},
-    DiagnosticColumn{"tension_integral", &Diagnostics::tension_integral},
-    DiagnosticColumn{"Vm_north", &Diagnostics::Vm_north},
-    DiagnosticColumn{"q_north", &Diagnostics::q_north},
-    DiagnosticColumn{"Vm_max", &Diagnostics::Vm_max},
-    DiagnosticColumn{"extent_x", &Diagnostics::extent_x},
-    DiagnosticColumn{"extent_y", &Diagnostics::extent_y},
-    DiagnosticColumn{"extent_z", &Diagnostics::extent_z},
-    DiagnosticColumn{"inclination_deg", &Diagnostics::inclination_deg},
-    DiagnosticColumn{"area_drift", &Diagnostics::area_drift},
-    DiagnosticColumn{"volume_drift", &Diagnostics::volume_drift},
-    DiagnosticColumn{"strain_max", &Diagnostics::strain_max},
-    DiagnosticColumn{"spectrum_tail", &Diagnostics::spectrum_tail},
+    DiagnosticColumn{"area", &VesicleDiagnostics::area},
+    DiagnosticColumn{"volume", &VesicleDiagnostics::volume},
+    DiagnosticColumn{"reduced_volume", &VesicleDiagnostics::reduced_volume},
+    DiagnosticColumn{"bending_energy_scaled", &VesicleDiagnostics::bending_energy_scaled},
+    DiagnosticColumn{"tension_integral", &VesicleDiagnostics::tension_integral},
+    DiagnosticColumn{"Vm_north", &VesicleDiagnostics::Vm_north},
+    DiagnosticColumn{"q_north", &VesicleDiagnostics::q_north},
+    DiagnosticColumn{"Vm_max", &VesicleDiagnostics::Vm_max},
+    DiagnosticColumn{"extent_x", &VesicleDiagnostics::extent_x},
+    DiagnosticColumn{"extent_y", &VesicleDiagnostics::extent_y},
+    DiagnosticColumn{"extent_z", &VesicleDiagnostics::extent_z},
+    DiagnosticColumn{"inclination_deg", &VesicleDiagnostics::inclination_deg},
+    DiagnosticColumn{"area_drift", &VesicleDiagnostics::area_drift},
+    DiagnosticColumn{"volume_drift", &VesicleDiagnostics::volume_drift},
+    DiagnosticColumn{"strain_max", &VesicleDiagnostics::strain_max},
+    DiagnosticColumn{"spectrum_tail", &VesicleDiagnostics::spectrum_tail},
 };
 
 std::string header() {
@@ -100,13 +100,14 @@ void HistoryFile::append(const HistoryRow& row) {
   std::vector<std::string> cells;
   const auto number = [&cells](double value) { cells.push_back(fmt::format("{:.17g}", value)); };
   const auto count = [&cells](std::int64_t value) { cells.push_back(std::to_string(value)); };
-  const EvolutionStep& step = row.step;
+  const StepAttempt& step = row.step;
+  const VesicleDiagnostics& d = row.diagnostics.vesicles.front();
   number(row.time);
   number(step.dt);
-  for (const DiagnosticColumn& column : diagnostic_columns) number(row.diagnostics.*column.member);
+  for (const DiagnosticColumn& column : diagnostic_columns) number(d.*column.member);
   for (const int value : {step.iterations_flow, step.iterations_electric, step.rejected, row.order}) count(value);
-  for (const double value : {row.truncation, step.change, row.diagnostics.quadrature_error, row.diagnostics.separation,
-                             step.raw_area, row.diagnostics.wrinkle_degree}) {
+  for (const double value :
+       {row.truncation, step.error_estimate, d.quadrature_error, d.separation, step.raw_area, d.wrinkle_degree}) {
     number(value);
   }
   write(csv_line(cells));

@@ -16,7 +16,7 @@ namespace vehd {
 /// of the same time: first the values just before with that step, then those just after with a dt of 0.
 struct HistoryRow {
   double time = 0.0;
-  EvolutionStep step;
+  StepAttempt step;
   Diagnostics diagnostics;
   int order = 0;            ///< p of the state
   double truncation = 0.0;  ///< see Evolution::truncation

@@ -12,7 +12,8 @@
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -30,17 +31,18 @@ std::string shown(const std::string& value) { return value.empty() ? "absent" : 
 int order_of_state(const Scene& scene, const State& state) {
   const NumericsScene& numerics = scene.numerics;
   if (!numerics.tolerance) return numerics.order;
-  const int lowest = std::max(order_of(state.position.rows()), lowest_adaptive_order);
-  return Resolution(model_of(scene), state)
+  const VesicleState& vesicle = state.vesicles.front();
+  const int lowest = std::max(order_of(vesicle.position.rows()), lowest_adaptive_order);
+  return Resolution(model_of(scene), vesicle)
       .order_for(truncation_share * *numerics.tolerance, std::min(lowest, numerics.order), numerics.order);
 }
 
 State adapted(State state, const Scene& before, const Scene& scene) {
   const int order = order_of_state(scene, state);
-  const bool other_operators =
-      order != order_of(state.position.rows()) || before.numerics.symmetry != scene.numerics.symmetry;
-  if (order != order_of(state.position.rows())) state = resized(std::move(state), order);
-  if (other_operators) state.flow_memory = {};
+  for (VesicleState& vesicle : state.vesicles) {
+    vesicle = resized(std::move(vesicle), order);
+    if (before.numerics.symmetry != scene.numerics.symmetry) vesicle.recycled = {};
+  }
   // Steps chosen by a tolerance find their first size themselves.
   state.dt_next = scene.numerics.tolerance ? 0.0 : *scene.numerics.dt;
   return state;

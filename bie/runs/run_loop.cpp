@@ -71,7 +71,7 @@ class Simulation {
   }
 
  private:
-  [[nodiscard]] bool goes_on() const { return start_.state.position.size() > 0; }
+  [[nodiscard]] bool goes_on() const { return !start_.state.vesicles.empty(); }
 
   [[nodiscard]] int start_order() const {
     return goes_on() ? static_cast<int>(start_.start_order) : scene_.numerics.order;
@@ -79,7 +79,7 @@ class Simulation {
 
   Evolution evolution() {
     if (goes_on()) return {setup_of(problem_), start_.state, instruments_};
-    return {setup_of(problem_), problem_.position, problem_.potential, instruments_};
+    return {setup_of(problem_), problem_.start, instruments_};
   }
 
   [[nodiscard]] NumericalSettings settings_of_files(const RunPaths& paths) const {
@@ -117,34 +117,34 @@ class Simulation {
   void start() {
     evolution_.evaluate_start();
     if (recorder_.n_rows() > 0) return;
-    EvolutionStep none;
+    StepAttempt none;
     none.iterations_flow = evolution_.evaluation().iterations_flow;
     none.iterations_electric = evolution_.evaluation().iterations_electric;
     none.at_snapshot = true;
     record(none);
   }
 
-  [[nodiscard]] RecordedSide side_of(const Evaluation& evaluation, const EvolutionStep& step) const {
-    return {{evolution_.state().time, step, evaluation.diagnostics, evolution_.order(), evolution_.truncation()},
+  [[nodiscard]] RecordedSide side_of(const Evaluation& evaluation, const StepAttempt& step) const {
+    return {{evolution_.state().time, step, evaluation.diagnostics, evolution_.order(0), evolution_.truncation()},
             evaluation.fields};
   }
 
-  [[nodiscard]] std::vector<RecordedSide> sides_of(const EvolutionStep& step) const {
+  [[nodiscard]] std::vector<RecordedSide> sides_of(const StepAttempt& step) const {
     const Evaluation& now = evolution_.evaluation();
     const std::optional<Evaluation>& before = evolution_.before_jump();
     if (!before) return {side_of(now, step)};
-    EvolutionStep arrival = step;
+    StepAttempt arrival = step;
     arrival.at_snapshot = false;
-    EvolutionStep jump;
+    StepAttempt jump;
     jump.at_snapshot = step.at_snapshot;
     jump.iterations_flow = now.iterations_flow;
     jump.iterations_electric = now.iterations_electric;
     return {side_of(*before, arrival), side_of(now, jump)};
   }
 
-  void record(const EvolutionStep& step) {
+  void record(const StepAttempt& step) {
     const State& state = evolution_.state();
-    const Diagnostics& diagnostics = evolution_.evaluation().diagnostics;
+    const VesicleDiagnostics& diagnostics = evolution_.evaluation().diagnostics.vesicles.front();
     recorder_.record(state, sides_of(step), meter_.totals());
     const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
     if (tell_) tell_({state.step, start_time_, state.time, scene_.numerics.end_time, step.dt, drift, meter_.seconds()});

@@ -5,7 +5,8 @@
 #include "bie/runs/snapshot_copy.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/units.hpp"
-#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -81,7 +82,7 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
   const State written = resized(state, output_.order());
   for (const auto& [row, fields] : sides) {
     HistoryRow shown = row;
-    if (laboratory_.is_turned()) {
+    if (laboratory_.is_rotated()) {
       shown.diagnostics = laboratory_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
     }
     history_.append(shown);

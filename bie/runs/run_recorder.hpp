@@ -12,8 +12,8 @@
 #include "bie/runs/run_directory.hpp"
 #include "bie/runs/snapshot_store.hpp"
 #include "bie/sphere/transform.hpp"
-#include "bie/stepping/laboratory.hpp"
-#include "bie/stepping/stepper.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/evaluation/lab_frame_output.hpp"
 
 namespace vehd {
 
@@ -55,7 +55,7 @@ class RunRecorder {
   const RunPaths& paths_;
   SiScale si_scale_;
   SphereTransform output_;  ///< degree and grid of the files
-  Laboratory laboratory_;
+  LabFrameOutput laboratory_;
   Checkpoint last_;
   SnapshotStore snapshots_;
   HistoryFile history_;

@@ -1,6 +1,7 @@
 #include "bie/runs/snapshot_copy.hpp"
 
-#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 
 namespace vehd {
 
@@ -18,10 +19,12 @@ std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const s
   State state;
   state.time = source.number_attribute(group, "time");
   state.step = source.integer_attribute(group, "step");
-  state.position = matrix("x");
-  state.transmembrane_potential = vector("Vm");
-  state.area_strain = vector("area_strain");
-  Fields fields;
+  VesicleState& vesicle = state.vesicles.emplace_back();
+  vesicle.position = matrix("x");
+  vesicle.transmembrane_potential = vector("Vm");
+  vesicle.area_strain = vector("area_strain");
+  Fields all;
+  VesicleFields& fields = all.vesicles.emplace_back();
   fields.velocity = matrix("velocity");
   fields.force_bending = matrix("force_bending");
   fields.force_tension = matrix("force_tension");
@@ -29,7 +32,7 @@ std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const s
   fields.tension = vector("tension");
   fields.charge = vector("q");
   return write_snapshot(target, name, transform, resized(std::move(state), transform.order()),
-                        resized(std::move(fields), transform.order()), si_scale);
+                        resized(std::move(all), transform.order()), si_scale);
 }
 
 }  // namespace vehd

@@ -5,7 +5,7 @@
 
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/degrees.hpp"
-#include "bie/stepping/time_rule.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 
 namespace vehd {
 

@@ -18,15 +18,18 @@ constexpr double pi = std::numbers::pi;
 class Groups {
  public:
   explicit Groups(const Scene& scene)
-      : scene_(scene), model_(model_of(scene)), size_(size_of(initial_position(scene))) {}
+      : scene_(scene),
+        model_(model_of(scene)),
+        vesicle_(model_.vesicles.front()),
+        size_(size_of(initial_position(scene))) {}
 
   std::vector<DimensionlessGroup> all() {
     add_geometry();
-    if (model_.viscosity_ratio != 1.0) {
-      add({"viscosity ratio", "Λ", model_.viscosity_ratio, "1", "μ_i/μ_e"});
+    if (vesicle_.viscosity_ratio != 1.0) {
+      add({"viscosity ratio", "Λ", vesicle_.viscosity_ratio, "1", "μ_i/μ_e"});
     }
-    if (model_.bending) add_bending();
-    if (model_.bending && shear_rate() > 0.0) add_flow();
+    if (vesicle_.bending) add_bending();
+    if (vesicle_.bending && shear_rate() > 0.0) add_flow();
     if (model_.electric) add_electric();
     return groups_;
   }
@@ -50,7 +53,7 @@ class Groups {
     if (!scene_.gravity) return;
     const Triple& g = scene_.gravity->acceleration;
     const double weight = std::abs(scene_.fluid.density_difference) * Vector3(g[0], g[1], g[2]).norm();
-    add({"Bond number", "Bo", weight * std::pow(radius(), 4) / model_.bending->modulus, "1",
+    add({"Bond number", "Bo", weight * std::pow(radius(), 4) / vesicle_.bending->modulus, "1",
          "|ρ_i − ρ_e|ga⁴/κ_B: weight over bending force"});
   }
 
@@ -60,17 +63,17 @@ class Groups {
   }
 
   void add_electric() {
-    const ElectricParameters& electric = *model_.electric;
+    const ElectricParameters electric = electric_parameters(model_, vesicle_);
     const double inside = electric.conductivity_in, outside = electric.conductivity_out;
     if (outside > 0.0) {
       add({"conductivity ratio", "R", inside / outside, "1", "σ_i/σ_e"});
-      add({"membrane conductance", "g", model_.charging->conductance * radius() / outside, "1",
+      add({"membrane conductance", "g", vesicle_.charging.conductance * radius() / outside, "1",
            "G_m a/σ_e: leak of the membrane over conduction of the fluid"});
     }
     const double series = 2.0 * inside * outside / (inside + 2.0 * outside);
-    const double rate = model_.charging->conductance + series / radius();
+    const double rate = vesicle_.charging.conductance + series / radius();
     if (rate > 0.0) {
-      const double charging_time = model_.charging->capacitance / rate;
+      const double charging_time = vesicle_.charging.capacitance / rate;
       add({"charging time", "t_m", charging_time, "time",
            "C_m/(G_m + 2σ_iσ_e/((σ_i + 2σ_e)a)): a sphere's membrane charges"});
       const auto& waveform = scene_.electric->waveform;
@@ -85,8 +88,8 @@ class Groups {
     const double stress = electric.permittivity * electric.field.squaredNorm();
     if (stress == 0.0) return;
     add({"electric time", "t_el", model_.viscosity / stress, "time", "μ/(εE²): the field deforms the membrane"});
-    if (model_.bending) {
-      add({"electric capillary number", "Ca", stress / model_.bending->modulus * 3.0 * size_.volume / (4.0 * pi), "1",
+    if (vesicle_.bending) {
+      add({"electric capillary number", "Ca", stress / vesicle_.bending->modulus * 3.0 * size_.volume / (4.0 * pi), "1",
            "εE²/κ_B · 3V/4π, Eq. (36): electric stress over bending stress"});
     }
     if (shear_rate() > 0.0) {
@@ -107,11 +110,12 @@ class Groups {
   }
   [[nodiscard]] double radius() const { return std::sqrt(size_.area / (4.0 * pi)); }
   [[nodiscard]] double bending_time() const {
-    return model_.viscosity * std::pow(radius(), 3) / model_.bending->modulus;
+    return model_.viscosity * std::pow(radius(), 3) / vesicle_.bending->modulus;
   }
 
   const Scene& scene_;
   Model model_;
+  VesicleModel vesicle_;
   ShapeSize size_;
   std::vector<DimensionlessGroup> groups_;
 };

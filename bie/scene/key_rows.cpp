@@ -2,7 +2,7 @@
 
 #include "bie/scene/key_table.hpp"
 #include "bie/sphere/degrees.hpp"
-#include "bie/stepping/deferred_correction.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 
 namespace vehd {
 namespace {

@@ -64,32 +64,28 @@ void add_flow(const FlowScene& flow, Model& model) {
 Model model_of(const Scene& scene) {
   Model model;
   model.viscosity = scene.fluid.viscosity;
-  model.viscosity_ratio = scene.fluid.viscosity_ratio;
-  model.inextensible = scene.membrane.inextensible;
+  VesicleModel& vesicle = model.vesicles.front();
+  vesicle.viscosity_ratio = scene.fluid.viscosity_ratio;
+  vesicle.inextensible = scene.membrane.inextensible;
   model.mobile = scene.membrane.mobile;
   if (scene.membrane.bending_modulus.value_or(0.0) > 0.0) {
     const double modulus = *scene.membrane.bending_modulus;
-    model.bending = BendingParameters{modulus};
+    vesicle.bending = BendingParameters{modulus};
     if (const double curvature = scene.membrane.spontaneous_curvature; curvature != 0.0) {
-      model.effects.push_back(
+      vesicle.effects.push_back(
           std::make_shared<SpontaneousCurvatureEffect>(SpontaneousCurvatureParameters{modulus, curvature}));
     }
   }
   if (scene.gravity) {
     const GravityParameters gravity{scene.fluid.density_difference, vector_of(scene.gravity->acceleration)};
-    model.effects.push_back(std::make_shared<GravityEffect>(gravity));
+    vesicle.effects.push_back(std::make_shared<GravityEffect>(gravity));
   }
   if (scene.flow) add_flow(*scene.flow, model);
   if (scene.electric) {
-    ElectricParameters electric;
-    electric.field = vector_of(scene.electric->field);
-    electric.waveform = waveform_of(scene.electric->waveform);
-    electric.permittivity_ratio = scene.electric->permittivity_ratio;
-    electric.conductivity_in = scene.electric->conductivity_in;
-    electric.conductivity_out = scene.electric->conductivity_out;
-    electric.permittivity = scene.electric->permittivity;
-    model.electric = electric;
-    model.charging = ChargingParameters{scene.membrane.capacitance, scene.membrane.conductance};
+    model.electric = AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out,
+                                  scene.electric->permittivity, waveform_of(scene.electric->waveform)};
+    vesicle.inside = {scene.electric->conductivity_in, scene.electric->permittivity_ratio};
+    vesicle.charging = {scene.membrane.capacitance, scene.membrane.conductance};
   }
   return model;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "bie/scene/scene.hpp"
-#include "bie/stepping/discretisation.hpp"
-#include "bie/stepping/model.hpp"
-#include "bie/stepping/stepper.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/model.hpp"
+#include "bie/stepping/time/step_control.hpp"
 
 namespace vehd {
 

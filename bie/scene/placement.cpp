@@ -41,11 +41,11 @@ Matrix3 rotation_matrix(const AxisAngle& rotation) {
 }
 
 Matrix rotated(const Matrix& position, const Matrix3& rotation) {
-  return without_rounding(turned_fields(position, rotation) * rotation.transpose());
+  return without_rounding(rotated_fields(position, rotation) * rotation.transpose());
 }
 
 Vector rotated_scalar(const Vector& field, const Matrix3& rotation) {
-  return without_rounding(turned_fields(field, rotation));
+  return without_rounding(rotated_fields(field, rotation));
 }
 
 Matrix shifted(Matrix position, const Triple& by) {

@@ -22,21 +22,23 @@ Problem problem_of(const Scene& scene, int start_order) {
 Problem problem_of(const Scene& scene, const Model& model) {
   State start;
   InitialMembrane membrane = initial_membrane(scene);
-  start.position = std::move(membrane.position);
-  start.transmembrane_potential = std::move(membrane.potential);
-  start.area_strain = Vector::Zero(start.position.rows());
+  VesicleState& vesicle = start.vesicles.emplace_back();
+  vesicle.position = std::move(membrane.position);
+  vesicle.transmembrane_potential = std::move(membrane.potential);
+  vesicle.area_strain = Vector::Zero(vesicle.position.rows());
   Problem problem;
   problem.frame = find_frame(model, start);
   problem.model = in_frame(problem.frame, model);
   start = in_frame(problem.frame, std::move(start));
   const Symmetry found = find_symmetry(problem.model, start);
   problem.settings = settings_of(scene);
-  problem.potential.steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
+  const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   problem.control = step_control_of(scene);
   problem.settings.longitude_fold = found.fold;
   if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = found;
-  problem.position = std::move(start.position);
-  problem.potential.given = std::move(start.transmembrane_potential);
+  for (VesicleState& found_at : start.vesicles) {
+    problem.start.push_back({std::move(found_at.position), {steady, std::move(found_at.transmembrane_potential)}});
+  }
   return problem;
 }
 

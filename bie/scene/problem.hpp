@@ -2,8 +2,8 @@
 
 #include "bie/scene/scene.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/frame.hpp"
-#include "bie/stepping/symmetry.hpp"
+#include "bie/stepping/state/frame.hpp"
+#include "bie/stepping/state/symmetry.hpp"
 
 namespace vehd {
 
@@ -13,9 +13,8 @@ struct Problem {
   Model model;
   NumericalSettings settings;
   StepControl control;
-  Symmetry symmetry;         ///< that the run uses: that of its start, or none where the scene says "off"
-  Matrix position;           ///< of the initial membrane, coefficients [n_coefficients x 3]
-  StartPotential potential;  ///< V_m of it
+  Symmetry symmetry;                 ///< that the run uses: that of its start, or none where the scene says "off"
+  std::vector<StartMembrane> start;  ///< of every vesicle
 };
 
 /// For an Evolution.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/point_derivatives.hpp"
 
 namespace vehd {
 namespace {
@@ -177,8 +178,10 @@ class Search {
   }
 
   [[nodiscard]] View view_at(const SpherePoint& at) const {
-    const LocalSlopes x = slopes_at(coefficients_, at, azimuthal_order_);
-    return {x.value.head<2>() - point_.head<2>(), x.gradient.topRows<2>(), x.value[2], x.gradient.row(2).transpose()};
+    const PointDerivatives x = point_derivatives(coefficients_, at, azimuthal_order_);
+    Eigen::Matrix2d slopes;
+    slopes << x.d1[0], x.d2[0], x.d1[1], x.d2[1];
+    return {x.value.head<2>().transpose() - point_.head<2>(), slopes, x.value[2], x.gradient(2)};
   }
 
   [[nodiscard]] View view_of(Index node) const {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bie/sphere/neighbourhood.hpp"
+#include "bie/sphere/point_derivatives.hpp"
 
 namespace vehd {
 namespace {
@@ -61,15 +61,15 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
     Climb next = climb_from(node);
     for (int count = 0; count < kMost && next.gain > kRounding * scale; ++count) {
       const SpherePoint end = point_of(TangentFrame(at).moved(next.step));
-      const LocalField there = derivatives_at(coefficients, end, azimuthal_order);
-      if (sign * there.value <= value) {
+      const PointDerivatives there = point_derivatives(coefficients, end, azimuthal_order);
+      if (sign * there.value[0] <= value) {
         next.step *= 0.5;
         next.gain *= 0.5;
         continue;
       }
-      value = sign * there.value;
+      value = sign * there.value[0];
       at = end;
-      next = climb(sign * there.gradient, sign * there.hessian, reach);
+      next = climb(sign * there.gradient(0), sign * there.hessian(0), reach);
     }
     return value;
   };

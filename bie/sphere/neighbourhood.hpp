@@ -2,7 +2,7 @@
 
 #include "bie/sphere/grid.hpp"
 
-/// Walks on the unit sphere that know no pole, and fields around a point.
+/// Walks on the unit sphere that know no pole.
 namespace vehd {
 
 /// A point of the unit sphere.
@@ -18,6 +18,9 @@ SpherePoint point_of(const Vector3& vector);
 /// The unit vector of a point.
 Vector3 direction(const SpherePoint& point);
 
+/// The end of a great circle that leaves a unit vector along a tangent, as long as that.
+Vector3 along_great_circle(const Vector3& from, const Vector3& tangent);
+
 /// A point with its frame.
 struct TangentFrame {
   SpherePoint point;
@@ -30,24 +33,5 @@ struct TangentFrame {
 
 /// Largest |m| with a coefficient that is not zero.
 int azimuthal_order_of(const Vector& coefficients);
-
-/// A field with covariant derivatives in the frame (e_θ, e_φ) of one point.
-struct LocalField {
-  double value = 0.0;
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-};
-
-/// By differences along great circles: the value is exact, derivatives have eight digits.
-LocalField derivatives_at(const Vector& coefficients, const SpherePoint& point, int azimuthal_order);
-
-/// Several fields with their gradients in the frame of one point.
-struct LocalSlopes {
-  Vector value;     ///< [n_fields]
-  Matrix gradient;  ///< [n_fields x 2]
-};
-
-/// As derivatives_at, of all columns at once and without the Hessian.
-LocalSlopes slopes_at(const Matrix& coefficients, const SpherePoint& point, int azimuthal_order);
 
 }  // namespace vehd

@@ -86,7 +86,7 @@ RotationY rotation_y(int order, double beta) {
   return rotation;
 }
 
-Matrix turned_fields(const Matrix& coefficients, const Matrix3& rotation) {
+Matrix rotated_fields(const Matrix& coefficients, const Matrix3& rotation) {
   const int order = order_of(coefficients.rows());
   const SphereTransform transform(order, make_grid(order));
   const SphereGrid& grid = transform.grid();

@@ -20,6 +20,6 @@ RotationY rotation_y(int order, double beta);
 
 /// Coefficients of f(R⁻¹ s): every field, [n_coefficients x n_fields], turned by R together with the sphere it lives
 /// on.
-Matrix turned_fields(const Matrix& coefficients, const Matrix3& rotation);
+Matrix rotated_fields(const Matrix& coefficients, const Matrix3& rotation);
 
 }  // namespace vehd

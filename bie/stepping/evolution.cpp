@@ -8,7 +8,8 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/composition.hpp"
+#include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -29,11 +30,17 @@ constexpr double kLeastApproach = 0.5;
 /// Steps between two attempts to save work: one that fails every time costs little of what a run does.
 constexpr std::int64_t kEconomyInterval = 4;
 
-std::unique_ptr<Discretisation> discretisation_of(const EvolutionSetup& setup, int order, std::int64_t level) {
-  NumericalSettings settings = setup.settings;
-  settings.order = order;
-  settings.quadrature_oversampling *= kQuadratureLevels.at(static_cast<std::size_t>(level));
-  return std::make_unique<Discretisation>(settings, setup.symmetry);
+Fineness fineness_of(int order, std::int64_t quadrature_level) {
+  return {order, kQuadratureLevels.at(static_cast<std::size_t>(quadrature_level))};
+}
+
+/// The spaces that the vesicles of a state are in.
+Discretisation discretisation_of(const EvolutionSetup& setup, const State& state) {
+  std::vector<Fineness> finenesses;
+  for (const VesicleState& vesicle : state.vesicles) {
+    finenesses.push_back(fineness_of(order_of(vesicle.position.rows()), vesicle.quadrature_level));
+  }
+  return {setup.settings, setup.symmetry, finenesses};
 }
 
 void require_apart(double separation, double before) {
@@ -51,209 +58,274 @@ int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_
 
 double truncation_target(const EvolutionSetup& setup) { return truncation_share * setup.control.tolerance; }
 
-int starting_order(const EvolutionSetup& setup, const Matrix& position, const Vector& potential) {
-  if (setup.control.tolerance == 0.0) return setup.settings.order;
-  State shape;
-  shape.position = position;
-  if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
-  // Exact for a sphere, and only a scale.
-  shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
-  return Resolution(setup.model, shape).order_for(truncation_target(setup), lowest_order(setup), setup.settings.order);
+/// A share of the time in which one membrane changes at the start. @returns the rate of that change
+double starting_rate(const EvolutionSetup& setup, const VesicleState& vesicle, const VesicleFields& fields,
+                     const VesicleSolution& solution) {
+  const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
+  double rate = 0.0;
+  // Degree 0 carries the membrane along and changes nothing of it.
+  const Matrix& velocity = fields.velocity;
+  if (velocity.size() > 0) rate = velocity.bottomRows(velocity.rows() - 1).norm() / radius;
+  if (solution.potential_rate.size() > 0) {
+    const double scale = potential_scale(*setup.model.electric, radius, vesicle.transmembrane_potential.norm());
+    rate = std::max(rate, solution.potential_rate.norm() / scale);
+  }
+  return rate;
 }
 
 /// A first step small against the time in which the start changes.
 double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, const State& state) {
   constexpr double kShare = 0.5;
-  const double radius = std::sqrt(state.reference_area / (4.0 * std::numbers::pi));
   double rate = 0.0;
-  // Degree 0 carries the membrane along and changes nothing of it.
-  const Matrix& velocity = evaluation.fields.velocity;
-  if (velocity.size() > 0) rate = velocity.bottomRows(velocity.rows() - 1).norm() / radius;
-  if (evaluation.potential_rate.size() > 0) {
-    const double scale = potential_scale(*setup.model.electric, radius, state.transmembrane_potential.norm());
-    rate = std::max(rate, evaluation.potential_rate.norm() / scale);
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    rate =
+        std::max(rate, starting_rate(setup, state.vesicles[a], evaluation.fields.vesicles[a], evaluation.vesicles[a]));
   }
   const double share = kShare * std::pow(setup.control.tolerance, 1.0 / setup.settings.time_order);
   return rate > 0.0 ? std::min(share / rate, setup.control.largest) : setup.control.largest;
 }
 
+/// Vesicles would have to act on one another.
+EvolutionSetup require_one_vesicle(EvolutionSetup setup) {
+  require_size("vesicles", static_cast<Index>(setup.model.vesicles.size()), 1);
+  return setup;
+}
+
 }  // namespace
 
-Evolution::Evolution(EvolutionSetup setup, const Matrix& position, const StartPotential& potential,
-                     Instruments& instruments)
-    : setup_(std::move(setup)), instruments_(instruments) {
-  start_at(starting_order(setup_, position, potential.given), position, potential);
-  // The area, which is the scale, and V_m are known only now.
-  for (Resolution start(setup_.model, state_); !resolves(start); start = Resolution(setup_.model, state_)) {
-    start_at(raised_order(start), position, potential);
+Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& start, Instruments& instruments)
+    : setup_(require_one_vesicle(std::move(setup))),
+      instruments_(instruments),
+      discretisation_(setup_.settings, setup_.symmetry, {}) {
+  std::vector<int> orders = starting_orders(start);
+  for (bool resolved = false; !resolved;) {
+    start_at(orders, start);
+    // The area, which is the scale, and V_m are known only now.
+    resolved = true;
+    for (std::size_t a = 0; a < orders.size(); ++a) {
+      const Resolution found = resolution(state_, a);
+      if (resolves(found, a)) continue;
+      orders[a] = raised_order(found, a);
+      resolved = false;
+    }
   }
 }
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)
-    : setup_(std::move(setup)),
+    : setup_(require_one_vesicle(std::move(setup))),
       instruments_(instruments),
-      discretisation_(discretisation_of(setup_, order_of(state.position.rows()), state.quadrature_level)),
+      discretisation_(discretisation_of(setup_, state)),
       state_(std::move(state)) {}
-
-Evolution::~Evolution() = default;
 
 void Evolution::evaluate_start() {
   arrive(state_);
   if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);
 }
 
-double Evolution::truncation() const { return Resolution(setup_.model, state_).remainder(); }
+double Evolution::truncation() const {
+  double most = 0.0;
+  for (std::size_t a = 0; a < state_.vesicles.size(); ++a) most = std::max(most, resolution(state_, a).remainder());
+  return most;
+}
 
-void Evolution::start_at(int order, const Matrix& position, const StartPotential& potential) {
-  discretisation_ = discretisation_of(setup_, order, 0);
-  state_ = initial_state(setup_.model, *discretisation_, resize_order(position, order), potential,
-                         adapts() ? 0.0 : setup_.control.largest, instruments_);
+Resolution Evolution::resolution(const State& state, std::size_t a) const { return {setup_.model, state.vesicles[a]}; }
+
+std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& start) const {
+  std::vector<int> orders;
+  for (const StartMembrane& membrane : start) {
+    if (!adapts()) {
+      orders.push_back(setup_.settings.order);
+      continue;
+    }
+    const Matrix& position = membrane.position;
+    const Vector& potential = membrane.potential.given;
+    VesicleState shape;
+    shape.position = position;
+    if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
+    // Exact for a sphere, and only a scale.
+    shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
+    orders.push_back(Resolution(setup_.model, shape)
+                         .order_for(truncation_target(setup_), lowest_order(setup_), setup_.settings.order));
+  }
+  return orders;
+}
+
+void Evolution::start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start) {
+  std::vector<StartMembrane> membranes = start;
+  std::vector<Fineness> finenesses;
+  for (std::size_t a = 0; a < orders.size(); ++a) {
+    membranes[a].position = resize_order(membranes[a].position, orders[a]);
+    finenesses.push_back(fineness_of(orders[a], 0));
+  }
+  discretisation_ = Discretisation(setup_.settings, setup_.symmetry, finenesses);
+  state_ =
+      initial_state(setup_.model, discretisation_, membranes, adapts() ? 0.0 : setup_.control.largest, instruments_);
 }
 
 /// @throws ConvergenceError, and everything stays
-void Evolution::change_discretisation(int order, std::int64_t quadrature_level) {
-  std::unique_ptr<Discretisation> discretisation = discretisation_of(setup_, order, quadrature_level);
-  State state = resized(state_, order);
-  state.quadrature_level = quadrature_level;
-  Evaluation evaluation = evaluate(setup_.model, *discretisation, state, instruments_);
+void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_level) {
+  Discretisation discretisation = discretisation_.with(a, fineness_of(order, quadrature_level));
+  State state = state_;
+  state.vesicles[a] = resized(std::move(state.vesicles[a]), order);
+  state.vesicles[a].quadrature_level = quadrature_level;
+  Evaluation evaluation = evaluate(setup_.model, discretisation, state, instruments_);
   // Less work that is not exact enough would have to be undone at the next step.
-  const bool is_economy = order < this->order() || quadrature_level < state_.quadrature_level;
-  if (is_economy && evaluation.quadrature_is_coarse) return;
+  const bool is_economy = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
+  if (is_economy && evaluation.diagnostics.vesicles[a].quadrature_is_coarse) return;
   evaluation_ = std::move(evaluation);
   discretisation_ = std::move(discretisation);
   state_ = std::move(state);
 }
 
+namespace {
+
+/// Finer quadrature where it is too coarse. @returns false where there is none
+bool refine_quadrature(State& state, Discretisation& discretisation, const Evaluation& evaluation) {
+  bool refined = false;
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    VesicleState& vesicle = state.vesicles[a];
+    if (!evaluation.diagnostics.vesicles[a].quadrature_is_coarse || vesicle.quadrature_level >= kHighestLevel) continue;
+    ++vesicle.quadrature_level;
+    discretisation = discretisation.with(a, fineness_of(discretisation.vesicle(a).order(), vesicle.quadrature_level));
+    refined = true;
+  }
+  return refined;
+}
+
+}  // namespace
+
 /// Makes this the state, with a quadrature that resolves it. @throws ConvergenceError, and the former state stays
 void Evolution::arrive(State state) {
-  std::unique_ptr<Discretisation> finer;
+  Discretisation discretisation = discretisation_;
   const auto evaluated = [&](const Evaluation* previous, Limit limit) {
-    return evaluate(setup_.model, finer ? *finer : *discretisation_, state, instruments_, previous, limit);
+    return evaluate(setup_.model, discretisation, state, instruments_, previous, limit);
   };
-  const bool has_former = evaluation_.parts != nullptr;
+  const bool has_former = !evaluation_.vesicles.empty();
   Evaluation evaluation = evaluated(has_former ? &evaluation_ : nullptr, Limit::after);
-  while (evaluation.quadrature_is_coarse && state.quadrature_level < kHighestLevel) {
-    ++state.quadrature_level;
-    finer = discretisation_of(setup_, order(), state.quadrature_level);
-    evaluation = evaluated(nullptr, Limit::after);
+  while (refine_quadrature(state, discretisation, evaluation)) evaluation = evaluated(nullptr, Limit::after);
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    const double separation = evaluation.diagnostics.vesicles[a].separation;
+    require_apart(separation, has_former ? evaluation_.diagnostics.vesicles[a].separation : separation);
   }
-  const double separation = evaluation.diagnostics.separation;
-  require_apart(separation, has_former ? evaluation_.diagnostics.separation : separation);
   std::optional<Evaluation> before;
   if (has_former && jumps_at(setup_.model, state.time)) {
     before = evaluated(&evaluation, Limit::before);
-    before->parts.reset();
+    for (VesicleSolution& vesicle : before->vesicles) vesicle.membrane.reset();
   }
   evaluation_ = std::move(evaluation);
-  if (finer) discretisation_ = std::move(finer);
+  discretisation_ = std::move(discretisation);
   state_ = std::move(state);
   before_jump_ = std::move(before);
 }
 
-void Evolution::lower_quadrature_if_idle() {
+void Evolution::lower_quadrature_if_idle(std::size_t a) {
   constexpr double kIdle = 1e-2;
-  if (state_.quadrature_level == 0) return;
-  if (evaluation_.diagnostics.quadrature_error > kIdle * setup_.settings.quadrature_tolerance) return;
-  change_discretisation(order(), state_.quadrature_level - 1);
+  const std::int64_t level = state_.vesicles[a].quadrature_level;
+  if (level == 0) return;
+  const double error = evaluation_.diagnostics.vesicles[a].quadrature_error;
+  if (error > kIdle * setup_.settings.quadrature_tolerance) return;
+  change_space(a, order(a), level - 1);
 }
 
 /// Does the degree leave out little enough, or is there no higher one?
-bool Evolution::resolves(const Resolution& resolution) const {
-  return !adapts() || order() >= setup_.settings.order || resolution.remainder() <= truncation_target(setup_);
+bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
+  return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target(setup_);
 }
 
-int Evolution::raised_order(const Resolution& resolution) const {
-  const int enough = resolution.order_for(truncation_target(setup_), order(), order() + 8);
-  return std::min(setup_.settings.order, std::max(enough, order() + 2));
+int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
+  const int enough = resolution.order_for(truncation_target(setup_), order(a), order(a) + 8);
+  return std::min(setup_.settings.order, std::max(enough, order(a) + 2));
 }
 
-/// @throws ConvergenceError, and everything stays
-bool Evolution::raise_order_for(const State& reached) {
-  const Resolution resolution(setup_.model, reached);
-  if (resolves(resolution)) return false;
-  const int raised = raised_order(resolution);
-  try {
-    change_discretisation(raised, state_.quadrature_level);
-  } catch (const ConvergenceError& error) {
-    throw ConvergenceError(fmt::format(
-        "no acceptable step from time {:g}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-        state_.time, order(), resolution.remainder(), truncation_target(setup_), raised, error.what()));
+/// @throws ConvergenceError, and the vesicle stays as it is
+bool Evolution::raise_orders_for(const State& reached) {
+  bool raised = false;
+  for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
+    const Resolution found = resolution(reached, a);
+    if (resolves(found, a)) continue;
+    const int enough = raised_order(found, a);
+    try {
+      change_space(a, enough, state_.vesicles[a].quadrature_level);
+    } catch (const ConvergenceError& error) {
+      throw ConvergenceError(fmt::format(
+          "no acceptable step from time {:g}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
+          state_.time, order(a), found.remainder(), truncation_target(setup_), enough, error.what()));
+    }
+    raised = true;
   }
-  return true;
+  return raised;
 }
 
-void Evolution::lower_order_if_idle() {
+void Evolution::lower_order_if_idle(std::size_t a) {
   // Far enough below the target that the degree does not rise again at once.
   constexpr double kIdle = 0.1;
   constexpr int kWorthwhile = 4;
-  if (!adapts() || order() <= lowest_order(setup_)) return;
-  const int enough =
-      Resolution(setup_.model, state_).order_for(kIdle * truncation_target(setup_), lowest_order(setup_), order());
-  if (enough <= order() - kWorthwhile) change_discretisation(enough, state_.quadrature_level);
+  if (!adapts() || order(a) <= lowest_order(setup_)) return;
+  const int enough = resolution(state_, a).order_for(kIdle * truncation_target(setup_), lowest_order(setup_), order(a));
+  if (enough <= order(a) - kWorthwhile) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 
 void Evolution::economise() {
   if (state_.step % kEconomyInterval != 0) return;
-  for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
-    try {
-      (this->*economy)();
-    } catch (const ConvergenceError&) {
-      // What cannot be had for less goes on as it is.
+  for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
+    for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
+      try {
+        (this->*economy)(a);
+      } catch (const ConvergenceError&) {
+        // What cannot be had for less goes on as it is.
+      }
     }
   }
 }
 
-Advance Evolution::advance_within(const StepPlan& plan, double wanted, EvolutionStep& record) {
+/// @param former  tries of the same step, which count with this one
+StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const StepAttempt& former) {
   State from = state_;
   // Equal up to rounding: the step must end on the event, not just before it.
   from.dt_next = plan.reaches_event ? std::max(wanted, plan.dt_limit) : wanted;
-  Advance advanced =
-      advance(setup_.model, *discretisation_, from, evaluation_, setup_.control, plan.dt_limit, instruments_);
-  record.rejected += advanced.rejected;
-  record.iterations_flow += advanced.iterations_flow;
-  record.iterations_electric += advanced.iterations_electric;
-  if (!advanced.accepted) {
-    throw ConvergenceError(fmt::format("no acceptable step from time {:g}: {}", state_.time, advanced.reason));
+  StepAttempt attempt =
+      controlled_step(setup_.model, discretisation_, from, evaluation_, setup_.control, plan.dt_limit, instruments_);
+  attempt.rejected += former.rejected;
+  attempt.iterations_flow += former.iterations_flow;
+  attempt.iterations_electric += former.iterations_electric;
+  if (!attempt.accepted) {
+    throw ConvergenceError(fmt::format("no acceptable step from time {:g}: {}", state_.time, attempt.reason));
   }
-  return advanced;
+  return attempt;
 }
 
-EvolutionStep Evolution::step(const EventTimes& events) {
+StepAttempt Evolution::step(const EventTimes& events) {
   EventTimes all = events;
-  const std::optional<double> corner = next_corner(setup_.model, state_.time);
-  if (corner) all.corner = std::min(*corner, events.corner.value_or(*corner));
+  const std::optional<double> discontinuity = next_discontinuity(setup_.model, state_.time);
+  if (discontinuity) all.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
   StepPlan plan = plan_step(state_.time, state_.dt_next, all);
   double wanted = state_.dt_next;
-  EvolutionStep record;
+  StepAttempt attempt;
   for (;;) {
-    Advance advanced = advance_within(plan, wanted, record);
-    const bool at_event = plan.reaches_event && advanced.dt == plan.dt_limit;
+    attempt = step_within(plan, wanted, attempt);
+    const bool at_event = plan.reaches_event && attempt.dt == plan.dt_limit;
     try {
-      if (raise_order_for(advanced.state)) {
-        ++record.rejected;
+      if (raise_orders_for(attempt.state)) {
+        ++attempt.rejected;
         continue;
       }
-      State reached = advanced.state;
-      if (at_event) reached.time = plan.event_time;
-      arrive(std::move(reached));
+      if (at_event) attempt.state.time = plan.event_time;
+      arrive(attempt.state);
     } catch (const ConvergenceError&) {
       // What cannot be solved for after this step may be after a smaller one.
-      ++record.rejected;
-      wanted = plan.dt_limit = advanced.dt / 2.0;
+      ++attempt.rejected;
+      wanted = plan.dt_limit = attempt.dt / 2.0;
       plan.reaches_event = false;
       if (plan.dt_limit < setup_.control.smallest) throw;
       continue;
     }
     const Evaluation& arrival = before_jump_ ? *before_jump_ : evaluation_;
-    record.dt = advanced.dt;
-    record.change = advanced.change;
-    record.raw_area = advanced.raw_area;
-    record.iterations_flow += arrival.iterations_flow;
-    record.iterations_electric += arrival.iterations_electric;
-    record.at_snapshot = at_event && plan.is_snapshot;
+    attempt.iterations_flow += arrival.iterations_flow;
+    attempt.iterations_electric += arrival.iterations_electric;
+    attempt.at_snapshot = at_event && plan.is_snapshot;
     // Nothing is idle where the forcing has just changed.
     if (!before_jump_) economise();
-    return record;
+    return attempt;
   }
 }
 

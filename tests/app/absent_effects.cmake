@@ -47,7 +47,7 @@ if(electric)
 endif()
 
 set(bookkeeping 0)
-foreach(name find_frame find_symmetry model_of needed_layers next_corner jumps_at plan_step)
+foreach(name find_frame find_symmetry model_of needed_layers next_discontinuity jumps_at plan_step)
   file(STRINGS "${FOLDER}/functions" lines REGEX "${line_start}vehd::${name}\\(")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE "${line_start}.*" "\\1" count "${line}")

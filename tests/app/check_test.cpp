@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(charge_that_is_wrong_by_a_percent_is_noticed) {
   const vehd::FrozenState frozen = vehd::read_frozen_state(directory / "scene.toml", std::nullopt);
   vehd::CheckContents contents = vehd::check_contents(frozen);
   contents.flow = false;
-  const vehd::CheckSamples samples = vehd::check_samples(frozen.state.position);
+  const vehd::CheckSamples samples = vehd::check_samples(frozen.state.vesicles[0].position);
   const auto wrong_fields = [&](int order) {
     vehd::CheckFields fields = vehd::check_fields(frozen, contents, {}, order, samples.points);
     fields.charge *= 1.01;

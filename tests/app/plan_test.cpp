@@ -1,8 +1,7 @@
-#include "bie/estimate/plan_cost.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
+#include "bie/estimate/plan_cost.hpp"
 #include "bie/scene/reader.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/stopping_scenes.hpp"

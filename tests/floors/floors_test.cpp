@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(no_module_links_one_of_its_own_floor_or_above) {
 BOOST_AUTO_TEST_CASE(wrong_includes_and_links_are_seen) {
   BOOST_TEST(wrong_include("files", "#include \"bie/scene/scene.hpp\"") == "bie/scene/scene.hpp");
   BOOST_TEST(wrong_include("estimate", "#include \"bie/pictures/plots.hpp\"") == "bie/pictures/plots.hpp");
-  BOOST_TEST(wrong_include("kernels", "# include <bie/linear/gmres.hpp>") == "bie/linear/gmres.hpp");
+  BOOST_TEST(wrong_include("kernels", "# include <bie/linear/recycled_gcr.hpp>") == "bie/linear/recycled_gcr.hpp");
   BOOST_TEST(wrong_include("app", "#include \"../scene/scene.hpp\"") == "../scene/scene.hpp");
   BOOST_TEST(wrong_include("comparison", "#include \"fem_check/flow.hpp\"") == "fem_check/flow.hpp");
   BOOST_TEST(wrong_include("scene", "#include \"bie/cellar/wine.hpp\"") == "bie/cellar/wine.hpp");

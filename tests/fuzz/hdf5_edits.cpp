@@ -91,10 +91,11 @@ std::string good_run() {
   vehd::Hdf5Writer file("run.h5", vehd::Hdf5Writer::Mode::in_memory);
   vehd::write_run_header(file, transform, {scene_text, 1, vehd::si_scales(std::nullopt)});
   vehd::State state;
-  state.position = ellipsoid();
-  state.transmembrane_potential = vehd::Vector::Ones(state.position.rows());
-  vehd::Fields fields;
-  fields.velocity = state.position;
+  state.vesicles.emplace_back();
+  state.vesicles[0].position = ellipsoid();
+  state.vesicles[0].transmembrane_potential = vehd::Vector::Ones(state.vesicles[0].position.rows());
+  vehd::Fields fields{std::vector<vehd::VesicleFields>(1)};
+  fields.vesicles[0].velocity = state.vesicles[0].position;
   for (const char* name : {"000000", "000001"}) {
     vehd::write_snapshot(file, name, transform, state, fields, vehd::si_scales(std::nullopt));
     state.time += 1.0;
@@ -107,14 +108,15 @@ std::string good_checkpoint() {
   vehd::Checkpoint checkpoint;
   checkpoint.scene = scene_text;
   checkpoint.start_order = vehd::lowest_order;
-  checkpoint.state.position = ellipsoid();
-  checkpoint.state.tension = vehd::Vector::Ones(checkpoint.state.position.rows());
-  checkpoint.state.area_strain = vehd::Vector::Zero(checkpoint.state.position.rows());
-  const vehd::Matrix columns = vehd::Matrix::Identity(2 * checkpoint.state.position.rows(), 3);
-  std::vector<vehd::Index> entries(static_cast<std::size_t>(checkpoint.state.position.rows()));
+  checkpoint.state.vesicles.emplace_back();
+  checkpoint.state.vesicles[0].position = ellipsoid();
+  checkpoint.state.vesicles[0].tension = vehd::Vector::Ones(checkpoint.state.vesicles[0].position.rows());
+  checkpoint.state.vesicles[0].area_strain = vehd::Vector::Zero(checkpoint.state.vesicles[0].position.rows());
+  const vehd::Matrix columns = vehd::Matrix::Identity(2 * checkpoint.state.vesicles[0].position.rows(), 3);
+  std::vector<vehd::Index> entries(static_cast<std::size_t>(checkpoint.state.vesicles[0].position.rows()));
   std::iota(entries.begin(), entries.end(), vehd::Index{0});
-  checkpoint.state.flow_memory.flow = vehd::remembered(entries, {columns, columns});
-  checkpoint.state.flow_memory.tension = checkpoint.state.flow_memory.flow;
+  checkpoint.state.vesicles[0].recycled.flow = vehd::recycled_scalars(entries, {columns, columns});
+  checkpoint.state.vesicles[0].recycled.tension = checkpoint.state.vesicles[0].recycled.flow;
   vehd::write_checkpoint(directory / "checkpoint.h5", checkpoint);
   return vehd::read_sealed_file(directory / "checkpoint.h5");
 }

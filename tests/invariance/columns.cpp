@@ -11,7 +11,7 @@ namespace {
 /// The long axis is determined where the two largest moments of the shape differ, and its inclination where it is not
 /// across the plane.
 bool has_inclination(const State& state) {
-  const Matrix shape = state.position.bottomRows(state.position.rows() - 1);
+  const Matrix shape = state.vesicles[0].position.bottomRows(state.vesicles[0].position.rows() - 1);
   const Eigen::SelfAdjointEigenSolver<Matrix3> moments(Matrix3(shape.transpose() * shape));
   const Vector3& values = moments.eigenvalues();
   return values[2] - values[1] > 1e-2 * values[2] && std::abs(moments.eigenvectors()(1, 2)) < 0.99;
@@ -23,16 +23,16 @@ double natural_scale(const Column& column, const ShortRun& run) {
   double scale = column.least_scale;
   for (const RunRow& row : run.rows) {
     scale = std::max(scale, std::abs(row.diagnostics.*column.member));
-    if (column.member == &Diagnostics::q_north)
+    if (column.member == &VesicleDiagnostics::q_north)
       scale = std::max(scale, row.diagnostics.Vm_max / row.diagnostics.extent_x);
   }
-  if (column.member == &Diagnostics::tension_integral) scale = std::max(scale, run.bending_modulus);
+  if (column.member == &VesicleDiagnostics::tension_integral) scale = std::max(scale, run.bending_modulus);
   return scale;
 }
 
 double difference(const Column& column, const RunRow& a, const RunRow& b, double factor) {
   const double size = std::abs(a.diagnostics.*column.member - b.diagnostics.*column.member / factor);
-  if (column.member != &Diagnostics::inclination_deg) return size;
+  if (column.member != &VesicleDiagnostics::inclination_deg) return size;
   // An axis is the same after half a turn.
   return has_inclination(a.state) ? std::min(size, std::abs(180.0 - size)) : 0.0;
 }
@@ -43,23 +43,23 @@ bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(a
 
 const std::vector<Column>& columns() {
   static const std::vector<Column> all = {
-      {"area", &Diagnostics::area, {2, 0, 0, 0}},
-      {"volume", &Diagnostics::volume, {3, 0, 0, 0}},
-      {"reduced_volume", &Diagnostics::reduced_volume},
-      {"bending_energy_scaled", &Diagnostics::bending_energy_scaled},
-      {"tension_integral", &Diagnostics::tension_integral, {3, -1, 1, 0}},
-      {"Vm_north", &Diagnostics::Vm_north, {0, 0, 0, 1}, false},
-      {"q_north", &Diagnostics::q_north, {-1, 0, 0, 1}, false},
-      {"Vm_max", &Diagnostics::Vm_max, {0, 0, 0, 1}},
-      {"extent_x", &Diagnostics::extent_x, {1, 0, 0, 0}, false},
-      {"extent_y", &Diagnostics::extent_y, {1, 0, 0, 0}, false},
-      {"extent_z", &Diagnostics::extent_z, {1, 0, 0, 0}, false},
-      {"inclination_deg", &Diagnostics::inclination_deg, {}, false, 90.0},
-      {"area_drift", &Diagnostics::area_drift, {}, true, 1.0},
-      {"volume_drift", &Diagnostics::volume_drift, {}, true, 1.0},
+      {"area", &VesicleDiagnostics::area, {2, 0, 0, 0}},
+      {"volume", &VesicleDiagnostics::volume, {3, 0, 0, 0}},
+      {"reduced_volume", &VesicleDiagnostics::reduced_volume},
+      {"bending_energy_scaled", &VesicleDiagnostics::bending_energy_scaled},
+      {"tension_integral", &VesicleDiagnostics::tension_integral, {3, -1, 1, 0}},
+      {"Vm_north", &VesicleDiagnostics::Vm_north, {0, 0, 0, 1}, false},
+      {"q_north", &VesicleDiagnostics::q_north, {-1, 0, 0, 1}, false},
+      {"Vm_max", &VesicleDiagnostics::Vm_max, {0, 0, 0, 1}},
+      {"extent_x", &VesicleDiagnostics::extent_x, {1, 0, 0, 0}, false},
+      {"extent_y", &VesicleDiagnostics::extent_y, {1, 0, 0, 0}, false},
+      {"extent_z", &VesicleDiagnostics::extent_z, {1, 0, 0, 0}, false},
+      {"inclination_deg", &VesicleDiagnostics::inclination_deg, {}, false, 90.0},
+      {"area_drift", &VesicleDiagnostics::area_drift, {}, true, 1.0},
+      {"volume_drift", &VesicleDiagnostics::volume_drift, {}, true, 1.0},
       // Held to 1e-6 by the step itself, more loosely than anything else.
-      {"strain_max", &Diagnostics::strain_max, {}, true, 10.0},
-      {"spectrum_tail", &Diagnostics::spectrum_tail, {}, true, 1.0},
+      {"strain_max", &VesicleDiagnostics::strain_max, {}, true, 10.0},
+      {"spectrum_tail", &VesicleDiagnostics::spectrum_tail, {}, true, 1.0},
   };
   return all;
 }

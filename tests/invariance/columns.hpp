@@ -12,7 +12,7 @@ namespace vehd::testing {
 /// A column of history.csv.
 struct Column {
   std::string name;
-  double Diagnostics::*member;
+  double VesicleDiagnostics::*member;
   std::array<int, 4> powers{};  ///< of length, time, viscosity and potential
   bool is_scalar = true;        ///< the same in every place and orientation
   double least_scale = 0.0;     ///< of differences, dimensionless: what is this small is rounding or solver error

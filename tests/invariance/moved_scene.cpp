@@ -15,15 +15,15 @@ class UniformDrift : public ExplicitEffect {
   explicit UniformDrift(Vector3 velocity) : velocity_(std::move(velocity)) {}
 
   [[nodiscard]] EffectDescription description() const override { return {"uniform drift", "v", {}, {}}; }
-  void add(const Situation&, Forcing& forcing) const override {
+  void add(const EffectInput&, Forcing& forcing) const override {
     forcing.velocity.row(0) += std::sqrt(4.0 * std::numbers::pi) * velocity_.transpose();
   }
-  [[nodiscard]] bool allows(const Reflection& g) const override {
+  [[nodiscard]] bool is_invariant_under(const Reflection& g) const override {
     return Vector3(g.x * velocity_.x(), g.y * velocity_.y(), g.z * velocity_.z()) == velocity_;
   }
-  [[nodiscard]] bool allows_axis() const override { return velocity_.head<2>().isZero(0.0); }
+  [[nodiscard]] bool is_axisymmetric() const override { return velocity_.head<2>().isZero(0.0); }
   [[nodiscard]] bool is_same_everywhere() const override { return true; }
-  [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3& rotation) const override {
+  [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const override {
     return uniform_drift(rotation * velocity_);
   }
 

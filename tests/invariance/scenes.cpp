@@ -8,7 +8,7 @@
 #include "bie/bench/stability_case.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/stepping/deferred_correction.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd::testing {

@@ -1,6 +1,6 @@
 #include "tests/invariance/short_run.hpp"
 
-#include "bie/stepping/laboratory.hpp"
+#include "bie/stepping/evaluation/lab_frame_output.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd::testing {
@@ -12,16 +12,17 @@ ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps) {
   ShortRun run;
   run.bending_modulus = scene.membrane.bending_modulus.value_or(0.0);
   try {
-    Evolution evolution(setup_of(problem), problem.position, problem.potential, instruments);
-    const auto record = [&](const EvolutionStep& step) {
+    Evolution evolution(setup_of(problem), problem.start, instruments);
+    const auto record = [&](const StepAttempt& step) {
       NumericalSettings settings = problem.settings;
-      settings.order = evolution.order();
+      settings.order = evolution.order(0);
       const State& state = evolution.state();
       const Evaluation& evaluation = evolution.evaluation();
-      run.rows.push_back(
-          {in_laboratory(problem.frame, state),
-           Laboratory(problem.frame, settings).diagnostics(evaluation.diagnostics, state, evaluation.fields), step,
-           evolution.order()});
+      run.rows.push_back({in_laboratory(problem.frame, state),
+                          LabFrameOutput(problem.frame, settings)
+                              .diagnostics(evaluation.diagnostics, state, evaluation.fields)
+                              .vesicles[0],
+                          step, evolution.order(0)});
     };
     evolution.evaluate_start();
     record({});

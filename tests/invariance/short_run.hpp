@@ -10,8 +10,8 @@ namespace vehd::testing {
 /// What is known after one step, or at the start.
 struct RunRow {
   State state;  ///< in laboratory coordinates
-  Diagnostics diagnostics;
-  EvolutionStep step;
+  VesicleDiagnostics diagnostics;
+  StepAttempt step;
   int order = 0;
 };
 

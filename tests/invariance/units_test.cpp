@@ -35,10 +35,12 @@ std::string first_difference(const ShortRun& base, const ShortRun& scaled, const
       if (found && what.empty()) what = name;
     };
     find(a.state.time * factors.time != b.state.time, "time");
-    find(differs(a.state.position, b.state.position, factors.length), "position");
-    find(differs(a.state.transmembrane_potential, b.state.transmembrane_potential, factors.potential), "V_m");
-    find(differs(a.state.tension, b.state.tension, factors.of(1, -1, 1, 0)), "tension");
-    find(differs(a.state.area_strain, b.state.area_strain, 1.0), "strain");
+    find(differs(a.state.vesicles[0].position, b.state.vesicles[0].position, factors.length), "position");
+    find(differs(a.state.vesicles[0].transmembrane_potential, b.state.vesicles[0].transmembrane_potential,
+                 factors.potential),
+         "V_m");
+    find(differs(a.state.vesicles[0].tension, b.state.vesicles[0].tension, factors.of(1, -1, 1, 0)), "tension");
+    find(differs(a.state.vesicles[0].area_strain, b.state.vesicles[0].area_strain, 1.0), "strain");
     find(a.step.rejected != b.step.rejected, "rejected steps");
     find(a.step.iterations_flow != b.step.iterations_flow, "flow iterations");
     find(a.step.iterations_electric != b.step.iterations_electric, "electric iterations");

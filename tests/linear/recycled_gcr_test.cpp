@@ -1,8 +1,10 @@
 #include "bie/linear/recycled_gcr.hpp"
 
+#include <Eigen/Sparse>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
+#include <unsupported/Eigen/IterativeSolvers>
 
 using namespace vehd;
 
@@ -33,11 +35,15 @@ BOOST_AUTO_TEST_SUITE(recycled_gcr)
 BOOST_AUTO_TEST_CASE(takes_as_many_iterations_as_gmres_for_the_first_right_hand_side) {
   const Matrix matrix = test_matrix(kSize);
   const Vector rhs = right_hand_side(kSize, 0.0);
-  Vector x = Vector::Zero(kSize);
-  const SolveReport expected = gmres(map_of(matrix), identity, rhs, x, {1e-10, 60});
+  Eigen::GMRES<Eigen::SparseMatrix<double>, Eigen::IdentityPreconditioner> expected;
+  expected.set_restart(kSize);
+  expected.setTolerance(1e-10);
+  expected.compute(matrix.sparseView());
+  const Vector x = expected.solve(rhs);
+  BOOST_TEST((matrix * x - rhs).norm() <= 1.1e-10 * rhs.norm());
   const RecycledGcr::Solution solution = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-10, 60});
-  BOOST_TEST(solution.report.converged);
-  BOOST_TEST(std::abs(solution.report.iterations - expected.iterations) <= 1);
+  BOOST_TEST(solution.report.converged());
+  BOOST_TEST(std::abs(solution.report.iterations - static_cast<int>(expected.iterations())) <= 1);
   BOOST_TEST((matrix * solution.x - rhs).norm() <= 1.1e-10 * rhs.norm());
 }
 
@@ -50,7 +56,7 @@ BOOST_AUTO_TEST_CASE(later_right_hand_sides_profit_from_former_ones) {
   BOOST_TEST(solver.solve(-3.0 * rhs, {}, {1e-7, 60}).report.iterations == 0);
   const Vector other = right_hand_side(kSize, 0.3);
   const RecycledGcr::Solution solution = solver.solve(other, {}, {1e-8, 60});
-  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.report.converged());
   BOOST_TEST(2 * solution.report.iterations < first);
   BOOST_TEST((matrix * solution.x - other).norm() <= 1.1e-8 * other.norm());
 }
@@ -72,12 +78,12 @@ BOOST_AUTO_TEST_CASE(what_was_learned_of_a_similar_operator_saves_iterations_and
   const Vector rhs = right_hand_side(kSize, 0.0);
   RecycledGcr teacher(map_of(former), identity, kSize);
   teacher.solve(rhs, {}, {1e-10, 60});
-  const KnownResponses learned = teacher.learned();
+  const RecycledSubspace learned = teacher.learned();
   BOOST_TEST((former * learned.arguments - learned.responses).norm() < 1e-12 * learned.responses.norm());
   const int cold = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-8, 60}).report.iterations;
   const RecycledGcr::Solution solution =
       RecycledGcr(map_of(matrix), identity, kSize, 0, learned).solve(rhs, {}, {1e-8, 60});
-  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.report.converged());
   BOOST_TEST(3 * solution.report.iterations < cold);
   BOOST_TEST((matrix * solution.x - rhs).norm() <= 1.1e-8 * rhs.norm());
 }
@@ -86,12 +92,12 @@ BOOST_AUTO_TEST_CASE(misleading_knowledge_costs_at_most_twice_the_iterations) {
   const Matrix matrix = test_matrix(kSize);
   const Matrix arguments = Matrix::Identity(kSize, 20);
   // Of an operator that turns arguments round and mixes them.
-  const KnownResponses wrong{arguments, -test_matrix(kSize).transpose() * arguments.rowwise().reverse()};
+  const RecycledSubspace wrong{arguments, -test_matrix(kSize).transpose() * arguments.rowwise().reverse()};
   const Vector rhs = right_hand_side(kSize, 0.0);
   const int cold = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-8, 60}).report.iterations;
   const RecycledGcr::Solution solution =
       RecycledGcr(map_of(matrix), identity, kSize, 0, wrong).solve(rhs, {}, {1e-8, 120});
-  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.report.converged());
   BOOST_TEST(solution.report.iterations <= 2 * cold);
 }
 
@@ -102,7 +108,7 @@ BOOST_AUTO_TEST_CASE(nearly_dependent_directions_fake_no_convergence) {
   for (const double tolerance : {1e-6, 1e-10}) {
     for (int digits = 0; digits <= 16; ++digits) {
       const Matrix argument = std::pow(10.0, digits) * Matrix::Identity(kSize, 1);
-      const KnownResponses obtrusive{argument, right_hand_side(kSize, 0.7)};
+      const RecycledSubspace obtrusive{argument, right_hand_side(kSize, 0.7)};
       RecycledGcr solver(map_of(matrix), identity, kSize, 0, obtrusive);
       for (const double phase : {0.0, 0.4, 1.1}) {
         const Vector b = right_hand_side(kSize, phase);
@@ -110,7 +116,7 @@ BOOST_AUTO_TEST_CASE(nearly_dependent_directions_fake_no_convergence) {
         const double actual = (matrix * solution.x - b).norm() / b.norm();
         BOOST_TEST_CONTEXT("factor 1e" << digits << ", tolerance " << tolerance << ", " << solution.report.iterations
                                        << " iterations, residual " << solution.report.residual) {
-          BOOST_TEST(solution.report.converged);
+          BOOST_TEST(solution.report.converged());
           BOOST_TEST(actual <= tolerance);
           BOOST_TEST(actual <= solution.report.residual);
         }
@@ -123,13 +129,13 @@ BOOST_AUTO_TEST_CASE(nearly_dependent_directions_fake_no_convergence) {
 BOOST_AUTO_TEST_CASE(residual_below_rounding_is_never_claimed) {
   const Matrix matrix = test_matrix(kSize);
   const Matrix argument = 1e9 * Matrix::Identity(kSize, 1);
-  const KnownResponses obtrusive{argument, right_hand_side(kSize, 0.7)};
+  const RecycledSubspace obtrusive{argument, right_hand_side(kSize, 0.7)};
   for (const double tolerance : {1e-14, 1e-15, 1e-17}) {
     RecycledGcr solver(map_of(matrix), identity, kSize, 0, obtrusive);
     const Vector b = right_hand_side(kSize, 0.2);
     const RecycledGcr::Solution solution = solver.solve(b, {}, {tolerance, 300});
     const double actual = (matrix * solution.x - b).norm() / b.norm();
-    BOOST_TEST((!solution.report.converged || actual <= 1.1 * tolerance));
+    BOOST_TEST((!solution.report.converged() || actual <= 1.1 * tolerance));
     BOOST_TEST(solution.report.iterations < 300);
   }
 }
@@ -172,7 +178,7 @@ BOOST_AUTO_TEST_CASE(an_operator_that_turns_by_a_right_angle_is_solved) {
   matrix << 0.0, -1.0, 1.0, 0.0;
   const Vector rhs{{1.0, 0.0}};
   const RecycledGcr::Solution solution = RecycledGcr(map_of(matrix), identity, 2).solve(rhs, {}, {1e-12, 10});
-  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.report.converged());
   BOOST_TEST((matrix * solution.x - rhs).norm() < 1e-12);
 }
 
@@ -181,21 +187,21 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_reported) {
   singular.row(7).setZero();
   const RecycledGcr::Solution solution =
       RecycledGcr(map_of(singular), identity, kSize).solve(right_hand_side(kSize, 0.0), {}, {1e-10, 100});
-  BOOST_TEST(!solution.report.converged);
+  BOOST_TEST(!solution.report.converged());
   BOOST_TEST(solution.report.residual > 1e-10);
 
   const LinearMap broken = [](const Vector& x) -> Vector {
     return Vector::Constant(x.size(), std::numeric_limits<double>::quiet_NaN());
   };
   BOOST_TEST(
-      !RecycledGcr(broken, identity, kSize).solve(right_hand_side(kSize, 0.0), {}, {1e-10, 100}).report.converged);
+      !RecycledGcr(broken, identity, kSize).solve(right_hand_side(kSize, 0.0), {}, {1e-10, 100}).report.converged());
 }
 
 BOOST_AUTO_TEST_CASE(zero_right_hand_side_costs_nothing) {
   const Matrix matrix = test_matrix(5);
   const RecycledGcr::Solution solution =
       RecycledGcr(map_of(matrix), identity, 5).solve(Vector::Zero(5), Vector::Ones(5), {1e-10, 10});
-  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.report.converged());
   BOOST_TEST(solution.x.isZero(0.0));
 }
 

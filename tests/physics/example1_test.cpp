@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(errors_and_iterations_reach_the_published_figures) {
     BOOST_TEST_CONTEXT("order " << target.order) {
       BOOST_TEST(errors.charge <= target.charge);
       BOOST_TEST(errors.force <= target.force);
-      BOOST_TEST(errors.report.converged);
+      BOOST_TEST(errors.report.converged());
       BOOST_TEST(errors.report.iterations <= 9);
     }
   }

@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include "bie/physics/background_flow.hpp"
 #include "bie/physics/bending.hpp"
 #include "bie/physics/gravity.hpp"
 #include "bie/physics/poiseuille_flow.hpp"
@@ -86,18 +87,18 @@ BOOST_AUTO_TEST_CASE(symmetries_are_those_of_the_forcing) {
   const Reflection mirror_z{1, 1, -1};
   const Reflection turn_y{-1, 1, -1};
   const LinearFlowEffect shear(shear_flow(1.0));
-  BOOST_TEST(!shear.allows(mirror_x));
-  BOOST_TEST(shear.allows(turn_y));
-  BOOST_TEST(!shear.allows_axis());
-  BOOST_TEST(LinearFlowEffect(axisymmetric_extension(1.0)).allows_axis());
+  BOOST_TEST(!shear.is_invariant_under(mirror_x));
+  BOOST_TEST(shear.is_invariant_under(turn_y));
+  BOOST_TEST(!shear.is_axisymmetric());
+  BOOST_TEST(LinearFlowEffect(axisymmetric_extension(1.0)).is_axisymmetric());
   const PoiseuilleFlowEffect poiseuille({});
-  BOOST_TEST(poiseuille.allows(mirror_z));
-  BOOST_TEST(!poiseuille.allows(mirror_x));
+  BOOST_TEST(poiseuille.is_invariant_under(mirror_z));
+  BOOST_TEST(!poiseuille.is_invariant_under(mirror_x));
   const GravityEffect gravity({1.0, {0.0, 0.0, -1.0}});
-  BOOST_TEST(gravity.allows(mirror_x));
-  BOOST_TEST(!gravity.allows(mirror_z));
-  BOOST_TEST(gravity.allows_axis());
-  BOOST_TEST(PoiseuilleFlowEffect({1.0, 1.0, {}, Vector3::UnitZ()}).allows_axis());
+  BOOST_TEST(gravity.is_invariant_under(mirror_x));
+  BOOST_TEST(!gravity.is_invariant_under(mirror_z));
+  BOOST_TEST(gravity.is_axisymmetric());
+  BOOST_TEST(PoiseuilleFlowEffect({1.0, 1.0, {}, Vector3::UnitZ()}).is_axisymmetric());
 }
 
 BOOST_AUTO_TEST_CASE(turned_effect_does_the_same_to_the_turned_body) {
@@ -115,7 +116,7 @@ BOOST_AUTO_TEST_CASE(turned_effect_does_the_same_to_the_turned_body) {
   for (const auto& effect : effects) {
     const Forcing expected = forcing_of(*effect, 0.1);
     Forcing forcing{Matrix::Zero(expected.force.rows(), 3), Matrix::Zero(position.rows(), 3)};
-    effect->turned(r)->add({turned_membrane, turned_position, 0.1}, forcing);
+    effect->rotated(r)->add({turned_membrane, turned_position, 0.1}, forcing);
     const double scale = expected.force.norm() + expected.velocity.norm();
     BOOST_TEST(scale > 0.1);
     BOOST_TEST((forcing.force - expected.force * r.transpose()).norm() < 1e-11 * scale);

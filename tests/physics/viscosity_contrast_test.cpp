@@ -18,7 +18,9 @@ namespace {
 struct Layered : LayeredSurface {
   Layered(int order, Matrix coefficients) : LayeredSurface(order, std::move(coefficients), kStokesLayers) {}
 
-  ViscosityContrast map(double ratio) const { return {{ratio}, space.fine, surface, layers.stokes_double}; }
+  ViscosityContrast map(double ratio) const {
+    return {{ratio}, space.fine, surface, layers.stokes_double, SymmetrySubspace({}, space.fine.order())};
+  }
   double flux(const Matrix& velocity) const {
     return row_dot(space.fine.synthesize(velocity), surface.normal).dot(surface.quadrature);
   }

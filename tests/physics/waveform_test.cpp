@@ -14,7 +14,7 @@ BOOST_AUTO_TEST_SUITE(waveform)
 
 BOOST_AUTO_TEST_CASE(default_is_one_for_ever) {
   BOOST_TEST(Waveform().at(7.0) == 1.0);
-  BOOST_TEST(!Waveform().next_corner(0.0).has_value());
+  BOOST_TEST(!Waveform().next_discontinuity(0.0).has_value());
   BOOST_TEST(!Waveform().is_quiet(0.0));
 }
 
@@ -33,9 +33,9 @@ BOOST_AUTO_TEST_CASE(pulse_jumps_where_it_says) {
   BOOST_TEST(w.at(1.0, Limit::after) == 3.0);
   BOOST_TEST(w.at(1.5, Limit::before) == 3.0);
   BOOST_TEST(w.at(1.5, Limit::after) == 0.0);
-  BOOST_TEST(w.next_corner(0.0).value() == 1.0);
-  BOOST_TEST(w.next_corner(1.0).value() == 1.5);
-  BOOST_TEST(!w.next_corner(1.5).has_value());
+  BOOST_TEST(w.next_discontinuity(0.0).value() == 1.0);
+  BOOST_TEST(w.next_discontinuity(1.0).value() == 1.5);
+  BOOST_TEST(!w.next_discontinuity(1.5).has_value());
   BOOST_TEST(w.is_quiet(0.0));
   BOOST_TEST(!w.is_quiet(1.0));
   BOOST_TEST(w.is_quiet(1.5));
@@ -49,8 +49,8 @@ BOOST_AUTO_TEST_CASE(train_repeats_the_pulse) {
     BOOST_TEST(w.at(start, Limit::after) == 1.0);
     BOOST_TEST(w.at(start + 0.1, Limit::before) == 1.0);
     BOOST_TEST(w.at(start + 0.1, Limit::after) == 0.0);
-    BOOST_TEST(std::abs(w.next_corner(start).value() - (start + 0.1)) < 1e-12);
-    BOOST_TEST(std::abs(w.next_corner(start + 0.1).value() - (start + 0.3)) < 1e-12);
+    BOOST_TEST(std::abs(w.next_discontinuity(start).value() - (start + 0.1)) < 1e-12);
+    BOOST_TEST(std::abs(w.next_discontinuity(start + 0.1).value() - (start + 0.3)) < 1e-12);
   }
   BOOST_CHECK_THROW(Waveform::pulse_train(1.0, 0.0, 0.5, 0.4), InputError);
 }
@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(table_is_linear_with_jumps_at_double_times) {
   BOOST_TEST(w.at(1.0, Limit::before) == 2.0);
   BOOST_TEST(w.at(1.0, Limit::after) == -1.0);
   BOOST_TEST(w.at(9.0) == 0.0);
-  BOOST_TEST(w.next_corner(0.0).value() == 1.0);
+  BOOST_TEST(w.next_discontinuity(0.0).value() == 1.0);
   BOOST_TEST(!w.is_quiet(1.5));
   BOOST_TEST(w.is_quiet(2.0));
   BOOST_CHECK_THROW(Waveform::table({0.0}, {1.0}), InputError);
@@ -96,8 +96,8 @@ BOOST_AUTO_TEST_CASE(unit_of_time_does_not_matter) {
           BOOST_TEST(std::abs(waveforms[i].at(time * unit, limit) - same[i].at(time, limit)) < 1e-12,
                      "waveform " << i << " at " << time << " in the unit " << unit);
         }
-        const std::optional<double> corner = same[i].next_corner(time);
-        const std::optional<double> scaled = waveforms[i].next_corner(time * unit);
+        const std::optional<double> corner = same[i].next_discontinuity(time);
+        const std::optional<double> scaled = waveforms[i].next_discontinuity(time * unit);
         BOOST_TEST_REQUIRE(corner.has_value() == scaled.has_value());
         if (corner) BOOST_TEST(std::abs(*scaled / unit - *corner) < 1e-12);
       }

@@ -23,22 +23,6 @@ Vector3 start_near(double theta, double phi) {
 
 BOOST_AUTO_TEST_SUITE(foot_point)
 
-BOOST_AUTO_TEST_CASE(derivatives_at_a_point_are_those_of_the_transform) {
-  const SphereTransform transform(9, make_grid(12));
-  const Matrix fields = random_coefficients(9, 2, 51);
-  const SphereDerivatives expected = transform.synthesize_hessian(fields);
-  const GridAngles angles = grid_angles(transform.grid());
-  double difference = 0.0;
-  for (Index i = 0; i < angles.theta.size(); ++i) {
-    const PointDerivatives p = point_derivatives(fields, angles.theta[i], angles.phi[i]);
-    difference =
-        std::max({difference, max_difference(p.value, expected.value.row(i)), max_difference(p.d1, expected.d1.row(i)),
-                  max_difference(p.d2, expected.d2.row(i)), max_difference(p.d11, expected.d11.row(i)),
-                  max_difference(p.d12, expected.d12.row(i)), max_difference(p.d22, expected.d22.row(i))});
-  }
-  BOOST_TEST(difference < 1e-10);
-}
-
 BOOST_AUTO_TEST_CASE(nearest_point_is_found_from_both_sides_at_poles_and_elsewhere) {
   const Matrix position = asymmetric_shape(12);
   const GridAngles angles = scattered_angles(60);

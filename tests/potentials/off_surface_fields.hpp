@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bie/potentials/off_surface.hpp"
+#include "bie/sphere/point_derivatives.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_potential.hpp"
 #include "tests/support/shapes.hpp"
@@ -48,7 +49,7 @@ struct ScalarAndGradient {
 
 /// g(r) Y with its gradient for the coefficients of Y.
 inline ScalarAndGradient solid_harmonic(const Vector& y, const Radial& g, double r, double theta, double phi) {
-  const PointDerivatives p = point_derivatives(y, theta, phi);
+  const PointDerivatives p = point_derivatives(y, {theta, phi});
   const Vector3 radial(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
   const Vector3 e_theta(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi), -std::sin(theta));
   const Vector3 e_phi(-std::sin(phi), std::cos(phi), 0.0);

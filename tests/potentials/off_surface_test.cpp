@@ -215,9 +215,10 @@ BOOST_AUTO_TEST_CASE(single_layers_are_continuous_and_the_others_jump_by_their_d
   Matrix charge_jump(n, 3);
   Matrix gradient_jump(n, 3);
   for (Index i = 0; i < n; ++i) {
-    const PointDerivatives x = point_derivatives(position, angles.theta[i], angles.phi[i]);
-    const PointDerivatives d = point_derivatives(densities.laplace_double, angles.theta[i], angles.phi[i]);
-    const double weighted_charge = point_derivatives(densities.laplace_single, angles.theta[i], angles.phi[i]).value[0];
+    const PointDerivatives x = point_derivatives(position, {angles.theta[i], angles.phi[i]});
+    const PointDerivatives d = point_derivatives(densities.laplace_double, {angles.theta[i], angles.phi[i]});
+    const double weighted_charge =
+        point_derivatives(densities.laplace_single, {angles.theta[i], angles.phi[i]}).value[0];
     const Vector3 u = x.d1.transpose();
     const Vector3 v = x.d2.transpose();
     const Vector3 area = u.cross(v);

@@ -17,17 +17,18 @@ vehd::Checkpoint sample() {
   checkpoint.state.time = 0.1;
   checkpoint.state.step = 7;
   checkpoint.state.dt_next = 1.0 / 3.0;
-  checkpoint.state.position = vehd::Matrix::Random(25, 3);
-  checkpoint.state.position(0, 0) = std::numeric_limits<double>::denorm_min();
-  checkpoint.state.tension = vehd::Vector::Random(25);
-  checkpoint.state.area_strain = vehd::Vector::Random(25);
-  checkpoint.state.reference_area = 12.0;
+  checkpoint.state.vesicles.emplace_back();
+  checkpoint.state.vesicles[0].position = vehd::Matrix::Random(25, 3);
+  checkpoint.state.vesicles[0].position(0, 0) = std::numeric_limits<double>::denorm_min();
+  checkpoint.state.vesicles[0].tension = vehd::Vector::Random(25);
+  checkpoint.state.vesicles[0].area_strain = vehd::Vector::Random(25);
+  checkpoint.state.vesicles[0].reference_area = 12.0;
   std::vector<vehd::Index> entries(25);
   std::iota(entries.begin(), entries.end(), vehd::Index{0});
-  checkpoint.state.flow_memory.flow =
-      vehd::remembered(entries, {vehd::Matrix::Random(50, 3), vehd::Matrix::Random(50, 3)});
-  checkpoint.state.flow_memory.unaided_iterations = 21;
-  checkpoint.state.flow_memory.pause = 5;
+  checkpoint.state.vesicles[0].recycled.flow =
+      vehd::recycled_scalars(entries, {vehd::Matrix::Random(50, 3), vehd::Matrix::Random(50, 3)});
+  checkpoint.state.vesicles[0].recycled.unaided_iterations = 21;
+  checkpoint.state.vesicles[0].recycled.pause = 5;
   checkpoint.n_rows = 8;
   checkpoint.history_bytes = 1234;
   checkpoint.n_snapshots = 3;
@@ -51,18 +52,18 @@ BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   BOOST_TEST(read.state.time == written.state.time);
   BOOST_TEST(read.state.step == written.state.step);
   BOOST_TEST(read.state.dt_next == written.state.dt_next);
-  BOOST_TEST((read.state.position == written.state.position));
-  BOOST_TEST((read.state.tension == written.state.tension));
-  BOOST_TEST((read.state.area_strain == written.state.area_strain));
-  BOOST_TEST(read.state.transmembrane_potential.size() == 0);
-  const vehd::ScalarResponses& known = *read.state.flow_memory.flow;
-  BOOST_TEST((known.entries() == written.state.flow_memory.flow->entries()));
-  BOOST_TEST((known.known().arguments == written.state.flow_memory.flow->known().arguments));
-  BOOST_TEST((known.known().responses == written.state.flow_memory.flow->known().responses));
-  BOOST_TEST(!read.state.flow_memory.tension);
-  BOOST_TEST(read.state.flow_memory.unaided_iterations == 21);
-  BOOST_TEST(read.state.flow_memory.pause == 5);
-  BOOST_TEST(read.state.reference_area == written.state.reference_area);
+  BOOST_TEST((read.state.vesicles[0].position == written.state.vesicles[0].position));
+  BOOST_TEST((read.state.vesicles[0].tension == written.state.vesicles[0].tension));
+  BOOST_TEST((read.state.vesicles[0].area_strain == written.state.vesicles[0].area_strain));
+  BOOST_TEST(read.state.vesicles[0].transmembrane_potential.size() == 0);
+  const vehd::RecycledScalars& known = *read.state.vesicles[0].recycled.flow;
+  BOOST_TEST((known.entries() == written.state.vesicles[0].recycled.flow->entries()));
+  BOOST_TEST((known.subspace().arguments == written.state.vesicles[0].recycled.flow->subspace().arguments));
+  BOOST_TEST((known.subspace().responses == written.state.vesicles[0].recycled.flow->subspace().responses));
+  BOOST_TEST(!read.state.vesicles[0].recycled.tension);
+  BOOST_TEST(read.state.vesicles[0].recycled.unaided_iterations == 21);
+  BOOST_TEST(read.state.vesicles[0].recycled.pause == 5);
+  BOOST_TEST(read.state.vesicles[0].reference_area == written.state.vesicles[0].reference_area);
   BOOST_TEST(read.n_rows == written.n_rows);
   BOOST_TEST(read.history_bytes == written.history_bytes);
   BOOST_TEST(read.n_snapshots == written.n_snapshots);
@@ -83,8 +84,8 @@ BOOST_AUTO_TEST_CASE(no_damage_is_read_in_silence) {
     try {
       const vehd::Checkpoint read = vehd::read_checkpoint(path);
       // The byte belonged to padding or to a description.
-      BOOST_TEST_REQUIRE((read.state.position == written.state.position));
-      BOOST_TEST_REQUIRE((read.state.tension == written.state.tension));
+      BOOST_TEST_REQUIRE((read.state.vesicles[0].position == written.state.vesicles[0].position));
+      BOOST_TEST_REQUIRE((read.state.vesicles[0].tension == written.state.vesicles[0].tension));
       BOOST_TEST_REQUIRE(read.state.time == written.state.time);
     } catch (const vehd::InputError&) {
       ++refused;

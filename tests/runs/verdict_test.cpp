@@ -19,8 +19,9 @@ std::string judged(const std::vector<vehd::HistoryRow>& rows, std::optional<doub
 vehd::HistoryRow row_at(double time, double area_drift, double strain) {
   vehd::HistoryRow row;
   row.time = time;
-  row.diagnostics.area_drift = area_drift;
-  row.diagnostics.strain_max = strain;
+  row.diagnostics.vesicles.resize(1);
+  row.diagnostics.vesicles[0].area_drift = area_drift;
+  row.diagnostics.vesicles[0].strain_max = strain;
   return row;
 }
 
@@ -33,8 +34,8 @@ struct Values {
 
 vehd::HistoryRow row_of(const Values& values) {
   vehd::HistoryRow row = row_at(values.time, 0, 0);
-  row.diagnostics.tension_integral = values.tension;
-  row.diagnostics.spectrum_tail = 1e-4 * values.tail;
+  row.diagnostics.vesicles[0].tension_integral = values.tension;
+  row.diagnostics.vesicles[0].spectrum_tail = 1e-4 * values.tail;
   row.order = values.order;
   return row;
 }
@@ -67,7 +68,7 @@ BOOST_AUTO_TEST_CASE(degree_that_the_tolerance_finds_too_low_is_reported) {
 BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is_wrong) {
   vehd::HistoryRow compressed = row_at(1, 0, 0);
   compressed.order = 10;
-  compressed.diagnostics.wrinkle_degree = 20.0;
+  compressed.diagnostics.vesicles[0].wrinkle_degree = 20.0;
   const std::string wrinkles =
       "compressed since time 1: wrinkles of wavelength 0.31 radii grow fastest, the finest degree 10 has 0.63";
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}) == "trustworthy");
@@ -76,7 +77,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
   compressed.truncation = 0.1;
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) ==
              "truncation above 0.001 since time 1 (worst 0.1); " + wrinkles);
-  compressed.diagnostics.wrinkle_degree = 9.0;
+  compressed.diagnostics.vesicles[0].wrinkle_degree = 9.0;
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) == "truncation above 0.001 since time 1 (worst 0.1)");
 }
 

@@ -5,7 +5,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/composition.hpp"
+#include "bie/stepping/state/composition.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/files.hpp"
 

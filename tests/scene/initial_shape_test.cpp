@@ -12,6 +12,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/runs.hpp"
 
 namespace {
 
@@ -37,10 +38,7 @@ double reduced_volume_of(const vehd::ShapeSize& size) {
 }
 
 vehd::Symmetry symmetry_of(const std::string& shape) {
-  vehd::State start;
-  start.position = position_of(shape);
-  start.area_strain = vehd::Vector::Zero(start.position.rows());
-  return vehd::find_symmetry(vehd::model_of(scene_of(shape)), start);
+  return vehd::find_symmetry(vehd::model_of(scene_of(shape)), vehd::testing::at_rest(position_of(shape)));
 }
 
 double bending_energy(const Matrix& position, int grid_order) {

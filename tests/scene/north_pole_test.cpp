@@ -4,8 +4,8 @@
 
 #include "bie/scene/initial_shape.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/diagnostics.hpp"
-#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/evaluation/diagnose.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/fields.hpp"
 
@@ -49,12 +49,13 @@ struct Reading {
 
 Reading reading_of(const SphereTransform& fine, const Matrix& position) {
   State state;
-  state.position = position;
-  state.transmembrane_potential = position.col(2);
-  Fields fields;
+  state.vesicles.emplace_back();
+  state.vesicles[0].position = position;
+  state.vesicles[0].transmembrane_potential = position.col(2);
+  VesicleFields fields;
   fields.charge = Vector::Zero(position.rows());
   const Surface surface = make_surface(fine, position);
-  return {along_laboratory_axes({}, {}, fine, surface, state, fields).Vm_north, centroid(surface)};
+  return {along_laboratory_axes({}, {}, fine, surface, state.vesicles[0], fields).Vm_north, centroid(surface)};
 }
 
 SphereTransform transform_of(int order, bool axisymmetric) {

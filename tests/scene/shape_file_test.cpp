@@ -51,10 +51,12 @@ class StoredRun {
     for (int number = 0; number < 5; ++number) {
       vehd::State state;
       state.time = number;
-      state.position = position(number);
-      if (parsed.electric) state.transmembrane_potential = potential(number);
-      state.area_strain = Vector::Zero(state.position.rows());
-      vehd::write_snapshot(file, vehd::snapshot_name(number), transform, state, {}, vehd::si_scales(parsed.units));
+      state.vesicles.emplace_back();
+      state.vesicles[0].position = position(number);
+      if (parsed.electric) state.vesicles[0].transmembrane_potential = potential(number);
+      state.vesicles[0].area_strain = Vector::Zero(state.vesicles[0].position.rows());
+      vehd::write_snapshot(file, vehd::snapshot_name(number), transform, state,
+                           vehd::Fields{std::vector<vehd::VesicleFields>(1)}, vehd::si_scales(parsed.units));
     }
     file.close();
   }
@@ -212,7 +214,7 @@ BOOST_AUTO_TEST_CASE(the_potential_of_the_file_is_the_default_where_there_is_one
   const vehd::Scene scene = charged.parsed(charged.scene(""));
   BOOST_TEST((charged.parsed(vehd::effective_scene(scene)) == scene));
   BOOST_TEST(vehd::effective_scene(scene).find("initial_Vm = \"file\"\n") != std::string::npos);
-  BOOST_TEST((vehd::problem_of(scene).potential.given == StoredRun::potential(4)));
+  BOOST_TEST((vehd::problem_of(scene).start[0].potential.given == StoredRun::potential(4)));
 }
 
 BOOST_AUTO_TEST_CASE(a_potential_that_no_file_has_is_refused) {

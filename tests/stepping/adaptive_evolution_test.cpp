@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/space/resolution.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -15,9 +15,7 @@ namespace {
 constexpr int kHighestOrder = 32;
 
 EvolutionSetup setup_of(const Model& model, const Matrix& position, double tolerance, double end_time) {
-  State start;
-  start.position = position;
-  start.area_strain = Vector::Zero(position.rows());
+  State start = at_rest(position);
   EvolutionSetup setup;
   setup.model = model;
   setup.settings.order = kHighestOrder;
@@ -36,30 +34,31 @@ EvolutionSetup fixed_setup(const Model& model, const Matrix& position, double dt
 }
 
 struct Result {
-  Diagnostics diagnostics;
+  VesicleDiagnostics diagnostics;
   int lowest_order, highest_order, n_steps;
 };
 
 Result run_to(const Model& model, const Matrix& position, double tolerance, double end_time) {
   Instruments instruments;
-  Evolution evolution(setup_of(model, position, tolerance, end_time), position, {}, instruments);
+  Evolution evolution(setup_of(model, position, tolerance, end_time), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
-  Result result{{}, evolution.order(), evolution.order(), 0};
+  Result result{{}, evolution.order(0), evolution.order(0), 0};
   while (evolution.state().time < end_time) {
     evolution.step({std::nullopt, end_time});
-    result.lowest_order = std::min(result.lowest_order, evolution.order());
-    result.highest_order = std::max(result.highest_order, evolution.order());
+    result.lowest_order = std::min(result.lowest_order, evolution.order(0));
+    result.highest_order = std::max(result.highest_order, evolution.order(0));
     ++result.n_steps;
   }
   BOOST_TEST(evolution.state().time == end_time);
-  result.diagnostics = evolution.evaluation().diagnostics;
+  result.diagnostics = evolution.evaluation().diagnostics.vesicles[0];
   return result;
 }
 
-double difference(const Diagnostics& a, const Diagnostics& b) {
+double difference(const VesicleDiagnostics& a, const VesicleDiagnostics& b) {
   double largest = 0.0;
-  for (const auto member : {&Diagnostics::extent_x, &Diagnostics::extent_z, &Diagnostics::bending_energy_scaled,
-                            &Diagnostics::tension_integral, &Diagnostics::Vm_max, &Diagnostics::Vm_north}) {
+  for (const auto member :
+       {&VesicleDiagnostics::extent_x, &VesicleDiagnostics::extent_z, &VesicleDiagnostics::bending_energy_scaled,
+        &VesicleDiagnostics::tension_integral, &VesicleDiagnostics::Vm_max, &VesicleDiagnostics::Vm_north}) {
     largest = std::max(largest, std::abs(a.*member / (b.*member) - 1.0));
   }
   return largest;
@@ -72,7 +71,7 @@ BOOST_AUTO_TEST_SUITE(adaptive_evolution)
 BOOST_AUTO_TEST_CASE(tolerance_is_what_a_field_driven_vesicle_gets) {
   constexpr double kEnd = 6.0;
   const Matrix position = prolate(kHighestOrder);
-  const Diagnostics reference = run_to(field_model(), position, 1e-6, kEnd).diagnostics;
+  const VesicleDiagnostics reference = run_to(field_model(), position, 1e-6, kEnd).diagnostics;
   int steps_before = 0;
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     const Result result = run_to(field_model(), position, tolerance, kEnd);
@@ -96,10 +95,10 @@ BOOST_AUTO_TEST_CASE(degree_follows_the_spectrum_up_and_down) {
 BOOST_AUTO_TEST_CASE(step_of_a_fixed_size_never_changes_the_degree) {
   const Matrix position = prolate(12);
   Instruments instruments;
-  Evolution evolution(fixed_setup(field_model(), position, 0.25), position, {}, instruments);
+  Evolution evolution(fixed_setup(field_model(), position, 0.25), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
   for (int i = 0; i < 4; ++i) BOOST_TEST(evolution.step({std::nullopt, 1.0}).dt == 0.25);
-  BOOST_TEST(evolution.order() == 12);
+  BOOST_TEST(evolution.order(0) == 12);
   BOOST_TEST(evolution.state().time == 1.0);
 }
 
@@ -107,7 +106,7 @@ BOOST_AUTO_TEST_CASE(state_of_an_evolution_continues_to_the_same_bits) {
   const Matrix position = prolate(kHighestOrder);
   const EvolutionSetup setup = setup_of(field_model(), position, 1e-2, 5.0);
   Instruments instruments;
-  Evolution whole(setup, position, {}, instruments);
+  Evolution whole(setup, {StartMembrane{position}}, instruments);
   whole.evaluate_start();
   for (int i = 0; i < 4; ++i) whole.step({std::nullopt, 5.0});
   Evolution resumed(setup, whole.state(), instruments);
@@ -117,7 +116,7 @@ BOOST_AUTO_TEST_CASE(state_of_an_evolution_continues_to_the_same_bits) {
     resumed.step({std::nullopt, 5.0});
   }
   BOOST_TEST(whole.state().time == resumed.state().time);
-  BOOST_TEST((whole.state().position - resumed.state().position).isZero(0.0));
+  BOOST_TEST((whole.state().vesicles[0].position - resumed.state().vesicles[0].position).isZero(0.0));
 }
 
 BOOST_AUTO_TEST_CASE(tank_treading_in_long_steps_leaves_high_degrees_alone) {
@@ -126,7 +125,7 @@ BOOST_AUTO_TEST_CASE(tank_treading_in_long_steps_leaves_high_degrees_alone) {
   EvolutionSetup setup = fixed_setup(shear_model(), position, 0.25);
   setup.settings.time_order = 1;
   Instruments instruments;
-  Evolution evolution(setup, position, {}, instruments);
+  Evolution evolution(setup, {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
   for (int i = 0; i < 12; ++i) BOOST_TEST(evolution.step({std::nullopt, 3.0}).rejected == 0);
   BOOST_TEST(evolution.truncation() < 3e-6);
@@ -135,14 +134,16 @@ BOOST_AUTO_TEST_CASE(tank_treading_in_long_steps_leaves_high_degrees_alone) {
 BOOST_AUTO_TEST_CASE(remainder_of_a_geometric_spectrum_is_its_sum) {
   constexpr double kDecay = 0.5;
   State state;
-  state.reference_area = 4.0 * std::acos(-1.0);
+  state.vesicles.emplace_back();
+  state.vesicles[0].reference_area = 4.0 * std::acos(-1.0);
   const int order = 12;
-  state.position = Matrix::Zero(n_coefficients(order), 3);
+  state.vesicles[0].position = Matrix::Zero(n_coefficients(order), 3);
   const auto bound = [&](int n) { return std::pow(kDecay, n); };
   for (int n = 1; n <= order; ++n) {
-    state.position(coefficient_index(n, 0), 0) = bound(n) / std::sqrt((2.0 * n + 1.0) / state.reference_area);
+    state.vesicles[0].position(coefficient_index(n, 0), 0) =
+        bound(n) / std::sqrt((2.0 * n + 1.0) / state.vesicles[0].reference_area);
   }
-  const Resolution resolution(Model{}, state);
+  const Resolution resolution(Model{}, state.vesicles[0]);
   const double beyond = bound(order) * kDecay / (1.0 - kDecay);
   BOOST_TEST(resolution.remainder() > 0.9 * beyond);
   BOOST_TEST(resolution.remainder() < 3.0 * beyond);

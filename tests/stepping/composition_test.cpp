@@ -1,4 +1,4 @@
-#include "bie/stepping/composition.hpp"
+#include "bie/stepping/state/composition.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -36,9 +36,10 @@ CountedRun counted_run(const Model& model, const Matrix& position, double dt, do
   result.state = start(model, discretisation, position, dt);
   Evaluation evaluation = evaluate(model, discretisation, result.state, instruments);
   while (result.state.time < end_time - 1e-9) {
-    const double target = std::min(end_time, next_corner(model, result.state.time).value_or(end_time));
+    const double target = std::min(end_time, next_discontinuity(model, result.state.time).value_or(end_time));
     const double limit = std::min(dt, target - result.state.time);
-    Advance advanced = advance(model, discretisation, result.state, evaluation, fixed_steps(dt), limit, instruments);
+    StepAttempt advanced =
+        controlled_step(model, discretisation, result.state, evaluation, fixed_steps(dt), limit, instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     result.state = std::move(advanced.state);
     evaluation = evaluate(model, discretisation, result.state, instruments, &evaluation);
@@ -64,14 +65,14 @@ BOOST_AUTO_TEST_CASE(absent_effects_evaluate_no_kernels) {
     BOOST_TEST(count(shear, name) == 0, name);
   }
   Model carried;
-  carried.inextensible = false;
+  carried.vesicles[0].inextensible = false;
   carried.flow = axisymmetric_extension(0.1);
   BOOST_TEST(counted_run(carried, prolate(kOrder), 0.1, 0.2).after_step.back().empty());
 }
 
 BOOST_AUTO_TEST_CASE(equal_conductivities_need_no_adjoint_layer) {
   Model model = field_model();
-  model.electric->conductivity_out = model.electric->conductivity_in;
+  model.electric->conductivity = model.vesicles[0].inside.conductivity;
   const Counts counts = counted_run(model, prolate(kOrder), 0.1, 0.2).after_step.back();
   BOOST_TEST(count(counts, "laplace_adjoint") == 0);
   BOOST_TEST(count(counts, "laplace_single") > 0);
@@ -82,8 +83,8 @@ BOOST_AUTO_TEST_CASE(frozen_shape_is_assembled_once) {
   const Counts once = counted_run(frozen_field_model(), prolate(kOrder), 0.1, 0.0 + 0.1).after_step.front();
   BOOST_TEST(count(run.after_step.back(), "stokes_single") == 0);
   BOOST_TEST(count(run.after_step.back(), "laplace_single") == count(once, "laplace_single"));
-  BOOST_TEST(max_difference(run.state.position, prolate(kOrder)) == 0.0);
-  BOOST_TEST(run.state.transmembrane_potential.norm() > 0.1);
+  BOOST_TEST(max_difference(run.state.vesicles[0].position, prolate(kOrder)) == 0.0);
+  BOOST_TEST(run.state.vesicles[0].transmembrane_potential.norm() > 0.1);
 }
 
 // After the pulse V_m decays at a rate of about 6; before it and long after it nothing electric is evaluated.
@@ -97,7 +98,7 @@ BOOST_AUTO_TEST_CASE(electric_part_sleeps_while_field_and_potential_are_zero) {
   BOOST_TEST(at(5) > at(4));     // t = 1.25, decaying
   BOOST_TEST(at(30) == at(32));  // t = 7.5 … 8, asleep
   BOOST_TEST(at(35) > at(32));   // t = 8.75, awake again
-  BOOST_TEST(run.state.transmembrane_potential.norm() > 1e-3);
+  BOOST_TEST(run.state.vesicles[0].transmembrane_potential.norm() > 1e-3);
 }
 
 // On the unit sphere V' = −G V + κ (3E/2 − V) with E = cos ωt ends on V = Re Z e^{iωt}, Z = (3κ/2)/(κ + G + iω).
@@ -108,13 +109,13 @@ BOOST_AUTO_TEST_CASE(sphere_under_alternating_field_follows_its_phasor) {
   Model model = frozen_field_model();
   model.electric->waveform = Waveform::alternating(1.0, omega / (2.0 * std::numbers::pi), 0.0);
   const double kappa = 2.0 * 1.0 * 2.0 / (1.0 + 2.0 * 2.0);
-  const double rate = kappa + model.charging->conductance;
+  const double rate = kappa + model.vesicles[0].charging.conductance;
   const std::complex<double> exact = 1.5 * kappa / (rate + 1i * omega);
   double last_error = 0.1 * std::abs(exact);
   for (const double dt : {0.04, 0.02, 0.01}) {
     const CountedRun run = counted_run(model, sphere(kOrder), dt, 5.0);
     const std::complex<double> discrete = 1.5 * kappa / (rate + (1.0 - std::exp(-1i * omega * dt)) / dt);
-    const double north = run.state.transmembrane_potential[2] * std::sqrt(3.0 / (4.0 * std::numbers::pi));
+    const double north = run.state.vesicles[0].transmembrane_potential[2] * std::sqrt(3.0 / (4.0 * std::numbers::pi));
     BOOST_TEST(std::abs(north - (discrete * std::exp(1i * omega * run.state.time)).real()) < 1e-8);
     BOOST_TEST(std::abs(discrete - exact) < 0.6 * last_error);
     last_error = std::abs(discrete - exact);
@@ -130,11 +131,11 @@ BOOST_AUTO_TEST_CASE(sphere_sinks_with_the_speed_of_a_drop_or_of_a_rigid_sphere)
   const double radius = 1.3;
   const double scale = 1.4 * 2.0 * radius * radius / model.viscosity;
   const auto speed = [&](bool inextensible) {
-    model.inextensible = inextensible;
+    model.vesicles[0].inextensible = inextensible;
     const State state = start(model, discretisation, sphere(kOrder, radius), 0.1);
-    const SphereTransform& fine = discretisation.fine_transform();
+    const SphereTransform& fine = discretisation.vesicle(0).fine_transform();
     const Matrix velocity = fine.synthesize(evaluated(model, discretisation, state).fields.velocity);
-    const Surface s = make_surface(fine, state.position);
+    const Surface s = make_surface(fine, state.vesicles[0].position);
     // The surface of a drop also flows within itself; its normal velocity is U·n.
     const Vector normal_velocity = velocity.cwiseProduct(s.normal).rowwise().sum();
     return 3.0 * normal_velocity.cwiseProduct(s.normal.col(2)).dot(s.quadrature) / s.quadrature.sum();

@@ -1,9 +1,8 @@
-#include "bie/stepping/diagnostics.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "bie/stepping/evaluation/diagnose.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -14,29 +13,32 @@ namespace {
 
 constexpr int kOrder = 12;
 
-Diagnostics diagnostics_of(const Model& model, const State& state) {
+VesicleDiagnostics diagnostics_of(const Model& model, const State& state) {
   return evaluated(model, discretisation_of(kOrder), state).diagnostics;
 }
 
-Diagnostics diagnostics_of_shape(const Matrix& position) {
+VesicleDiagnostics diagnostics_of_shape(const Matrix& position) {
   const Model model = relaxation_model(0.1);
   return diagnostics_of(model, start(model, discretisation_of(kOrder), position, 0.1));
 }
 
 /// Of V_m = z, without layers.
-Diagnostics diagnostics_of_potential(const Matrix& position) {
+VesicleDiagnostics diagnostics_of_potential(const Matrix& position) {
   const int order = order_of(position.rows());
   const SphereTransform fine(order, make_grid(2 * order));
   Surface surface = make_surface(fine, position);
-  State state;
-  state.position = position;
-  state.transmembrane_potential = position.col(2);
-  state.area_strain = Vector::Zero(position.rows());
-  state.reference_area = surface_area(surface);
-  state.reference_volume = enclosed_volume(surface);
-  Fields fields;
+  VesicleState vesicle = at_rest(position).vesicles[0];
+  vesicle.transmembrane_potential = position.col(2);
+  vesicle.reference_area = surface_area(surface);
+  vesicle.reference_volume = enclosed_volume(surface);
+  VesicleFields fields;
   fields.charge = position.col(2);
-  return diagnose(state, {fine, std::move(surface), {}, 1.0}, fields);
+  NumericalSettings settings;
+  settings.order = order;
+  VesicleSolution solution;
+  solution.membrane =
+      std::make_shared<const Membrane>(Membrane{fine, std::move(surface), {}, 1.0, SymmetrySubspace({}, order)});
+  return diagnose({}, MembraneSpace(settings, {}), settings.quadrature_tolerance, vesicle, solution, fields);
 }
 
 Matrix turned_about_y(const Matrix& position, double degrees) {
@@ -50,12 +52,12 @@ Matrix turned_about_y(const Matrix& position, double degrees) {
 BOOST_AUTO_TEST_SUITE(diagnostics)
 
 BOOST_AUTO_TEST_CASE(extents_are_those_of_the_surface_and_not_of_its_nodes) {
-  const Diagnostics d = diagnostics_of_shape(translated(ellipsoid(kOrder, {1.0, 1.3, 2.0}), {5.0, -3.0, 1.0}));
+  const VesicleDiagnostics d = diagnostics_of_shape(translated(ellipsoid(kOrder, {1.0, 1.3, 2.0}), {5.0, -3.0, 1.0}));
   BOOST_TEST(std::abs(d.extent_x - 2.0) < 1e-13);
   BOOST_TEST(std::abs(d.extent_y - 2.6) < 1e-13);
   BOOST_TEST(std::abs(d.extent_z - 4.0) < 1e-13);
   // A tilted ellipsoid is as long along an axis as its support function says.
-  const Diagnostics tilted = diagnostics_of_shape(turned_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.0}), 30.0));
+  const VesicleDiagnostics tilted = diagnostics_of_shape(turned_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.0}), 30.0));
   BOOST_TEST(std::abs(tilted.extent_x - 2.0 * std::sqrt(4.0 * 0.75 + 0.25)) < 1e-13);
   BOOST_TEST(std::abs(tilted.extent_z - 2.0 * std::sqrt(4.0 * 0.25 + 0.75)) < 1e-13);
 }
@@ -81,9 +83,10 @@ BOOST_AUTO_TEST_CASE(inclination_of_a_body_with_many_long_axes_is_that_of_the_on
 
 BOOST_AUTO_TEST_CASE(place_of_the_vesicle_leaves_no_trace_in_its_extents) {
   const Matrix here = asymmetric_shape(kOrder);
-  const Diagnostics expected = diagnostics_of_potential(here);
-  const Diagnostics far = diagnostics_of_potential(translated(here, {1e4, -2e5, 3e3}));
-  for (const auto member : {&Diagnostics::extent_x, &Diagnostics::extent_y, &Diagnostics::extent_z}) {
+  const VesicleDiagnostics expected = diagnostics_of_potential(here);
+  const VesicleDiagnostics far = diagnostics_of_potential(translated(here, {1e4, -2e5, 3e3}));
+  for (const auto member :
+       {&VesicleDiagnostics::extent_x, &VesicleDiagnostics::extent_y, &VesicleDiagnostics::extent_z}) {
     BOOST_TEST(std::abs(far.*member - expected.*member) < 1e-13 * (expected.*member));
   }
 }
@@ -111,9 +114,9 @@ BOOST_AUTO_TEST_CASE(drift_is_relative_to_the_reference_with_its_sign) {
   const Model model = relaxation_model(0.1);
   State state = start(model, discretisation_of(kOrder), prolate(kOrder), 0.1);
   BOOST_TEST(diagnostics_of(model, state).area_drift == 0.0);
-  state.reference_area /= 1.001;
-  state.reference_volume /= 0.998;
-  const Diagnostics d = diagnostics_of(model, state);
+  state.vesicles[0].reference_area /= 1.001;
+  state.vesicles[0].reference_volume /= 0.998;
+  const VesicleDiagnostics d = diagnostics_of(model, state);
   BOOST_TEST(std::abs(d.area_drift - 0.001) < 1e-12);
   BOOST_TEST(std::abs(d.volume_drift + 0.002) < 1e-12);
 }
@@ -122,7 +125,7 @@ BOOST_AUTO_TEST_CASE(strain_is_the_largest_magnitude_on_the_surface) {
   const Model model = relaxation_model(0.1);
   State state = start(model, discretisation_of(kOrder), sphere(kOrder), 0.1);
   BOOST_TEST(diagnostics_of(model, state).strain_max == 0.0);
-  state.area_strain = -3e-3 * std::sqrt(4.0 * std::numbers::pi) * harmonic(kOrder, 0, 0);
+  state.vesicles[0].area_strain = -3e-3 * std::sqrt(4.0 * std::numbers::pi) * harmonic(kOrder, 0, 0);
   BOOST_TEST(std::abs(diagnostics_of(model, state).strain_max - 3e-3) < 1e-14);
 }
 
@@ -131,8 +134,8 @@ BOOST_AUTO_TEST_CASE(potential_and_charge_are_read_at_the_north_pole) {
   const Model model = field_model();
   State state = start(model, discretisation_of(kOrder), sphere(kOrder), 0.1);
   const double v = 0.4;
-  state.transmembrane_potential = v * sphere(kOrder).col(2);
-  const Diagnostics d = diagnostics_of(model, state);
+  state.vesicles[0].transmembrane_potential = v * sphere(kOrder).col(2);
+  const VesicleDiagnostics d = diagnostics_of(model, state);
   const double interior = 2.0 * (3.0 - 2.0 * v) / 5.0;
   BOOST_TEST(std::abs(d.Vm_north - v) < 1e-12);
   BOOST_TEST(std::abs(d.Vm_max - v) < 1e-12);
@@ -148,7 +151,7 @@ BOOST_AUTO_TEST_CASE(where_the_axis_misses_the_membrane_nothing_is_read) {
     const double radius = 1.0 + 0.3 * points(i, 0);
     points.row(i) << -radius * std::cos(angle), radius * std::sin(angle), 0.3 * points(i, 2);
   }
-  const Diagnostics d = diagnostics_of_potential(transform.analyze(points));
+  const VesicleDiagnostics d = diagnostics_of_potential(transform.analyze(points));
   BOOST_TEST(std::isnan(d.Vm_north));
   BOOST_TEST(std::isnan(d.q_north));
   BOOST_TEST(std::isfinite(d.Vm_max));
@@ -165,7 +168,7 @@ BOOST_AUTO_TEST_CASE(sign_at_the_north_pole_is_the_same_at_every_order) {
 
 BOOST_AUTO_TEST_CASE(integrals_are_taken_over_the_surface) {
   const Model model = shear_model();
-  const Diagnostics d = diagnostics_of(model, start(model, discretisation_of(kOrder), sphere(kOrder, 2.0), 0.1));
+  const VesicleDiagnostics d = diagnostics_of(model, start(model, discretisation_of(kOrder), sphere(kOrder, 2.0), 0.1));
   BOOST_TEST(std::abs(d.area / (16.0 * std::numbers::pi) - 1.0) < 1e-12);
   BOOST_TEST(std::abs(d.volume / (32.0 / 3.0 * std::numbers::pi) - 1.0) < 1e-12);
   BOOST_TEST(std::abs(d.bending_energy_scaled / (4.0 * std::numbers::pi) - 1.0) < 1e-11);

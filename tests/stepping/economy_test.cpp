@@ -15,17 +15,17 @@ namespace {
 /// Adds nothing, and fails as a solve would wherever its condition holds.
 class Unsolvable : public ExplicitEffect {
  public:
-  using Condition = std::function<bool(const Situation&)>;
+  using Condition = std::function<bool(const EffectInput&)>;
   explicit Unsolvable(Condition condition) : condition_(std::move(condition)) {}
 
   [[nodiscard]] EffectDescription description() const override { return {"unsolvable", "nothing", {}, {}}; }
-  void add(const Situation& situation, Forcing&) const override {
-    if (condition_(situation)) throw ConvergenceError("made to fail");
+  void add(const EffectInput& input, Forcing&) const override {
+    if (condition_(input)) throw ConvergenceError("made to fail");
   }
-  [[nodiscard]] bool allows(const Reflection&) const override { return true; }
-  [[nodiscard]] bool allows_axis() const override { return true; }
+  [[nodiscard]] bool is_invariant_under(const Reflection&) const override { return true; }
+  [[nodiscard]] bool is_axisymmetric() const override { return true; }
   [[nodiscard]] bool is_same_everywhere() const override { return true; }
-  [[nodiscard]] std::shared_ptr<const ExplicitEffect> turned(const Matrix3&) const override {
+  [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3&) const override {
     return std::make_shared<Unsolvable>(condition_);
   }
 
@@ -39,12 +39,10 @@ Model model_with(Unsolvable::Condition condition) {
   return model;
 }
 
-int degree(const Situation& situation) { return order_of(situation.position.rows()); }
+int degree(const EffectInput& input) { return order_of(input.position.rows()); }
 
 EvolutionSetup setup_of(const Model& model, const Matrix& position, double tolerance) {
-  State shape;
-  shape.position = position;
-  shape.area_strain = Vector::Zero(position.rows());
+  State shape = at_rest(position);
   EvolutionSetup setup;
   setup.model = model;
   setup.settings.order = order_of(position.rows());
@@ -58,9 +56,9 @@ EvolutionSetup setup_of(const Model& model, const Matrix& position, double toler
 Evolution evolution_from(const EvolutionSetup& setup, const Matrix& position, std::int64_t quadrature_level,
                          Instruments& instruments) {
   const double dt = setup.control.tolerance > 0.0 ? 0.0 : setup.control.largest;
-  State state =
-      initial_state(setup.model, Discretisation(setup.settings, setup.symmetry), position, {}, dt, instruments);
-  state.quadrature_level = quadrature_level;
+  State state = initial_state(setup.model, Discretisation(setup.settings, setup.symmetry), {StartMembrane{position}},
+                              dt, instruments);
+  state.vesicles[0].quadrature_level = quadrature_level;
   return {setup, std::move(state), instruments};
 }
 
@@ -76,8 +74,8 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_lowered_stays_and_the_run_goes_on) {
   const Matrix position = ellipsoid(kOrder, {1.0, 1.0, 1.2});
   for (const bool possible : {true, false}) {
     int attempts = 0;
-    const Model model = model_with([&](const Situation& situation) {
-      if (degree(situation) == kOrder) return false;
+    const Model model = model_with([&](const EffectInput& input) {
+      if (degree(input) == kOrder) return false;
       ++attempts;
       return !possible;
     });
@@ -85,7 +83,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_lowered_stays_and_the_run_goes_on) {
     Evolution evolution = evolution_from(setup_of(model, position, 1e-2), position, 0, instruments);
     evolution.evaluate_start();
     for (int i = 0; i < kSteps; ++i) BOOST_REQUIRE_NO_THROW(evolution.step(kEvents));
-    BOOST_TEST((evolution.order() < kOrder) == possible);
+    BOOST_TEST((evolution.order(0) < kOrder) == possible);
     BOOST_TEST(attempts > 0);
     // What fails is not tried at every step.
     if (!possible) BOOST_TEST(attempts <= kSteps / 2);
@@ -97,11 +95,11 @@ BOOST_AUTO_TEST_CASE(quadrature_that_cannot_be_coarsened_stays_and_the_run_goes_
   for (const bool possible : {true, false}) {
     double solved_time = -1.0;
     int attempts = 0;
-    const Model model = model_with([&](const Situation& situation) {
-      if (situation.limit != Limit::after) return false;
+    const Model model = model_with([&](const EffectInput& input) {
+      if (input.limit != Limit::after) return false;
       // A second time at the same place: with another quadrature.
-      const bool again = situation.time == solved_time;
-      solved_time = situation.time;
+      const bool again = input.time == solved_time;
+      solved_time = input.time;
       if (again) ++attempts;
       return again && !possible;
     });
@@ -111,7 +109,7 @@ BOOST_AUTO_TEST_CASE(quadrature_that_cannot_be_coarsened_stays_and_the_run_goes_
     Evolution evolution = evolution_from(setup, position, 1, instruments);
     evolution.evaluate_start();
     for (int i = 0; i < kSteps; ++i) BOOST_REQUIRE_NO_THROW(evolution.step(kEvents));
-    BOOST_TEST(evolution.state().quadrature_level == (possible ? 0 : 1));
+    BOOST_TEST(evolution.state().vesicles[0].quadrature_level == (possible ? 0 : 1));
     BOOST_TEST(attempts > 0);
     if (!possible) BOOST_TEST(attempts <= kSteps / 2);
   }
@@ -121,18 +119,18 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_raised_ends_the_run_with_that_reason)
   constexpr int kHighest = 32;
   const Matrix position = prolate(kHighest);
   int solvable = kHighest;
-  const Model model = model_with([&](const Situation& situation) { return degree(situation) > solvable; });
+  const Model model = model_with([&](const EffectInput& input) { return degree(input) > solvable; });
   const EvolutionSetup setup = setup_of(model, position, 1e-3);
   Instruments instruments;
-  Evolution evolution(setup, position, {}, instruments);
-  solvable = evolution.order();
+  Evolution evolution(setup, {StartMembrane{position}}, instruments);
+  solvable = evolution.order(0);
   evolution.evaluate_start();
   const auto run_until_it_fails = [&] {
     for (int i = 0; i < 1000; ++i) {
       evolution.step({std::nullopt, 70.0});
       // The steps before it stops are smaller ones, and each is resolved.
       BOOST_TEST_REQUIRE(evolution.truncation() <= truncation_share * setup.control.tolerance);
-      BOOST_TEST_REQUIRE(evolution.order() <= solvable);
+      BOOST_TEST_REQUIRE(evolution.order(0) <= solvable);
     }
   };
   BOOST_CHECK_EXCEPTION(run_until_it_fails(), ConvergenceError, [](const ConvergenceError& error) {

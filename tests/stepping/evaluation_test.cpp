@@ -1,3 +1,5 @@
+#include "bie/stepping/evaluation/evaluation.hpp"
+
 #include <omp.h>
 
 #include <boost/test/unit_test.hpp>
@@ -7,7 +9,6 @@
 #include <type_traits>
 
 #include "bie/geometry/surface.hpp"
-#include "bie/stepping/evaluation_parts.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -23,7 +24,7 @@ Model full_model() {
   return model;
 }
 
-Matrix side_by_side(const Fields& f) {
+Matrix side_by_side(const VesicleFields& f) {
   Matrix all(f.velocity.rows(), 14);
   all << f.velocity, f.force_bending, f.force_tension, f.force_electric, f.tension, f.charge;
   return all;
@@ -35,11 +36,11 @@ BOOST_AUTO_TEST_SUITE(evaluation)
 
 BOOST_AUTO_TEST_CASE(velocity_keeps_every_area_element_and_has_no_flux) {
   const Discretisation discretisation = discretisation_of(16);
-  const SphereTransform& fine = discretisation.fine_transform();
+  const SphereTransform& fine = discretisation.vesicle(0).fine_transform();
   const Matrix position = asymmetric_shape(16);
   const Surface surface = make_surface(fine, position);
   for (const Model& model : {shear_model(), field_model(), full_model()}) {
-    const Evaluation e = evaluated(model, discretisation, start(model, discretisation, position, 0.1));
+    const Evaluated e = evaluated(model, discretisation, start(model, discretisation, position, 0.1));
     const SphereDerivatives u = fine.synthesize_gradient(e.fields.velocity);
     const Vector divergence = surface.area_element.cwiseProduct(surface_divergence(surface, u));
     const double speed = u.value.rowwise().norm().maxCoeff();
@@ -53,13 +54,13 @@ BOOST_AUTO_TEST_CASE(inextensible_sphere_has_the_exact_velocity_and_tension_in_l
   // With v = Ωx + Ex and Y = x·Ex on the unit sphere, the tension −35/22 μ Y turns the strain into a velocity that
   // keeps area elements: 12/11 Y n + 4/11 ∇_γ Y. Constant tension does nothing on a sphere.
   const Discretisation discretisation = discretisation_of(12);
-  const SphereTransform& fine = discretisation.fine_transform();
+  const SphereTransform& fine = discretisation.vesicle(0).fine_transform();
   const Surface surface = make_surface(fine, sphere(12));
   for (const BackgroundFlow& flow : {shear_flow(1.3), planar_extension(1.0), axisymmetric_extension(0.7)}) {
     Model model = relaxation_model(0.1);
     model.viscosity = 2.5;
     model.flow = flow;
-    const Evaluation e = evaluated(model, discretisation, start(model, discretisation, sphere(12), 0.1));
+    const Evaluated e = evaluated(model, discretisation, start(model, discretisation, sphere(12), 0.1));
     const Matrix3 strain = 0.5 * (flow.gradient + flow.gradient.transpose());
     const Matrix3 spin = 0.5 * (flow.gradient - flow.gradient.transpose());
     const Matrix& x = surface.position;
@@ -77,7 +78,7 @@ BOOST_AUTO_TEST_CASE(velocity_without_constraint_falls_with_viscosity_and_adds_t
   const Discretisation discretisation = discretisation_of(12);
   const Matrix position = asymmetric_shape(12);
   Model model = relaxation_model(0.4);
-  model.inextensible = false;
+  model.vesicles[0].inextensible = false;
   const auto velocity = [&] {
     return evaluated(model, discretisation, start(model, discretisation, position, 0.1)).fields.velocity;
   };
@@ -92,8 +93,8 @@ BOOST_AUTO_TEST_CASE(electric_force_enters_the_velocity_with_minus_sign) {
   // f = f_b + f_λ − f_E: a sphere that conducts less than its surroundings is squeezed along the field.
   const Discretisation discretisation = discretisation_of(12);
   Model model = field_model();
-  model.inextensible = false;
-  const Evaluation e = evaluated(model, discretisation, start(model, discretisation, sphere(12), 0.1));
+  model.vesicles[0].inextensible = false;
+  const Evaluated e = evaluated(model, discretisation, start(model, discretisation, sphere(12), 0.1));
   const Vector pole = evaluate_harmonics(e.fields.velocity, Vector::Zero(1), Vector::Zero(1)).row(0);
   BOOST_TEST(pole[2] < -0.01);
 }
@@ -101,13 +102,13 @@ BOOST_AUTO_TEST_CASE(electric_force_enters_the_velocity_with_minus_sign) {
 BOOST_AUTO_TEST_CASE(absent_effects_leave_their_fields_empty) {
   const Discretisation discretisation = discretisation_of(8);
   const Model model = relaxation_model(0.1);
-  const Evaluation relaxing = evaluated(model, discretisation, start(model, discretisation, prolate(8), 0.1));
+  const Evaluated relaxing = evaluated(model, discretisation, start(model, discretisation, prolate(8), 0.1));
   BOOST_TEST(relaxing.fields.force_electric.size() == 0);
   BOOST_TEST(relaxing.fields.charge.size() == 0);
   Model fluid;
-  fluid.inextensible = false;
+  fluid.vesicles[0].inextensible = false;
   fluid.flow = shear_flow(1.0);
-  const Evaluation carried = evaluated(fluid, discretisation, start(fluid, discretisation, prolate(8), 0.1));
+  const Evaluated carried = evaluated(fluid, discretisation, start(fluid, discretisation, prolate(8), 0.1));
   BOOST_TEST(carried.fields.force_bending.size() == 0);
   BOOST_TEST(carried.fields.force_tension.size() == 0);
   BOOST_TEST(carried.fields.tension.size() == 0);
@@ -139,10 +140,10 @@ BOOST_AUTO_TEST_CASE(evaluation_outlives_the_discretisation_that_it_was_made_wit
   NumericalSettings settings;
   settings.order = 6;
   auto discretisation = std::make_unique<const Discretisation>(settings);
-  const Evaluation evaluation = evaluated(model, *discretisation, start(model, *discretisation, prolate(6), 0.1));
-  const Matrix values = discretisation->fine_transform().synthesize(evaluation.fields.velocity);
+  const Evaluated evaluation = evaluated(model, *discretisation, start(model, *discretisation, prolate(6), 0.1));
+  const Matrix values = discretisation->vesicle(0).fine_transform().synthesize(evaluation.fields.velocity);
   discretisation.reset();
-  const Membrane& membrane = evaluation.parts->membrane;
+  const Membrane& membrane = *evaluation.solution.membrane;
   BOOST_TEST((membrane.fine.synthesize(evaluation.fields.velocity) == values));
   BOOST_TEST(max_difference(membrane.fine.analyze(values), evaluation.fields.velocity) < 1e-12);
 }

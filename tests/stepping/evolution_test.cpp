@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(area_and_volume_do_not_drift_in_shear) {
   const Model model = shear_model();
   const State state = start(model, discretisation, ellipsoid(12, {2.0, 1.0, 1.0}), 0.1);
   run(model, discretisation, state, 0.1, 20, [&](const State& next) {
-    const Diagnostics d = evaluated(model, discretisation, next).diagnostics;
+    const VesicleDiagnostics d = evaluated(model, discretisation, next).diagnostics;
     BOOST_TEST(std::abs(d.area_drift) <= 1e-6);
     BOOST_TEST(std::abs(d.volume_drift) <= 1e-6);
   });
@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(time_error_falls_with_at_least_first_order) {
   const auto end = [&](int n_steps) {
     const double dt = 1.0 / n_steps;
     const State state = run(model, discretisation, start(model, discretisation, prolate(8), dt), dt, n_steps);
-    const Diagnostics d = evaluated(model, discretisation, state).diagnostics;
+    const VesicleDiagnostics d = evaluated(model, discretisation, state).diagnostics;
     return std::array{d.extent_z, d.extent_x, d.Vm_north, d.bending_energy_scaled};
   };
   const auto coarse = end(8);
@@ -65,8 +65,8 @@ BOOST_AUTO_TEST_CASE(result_does_not_depend_on_where_the_poles_are) {
     return evaluated(model, discretisation, state).diagnostics;
   };
   const Matrix position = ellipsoid(order, {1.4, 1.0, 1.2});
-  const Diagnostics here = after(position);
-  const Diagnostics moved = after(move_poles(position, general_rotation()));
+  const VesicleDiagnostics here = after(position);
+  const VesicleDiagnostics moved = after(move_poles(position, general_rotation()));
   BOOST_TEST(std::abs(here.inclination_deg - moved.inclination_deg) < 1e-3);
   BOOST_TEST(std::abs(here.extent_x - moved.extent_x) < 1e-5);
   BOOST_TEST(std::abs(here.bending_energy_scaled / moved.bending_energy_scaled - 1.0) < 1e-5);
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(turning_the_whole_scene_turns_the_result) {
   model.flow->gradient = rotation * model.flow->gradient * rotation.transpose();
   const State turned =
       run(model, discretisation, start(model, discretisation, position * rotation.transpose(), 0.1), 0.1, 5);
-  BOOST_TEST(max_difference(turned.position, here.position * rotation.transpose()) < 1e-7);
+  BOOST_TEST(max_difference(turned.vesicles[0].position, here.vesicles[0].position * rotation.transpose()) < 1e-7);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-#include "bie/stepping/frame.hpp"
-#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/state/frame.hpp"
+#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/rotated.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -30,7 +31,8 @@ Steps steps_of(const Model& model, const Matrix& position, double dt, int n) {
   Steps steps{start(model, discretisation, position, dt), {}};
   Evaluation evaluation = evaluate(model, discretisation, steps.end, instruments);
   for (int i = 0; i < n; ++i) {
-    const Advance next = advance(model, discretisation, steps.end, evaluation, fixed_steps(dt), dt, instruments);
+    const StepAttempt next =
+        controlled_step(model, discretisation, steps.end, evaluation, fixed_steps(dt), dt, instruments);
     BOOST_TEST_REQUIRE(next.accepted, next.reason);
     steps.end = next.state;
     evaluation = evaluate(model, discretisation, steps.end, instruments);
@@ -41,7 +43,7 @@ Steps steps_of(const Model& model, const Matrix& position, double dt, int n) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(flow_memory)
+BOOST_AUTO_TEST_SUITE(recycled)
 
 BOOST_AUTO_TEST_CASE(steps_come_to_take_few_iterations_at_every_degree_and_stiffness) {
   for (const int order : {8, 16, 32}) {
@@ -64,13 +66,13 @@ BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_toleranc
   const Model model = shear_model();
   const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
   const State learned = steps_of(model, position, 0.1, 10).end;
-  BOOST_TEST_REQUIRE(learned.flow_memory.flow != nullptr);
+  BOOST_TEST_REQUIRE(learned.vesicles[0].recycled.flow != nullptr);
   State forgetful = learned;
-  forgetful.flow_memory = {};
+  forgetful.vesicles[0].recycled = {};
   const Discretisation discretisation = symmetric_discretisation(model, position);
-  const StepResult with = stepped(model, discretisation, learned, 0.1);
-  const StepResult without = stepped(model, discretisation, forgetful, 0.1);
-  BOOST_TEST(max_difference(with.state.position, without.state.position) < 1e-7);
+  const StepAttempt with = stepped(model, discretisation, learned, 0.1);
+  const StepAttempt without = stepped(model, discretisation, forgetful, 0.1);
+  BOOST_TEST(max_difference(with.state.vesicles[0].position, without.state.vesicles[0].position) < 1e-7);
 }
 
 BOOST_AUTO_TEST_CASE(a_step_that_is_known_takes_fewer_iterations) {
@@ -80,70 +82,70 @@ BOOST_AUTO_TEST_CASE(a_step_that_is_known_takes_fewer_iterations) {
   const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
   const Discretisation discretisation = symmetric_discretisation(model, position);
   State state = start(model, discretisation, position, 0.1);
-  state.flow_memory = {};
-  const StepResult unaided = stepped(model, discretisation, state, 0.1);
-  state.flow_memory = unaided.state.flow_memory;
-  BOOST_TEST_REQUIRE(state.flow_memory.flow != nullptr);
-  const StepResult again = stepped(model, discretisation, state, 0.1);
+  state.vesicles[0].recycled = {};
+  const StepAttempt unaided = stepped(model, discretisation, state, 0.1);
+  state.vesicles[0].recycled = unaided.state.vesicles[0].recycled;
+  BOOST_TEST_REQUIRE(state.vesicles[0].recycled.flow != nullptr);
+  const StepAttempt again = stepped(model, discretisation, state, 0.1);
   BOOST_TEST(again.iterations_flow < unaided.iterations_flow);
-  BOOST_TEST(max_difference(again.state.position, unaided.state.position) < 1e-7);
+  BOOST_TEST(max_difference(again.state.vesicles[0].position, unaided.state.vesicles[0].position) < 1e-7);
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_pay_is_left_aside_for_a_while) {
-  const auto known = remembered({0}, {Matrix::Ones(1, 1), Matrix::Ones(1, 1)});
-  FlowMemory memory = memory_after_step({}, known, 20);
+  const auto known = recycled_scalars({0}, {Matrix::Ones(1, 1), Matrix::Ones(1, 1)});
+  RecycledSubspaces memory = after_step({}, known, 20);
   BOOST_TEST((memory.flow == known && memory.unaided_iterations == 20));
-  memory = memory_after_step(memory, known, 40);
+  memory = after_step(memory, known, 40);
   BOOST_TEST((memory.flow == known && memory.unaided_iterations == 20));
-  memory = memory_after_step(memory, known, 41);
+  memory = after_step(memory, known, 41);
   int steps = 0;
-  for (; !memory.flow && steps < 1000; ++steps) memory = memory_after_step(memory, known, 25);
+  for (; !memory.flow && steps < 1000; ++steps) memory = after_step(memory, known, 25);
   BOOST_TEST(steps == 50);
   BOOST_TEST((memory.pause == 0 && memory.unaided_iterations == 25));
 }
 
 BOOST_AUTO_TEST_CASE(memory_stays_bounded) {
   const Steps steps = steps_of(shear_model(), ellipsoid(8, {2.0, 1.0, 0.9}), 0.1, 20);
-  BOOST_TEST(steps.end.flow_memory.flow->known().count() <= most_known_responses);
-  BOOST_TEST(steps.end.flow_memory.tension->known().count() <= most_known_responses);
+  BOOST_TEST(steps.end.vesicles[0].recycled.flow->subspace().count() <= most_recycled);
+  BOOST_TEST(steps.end.vesicles[0].recycled.tension->subspace().count() <= most_recycled);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_known_is_had_in_its_own_coefficients_alone) {
   constexpr int kOrder = 4;
-  const std::vector<Index> all = even_coefficients({}, kOrder);
+  const std::vector<Index> all = scalar_entries({}, kOrder);
   const Matrix arguments = random_coefficients(kOrder, 2, 1);
   Matrix both(2 * arguments.rows(), 2);
   both << arguments, -arguments;
-  const ScalarResponses known(all, {both, 3.0 * both});
+  const RecycledScalars known(all, {both, 3.0 * both});
   BOOST_TEST((known.in(all, 2).arguments == both));
   BOOST_TEST((known.in(all, 2).responses == 3.0 * both));
   BOOST_TEST(known.in(all, 1).count() == 0);
-  BOOST_TEST(known.in(even_coefficients({}, kOrder - 1), 2).count() == 0);
+  BOOST_TEST(known.in(scalar_entries({}, kOrder - 1), 2).count() == 0);
   // As many rows as two scalars of another symmetry or degree have, by chance.
   std::vector<Index> others = all;
   others.back() += 1;
   BOOST_TEST(known.in(others, 2).count() == 0);
-  BOOST_CHECK_THROW(ScalarResponses(even_coefficients({}, kOrder + 1), {both, both}), ShapeError);
-  BOOST_CHECK_THROW(ScalarResponses(all, {both, arguments}), ShapeError);
+  BOOST_CHECK_THROW(RecycledScalars(scalar_entries({}, kOrder + 1), {both, both}), ShapeError);
+  BOOST_CHECK_THROW(RecycledScalars(all, {both, arguments}), ShapeError);
 }
 
 BOOST_AUTO_TEST_CASE(turned_state_knows_nothing_in_the_coefficients_of_former_axes) {
   const State learned = steps_of(shear_model(), ellipsoid(6, {2.0, 1.0, 0.9}), 0.1, 1).end;
-  BOOST_TEST_REQUIRE((learned.flow_memory.flow && learned.flow_memory.tension));
-  const State there = turned(general_rotation(), learned);
-  BOOST_TEST((!there.flow_memory.flow && !there.flow_memory.tension));
-  const State here = turned(Matrix3::Identity(), learned);
-  BOOST_TEST((here.flow_memory.flow == learned.flow_memory.flow));
+  BOOST_TEST_REQUIRE((learned.vesicles[0].recycled.flow && learned.vesicles[0].recycled.tension));
+  const State there = rotated(general_rotation(), learned);
+  BOOST_TEST((!there.vesicles[0].recycled.flow && !there.vesicles[0].recycled.tension));
+  const State here = rotated(Matrix3::Identity(), learned);
+  BOOST_TEST((here.vesicles[0].recycled.flow == learned.vesicles[0].recycled.flow));
 }
 
 BOOST_AUTO_TEST_CASE(resized_state_knows_nothing_in_the_coefficients_of_the_former_degree) {
   const State learned = steps_of(shear_model(), ellipsoid(6, {2.0, 1.0, 0.9}), 0.1, 1).end;
-  BOOST_TEST_REQUIRE((learned.flow_memory.flow && learned.flow_memory.tension));
+  BOOST_TEST_REQUIRE((learned.vesicles[0].recycled.flow && learned.vesicles[0].recycled.tension));
   for (const int order : {4, 9}) {
-    const FlowMemory memory = resized(learned, order).flow_memory;
+    const RecycledSubspaces memory = resized(learned, order).vesicles[0].recycled;
     BOOST_TEST((!memory.flow && !memory.tension));
   }
-  BOOST_TEST((resized(learned, 6).flow_memory.flow == learned.flow_memory.flow));
+  BOOST_TEST((resized(learned, 6).vesicles[0].recycled.flow == learned.vesicles[0].recycled.flow));
 }
 
 // Up, down, and to what a smaller symmetry leaves; even where somebody forgets to forget.
@@ -153,24 +155,25 @@ BOOST_AUTO_TEST_CASE(what_was_learned_at_another_degree_changes_no_field_and_no_
   const State learned = steps_of(model, position, 0.1, 4).end;
   for (const int order : {8, 10, 13}) {
     State with = resized(learned, order);
-    with.flow_memory = learned.flow_memory;
+    with.vesicles[0].recycled = learned.vesicles[0].recycled;
     State without = with;
-    without.flow_memory = {};
+    without.vesicles[0].recycled = {};
     for (const bool symmetric : {true, false}) {
       const Discretisation discretisation =
           symmetric ? symmetric_discretisation(model, resize_order(position, order)) : discretisation_of(order);
       BOOST_TEST_CONTEXT("degree " << order << (symmetric ? ", symmetric" : "")) {
-        const Fields expected = evaluated(model, discretisation, without).fields;
-        const Fields fields = evaluated(model, discretisation, with).fields;
+        const VesicleFields expected = evaluated(model, discretisation, without).fields;
+        const VesicleFields fields = evaluated(model, discretisation, with).fields;
         BOOST_TEST(relative_difference(fields.velocity, expected.velocity) < 1e-7);
         BOOST_TEST(relative_difference(fields.tension, expected.tension) < 1e-7);
-        const StepResult step = stepped(model, discretisation, with, 0.1);
-        const StepResult unaided = stepped(model, discretisation, without, 0.1);
+        const StepAttempt step = stepped(model, discretisation, with, 0.1);
+        const StepAttempt unaided = stepped(model, discretisation, without, 0.1);
         BOOST_TEST_REQUIRE((step.accepted && unaided.accepted));
-        BOOST_TEST(max_difference(step.state.position, unaided.state.position) < 1e-7);
-        const Index rows = step.state.flow_memory.flow->known().arguments.rows();
-        BOOST_TEST(rows == 2 * static_cast<Index>(step.state.flow_memory.flow->entries().size()));
-        BOOST_TEST((step.state.flow_memory.flow->entries() == even_coefficients(discretisation.symmetry(), order)));
+        BOOST_TEST(max_difference(step.state.vesicles[0].position, unaided.state.vesicles[0].position) < 1e-7);
+        const Index rows = step.state.vesicles[0].recycled.flow->subspace().arguments.rows();
+        BOOST_TEST(rows == 2 * static_cast<Index>(step.state.vesicles[0].recycled.flow->entries().size()));
+        BOOST_TEST(
+            (step.state.vesicles[0].recycled.flow->entries() == scalar_entries(discretisation.symmetry(), order)));
       }
     }
   }

@@ -1,10 +1,9 @@
-#include "bie/stepping/flow_solve.hpp"
-
 #include <boost/test/unit_test.hpp>
 
 #include "bie/physics/bending.hpp"
 #include "bie/physics/tension.hpp"
-#include "bie/stepping/sphere_spectrum.hpp"
+#include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "tests/support/membrane.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -13,6 +12,8 @@ using namespace vehd;
 using namespace vehd::testing;
 
 namespace {
+
+FlowParameters parameters_of(const Model& model) { return flow_parameters(model, model.vesicles[0]); }
 
 constexpr int kOrder = 12;
 constexpr double kDt = 0.3;
@@ -25,7 +26,7 @@ Model stiff_model() {
 
 /// The left side of the coupled system, from its parts.
 MembraneUnknowns left_side(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns) {
-  const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, unknowns), true);
+  const VelocityField u = velocity_field(membrane, membrane_velocity(parameters_of(model), membrane, unknowns), true);
   Vector curvature = -kDt * curvature_increment(membrane, u.derivatives);
   if (unknowns.curvature.size() > 0) curvature += unknowns.curvature;
   return {curvature, weighted_divergence(membrane, u.derivatives)};
@@ -40,9 +41,9 @@ BOOST_AUTO_TEST_CASE(sphere_flow_block_is_the_assembled_operator_on_a_sphere) {
   Model model = stiff_model();
   const Space space(kOrder);
   for (const double ratio : {1.0, 0.0, 0.2, 30.0}) {
-    model.viscosity_ratio = ratio;
+    model.vesicles[0].viscosity_ratio = ratio;
     const Membrane membrane = make_membrane(space, sphere(kOrder, radius), kStokesLayers, ratio);
-    const SphereFlow parameters{radius, model.viscosity, model.bending->modulus, kDt, ratio};
+    const SphereFlow parameters{radius, model.viscosity, model.vesicles[0].bending->modulus, kDt, ratio};
     for (int n = 0; n <= kOrder / 2; ++n) {
       const Eigen::Matrix2d block = sphere_flow_block(parameters, n);
       for (const int m : {-n, 0, n}) {
@@ -66,9 +67,9 @@ BOOST_AUTO_TEST_CASE(solution_satisfies_the_coupled_system) {
   const Space space(kOrder);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 101), smooth_coefficients(kOrder, 6, 1, 102)};
-  const FlowSystem::Solution solution = FlowSystem(model, membrane, kDt).solve(rhs, {}, 1e-11);
+  const FlowSystem::Solution solution = FlowSystem(parameters_of(model), membrane, kDt).solve(rhs, {}, 1e-11);
   const MembraneUnknowns reached = left_side(model, membrane, solution.unknowns);
-  BOOST_TEST(solution.report.converged);
+  BOOST_TEST(solution.report.converged());
   BOOST_TEST(max_difference(reached.curvature, rhs.curvature) < 1e-8);
   BOOST_TEST(max_difference(reached.tension, rhs.divergence) < 1e-8);
 }
@@ -79,8 +80,8 @@ BOOST_AUTO_TEST_CASE(preconditioner_is_the_inverse_on_a_sphere) {
   const Membrane membrane = make_membrane(space, sphere(kOrder), kStokesLayer);
   FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 103), smooth_coefficients(kOrder, 6, 1, 104)};
   rhs.divergence[0] = 0.0;
-  const SolveReport report = FlowSystem(model, membrane, kDt).solve(rhs, {}, 1e-8).report;
-  BOOST_TEST(report.converged);
+  const SolveReport report = FlowSystem(parameters_of(model), membrane, kDt).solve(rhs, {}, 1e-8).report;
+  BOOST_TEST(report.converged());
   BOOST_TEST(report.iterations <= 2);
 }
 
@@ -90,9 +91,9 @@ BOOST_AUTO_TEST_CASE(iterations_are_bounded_from_soft_to_stiff_steps) {
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 105), smooth_coefficients(kOrder, 6, 1, 106)};
   for (const double modulus : {1e-3, 1.0, 10.0}) {
     const Model model = relaxation_model(modulus);
-    const SolveReport report = FlowSystem(model, membrane, kDt).solve(rhs, {}, 1e-9).report;
+    const SolveReport report = FlowSystem(parameters_of(model), membrane, kDt).solve(rhs, {}, 1e-9).report;
     BOOST_TEST_CONTEXT("bending modulus " << modulus) {
-      BOOST_TEST(report.converged);
+      BOOST_TEST(report.converged());
       BOOST_TEST(report.iterations <= 100);
     }
   }
@@ -103,13 +104,13 @@ BOOST_AUTO_TEST_CASE(iterations_are_bounded_at_every_viscosity_ratio) {
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 107), smooth_coefficients(kOrder, 6, 1, 108)};
   Model model = shear_model();
   for (const double ratio : {1e-3, 1.0, 1e3}) {
-    model.viscosity_ratio = ratio;
+    model.vesicles[0].viscosity_ratio = ratio;
     const Membrane membrane = make_membrane(space, ellipsoid(kOrder, {2.0, 1.0, 0.9}), kStokesLayers, ratio);
     // Without and with bending: the solve of the state and that of the step.
     for (const double dt : {0.0, kDt}) {
-      const SolveReport report = FlowSystem(model, membrane, dt).solve(rhs, {}, 1e-9).report;
+      const SolveReport report = FlowSystem(parameters_of(model), membrane, dt).solve(rhs, {}, 1e-9).report;
       BOOST_TEST_CONTEXT("viscosity ratio " << ratio << ", dt " << dt) {
-        BOOST_TEST(report.converged);
+        BOOST_TEST(report.converged());
         BOOST_TEST(report.iterations <= 40);
       }
     }
@@ -125,9 +126,9 @@ BOOST_AUTO_TEST_CASE(a_rough_solve_takes_few_iterations_at_every_degree_and_stif
     const FlowRightHandSide rhs{smooth_coefficients(order, 6, 1, 111), smooth_coefficients(order, 6, 1, 112)};
     for (const double stiffness : {1e-4, 1e-2, 1.0, 10.0}) {
       const Model model = relaxation_model(stiffness);
-      const SolveReport report = FlowSystem(model, membrane, 1.0).solve(rhs, {}, kPassTolerance).report;
+      const SolveReport report = FlowSystem(parameters_of(model), membrane, 1.0).solve(rhs, {}, kPassTolerance).report;
       BOOST_TEST_CONTEXT("degree " << order << ", bending modulus times dt " << stiffness) {
-        BOOST_TEST(report.converged);
+        BOOST_TEST(report.converged());
         BOOST_TEST(report.iterations <= 12);
       }
     }
@@ -141,12 +142,13 @@ BOOST_AUTO_TEST_CASE(what_is_known_serves_another_shape_and_another_step) {
   const Membrane former = make_membrane(space, shape, kStokesLayer);
   const Membrane membrane = make_membrane(space, 1.001 * shape, kStokesLayer);
   FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 133), smooth_coefficients(kOrder, 6, 1, 134)};
-  FlowSystem system(model, former, kDt);
+  FlowSystem system(parameters_of(model), former, kDt);
   system.solve(rhs, {}, 1e-9);
   rhs.curvature += 1e-3 * smooth_coefficients(kOrder, 6, 1, 135);
   for (const double dt : {0.8 * kDt, kDt, 1.25 * kDt}) {
-    const FlowSystem::Solution cold = FlowSystem(model, membrane, dt).solve(rhs, {}, 1e-5);
-    const FlowSystem::Solution warm = FlowSystem(model, membrane, dt, {}, system.learned()).solve(rhs, {}, 1e-5);
+    const FlowSystem::Solution cold = FlowSystem(parameters_of(model), membrane, dt).solve(rhs, {}, 1e-5);
+    const FlowSystem::Solution warm =
+        FlowSystem(parameters_of(model), membrane, dt, {}, system.learned()).solve(rhs, {}, 1e-5);
     BOOST_TEST_CONTEXT("dt " << dt) {
       BOOST_TEST(warm.report.iterations < cold.report.iterations);
       BOOST_TEST(max_difference(warm.unknowns.curvature, cold.unknowns.curvature) <
@@ -161,9 +163,10 @@ BOOST_AUTO_TEST_CASE(what_is_known_of_a_system_solves_it_again) {
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
   const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, 133), smooth_coefficients(kOrder, 6, 1, 134)};
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6, 1e-9}) {
-    FlowSystem system(model, membrane, kDt);
+    FlowSystem system(parameters_of(model), membrane, kDt);
     const FlowSystem::Solution cold = system.solve(rhs, {}, tolerance);
-    const FlowSystem::Solution warm = FlowSystem(model, membrane, kDt, {}, system.learned()).solve(rhs, {}, tolerance);
+    const FlowSystem::Solution warm =
+        FlowSystem(parameters_of(model), membrane, kDt, {}, system.learned()).solve(rhs, {}, tolerance);
     BOOST_TEST_CONTEXT("tolerance " << tolerance) {
       BOOST_TEST(cold.report.iterations > 2);
       BOOST_TEST(warm.report.iterations <= 2);
@@ -175,25 +178,25 @@ BOOST_AUTO_TEST_CASE(what_is_known_of_another_degree_is_forgotten) {
   const Model model = stiff_model();
   const Space space(kOrder), other(kOrder + 2);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
-  FlowSystem system(model, membrane, kDt);
+  FlowSystem system(parameters_of(model), membrane, kDt);
   system.solve({smooth_coefficients(kOrder, 6, 1, 136), smooth_coefficients(kOrder, 6, 1, 137)}, {}, 1e-3);
   const Membrane finer = make_membrane(other, asymmetric_shape(kOrder + 2), kStokesLayer);
-  BOOST_TEST(FlowSystem(model, membrane, kDt, {}, system.learned()).kept().count() > 0);
-  BOOST_TEST(FlowSystem(model, finer, kDt, {}, system.learned()).kept().count() == 0);
+  BOOST_TEST(FlowSystem(parameters_of(model), membrane, kDt, {}, system.learned()).kept().count() > 0);
+  BOOST_TEST(FlowSystem(parameters_of(model), finer, kDt, {}, system.learned()).kept().count() == 0);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_learned_is_the_response_of_the_membrane) {
   const Model model = stiff_model();
   const Space space(kOrder);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
-  FlowSystem system(model, membrane, kDt);
+  FlowSystem system(parameters_of(model), membrane, kDt);
   system.solve({smooth_coefficients(kOrder, 6, 1, 141), smooth_coefficients(kOrder, 6, 1, 142)}, {}, 1e-3);
-  const KnownResponses learned = system.learned();
+  const RecycledSubspace learned = system.learned();
   const Index n = learned.arguments.rows() / 2;
   BOOST_TEST_REQUIRE(learned.count() > 2);
   for (Index j = 0; j < learned.count(); ++j) {
     const MembraneUnknowns unknowns{learned.arguments.col(j).head(n), learned.arguments.col(j).tail(n)};
-    const VelocityField u = velocity_field(membrane, membrane_velocity(model, membrane, unknowns), true);
+    const VelocityField u = velocity_field(membrane, membrane_velocity(parameters_of(model), membrane, unknowns), true);
     const Vector divergence = weighted_divergence(membrane, u.derivatives);
     const Vector curvature = curvature_increment(membrane, u.derivatives);
     const Matrix& responses = learned.responses;
@@ -206,11 +209,11 @@ BOOST_AUTO_TEST_CASE(velocity_of_a_solution_is_that_of_its_unknowns) {
   const Model model = stiff_model();
   const Space space(kOrder);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
-  FlowSystem system(model, membrane, kDt);
+  FlowSystem system(parameters_of(model), membrane, kDt);
   for (const int seed : {121, 123}) {
     const FlowRightHandSide rhs{smooth_coefficients(kOrder, 6, 1, seed), smooth_coefficients(kOrder, 6, 1, seed + 1)};
     const FlowSystem::Solution solution = system.solve(rhs, {}, 1e-6);
-    const Matrix expected = membrane_velocity(model, membrane, solution.unknowns);
+    const Matrix expected = membrane_velocity(parameters_of(model), membrane, solution.unknowns);
     BOOST_TEST((solution.velocity - expected).norm() < 1e-11 * expected.norm());
   }
 }

@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
-#include "bie/stepping/frame.hpp"
-#include "bie/stepping/symmetry.hpp"
+#include "bie/stepping/state/frame.hpp"
+#include "bie/stepping/state/symmetry.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -46,9 +46,10 @@ double difference_per_step(const Model& model, const Matrix& position, double dt
   const Discretisation full(settings_for(symmetry));
   const State a = run(model, reduced, start(model, reduced, position, dt), dt, n_steps);
   const State b = run(model, full, start(model, full, position, dt), dt, n_steps);
-  double difference = max_difference(a.position, b.position);
+  double difference = max_difference(a.vesicles[0].position, b.vesicles[0].position);
   if (model.electric) {
-    difference = std::max(difference, max_difference(a.transmembrane_potential, b.transmembrane_potential));
+    difference = std::max(difference,
+                          max_difference(a.vesicles[0].transmembrane_potential, b.vesicles[0].transmembrane_potential));
   }
   return difference / n_steps;
 }
@@ -96,14 +97,14 @@ BOOST_AUTO_TEST_CASE(turns_about_any_axis_are_found_and_change_no_step) {
     const State laboratory = in_laboratory(body, start(field_model(), discretisation_of(kOrder), star(3, 1.0), 0.1));
     const Frame frame = find_frame(model, laboratory);
     const Model there = in_frame(frame, model);
-    const Matrix position = in_frame(frame, laboratory).position;
+    const Matrix position = in_frame(frame, laboratory).vesicles[0].position;
     BOOST_TEST(symmetry_text(found(there, position), frame).starts_with("3-fold about "));
     BOOST_TEST(difference_per_step(there, position, 0.1, 3) < 1e-9);
     // The laboratory's own grid has its poles elsewhere and is as good as this order resolves.
     const Discretisation full(settings_for({}));
     const State a = run(there, full, start(there, full, position, 0.1), 0.1, 3);
-    const State b = run(model, full, start(model, full, laboratory.position, 0.1), 0.1, 3);
-    BOOST_TEST(max_difference(in_laboratory(frame, a).position, b.position) < 1e-5);
+    const State b = run(model, full, start(model, full, laboratory.vesicles[0].position, 0.1), 0.1, 3);
+    BOOST_TEST(max_difference(in_laboratory(frame, a).vesicles[0].position, b.vesicles[0].position) < 1e-5);
   }
   // Too few turns to leave the axes of the laboratory for.
   const State prism =
@@ -125,8 +126,8 @@ BOOST_AUTO_TEST_CASE(turns_that_are_gone_are_not_used) {
   sheared.flow->gradient(0, 2) = 1e-6;
   BOOST_TEST(found(sheared, star(3, 1.0)).fold == 1);
   State charged = start(field_model(), discretisation_of(kOrder), star(3, 1.0), 0.1);
-  charged.transmembrane_potential[coefficient_index(2, 1)] = 1e-9;
-  charged.transmembrane_potential[coefficient_index(1, 0)] = 1.0;
+  charged.vesicles[0].transmembrane_potential[coefficient_index(2, 1)] = 1e-9;
+  charged.vesicles[0].transmembrane_potential[coefficient_index(1, 0)] = 1.0;
   BOOST_TEST(find_symmetry(field_model(), charged).fold == 1);
 }
 
@@ -155,7 +156,7 @@ BOOST_AUTO_TEST_CASE(only_independent_targets_are_evaluated) {
 
 BOOST_AUTO_TEST_CASE(contrast_of_viscosities_may_be_there) {
   Model model = extension_model();
-  model.viscosity_ratio = 5.0;
+  model.vesicles[0].viscosity_ratio = 5.0;
   BOOST_TEST(difference_per_step(model, star(3, 0.0), 0.1, 2) < 1e-9);
 }
 

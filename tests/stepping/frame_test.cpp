@@ -1,10 +1,11 @@
-#include "bie/stepping/frame.hpp"
+#include "bie/stepping/state/frame.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 #include "bie/physics/gravity.hpp"
 #include "bie/physics/poiseuille_flow.hpp"
-#include "bie/stepping/laboratory.hpp"
+#include "bie/stepping/evaluation/lab_frame_output.hpp"
+#include "bie/stepping/state/rotated.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -37,11 +38,13 @@ struct Scenario {
   [[nodiscard]] double difference_per_step(double dt, int n_steps) const {
     const Discretisation reduced = with(symmetry);
     const Discretisation full = with({});
-    const State a = run(model_there, reduced, start(model_there, reduced, state_there.position, dt), dt, n_steps);
-    const State b = run(model_there, full, start(model_there, full, state_there.position, dt), dt, n_steps);
-    double difference = max_difference(a.position, b.position);
+    const State a =
+        run(model_there, reduced, start(model_there, reduced, state_there.vesicles[0].position, dt), dt, n_steps);
+    const State b = run(model_there, full, start(model_there, full, state_there.vesicles[0].position, dt), dt, n_steps);
+    double difference = max_difference(a.vesicles[0].position, b.vesicles[0].position);
     if (model.electric) {
-      difference = std::max(difference, max_difference(a.transmembrane_potential, b.transmembrane_potential));
+      difference = std::max(
+          difference, max_difference(a.vesicles[0].transmembrane_potential, b.vesicles[0].transmembrane_potential));
     }
     return difference / n_steps;
   }
@@ -49,16 +52,18 @@ struct Scenario {
   /// The same between the frame and the laboratory, where the grid has its poles elsewhere.
   [[nodiscard]] double difference_from_laboratory(double dt, int n_steps) const {
     const Discretisation reduced = with(symmetry);
-    const State a = run(model_there, reduced, start(model_there, reduced, state_there.position, dt), dt, n_steps);
+    const State a =
+        run(model_there, reduced, start(model_there, reduced, state_there.vesicles[0].position, dt), dt, n_steps);
     const State b = run(model, with({}), state, dt, n_steps);
-    return max_difference(in_laboratory(frame, a).position, b.position) / n_steps;
+    return max_difference(in_laboratory(frame, a).vesicles[0].position, b.vesicles[0].position) / n_steps;
   }
 };
 
 Matrix turned_shape(const Matrix3& rotation, const Matrix& position) {
   State body;
-  body.position = position;
-  return turned(rotation, body).position;
+  body.vesicles.emplace_back();
+  body.vesicles[0].position = position;
+  return rotated(rotation, body).vesicles[0].position;
 }
 
 Model in_field(const Vector3& field) {
@@ -82,7 +87,7 @@ std::uint64_t stokes_evaluations(const Scenario& scenario) {
   const Discretisation discretisation = with(scenario.symmetry);
   Instruments instruments;
   evaluate(scenario.model_there, discretisation,
-           start(scenario.model_there, discretisation, scenario.state_there.position, 0.1), instruments);
+           start(scenario.model_there, discretisation, scenario.state_there.vesicles[0].position, 0.1), instruments);
   return instruments.kernel_evaluations().at("stokes_single");
 }
 
@@ -180,8 +185,9 @@ BOOST_AUTO_TEST_CASE(axis_may_miss_the_origin_where_nothing_depends_on_the_place
   BOOST_TEST(tilted.symmetry.axisymmetric);
   BOOST_TEST(tilted.difference_per_step(0.2, 3) < 1e-9);
   // What the laboratory shows is where it was.
-  const Laboratory laboratory(upright.frame, with({}).settings());
-  BOOST_TEST(max_difference(laboratory.state(upright.state_there).position, upright.state.position) < 1e-15);
+  const LabFrameOutput laboratory(upright.frame, with({}).settings());
+  BOOST_TEST(max_difference(laboratory.state(upright.state_there).vesicles[0].position,
+                            upright.state.vesicles[0].position) < 1e-15);
   Model heavy = relaxation_model(0.1);
   heavy.effects.push_back(std::make_shared<GravityEffect>(GravityParameters{1.0, {0.0, 0.0, -1.0}}));
   BOOST_TEST(Scenario(heavy, translated(prolate(kOrder), centre)).frame.is_laboratory());
@@ -221,14 +227,16 @@ BOOST_AUTO_TEST_CASE(as_few_targets_are_evaluated_as_about_z) {
 BOOST_AUTO_TEST_CASE(history_quantities_are_those_of_the_laboratory) {
   const Scenario scenario(in_field(oblique().col(2)), turned_shape(oblique(), pear(kOrder)));
   const auto charged = [](const Model& model, const Discretisation& discretisation, const State& from) {
-    return run(model, discretisation, start(model, discretisation, from.position, 0.2), 0.2, 1);
+    return run(model, discretisation, start(model, discretisation, from.vesicles[0].position, 0.2), 0.2, 1);
   };
   const Discretisation reduced = with(scenario.symmetry);
   const State there = charged(scenario.model_there, reduced, scenario.state_there);
-  const Evaluation evaluation = evaluated(scenario.model_there, reduced, there);
-  const Laboratory laboratory(scenario.frame, reduced.settings());
-  const Diagnostics d = laboratory.diagnostics(evaluation.diagnostics, there, evaluation.fields);
-  const Diagnostics expected = evaluated(scenario.model, with({}), turned(scenario.frame.axes, there)).diagnostics;
+  const Evaluated evaluation = evaluated(scenario.model_there, reduced, there);
+  const LabFrameOutput laboratory(scenario.frame, reduced.settings());
+  const VesicleDiagnostics d =
+      laboratory.diagnostics({{evaluation.diagnostics}}, there, {{evaluation.fields}}).vesicles[0];
+  const VesicleDiagnostics expected =
+      evaluated(scenario.model, with({}), rotated(scenario.frame.axes, there)).diagnostics;
   const auto close = boost::test_tools::tolerance(1e-4);
   BOOST_TEST(d.extent_x == expected.extent_x, close);
   BOOST_TEST(d.extent_y == expected.extent_y, close);
@@ -238,8 +246,8 @@ BOOST_AUTO_TEST_CASE(history_quantities_are_those_of_the_laboratory) {
   BOOST_TEST(d.q_north == expected.q_north, close);
   BOOST_TEST(d.area == expected.area, close);
   BOOST_TEST(std::abs(d.extent_x - evaluation.diagnostics.extent_x) > 0.01);
-  const Fields fields = laboratory.fields(evaluation.fields);
-  const Fields expected_fields = evaluated(scenario.model, with({}), laboratory.state(there)).fields;
+  const VesicleFields fields = laboratory.fields({{evaluation.fields}}).vesicles[0];
+  const VesicleFields expected_fields = evaluated(scenario.model, with({}), laboratory.state(there)).fields;
   BOOST_TEST(relative_difference(fields.velocity, expected_fields.velocity) < 1e-3);
   BOOST_TEST(relative_difference(fields.force_electric, expected_fields.force_electric) < 1e-3);
   BOOST_TEST(relative_difference(fields.charge, expected_fields.charge) < 1e-3);

@@ -43,14 +43,14 @@ BOOST_AUTO_TEST_CASE(steps_that_grow_and_shrink_by_ten_do_no_harm) {
   State steady = state;
   for (int i = 0; i < 6; ++i) {
     for (const double dt : {large, 0.1 * large}) {
-      const StepResult result = stepped(model, discretisation, state, dt);
+      const StepAttempt result = stepped(model, discretisation, state, dt);
       BOOST_TEST_REQUIRE(result.accepted, result.reason);
       state = result.state;
     }
   }
   steady = run(model, discretisation, steady, 0.5 * large * 1.1, 12);
-  const Diagnostics jumping = evaluated(model, discretisation, state).diagnostics;
-  const Diagnostics even = evaluated(model, discretisation, steady).diagnostics;
+  const VesicleDiagnostics jumping = evaluated(model, discretisation, state).diagnostics;
+  const VesicleDiagnostics even = evaluated(model, discretisation, steady).diagnostics;
   BOOST_TEST(std::abs(state.time - steady.time) < 1e-12);
   BOOST_TEST(std::abs(jumping.area_drift) < 1e-8);
   // First order: as far from the even steps as these are from the truth, some percent.
@@ -68,8 +68,8 @@ BOOST_AUTO_TEST_CASE(a_badly_distorted_grid_of_a_good_shape_gives_the_same_motio
     return evaluated(model, discretisation, state).diagnostics;
   };
   // Area elements at the poles differ by a factor of some 40.
-  const Diagnostics distorted = after(crowded(order, axes, 0.4));
-  const Diagnostics good = after(ellipsoid(order, axes));
+  const VesicleDiagnostics distorted = after(crowded(order, axes, 0.4));
+  const VesicleDiagnostics good = after(ellipsoid(order, axes));
   BOOST_TEST(std::abs(distorted.extent_z / good.extent_z - 1.0) < 1e-4);
   BOOST_TEST(std::abs(distorted.bending_energy_scaled / good.bending_energy_scaled - 1.0) < 1e-3);
   BOOST_TEST(std::abs(distorted.area_drift) < 1e-8);
@@ -86,9 +86,10 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_the_number_of_threads) {
   const State one = after_a_step(1);
   for (const int n : {2, 3}) {
     const State several = after_a_step(n);
-    BOOST_TEST((several.position - one.position).norm() <= 1e-12 * one.position.norm());
-    BOOST_TEST((several.transmembrane_potential - one.transmembrane_potential).norm() <=
-               1e-12 * one.transmembrane_potential.norm());
+    BOOST_TEST((several.vesicles[0].position - one.vesicles[0].position).norm() <=
+               1e-12 * one.vesicles[0].position.norm());
+    BOOST_TEST((several.vesicles[0].transmembrane_potential - one.vesicles[0].transmembrane_potential).norm() <=
+               1e-12 * one.vesicles[0].transmembrane_potential.norm());
   }
 }
 

@@ -1,9 +1,8 @@
-#include "bie/stepping/health.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/membrane.hpp"
@@ -94,26 +93,28 @@ BOOST_AUTO_TEST_CASE(separation_is_independent_of_place_and_size_and_seen_from_o
 
 BOOST_AUTO_TEST_CASE(quadrature_follows_the_distance_of_the_parts) {
   Instruments instruments;
-  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.25), {}, instruments);
+  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), {StartMembrane{dimpled_disc(12, 0.25)}}, instruments);
   evolution.evaluate_start();
-  BOOST_TEST(evolution.state().quadrature_level == 0);
-  BOOST_TEST(evolution.evaluation().diagnostics.quadrature_error < NumericalSettings{}.quadrature_tolerance);
+  BOOST_TEST(evolution.state().vesicles[0].quadrature_level == 0);
+  BOOST_TEST(evolution.evaluation().diagnostics.vesicles[0].quadrature_error <
+             NumericalSettings{}.quadrature_tolerance);
 
-  Evolution near(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.04), {}, instruments);
+  Evolution near(setup_of(relaxation_model(0.05), 12, 0.01), {StartMembrane{dimpled_disc(12, 0.04)}}, instruments);
   near.evaluate_start();
-  BOOST_TEST(near.state().quadrature_level > 0);
-  BOOST_TEST(near.evaluation().diagnostics.quadrature_error < NumericalSettings{}.quadrature_tolerance);
-  BOOST_TEST(near.evaluation().diagnostics.separation < 1.0);
+  BOOST_TEST(near.state().vesicles[0].quadrature_level > 0);
+  BOOST_TEST(near.evaluation().diagnostics.vesicles[0].quadrature_error < NumericalSettings{}.quadrature_tolerance);
+  BOOST_TEST(near.evaluation().diagnostics.vesicles[0].separation < 1.0);
 
   // Continued from that state it takes the same quadrature at once.
   Evolution continued(setup_of(relaxation_model(0.05), 12, 0.01), near.state(), instruments);
   continued.evaluate_start();
-  BOOST_TEST((continued.evaluation().fields.velocity == near.evaluation().fields.velocity));
+  BOOST_TEST((continued.evaluation().fields.vesicles[0].velocity == near.evaluation().fields.vesicles[0].velocity));
 }
 
 BOOST_AUTO_TEST_CASE(a_start_in_contact_is_refused) {
   Instruments instruments;
-  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), dimpled_disc(12, 0.002), {}, instruments);
+  Evolution evolution(setup_of(relaxation_model(0.05), 12, 0.01), {StartMembrane{dimpled_disc(12, 0.002)}},
+                      instruments);
   BOOST_CHECK_EXCEPTION(evolution.evaluate_start(), ConvergenceError, [](const ConvergenceError& error) {
     return std::string(error.what()).find("grid spacings from each other") != std::string::npos;
   });
@@ -121,7 +122,7 @@ BOOST_AUTO_TEST_CASE(a_start_in_contact_is_refused) {
 
 BOOST_AUTO_TEST_CASE(a_disc_whose_sides_meet_is_stopped_before_they_cross) {
   Instruments instruments;
-  Evolution evolution(setup_of(drawing_model(), 10, 0.05), dimpled_disc(10, 0.05), {}, instruments);
+  Evolution evolution(setup_of(drawing_model(), 10, 0.05), {StartMembrane{dimpled_disc(10, 0.05)}}, instruments);
   evolution.evaluate_start();
   std::string reason;
   for (int i = 0; i < 400 && reason.empty(); ++i) {
@@ -133,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_disc_whose_sides_meet_is_stopped_before_they_cross) {
   }
   BOOST_TEST_CONTEXT(reason) {
     BOOST_TEST(!reason.empty());
-    const Diagnostics& last = evolution.evaluation().diagnostics;
+    const VesicleDiagnostics& last = evolution.evaluation().diagnostics.vesicles[0];
     BOOST_TEST(last.separation >= 0.1);
     BOOST_TEST(std::abs(last.area_drift) < 1e-6);
   }

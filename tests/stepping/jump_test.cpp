@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_switch_are_those_of_the_forcing_that_holds_
   pulse.electric->waveform = Waveform::pulse(1.0, 0.0, 4 * kDt);
   off.electric->waveform = Waveform::pulse(1.0, 50.0, 1.0);
   Instruments instruments;
-  Evolution evolution(setup_of(pulse, position), position, {}, instruments);
+  Evolution evolution(setup_of(pulse, position), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
   BOOST_TEST(!evolution.before_jump().has_value());
   const EventTimes events{std::nullopt, 1.0};
@@ -42,11 +42,14 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_switch_are_those_of_the_forcing_that_holds_
   }
   evolution.step(events);
   BOOST_TEST_REQUIRE(evolution.before_jump().has_value());
-  const Evaluation& before = *evolution.before_jump();
-  const Evaluation& after = evolution.evaluation();
+  const auto of_one = [](const Evaluation& e) {
+    return Evaluated{e.fields.vesicles[0], e.diagnostics.vesicles[0], {}};
+  };
+  const Evaluated before = of_one(*evolution.before_jump());
+  const Evaluated after = of_one(evolution.evaluation());
   const Discretisation discretisation(setup_of(pulse, position).settings);
-  const Evaluation held = evaluated(constant, discretisation, evolution.state());
-  const Evaluation free = evaluated(off, discretisation, evolution.state());
+  const Evaluated held = evaluated(constant, discretisation, evolution.state());
+  const Evaluated free = evaluated(off, discretisation, evolution.state());
   for (const auto& [side, like] : {std::pair{&before, &held}, std::pair{&after, &free}}) {
     BOOST_TEST(max_difference(side->fields.charge, like->fields.charge) < 1e-8);
     BOOST_TEST(max_difference(side->fields.force_electric, like->fields.force_electric) < 1e-8);
@@ -65,7 +68,7 @@ BOOST_AUTO_TEST_CASE(corner_without_a_jump_has_one_side) {
   Model model = field_model();
   model.electric->waveform = Waveform::table({0.0, 0.1, 0.3}, {0.0, 1.0, 0.3});
   Instruments instruments;
-  Evolution evolution(setup_of(model, position), position, {}, instruments);
+  Evolution evolution(setup_of(model, position), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
   while (evolution.state().time < 0.3) {
     evolution.step({std::nullopt, 0.3});
@@ -78,14 +81,14 @@ BOOST_AUTO_TEST_CASE(flow_that_is_switched_has_two_sides_as_well) {
   Model model = shear_model();
   model.flow->waveform = Waveform::table({0.0, 0.1, 0.1, 0.2}, {1.0, 1.0, -2.0, -2.0});
   Instruments instruments;
-  Evolution evolution(setup_of(model, position), position, {}, instruments);
+  Evolution evolution(setup_of(model, position), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
   evolution.step({std::nullopt, 0.2});
   BOOST_TEST(!evolution.before_jump().has_value());
   evolution.step({std::nullopt, 0.2});
   BOOST_TEST_REQUIRE(evolution.before_jump().has_value());
-  const Matrix& velocity = evolution.evaluation().fields.velocity;
-  const Matrix& before = evolution.before_jump()->fields.velocity;
+  const Matrix& velocity = evolution.evaluation().fields.vesicles[0].velocity;
+  const Matrix& before = evolution.before_jump()->fields.vesicles[0].velocity;
   BOOST_TEST((velocity - before).norm() > 0.5 * before.norm());
 }
 

@@ -23,8 +23,7 @@ double prolate_rate(const Matrix& velocity) {
 /// A field so weak that the shape stays where it is, switched on over a membrane that does not leak.
 Model weak_field(double conductivity_ratio) {
   Model model;
-  model.electric = ElectricParameters{{0.0, 0.0, 1e-3}, conductivity_ratio, 1.0, 1.0};
-  model.charging = ChargingParameters{1.0, 0.0};
+  set_electric(model, {{0.0, 0.0, 1e-3}, conductivity_ratio, 1.0, 1.0}, {1.0, 0.0});
   return model;
 }
 

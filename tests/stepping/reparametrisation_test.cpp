@@ -1,8 +1,7 @@
-#include "bie/stepping/reparametrisation.hpp"
-
 #include <boost/test/unit_test.hpp>
 
 #include "bie/physics/bending.hpp"
+#include "bie/stepping/space/remap.hpp"
 #include "tests/support/shapes.hpp"
 
 using namespace vehd;
@@ -17,7 +16,14 @@ struct Tables {
   [[nodiscard]] Surface surface(const Matrix& position) const { return make_surface(fine, position); }
   /// x after one reparametrisation that follows the given displacement.
   [[nodiscard]] Matrix moved(const Matrix& position, const Matrix& displacement, const Matrix& fields) const {
-    return reparametrise(fine, surface(position), displacement, fields);
+    SurfaceFields material;
+    material.position = position;
+    if (fields.cols() > 3) material.tension = fields.col(3);
+    const SurfaceFields after = remap(fine, displacement, material);
+    Matrix result = fields;
+    result.leftCols(3) = after.position;
+    if (fields.cols() > 3) result.col(3) = after.tension;
+    return result;
   }
 };
 

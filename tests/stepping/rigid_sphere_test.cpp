@@ -3,7 +3,7 @@
 
 #include "bie/physics/gravity.hpp"
 #include "bie/physics/poiseuille_flow.hpp"
-#include "bie/stepping/time_rule.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -20,7 +20,7 @@ Matrix off_centre_sphere() { return translated(sphere(kOrder, kRadius), kCentre)
 
 /// Largest distance of a grid point from the sphere about `centre`.
 double distance_from_sphere(const Discretisation& discretisation, const State& state, const Vector3& centre) {
-  const Matrix points = discretisation.fine_transform().synthesize(state.position);
+  const Matrix points = discretisation.vesicle(0).fine_transform().synthesize(state.vesicles[0].position);
   return ((points.rowwise() - centre.transpose()).rowwise().norm().array() - kRadius).abs().maxCoeff();
 }
 
@@ -39,7 +39,9 @@ BOOST_AUTO_TEST_CASE(sphere_stays_a_sphere_in_flow_and_field) {
     const Vector3 centre = kCentre + Vector3(20 * dt * kCentre.z(), 0.0, 0.0);
     BOOST_TEST(distance_from_sphere(discretisation, end, centre) < 1e-10);
     // A rotation strains nothing, however long the step.
-    BOOST_TEST(discretisation.fine_transform().synthesize(end.area_strain).cwiseAbs().maxCoeff() < 1e-7);
+    BOOST_TEST(
+        discretisation.vesicle(0).fine_transform().synthesize(end.vesicles[0].area_strain).cwiseAbs().maxCoeff() <
+        1e-7);
   }
 }
 
@@ -48,7 +50,7 @@ BOOST_AUTO_TEST_CASE(sphere_charges_at_first_order_towards_the_exact_law) {
   const Discretisation discretisation = discretisation_of(kOrder);
   const Model model = field_model();
   const double kappa = 2.0 * 1.0 * 2.0 / (1.0 + 2.0 * 2.0);
-  const double rate = model.charging->conductance + kappa;
+  const double rate = model.vesicles[0].charging.conductance + kappa;
   const double exact = 1.5 * kappa / rate * (1.0 - std::exp(-rate * 0.4));
   const auto error = [&](int n_steps) {
     const double dt = 0.4 / n_steps;
@@ -75,7 +77,7 @@ Vector3 travel(const Model& model, int time_order) {
   const Discretisation discretisation = discretisation_of_order(time_order);
   const double dt = 0.1;
   const State end = run(model, discretisation, start(model, discretisation, off_centre_sphere(), dt), dt, 10);
-  return centroid(make_surface(discretisation.fine_transform(), end.position)) - kCentre;
+  return centroid(make_surface(discretisation.vesicle(0).fine_transform(), end.vesicles[0].position)) - kCentre;
 }
 
 }  // namespace
@@ -111,7 +113,7 @@ BOOST_AUTO_TEST_CASE(sphere_off_the_axis_of_a_tube_lags_as_faxen_says_at_every_o
 BOOST_AUTO_TEST_CASE(sphere_that_turns_in_a_field_keeps_the_order_of_its_steps) {
   Model model = field_model();
   model.flow = shear_flow(1.0);
-  model.charging->conductance = 0.5;
+  model.vesicles[0].charging.conductance = 0.5;
   const double end_time = 0.8;
   const auto potential = [&](int time_order, int n_steps) {
     const Discretisation discretisation = discretisation_of_order(time_order);

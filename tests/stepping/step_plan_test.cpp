@@ -1,4 +1,4 @@
-#include "bie/stepping/step_plan.hpp"
+#include "bie/stepping/time/step_plan.hpp"
 
 #include <boost/test/unit_test.hpp>
 

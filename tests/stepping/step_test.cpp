@@ -12,11 +12,11 @@ namespace {
 
 Matrix example_3_shape(int order) { return ellipsoid(order, {2.0, 1.0, 1.0}); }
 
-Advance advanced(const Model& model, const Discretisation& discretisation, const State& state, double dt_nominal,
-                 double dt_limit) {
+StepAttempt advanced(const Model& model, const Discretisation& discretisation, const State& state, double dt_nominal,
+                     double dt_limit) {
   Instruments instruments;
-  return advance(model, discretisation, state, evaluate(model, discretisation, state, instruments),
-                 fixed_steps(dt_nominal), dt_limit, instruments);
+  return controlled_step(model, discretisation, state, evaluate(model, discretisation, state, instruments),
+                         fixed_steps(dt_nominal), dt_limit, instruments);
 }
 
 }  // namespace
@@ -28,15 +28,15 @@ BOOST_AUTO_TEST_CASE(accepted_step_holds_area_and_volume_to_the_tolerance) {
   const double tolerance = discretisation.settings().constraint_tolerance;
   for (const Model& model : {relaxation_model(0.1), shear_model(), field_model()}) {
     const State state = start(model, discretisation, example_3_shape(12), 0.1);
-    const StepResult result = stepped(model, discretisation, state, 0.1);
+    const StepAttempt result = stepped(model, discretisation, state, 0.1);
     BOOST_REQUIRE(result.accepted);
     BOOST_TEST(result.reason.empty());
     BOOST_TEST(result.state.time == 0.1);
     BOOST_TEST(result.state.step == 1);
-    const Surface after = make_surface(discretisation.fine_transform(), result.state.position);
-    BOOST_TEST(std::abs(surface_area(after) / state.reference_area - 1.0) <= tolerance);
-    BOOST_TEST(std::abs(enclosed_volume(after) / state.reference_volume - 1.0) <= tolerance);
-    BOOST_TEST(max_difference(result.state.position, state.position) > 1e-4);
+    const Surface after = make_surface(discretisation.vesicle(0).fine_transform(), result.state.vesicles[0].position);
+    BOOST_TEST(std::abs(surface_area(after) / state.vesicles[0].reference_area - 1.0) <= tolerance);
+    BOOST_TEST(std::abs(enclosed_volume(after) / state.vesicles[0].reference_volume - 1.0) <= tolerance);
+    BOOST_TEST(max_difference(result.state.vesicles[0].position, state.vesicles[0].position) > 1e-4);
   }
 }
 
@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(sphere_under_bending_alone_does_not_move) {
   const Discretisation discretisation = discretisation_of(12);
   const Model model = relaxation_model(1.0);
   const State end = run(model, discretisation, start(model, discretisation, sphere(12), 1.0), 1.0, 5);
-  BOOST_TEST(max_difference(end.position, sphere(12)) < 1e-12);
+  BOOST_TEST(max_difference(end.vesicles[0].position, sphere(12)) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(absurd_step_is_rejected_with_a_reason) {
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(absurd_step_is_rejected_with_a_reason) {
   for (const Model& model : {shear_model(), field_model()}) {
     const State state = start(model, discretisation, example_3_shape(8), 0.1);
     for (const double dt : {1e3, 1e8}) {
-      StepResult result;
+      StepAttempt result;
       BOOST_CHECK_NO_THROW(result = stepped(model, discretisation, state, dt));
       BOOST_TEST(!result.accepted);
       BOOST_TEST(!result.reason.empty());
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(advance_halves_until_the_step_is_good_and_recovers) {
   const Model model = shear_model();
   const double nominal = 32.0;
   const State state = start(model, discretisation, example_3_shape(8), nominal);
-  const Advance first = advanced(model, discretisation, state, nominal, nominal);
+  const StepAttempt first = advanced(model, discretisation, state, nominal, nominal);
   BOOST_REQUIRE(first.accepted);
   BOOST_TEST(first.rejected > 0);
   BOOST_TEST(first.dt == nominal / (1 << first.rejected));
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(advance_halves_until_the_step_is_good_and_recovers) {
   BOOST_TEST(first.state.dt_next == first.dt);
   // A good step at once doubles what is tried next, up to the nominal size.
   State easy = start(model, discretisation, example_3_shape(8), 0.05);
-  const Advance second = advanced(model, discretisation, easy, 0.08, 0.08);
+  const StepAttempt second = advanced(model, discretisation, easy, 0.08, 0.08);
   BOOST_TEST(second.rejected == 0);
   BOOST_TEST(second.dt == 0.05);
   BOOST_TEST(second.state.dt_next == 0.08);
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(step_cut_by_the_limit_does_not_shorten_those_that_follow) {
   const Discretisation discretisation = discretisation_of(8);
   const Model model = shear_model();
   const State state = start(model, discretisation, example_3_shape(8), 0.1);
-  const Advance result = advanced(model, discretisation, state, 0.1, 0.003);
+  const StepAttempt result = advanced(model, discretisation, state, 0.1, 0.003);
   BOOST_TEST(result.dt == 0.003);
   BOOST_TEST(result.state.dt_next == 0.1);
 }
@@ -93,8 +93,8 @@ BOOST_AUTO_TEST_CASE(advance_gives_up_with_the_reason_when_no_step_is_good) {
   const Model model = shear_model();
   State state = start(model, discretisation, example_3_shape(8), 0.1);
   // No motion at this area reaches twice the volume.
-  state.reference_volume *= 2.0;
-  Advance result;
+  state.vesicles[0].reference_volume *= 2.0;
+  StepAttempt result;
   BOOST_CHECK_NO_THROW(result = advanced(model, discretisation, state, 0.1, 0.1));
   BOOST_TEST(!result.accepted);
   BOOST_TEST(!result.reason.empty());
@@ -105,21 +105,21 @@ BOOST_AUTO_TEST_CASE(initial_state_starts_where_it_is_told) {
   const Discretisation discretisation = discretisation_of(8);
   Instruments instruments;
   const Model model = field_model();
-  const State zero = initial_state(model, discretisation, sphere(8), {}, 0.1, instruments);
-  BOOST_TEST(zero.transmembrane_potential.isZero(0.0));
-  BOOST_TEST(zero.area_strain.isZero(0.0));
+  const State zero = initial_state(model, discretisation, {{sphere(8), {}}}, 0.1, instruments);
+  BOOST_TEST(zero.vesicles[0].transmembrane_potential.isZero(0.0));
+  BOOST_TEST(zero.vesicles[0].area_strain.isZero(0.0));
   BOOST_TEST(zero.dt_next == 0.1);
   // Steady V = (3E/2) κ/(κ + G_m) with κ = 2σ_iσ_e/(σ_i + 2σ_e) = 4/5.
-  const State steady = initial_state(model, discretisation, sphere(8), {.steady = true}, 0.1, instruments);
-  BOOST_TEST(max_difference(steady.transmembrane_potential, 1.5 * 0.8 / 5.8 * sphere(8).col(2)) < 1e-9);
+  const State steady = initial_state(model, discretisation, {{sphere(8), {.steady = true}}}, 0.1, instruments);
+  BOOST_TEST(max_difference(steady.vesicles[0].transmembrane_potential, 1.5 * 0.8 / 5.8 * sphere(8).col(2)) < 1e-9);
   // One that is given is taken over in any degree.
   const Vector given = Vector::LinSpaced(n_coefficients(5), -1.0, 2.0);
-  const State charged = initial_state(model, discretisation, sphere(8), {.given = given}, 0.1, instruments);
-  BOOST_TEST((charged.transmembrane_potential.head(given.size()) == given));
-  BOOST_TEST(charged.transmembrane_potential.tail(81 - given.size()).isZero(0.0));
-  BOOST_TEST(
-      initial_state(shear_model(), discretisation, sphere(8), {}, 0.1, instruments).transmembrane_potential.size() ==
-      0);
+  const State charged = initial_state(model, discretisation, {{sphere(8), {.given = given}}}, 0.1, instruments);
+  BOOST_TEST((charged.vesicles[0].transmembrane_potential.head(given.size()) == given));
+  BOOST_TEST(charged.vesicles[0].transmembrane_potential.tail(81 - given.size()).isZero(0.0));
+  BOOST_TEST(initial_state(shear_model(), discretisation, {{sphere(8), {}}}, 0.1, instruments)
+                 .vesicles[0]
+                 .transmembrane_potential.size() == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

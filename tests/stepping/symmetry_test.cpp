@@ -28,9 +28,10 @@ double difference_per_step(const Model& model, const Matrix& position, double dt
   const Discretisation reduced(solved_to_rounding(kOrder), symmetry), full(solved_to_rounding(kOrder));
   const State a = run(model, reduced, start(model, reduced, position, dt), dt, n_steps);
   const State b = run(model, full, start(model, full, position, dt), dt, n_steps);
-  double difference = max_difference(a.position, b.position);
+  double difference = max_difference(a.vesicles[0].position, b.vesicles[0].position);
   if (model.electric) {
-    difference = std::max(difference, max_difference(a.transmembrane_potential, b.transmembrane_potential));
+    difference = std::max(difference,
+                          max_difference(a.vesicles[0].transmembrane_potential, b.vesicles[0].transmembrane_potential));
   }
   return difference / n_steps;
 }
@@ -60,14 +61,14 @@ BOOST_AUTO_TEST_CASE(even_coefficients_are_those_of_symmetric_scalars) {
   };
   Symmetry axis;
   axis.axisymmetric = true;
-  const std::vector<Index> zonal = even_coefficients(axis, kOrder);
+  const std::vector<Index> zonal = scalar_entries(axis, kOrder);
   BOOST_TEST(zonal.size() == kOrder + 1);
   BOOST_TEST((has(zonal, 3, 0) && !has(zonal, 3, 1)));
-  BOOST_TEST(even_coefficients({}, kOrder).size() == static_cast<std::size_t>(n_coefficients(kOrder)));
+  BOOST_TEST(scalar_entries({}, kOrder).size() == static_cast<std::size_t>(n_coefficients(kOrder)));
   Symmetry mirror;
   mirror.reflections.push_back({1, 1, -1});
   mirror.potential_signs.push_back(-1);
-  const std::vector<Index> even = even_coefficients(mirror, kOrder);
+  const std::vector<Index> even = scalar_entries(mirror, kOrder);
   BOOST_TEST((has(even, 2, 0) && has(even, 3, 1) && !has(even, 1, 0) && !has(even, 3, 2)));
 }
 
@@ -97,8 +98,8 @@ BOOST_AUTO_TEST_CASE(symmetry_that_is_gone_is_not_used) {
   BOOST_TEST(!find_symmetry(swirling, state_of(swirling, shape)).axisymmetric);
   // A potential that is neither even nor odd in z.
   State charged = state_of(field_model(), shape);
-  charged.transmembrane_potential[coefficient_index(1, 0)] = 0.1;
-  charged.transmembrane_potential[coefficient_index(2, 0)] = 0.1;
+  charged.vesicles[0].transmembrane_potential[coefficient_index(1, 0)] = 0.1;
+  charged.vesicles[0].transmembrane_potential[coefficient_index(2, 0)] = 0.1;
   BOOST_TEST(symmetry_text(find_symmetry(field_model(), charged)) == "axisymmetric about z");
 }
 

@@ -1,7 +1,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "bie/stepping/deferred_correction.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -15,7 +16,7 @@ Vector observed_at(const Model& model, const Matrix& position, int time_order, d
   const Discretisation discretisation = symmetric_discretisation(model, position, time_order);
   const double dt = end_time / n_steps;
   const State end = run(model, discretisation, start(model, discretisation, position, dt), dt, n_steps);
-  const Diagnostics d = evaluated(model, discretisation, end).diagnostics;
+  const VesicleDiagnostics d = evaluated(model, discretisation, end).diagnostics;
   return Vector{{d.extent_x, d.extent_z, d.Vm_max, d.tension_integral, d.bending_energy_scaled}};
 }
 
@@ -99,7 +100,7 @@ BOOST_AUTO_TEST_CASE(drift_before_the_constraint_has_the_order_of_the_step) {
     State state = start(model, discretisation, position, dt);
     double sum = 0.0;
     for (int i = 0; i < n_steps; ++i) {
-      const StepResult result = stepped(model, discretisation, state, dt);
+      const StepAttempt result = stepped(model, discretisation, state, dt);
       BOOST_TEST_REQUIRE(result.accepted, result.reason);
       sum += std::abs(result.raw_area);
       state = result.state;
@@ -163,7 +164,7 @@ BOOST_AUTO_TEST_CASE(jump_of_the_field_at_the_end_of_a_step_belongs_to_the_next)
   const Discretisation discretisation = symmetric_discretisation(model, sphere(6), 4);
   const State end = run(model, discretisation, start(model, discretisation, sphere(6), 0.25), 0.25, 2);
   BOOST_TEST(end.time == 0.5);
-  BOOST_TEST(end.transmembrane_potential.isZero(0.0));
+  BOOST_TEST(end.vesicles[0].transmembrane_potential.isZero(0.0));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

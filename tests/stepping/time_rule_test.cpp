@@ -1,4 +1,4 @@
-#include "bie/stepping/time_rule.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

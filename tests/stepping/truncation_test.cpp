@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/resolution.hpp"
+#include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -43,9 +44,7 @@ std::vector<DrivenScene> driven_scenes() {
 }
 
 EvolutionSetup setup_of(const DrivenScene& scene, const Matrix& position, double tolerance) {
-  State start;
-  start.position = position;
-  start.area_strain = Vector::Zero(position.rows());
+  State start = at_rest(position);
   EvolutionSetup setup;
   setup.model = scene.model;
   setup.settings.order = order_of(position.rows());
@@ -73,16 +72,17 @@ BOOST_AUTO_TEST_CASE(no_state_leaves_out_more_than_its_share_below_the_highest_d
     for (const double tolerance : {1e-2, 1e-3}) {
       const Matrix position = ellipsoid(kHighest, scene.axes);
       Instruments instruments;
-      Evolution evolution(setup_of(scene, position, tolerance), position, scene.potential, instruments);
+      Evolution evolution(setup_of(scene, position, tolerance), {StartMembrane{position, scene.potential}},
+                          instruments);
       evolution.evaluate_start();
       int lowest = kHighest, highest = 0, n_steps = 0;
       for (;; ++n_steps) {
-        lowest = std::min(lowest, evolution.order());
-        highest = std::max(highest, evolution.order());
-        if (evolution.order() < kHighest) {
+        lowest = std::min(lowest, evolution.order(0));
+        highest = std::max(highest, evolution.order(0));
+        if (evolution.order(0) < kHighest) {
           BOOST_TEST(evolution.truncation() <= truncation_share * tolerance,
                      scene.name << " at tolerance " << tolerance << ", time " << evolution.state().time << ", degree "
-                                << evolution.order() << ": " << evolution.truncation());
+                                << evolution.order(0) << ": " << evolution.truncation());
         }
         if (evolution.state().time >= scene.end_time) break;
         evolution.step({std::nullopt, scene.end_time});
@@ -108,13 +108,14 @@ BOOST_AUTO_TEST_CASE(degree_is_enough_only_where_the_cut_state_says_so_too) {
       of_degree[n] = kind == 3 ? 0.0 : level;
     }
     State state;
-    state.reference_area = 4.0 * std::acos(-1.0);
-    state.position = Matrix::Zero(n_coefficients(kOrder), 3);
-    state.position.col(0) = bounds_in_degrees(of_degree);
+    state.vesicles.emplace_back();
+    state.vesicles[0].reference_area = 4.0 * std::acos(-1.0);
+    state.vesicles[0].position = Matrix::Zero(n_coefficients(kOrder), 3);
+    state.vesicles[0].position.col(0) = bounds_in_degrees(of_degree);
     for (const double target : {1e-2, 1e-4, 1e-6}) {
-      const int order = Resolution(model, state).order_for(target, 4, kOrder);
+      const int order = Resolution(model, state.vesicles[0]).order_for(target, 4, kOrder);
       if (order == kOrder) continue;
-      BOOST_TEST(Resolution(model, resized(state, order)).remainder() <= target);
+      BOOST_TEST(Resolution(model, resized(state.vesicles[0], order)).remainder() <= target);
     }
   }
 }
@@ -123,15 +124,16 @@ BOOST_AUTO_TEST_CASE(unit_of_a_potential_without_a_field_does_not_matter) {
   Model model = field_model();
   model.electric->field.setZero();
   State state;
-  state.reference_area = 4.0 * std::acos(-1.0);
-  state.position = ellipsoid(12, {1.0, 1.0, 1.2});
+  state.vesicles.emplace_back();
+  state.vesicles[0].reference_area = 4.0 * std::acos(-1.0);
+  state.vesicles[0].position = ellipsoid(12, {1.0, 1.0, 1.2});
   const Vector potential = bounds_in_degrees(Vector::LinSpaced(13, 2.0, 0.1));
-  state.transmembrane_potential = potential;
-  const double remainder = Resolution(model, state).remainder();
+  state.vesicles[0].transmembrane_potential = potential;
+  const double remainder = Resolution(model, state.vesicles[0]).remainder();
   BOOST_TEST(remainder > 0.0);
   for (const double unit : {0x1p-30, 0x1p30}) {
-    state.transmembrane_potential = unit * potential;
-    BOOST_TEST(Resolution(model, state).remainder() == remainder);
+    state.vesicles[0].transmembrane_potential = unit * potential;
+    BOOST_TEST(Resolution(model, state.vesicles[0]).remainder() == remainder);
   }
 }
 

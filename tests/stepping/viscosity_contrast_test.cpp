@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "bie/stepping/symmetry.hpp"
+#include "bie/stepping/state/symmetry.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 Model contrast_model(double ratio) {
   Model model = shear_model();
-  model.viscosity_ratio = ratio;
+  model.vesicles[0].viscosity_ratio = ratio;
   return model;
 }
 
@@ -40,7 +40,7 @@ double symmetry_difference(const Model& model, const Matrix& position) {
   constexpr int kSteps = 2;
   const auto end = [&](bool use_symmetry) {
     const Discretisation discretisation = discretisation_for(model, position, use_symmetry);
-    return run(model, discretisation, start(model, discretisation, position, 0.1), 0.1, kSteps).position;
+    return run(model, discretisation, start(model, discretisation, position, 0.1), 0.1, kSteps).vesicles[0].position;
   };
   return max_difference(end(true), end(false)) / kSteps;
 }
@@ -79,8 +79,9 @@ std::vector<double> inclinations(const Model& model, const Matrix& position, dou
   Instruments instruments;
   for (int i = 0; i < n_steps; ++i) {
     const Evaluation evaluation = evaluate(model, discretisation, state, instruments);
-    result.push_back(evaluation.diagnostics.inclination_deg);
-    const Advance advanced = advance(model, discretisation, state, evaluation, fixed_steps(dt), dt, instruments);
+    result.push_back(evaluation.diagnostics.vesicles[0].inclination_deg);
+    const StepAttempt advanced =
+        controlled_step(model, discretisation, state, evaluation, fixed_steps(dt), dt, instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     state = advanced.state;
   }
@@ -101,12 +102,12 @@ BOOST_AUTO_TEST_CASE(double_layer_is_evaluated_only_where_the_viscosities_differ
 BOOST_AUTO_TEST_CASE(inextensible_sphere_has_the_exact_velocity_in_shear) {
   const int order = 10;
   const Discretisation discretisation = discretisation_of(order);
-  const SphereTransform& fine = discretisation.fine_transform();
+  const SphereTransform& fine = discretisation.vesicle(0).fine_transform();
   const Surface surface = make_surface(fine, sphere(order));
   for (const double ratio : {0.0, 0.3, 5.0, 1e3}) {
     Model model = contrast_model(ratio);
     model.viscosity = 1.7;
-    const Evaluation e = evaluated(model, discretisation, start(model, discretisation, sphere(order), 0.1));
+    const Evaluated e = evaluated(model, discretisation, start(model, discretisation, sphere(order), 0.1));
     const Matrix3& gradient = model.flow->gradient;
     const Matrix3 strain = 0.5 * (gradient + gradient.transpose());
     // With Y = x·Ex: E x = W/2. A tension τ Y/μ drives 4/5 · 2/35 τ on V and 1/5 · 3/15 τ on W.
@@ -148,12 +149,12 @@ BOOST_AUTO_TEST_CASE(steps_hold_area_and_volume_at_every_ratio) {
   for (const double ratio : {0.0, 1e-3, 1e3}) {
     const Model model = contrast_model(ratio);
     const State state = start(model, discretisation, ellipsoid(10, {2.0, 1.0, 1.0}), 0.1);
-    const StepResult result = stepped(model, discretisation, state, 0.1);
+    const StepAttempt result = stepped(model, discretisation, state, 0.1);
     BOOST_TEST_CONTEXT("viscosity ratio " << ratio) {
       BOOST_REQUIRE(result.accepted);
-      const Surface after = make_surface(discretisation.fine_transform(), result.state.position);
-      BOOST_TEST(std::abs(surface_area(after) / state.reference_area - 1.0) <= tolerance);
-      BOOST_TEST(std::abs(enclosed_volume(after) / state.reference_volume - 1.0) <= tolerance);
+      const Surface after = make_surface(discretisation.vesicle(0).fine_transform(), result.state.vesicles[0].position);
+      BOOST_TEST(std::abs(surface_area(after) / state.vesicles[0].reference_area - 1.0) <= tolerance);
+      BOOST_TEST(std::abs(enclosed_volume(after) / state.vesicles[0].reference_volume - 1.0) <= tolerance);
     }
   }
 }
@@ -185,7 +186,7 @@ BOOST_AUTO_TEST_CASE(inclination_falls_with_the_ratio_as_in_quasi_spherical_theo
 BOOST_AUTO_TEST_CASE(vesicle_treads_below_the_critical_ratio_and_leaves_the_flow_above) {
   const auto angles = [](double share) {
     Model model = contrast_model(share * critical_ratio());
-    model.bending->modulus = 5.0;
+    model.vesicles[0].bending->modulus = 5.0;
     return inclinations(model, slight_prolate(8, 5.0), 0.1, 40);
   };
   const std::vector<double> below = angles(0.8);
@@ -199,7 +200,7 @@ BOOST_AUTO_TEST_CASE(vesicle_treads_below_the_critical_ratio_and_leaves_the_flow
 // A membrane so stiff that it keeps its shape cannot breathe instead.
 BOOST_AUTO_TEST_CASE(stiff_vesicle_of_twice_the_critical_ratio_turns_over) {
   Model model = contrast_model(2.0 * critical_ratio());
-  model.bending->modulus = 50.0;
+  model.vesicles[0].bending->modulus = 50.0;
   const std::vector<double> angles = inclinations(model, slight_prolate(8, 0.0), 0.2, 30);
   const auto over = std::adjacent_find(angles.begin(), angles.end(),
                                        [](double before, double after) { return before < -45.0 && after > 45.0; });

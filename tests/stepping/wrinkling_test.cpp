@@ -1,4 +1,4 @@
-#include "bie/stepping/wrinkling.hpp"
+#include "bie/stepping/evaluation/wrinkling.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -14,15 +14,16 @@ BOOST_AUTO_TEST_SUITE(wrinkling)
 
 BOOST_AUTO_TEST_CASE(the_fastest_wrinkle_is_the_maximum_of_the_growth_rate) {
   const double modulus = 0.3, tension = -7.0, radius = 1.7;
+  const FlowParameters parameters{.bending = BendingParameters{modulus}};
   const auto growth = [&](double degree) {
     const double k = degree / radius;
     return -tension * k - 0.5 * modulus * k * k * k;
   };
-  const double fastest = wrinkle_degree(relaxation_model(modulus), tension, radius);
+  const double fastest = wrinkle_degree(parameters, tension, radius);
   BOOST_TEST(growth(fastest) > growth(1.001 * fastest));
   BOOST_TEST(growth(fastest) > growth(0.999 * fastest));
-  BOOST_TEST(wrinkle_degree(relaxation_model(modulus), 1.0, radius) == 0.0);
-  BOOST_TEST(wrinkle_degree(Model{}, -1.0, radius) == std::numeric_limits<double>::infinity());
+  BOOST_TEST(wrinkle_degree(parameters, 1.0, radius) == 0.0);
+  BOOST_TEST(wrinkle_degree({}, -1.0, radius) == std::numeric_limits<double>::infinity());
 }
 
 // A field that flattens a prolate compresses it along its axis, the more the stronger it is.

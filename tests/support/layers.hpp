@@ -4,7 +4,7 @@
 
 #include "bie/geometry/surface.hpp"
 #include "bie/potentials/layer_operators.hpp"
-#include "bie/stepping/discretisation.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 
 namespace vehd::testing {
 

@@ -14,11 +14,12 @@ inline Membrane make_membrane(const Space& space, const Matrix& position, const 
   Surface surface = make_surface(space.fine, position);
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   LayerOperators layers = assemble(space, position, selection);
+  const SymmetrySubspace subspace({}, space.fine.order());
   std::optional<ViscosityContrast> contrast;
   if (viscosity_ratio != 1.0) {
-    contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, space.fine, surface, layers.stokes_double);
+    contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, space.fine, surface, layers.stokes_double, subspace);
   }
-  return {space.fine, std::move(surface), std::move(layers), radius, std::move(contrast)};
+  return {space.fine, std::move(surface), std::move(layers), radius, subspace, std::move(contrast)};
 }
 
 }  // namespace vehd::testing

@@ -3,16 +3,18 @@
 #include <stdexcept>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/discretisation.hpp"
-#include "bie/stepping/model.hpp"
-#include "bie/stepping/stepper.hpp"
+#include "bie/stepping/evaluation/initial_state.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/model.hpp"
+#include "bie/stepping/state/symmetry.hpp"
+#include "bie/stepping/time/step_control.hpp"
 
 /// Models of the tests and short runs of them.
 namespace vehd::testing {
 
 inline Model relaxation_model(double modulus) {
   Model model;
-  model.bending = BendingParameters{modulus};
+  model.vesicles[0].bending = BendingParameters{modulus};
   return model;
 }
 
@@ -22,11 +24,17 @@ inline Model shear_model() {
   return model;
 }
 
+/// A field around one vesicle with this inside and this membrane.
+inline void set_electric(Model& model, const ElectricParameters& electric, const ChargingParameters& charging) {
+  model.electric = AppliedField{electric.field, electric.conductivity_out, electric.permittivity, electric.waveform};
+  model.vesicles[0].inside = {electric.conductivity_in, electric.permittivity_ratio};
+  model.vesicles[0].charging = charging;
+}
+
 /// Example 2 of the paper.
 inline Model field_model() {
   Model model = relaxation_model(0.1);
-  model.electric = ElectricParameters{{0.0, 0.0, 1.0}, 1.0, 2.0, 1.0};
-  model.charging = ChargingParameters{1.0, 5.0};
+  set_electric(model, {{0.0, 0.0, 1.0}, 1.0, 2.0, 1.0}, {1.0, 5.0});
   return model;
 }
 
@@ -49,30 +57,50 @@ inline NumericalSettings solved_to_rounding(int order) {
   return settings;
 }
 
+/// A state of one membrane without charge, strain or references.
+inline State at_rest(const Matrix& position) {
+  State state;
+  VesicleState& vesicle = state.vesicles.emplace_back();
+  vesicle.position = position;
+  vesicle.area_strain = Vector::Zero(position.rows());
+  return state;
+}
+
+/// Which coefficients of a scalar that is its own image can differ from zero.
+inline std::vector<Index> scalar_entries(const Symmetry& symmetry, int order) {
+  return SymmetrySubspace(symmetry, order).scalars();
+}
+
 /// With the symmetry that the shape and the model have.
 inline Discretisation symmetric_discretisation(const Model& model, const Matrix& position, int time_order = 1) {
   NumericalSettings settings;
   settings.order = order_of(position.rows());
   settings.time_order = time_order;
-  State shape;
-  shape.position = position;
-  shape.area_strain = Vector::Zero(position.rows());
-  return Discretisation(settings, find_symmetry(model, shape));
+  return Discretisation(settings, find_symmetry(model, at_rest(position)));
 }
 
 inline State start(const Model& model, const Discretisation& discretisation, const Matrix& position, double dt) {
   Instruments instruments;
-  return initial_state(model, discretisation, position, {}, dt, instruments);
+  return initial_state(model, discretisation, {StartMembrane{position}}, dt, instruments);
 }
 
-inline Evaluation evaluated(const Model& model, const Discretisation& discretisation, const State& state) {
+/// The evaluation of a state of one vesicle.
+struct Evaluated {
+  VesicleFields fields;
+  VesicleDiagnostics diagnostics;
+  VesicleSolution solution;
+};
+
+inline Evaluated evaluated(const Model& model, const Discretisation& discretisation, const State& state) {
   Instruments instruments;
-  return evaluate(model, discretisation, state, instruments);
+  const Evaluation evaluation = evaluate(model, discretisation, state, instruments);
+  return {evaluation.fields.vesicles[0], evaluation.diagnostics.vesicles[0], evaluation.vesicles[0]};
 }
 
-inline StepResult stepped(const Model& model, const Discretisation& discretisation, const State& state, double dt) {
+inline StepAttempt stepped(const Model& model, const Discretisation& discretisation, const State& state, double dt) {
   Instruments instruments;
-  return step(model, discretisation, state, evaluate(model, discretisation, state, instruments), dt, instruments);
+  return attempt_step(model, discretisation, state, solve_fields(model, discretisation, state, instruments), dt,
+                      instruments);
 }
 
 /// n_steps steps of size dt, calling `watch` with each new state.
@@ -80,7 +108,7 @@ template <typename Watch>
 State run(const Model& model, const Discretisation& discretisation, State state, double dt, int n_steps,
           const Watch& watch) {
   for (int i = 0; i < n_steps; ++i) {
-    const StepResult result = stepped(model, discretisation, state, dt);
+    const StepAttempt result = stepped(model, discretisation, state, dt);
     if (!result.accepted) throw std::runtime_error(result.reason);
     state = result.state;
     watch(state);

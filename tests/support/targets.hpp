@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bie/potentials/foot_point.hpp"
+#include "bie/sphere/point_derivatives.hpp"
 #include "tests/support/fields.hpp"
 
 /// Points on and off a membrane.
@@ -32,7 +33,7 @@ struct MembranePoints {
 inline MembranePoints membrane_points(const Matrix& position, const GridAngles& angles) {
   MembranePoints points{Matrix(angles.theta.size(), 3), Matrix(angles.theta.size(), 3)};
   for (Index i = 0; i < angles.theta.size(); ++i) {
-    const PointDerivatives y = point_derivatives(position, angles.theta[i], angles.phi[i]);
+    const PointDerivatives y = point_derivatives(position, {angles.theta[i], angles.phi[i]});
     const Vector3 area = Vector3(y.d1.transpose()).cross(Vector3(y.d2.transpose()));
     points.position.row(i) = y.value;
     points.normal.row(i) = area.transpose() / area.norm();

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/linear/solve_report.hpp"
+
+namespace vehd {
+
+/// What is known of a linear map: columns of arguments with what it made of them, newest first. The map may have
+/// changed since, the more the older a column is.
+struct RecycledSubspace {
+  Matrix arguments;
+  Matrix responses;  ///< of the same shape
+
+  [[nodiscard]] Index count() const { return arguments.cols(); }
+};
+
+/// The newer columns before the older ones, the last left out beyond `most`.
+RecycledSubspace joined(const RecycledSubspace& newer, const RecycledSubspace& older, Index most);
+
+/// The columns with these numbers.
+RecycledSubspace selected(const RecycledSubspace& known, const std::vector<Index>& columns);
+
+/// Approximate inverse of an operator close to the identity from what is known of it, X ↦ Y:
+///   r ↦ r + (X − Y)(YᵀY)⁻¹Yᵀ r.
+/// It takes every known response to its argument and leaves alone what is orthogonal to all of them (the limited-memory
+/// preconditioner of Gratton, Sartenaer, Tshimanga 2011 for an unsymmetric operator). Responses that lie within 1e-4 of
+/// the span of newer ones are left out, and so is what comes after the 96 newest of the others.
+class SecantInverse {
+ public:
+  SecantInverse() = default;
+  explicit SecantInverse(const RecycledSubspace& known);
+
+  [[nodiscard]] Vector apply(const Vector& r) const;
+  /// The columns that count.
+  [[nodiscard]] const std::vector<Index>& kept() const { return kept_; }
+
+ private:
+  std::vector<Index> kept_;
+  Matrix responses_;   // Y, columns of norm 1
+  Matrix difference_;  // X − Y, likewise scaled
+  Matrix factor_;      // lower triangular L with YᵀY = L Lᵀ
+};
+
+}  // namespace vehd

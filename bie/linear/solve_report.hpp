@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+using LinearMap = std::function<Vector(const Vector&)>;
+
+struct SolveOptions {
+  double tolerance = 1e-10;  ///< of the preconditioned residual relative to the preconditioned right-hand side
+  int max_iterations = 100;
+};
+
+/// Why a solve ended.
+enum class SolveEnd {
+  converged,
+  out_of_iterations,
+  stagnated,  ///< no direction lowers the residual any more: rounding is all that is left, or the map is singular
+  not_finite
+};
+
+/// How a solve ended. `residual` is a bound of the true one, relative, in the norm of SolveOptions::tolerance.
+struct SolveReport {
+  SolveEnd end = SolveEnd::stagnated;
+  int iterations = 0;
+  double residual = 0.0;
+
+  [[nodiscard]] bool converged() const { return end == SolveEnd::converged; }
+};
+
+/// "converged", "out of iterations", …
+std::string text_of(SolveEnd end);
+
+/// @throws ConvergenceError "WHAT: REASON, relative residual ... after ... iterations" unless the report says converged
+void require_converged(const SolveReport& report, const std::string& what);
+
+}  // namespace vehd

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "bie/sphere/neighbourhood.hpp"
+
+namespace vehd {
+
+/// Fields at one point of the unit sphere with covariant derivatives in its frame (e_θ, e_φ), one column per field.
+/// Finite at the poles.
+struct PointDerivatives {
+  Eigen::RowVectorXd value, d1, d2, d11, d12, d22;
+
+  /// (d1, d2) of one field.
+  [[nodiscard]] Eigen::Vector2d gradient(Index column) const { return {d1[column], d2[column]}; }
+  [[nodiscard]] Eigen::Matrix2d hessian(Index column) const;
+};
+
+/// @param coefficients     [n_coefficients x n_fields]
+/// @param azimuthal_order  largest |m| with a coefficient that is not zero, see azimuthal_order_of
+/// @throws ShapeError if the count of rows is no (p + 1)²
+/// Accuracy: rounding, as the transform's (tests/sphere/point_derivatives_test.cpp)
+PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint& point, int azimuthal_order);
+/// Of fields with all m.
+PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint& point);
+
+}  // namespace vehd

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/sphere/reflection.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Symmetries about the coordinate axes of a body with its parametrisation, x(g s) = g x(s), and of what acts on it.
+/// A field may also change its sign: V_m does then, forces do not.
+struct Symmetry {
+  bool axisymmetric = false;  ///< about z, without swirl
+  /// Products of mirrors x, y, z → −x, −y, −z under which everything is its own image, the identity among them.
+  std::vector<Reflection> reflections{Reflection{}};
+  /// Sign of V_m under each reflection.
+  std::vector<int> potential_signs{1};
+  /// Turns by 2π/fold about z are symmetries as well; 1 where there is none beyond the half turn of the reflections.
+  int fold = 1;
+
+  [[nodiscard]] bool any() const { return axisymmetric || reflections.size() > 1 || fold > 1; }
+  /// Number of images that a point in general position has, itself included; not for axisymmetric ones.
+  [[nodiscard]] int group_order() const;
+};
+
+/// Which coefficients of the fields on one membrane can differ from zero under its symmetries, and the part of a field
+/// that is its own image. Immutable; copies are cheap next to a field.
+class SymmetrySubspace {
+ public:
+  /// @param order  degree of the fields
+  SymmetrySubspace(Symmetry symmetry, int order);
+
+  [[nodiscard]] const Symmetry& symmetry() const { return symmetry_; }
+
+  /// coefficient_index of what is left of a scalar that is its own image, as H and λ are; ascending.
+  [[nodiscard]] const std::vector<Index>& scalars() const { return scalars_; }
+  /// Likewise of one that takes the sign of V_m, as V_m, φ and the charges do.
+  [[nodiscard]] const std::vector<Index>& potentials() const { return potentials_; }
+  /// Positions in a column-major [n_coefficients x 3] of what mirrors and the axis leave of a vector field; ascending.
+  /// Turns relate its components to one another and leave no position out.
+  [[nodiscard]] std::vector<Index> vectors() const;
+
+  /// Means of a field and its images: what rounding breaks of a symmetry an instability would feed on.
+  [[nodiscard]] Vector symmetric_scalar(const Vector& field) const;
+  [[nodiscard]] Vector symmetric_potential(const Vector& field) const;
+  [[nodiscard]] Matrix symmetric_vector(const Matrix& field) const;
+
+ private:
+  Symmetry symmetry_;
+  int order_;
+  std::vector<Index> scalars_;
+  std::vector<Index> potentials_;
+};
+
+}  // namespace vehd

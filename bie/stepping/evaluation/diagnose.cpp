@@ -1,0 +1,134 @@
+#include "bie/stepping/evaluation/diagnose.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "bie/physics/bending.hpp"
+#include "bie/sphere/axis_crossing.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/maximum.hpp"
+#include "bie/stepping/evaluation/operator_checks.hpp"
+#include "bie/stepping/evaluation/wrinkling.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// The long axis of the gyration tensor in the x-z plane; of a body that is as long in all directions of another plane,
+/// the one where both planes meet. Zero where no direction of the x-z plane stands out.
+Vector3 long_axis_in_plane(const Matrix3& gyration) {
+  constexpr double kRounding = 1e-9;
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
+  const Vector3& squares = solver.eigenvalues();
+  Vector3 axis = solver.eigenvectors().col(2);
+  if (squares[2] - squares[1] <= kRounding * squares[2]) axis = Vector3::UnitY().cross(solver.eigenvectors().col(0));
+  if (squares[2] - squares[0] <= kRounding * squares[2]) axis.setZero();
+  axis.y() = 0.0;
+  return axis.norm() > kRounding ? axis : Vector3::Zero();
+}
+
+/// Angle of the long axis of the gyration tensor against +x in the x-z plane of the laboratory, in (−90, 90] degrees.
+double inclination(const Surface& s, const Frame& frame) {
+  const Matrix centred = (s.position.rowwise() - centroid(s).transpose()) * frame.axes.transpose();
+  const Vector3 axis = long_axis_in_plane(centred.transpose() * s.quadrature.asDiagonal() * centred);
+  const double degrees = std::atan2(axis.z(), axis.x()) * 180.0 / std::numbers::pi;
+  // A vertical axis is +90 on either side of rounding.
+  constexpr double kRounding = 1e-9;
+  return degrees > 90.0 + kRounding ? degrees - 180.0 : degrees <= -90.0 + kRounding ? degrees + 180.0 : degrees;
+}
+
+/// √(energy of x in degrees above 2p/3 over energy in degrees from 1 up).
+double spectrum_tail(const Matrix& position) {
+  const int order = order_of(position.rows());
+  const Index from = n_coefficients(2 * order / 3);
+  return position.bottomRows(position.rows() - from).norm() / position.bottomRows(position.rows() - 1).norm();
+}
+
+}  // namespace
+
+VesicleDiagnostics along_laboratory_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
+                                         const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields) {
+  // About its mean, so that no digit depends on where the vesicle is.
+  const Vector3 mean = membrane.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+  Matrix position = membrane.position * frame.axes.transpose();
+  position.row(0).setZero();
+  const SphereDerivatives x = fine.synthesize_hessian(position);
+  if (membrane.transmembrane_potential.size() > 0) {
+    // A transform that knows no more belongs to states that are axisymmetric about z.
+    const bool axisymmetric = fine.azimuthal_order() < fine.order();
+    const std::optional<SpherePoint> north =
+        axisymmetric ? higher_pole(position)
+                     : highest_on_line(frame.axes * (centroid(s) - mean), fine.grid(), x, position);
+    const auto there = [&](const Vector& field) {
+      if (!north) return std::numeric_limits<double>::quiet_NaN();
+      return evaluate_harmonics(field, Vector{{north->theta}}, Vector{{north->phi}})(0, 0);
+    };
+    d.Vm_north = there(membrane.transmembrane_potential);
+    d.q_north = there(fields.charge);
+  }
+  const auto extent = [&](Index axis) {
+    return maximum(fine.grid(), x, axis, position.col(axis), 1.0) +
+           maximum(fine.grid(), x, axis, position.col(axis), -1.0);
+  };
+  d.extent_x = extent(0);
+  d.extent_y = extent(1);
+  d.extent_z = extent(2);
+  d.inclination_deg = inclination(s, frame);
+  return d;
+}
+
+namespace {
+
+void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
+                     const Membrane& membrane, VesicleDiagnostics& d) {
+  // Truncation hides what is this close above it.
+  constexpr double kAboveTruncation = 3.0;
+  const LayerCheck check = check_layers(membrane);
+  d.quadrature_error = check.error;
+  d.quadrature_is_coarse = check.error > tolerance && check.error > kAboveTruncation * check.truncation;
+  d.separation = separation(space.transform(), vesicle.position, space.subspace().symmetry().axisymmetric);
+}
+
+}  // namespace
+
+VesicleDiagnostics diagnose(const FlowParameters& parameters, const MembraneSpace& space, double quadrature_tolerance,
+                            const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
+                            const VesicleDiagnostics* previous) {
+  const Membrane& membrane = *solution.membrane;
+  const Surface& s = membrane.surface;
+  const SphereTransform& fine = membrane.fine;
+  VesicleDiagnostics d;
+  d.area = surface_area(s);
+  d.volume = enclosed_volume(s);
+  d.reduced_volume = 6.0 * std::sqrt(std::numbers::pi) * d.volume / (d.area * std::sqrt(d.area));
+  d.bending_energy_scaled = bending_energy_scaled(s);
+  d.area_drift = d.area / vesicle.reference_area - 1.0;
+  d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
+  d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
+  d.spectrum_tail = spectrum_tail(vesicle.position);
+  if (fields.tension.size() > 0) {
+    const Vector tension = fine.synthesize(fields.tension);
+    d.tension_integral = tension.dot(s.quadrature);
+    // The tension of a sphere is known up to its mean.
+    if (!solution.is_sphere) d.wrinkle_degree = wrinkle_degree(parameters, tension.minCoeff(), membrane.radius);
+  }
+  const Vector& potential = vesicle.transmembrane_potential;
+  if (potential.size() > 0) {
+    const SphereDerivatives v = fine.synthesize_hessian(potential);
+    d.Vm_max = std::max(maximum(fine.grid(), v, 0, potential, 1.0), maximum(fine.grid(), v, 0, potential, -1.0));
+  }
+  if (previous != nullptr) {
+    d.quadrature_error = previous->quadrature_error;
+    d.quadrature_is_coarse = previous->quadrature_is_coarse;
+    d.separation = previous->separation;
+  } else {
+    check_operators(space, quadrature_tolerance, vesicle, membrane, d);
+  }
+  return along_laboratory_axes(d, Frame{}, fine, s, vesicle, fields);
+}
+
+}  // namespace vehd

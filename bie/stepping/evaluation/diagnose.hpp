@@ -1,0 +1,23 @@
+#pragma once
+
+#include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/state/frame.hpp"
+
+namespace vehd {
+
+/// History quantities of one membrane, with its own axes for those of the laboratory. Extrema are those of the surface
+/// between the nodes to third order in the spacing.
+/// @param quadrature_tolerance  of LayerCheck::error
+/// @param previous              where shape and operators are those of a former moment: what it found of them
+VesicleDiagnostics diagnose(const FlowParameters& parameters, const MembraneSpace& space, double quadrature_tolerance,
+                            const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
+                            const VesicleDiagnostics* previous = nullptr);
+
+/// The same quantities where the state is that of a frame: extents, inclination and the values at the north pole are
+/// found anew along the axes of the laboratory.
+/// @param fine  of all longitudes: an extreme of an axisymmetric surface lies on any of them
+/// @param s     the surface on its grid
+VesicleDiagnostics along_laboratory_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
+                                         const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields);
+
+}  // namespace vehd

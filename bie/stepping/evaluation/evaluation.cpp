@@ -1,0 +1,21 @@
+#include "bie/stepping/evaluation/evaluation.hpp"
+
+#include "bie/stepping/evaluation/diagnose.hpp"
+
+namespace vehd {
+
+Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
+                    Instruments& instruments, const Evaluation* previous, Limit limit) {
+  Evaluation evaluation{solve_fields(model, discretisation, state, instruments, previous, limit), {}};
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    const VesicleSolution& solution = evaluation.vesicles[a];
+    const bool same = previous != nullptr && previous->vesicles[a].membrane == solution.membrane;
+    evaluation.diagnostics.vesicles.push_back(
+        diagnose(flow_parameters(model, model.vesicles[a]), discretisation.vesicle(a),
+                 discretisation.settings().quadrature_tolerance, state.vesicles[a], solution,
+                 evaluation.fields.vesicles[a], same ? &previous->diagnostics.vesicles[a] : nullptr));
+  }
+  return evaluation;
+}
+
+}  // namespace vehd

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bie/physics/membrane.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/fields.hpp"
+#include "bie/stepping/state/model.hpp"
+#include "bie/stepping/state/state.hpp"
+#include "bie/support/instruments.hpp"
+
+namespace vehd {
+
+/// What a step needs of one membrane besides its fields.
+struct VesicleSolution {
+  /// Surface and operators; null in an evaluation that no step starts from.
+  std::shared_ptr<const Membrane> membrane;
+  bool is_sphere = false;      ///< see uniform_tension_is_free
+  Vector potential_rate;       ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
+  RecycledSubspaces recycled;  ///< those of the state with what the tension solve has learned
+};
+
+/// A state with everything that its shapes determine: surfaces, operators, electric solution, forces, velocities.
+/// Immutable; independent of dt, so a rejected step is retried from it at no further assembly.
+struct SolvedFields {
+  Fields fields;
+  std::vector<VesicleSolution> vesicles;
+  int iterations_flow = 0;         ///< of the tension solves
+  int iterations_electric = 0;     ///< of Eq. (12)
+  bool electric_inactive = false;  ///< see electric_inactive()
+};
+
+/// Solves everything at a frozen state.
+/// @param previous  of the same run, if there is one: where shapes are frozen its operators serve again
+/// @param limit     which value counts where a waveform jumps at the time of the state
+/// @throws ConvergenceError naming the solve that failed
+SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
+                          Instruments& instruments, const SolvedFields* previous = nullptr, Limit limit = Limit::after);
+
+/// The same with what a history tells of it and with checks of its operators.
+struct Evaluation : SolvedFields {
+  Diagnostics diagnostics;
+};
+
+/// solve_fields and diagnose.
+Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
+                    Instruments& instruments, const Evaluation* previous = nullptr, Limit limit = Limit::after);
+
+}  // namespace vehd

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/stepping/evaluation/evaluation.hpp"
+
+namespace vehd {
+
+/// V_m at time 0; neither member counts without the electric model.
+struct StartPotential {
+  bool steady = false;  ///< that of the steady state
+  Vector given{};       ///< coefficients of any degree, where it is not steady; empty: zero
+};
+
+/// One membrane at time 0.
+struct StartMembrane {
+  Matrix position;  ///< coefficients of x
+  StartPotential potential{};
+};
+
+/// State at time 0, every membrane in the degree of its position, with its own area, volume and area element as
+/// references: strain zero.
+State initial_state(const Model& model, const Discretisation& discretisation,
+                    const std::vector<StartMembrane>& membranes, double dt, Instruments& instruments);
+
+}  // namespace vehd

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/frame.hpp"
+
+namespace vehd {
+
+/// Results of a run as they look in the laboratory, whatever the frame that it computes in.
+class LabFrameOutput {
+ public:
+  /// @param settings  with the degree of the results
+  LabFrameOutput(const Frame& frame, const NumericalSettings& settings);
+
+  /// Whether its axes are others than those of the frame.
+  [[nodiscard]] bool is_rotated() const { return fine_.has_value(); }
+  [[nodiscard]] State state(const State& of_frame) const { return in_laboratory(frame_, of_frame); }
+  [[nodiscard]] Fields fields(const Fields& of_frame) const { return in_laboratory(frame_, of_frame); }
+  /// @param d       of the state in the frame
+  /// @param state   in the frame, as are the fields
+  [[nodiscard]] Diagnostics diagnostics(const Diagnostics& d, const State& state, const Fields& fields) const;
+
+ private:
+  Frame frame_;
+  std::optional<SphereTransform> fine_;  ///< all longitudes of the upsampled grid; empty where nothing is rotated
+};
+
+}  // namespace vehd

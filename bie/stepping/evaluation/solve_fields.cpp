@@ -1,0 +1,142 @@
+#include <cstddef>
+
+#include "bie/physics/bending.hpp"
+#include "bie/physics/electric.hpp"
+#include "bie/physics/tension.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/state/composition.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// One vesicle of a state on its way to a solution.
+struct Task {
+  const Model& model;
+  const VesicleModel& vesicle;
+  const NumericalSettings& settings;
+  const MembraneSpace& space;
+  const VesicleState& state;
+  const Membrane& membrane;
+  VesicleFields& fields;
+  VesicleSolution& solution;
+};
+
+/// dV_m/dt = −(σ_i ∂φ_i/∂n + G_m V_m)/C_m, Eq. (4e). No net current leaves a closed membrane, which the quadrature
+/// sees only up to its error.
+Vector charging_rate(const ElectricParameters& electric, const ChargingParameters& charging, const Membrane& membrane,
+                     const Vector& potential, const ElectricTraces& traces) {
+  const Vector& area = membrane.surface.quadrature;
+  Vector current = electric.conductivity_in * traces.flux_in;
+  current.array() -= current.dot(area) / area.sum();
+  return -(membrane.fine.analyze(current) + charging.conductance * potential) / charging.capacitance;
+}
+
+/// f_E with q and dV_m/dt as by-products, Eqs. (12), (15), (32). @returns values on the upsampled grid
+Matrix solve_electric(const Task& task, const ElectricParameters& electric, int& iterations) {
+  const Membrane& membrane = task.membrane;
+  const Vector& potential = task.state.transmembrane_potential;
+  const Vector rhs = weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential);
+  const SecondKindSolution density =
+      solve_second_kind(membrane, conductivity_contrast(electric), rhs, task.settings.electric_tolerance, {});
+  require_converged(density.report, "charge density, Eq. (12)");
+  iterations += density.report.iterations;
+  const ElectricTraces traces = electric_traces(electric, membrane, potential, density);
+  task.fields.charge = membrane.fine.analyze(traces.charge);
+  task.solution.potential_rate = charging_rate(electric, task.vesicle.charging, membrane, potential, traces);
+  return electric_force(electric.permittivity, membrane, traces, electric.permittivity_ratio);
+}
+
+/// The explicit effects and the bending force.
+void add_forces(const Task& task, const EffectInput& input, Forcing& forcing) {
+  for (const auto& effect : explicit_effects(task.model, task.vesicle)) effect->add(input, forcing);
+  if (!task.vesicle.bending) return;
+  const Matrix bending = bending_force(*task.vesicle.bending, task.membrane);
+  task.fields.force_bending = task.membrane.fine.analyze(bending);
+  forcing.force += bending;
+}
+
+/// Velocity of the membrane under the forcing, with the tension that keeps it inextensible, Eq. (27b).
+void solve_velocity(const Task& task, const Forcing& forcing, int& iterations) {
+  const Membrane& membrane = task.membrane;
+  Matrix velocity = forcing.velocity;
+  if (!membrane.layers.stokes_single.empty()) {
+    velocity += membrane.layers.stokes_single.apply(membrane.weighted(forcing.force)) / task.model.viscosity;
+  }
+  velocity = membrane.velocity(std::move(velocity));
+  if (task.vesicle.inextensible) {
+    const VelocityField driven = velocity_field(membrane, velocity, false);
+    const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
+    const FlowParameters parameters = flow_parameters(task.model, task.vesicle);
+    task.solution.is_sphere = uniform_tension_is_free(parameters, membrane);
+    const FlowOptions options{task.solution.is_sphere, {}, task.space.subspace().scalars()};
+    const auto& known = task.state.recycled.tension;
+    FlowSystem system(parameters, membrane, 0.0, options, known ? known->in(options.entries, 1) : RecycledSubspace{});
+    const FlowSystem::Solution solution = system.solve(rhs, {{}, task.state.tension}, task.settings.flow_tolerance);
+    require_converged(solution.report, "tension, Eq. (27b)");
+    task.solution.recycled.tension =
+        recycled_scalars(options.entries, joined(system.learned(), system.kept(), most_recycled));
+    iterations += solution.report.iterations;
+    velocity += solution.velocity;
+    task.fields.tension = solution.unknowns.tension;
+    task.fields.force_tension = membrane.fine.analyze(tension_force(membrane, solution.unknowns.tension));
+  }
+  task.fields.velocity = std::move(velocity);
+}
+
+void solve(const Task& task, double time, Limit limit, Instruments& instruments, SolvedFields& solved) {
+  const Membrane& membrane = task.membrane;
+  const Index n = task.state.position.rows();
+  Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(n, 3)};
+  if (task.model.electric && solved.electric_inactive) {
+    task.fields.charge = Vector::Zero(n);
+    task.solution.potential_rate = Vector::Zero(n);
+    task.fields.force_electric = Matrix::Zero(n, 3);
+  } else if (task.model.electric) {
+    const auto timer = instruments.time("electric");
+    const ElectricParameters electric = electric_parameters(task.model, task.vesicle).at(time, limit);
+    const Matrix force = solve_electric(task, electric, solved.iterations_electric);
+    task.fields.force_electric = membrane.fine.analyze(force);
+    forcing.force -= force;
+  }
+  if (!task.model.mobile) return;
+  const auto timer = instruments.time("tension solve");
+  add_forces(task, {membrane, task.state.position, time, limit}, forcing);
+  solve_velocity(task, forcing, solved.iterations_flow);
+}
+
+std::shared_ptr<const Membrane> assembled(const Model& model, const VesicleModel& vesicle, const MembraneSpace& space,
+                                          const Matrix& position, bool electric_active, Instruments& instruments) {
+  const auto timer = instruments.time("operator assembly");
+  const LayerSelection layers = needed_layers(model, vesicle, electric_active);
+  return std::make_shared<const Membrane>(membrane_at(space, position, layers, vesicle.viscosity_ratio, instruments));
+}
+
+}  // namespace
+
+SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
+                          Instruments& instruments, const SolvedFields* previous, Limit limit) {
+  const std::size_t n = state.vesicles.size();
+  SolvedFields solved;
+  solved.electric_inactive = electric_inactive(model, state, limit);
+  solved.fields.vesicles.resize(n);
+  solved.vesicles.resize(n);
+  const bool reuse = !model.mobile && previous != nullptr && (solved.electric_inactive || !previous->electric_inactive);
+  for (std::size_t a = 0; a < n; ++a) {
+    const VesicleModel& vesicle = model.vesicles[a];
+    const VesicleState& membrane_state = state.vesicles[a];
+    VesicleSolution& solution = solved.vesicles[a];
+    solution.recycled = membrane_state.recycled;
+    solution.membrane = reuse ? previous->vesicles[a].membrane
+                              : assembled(model, vesicle, discretisation.vesicle(a), membrane_state.position,
+                                          !solved.electric_inactive, instruments);
+    solve({model, vesicle, discretisation.settings(), discretisation.vesicle(a), membrane_state, *solution.membrane,
+           solved.fields.vesicles[a], solution},
+          state.time, limit, instruments, solved);
+  }
+  return solved;
+}
+
+}  // namespace vehd

@@ -1,0 +1,200 @@
+#include "bie/stepping/solve/constrained_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bie/physics/bending.hpp"
+#include "bie/physics/tension.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+namespace {
+
+constexpr int kMaxPasses = 24;
+/// Every pass starts from the full residual, so it needs no more digits than its linearisation is worth, nor more than
+/// are left to gain.
+double pass_tolerance(double largest_excess) {
+  constexpr double kLinearisation = 1e-2;
+  constexpr double kRoughest = 0.3;
+  return std::clamp(kRoughest / largest_excess, kLinearisation, kRoughest);
+}
+
+/// Smaller changes of H, relative to H, are those of a shape at rest.
+constexpr double kCurvatureFloor = 1e-6;
+/// Largest relative change of an area element that a step may make before corrections.
+constexpr double kLargestStretch = 0.5;
+
+/// Area element, area and volume of a shape whose curvature is not needed.
+struct Measure {
+  Vector area_element;
+  double area;
+  double volume;
+};
+
+Measure measure(const SphereTransform& fine, const Matrix& position) {
+  const SphereDerivatives x = fine.synthesize_gradient(position);
+  Measure result{Vector(x.value.rows()), 0.0, 0.0};
+  const SphereGrid& grid = fine.grid();
+  for (Index i = 0; i < x.value.rows(); ++i) {
+    const Vector3 area_vector = Vector3(x.d1.row(i)).cross(Vector3(x.d2.row(i)));
+    const double weight = grid.weight[i / grid.n_phi];
+    result.area_element[i] = area_vector.norm();
+    result.area += weight * result.area_element[i];
+    result.volume += weight * area_vector.dot(Vector3(x.value.row(i))) / 3.0;
+  }
+  return result;
+}
+
+/// What a motion has not reached yet.
+struct Errors {
+  double area = 0.0, volume = 0.0;  ///< relative, signed
+  double strain = 0.0;              ///< of the degrees that a tension can answer
+  double curvature = 0.0;           ///< of Eq. (28), relative to the step's own change of H
+
+  [[nodiscard]] double of_constraint() const { return std::max(std::abs(volume), std::abs(area)); }
+};
+
+/// The iteration: passes of `solve` until `errors` are small.
+class Iteration {
+ public:
+  Iteration(const MotionContext& context, const MotionStart& start, double dt)
+      : context_(context),
+        start_(start),
+        dt_(dt),
+        area_(surface_area(context.membrane.surface)),
+        stretch_before_(1.0 + fine().synthesize(context.state.area_strain).col(0).array()),
+        normal_(fine().analyze(context.membrane.surface.normal)),
+        velocity_(start.velocity),
+        curvature_(Vector::Zero(normal_.rows())) {
+    motion_.material = start.fields;
+    if (inextensible()) {
+      normal_divergence_ = weighted_divergence(context.membrane, fine().synthesize_gradient(normal_));
+    }
+    if (bending()) mean_curvature_ = fine().analyze(context.membrane.surface.mean_curvature).norm();
+  }
+
+  /// Moves the material points by the velocity so far. @throws ConvergenceError where that tears the membrane
+  void move() {
+    const Membrane& membrane = context_.membrane;
+    motion_.material.position = start_.fields.position + dt_ * velocity_;
+    after_ = measure(fine(), motion_.material.position);
+    const Eigen::ArrayXd stretch = after_.area_element.cwiseQuotient(membrane.surface.area_element);
+    if (!(stretch.minCoeff() > 1.0 - kLargestStretch && stretch.maxCoeff() < 1.0 + kLargestStretch)) {
+      throw ConvergenceError(fmt::format("area elements change by factors {:.2g} to {:.2g} in one step",
+                                         stretch.minCoeff(), stretch.maxCoeff()));
+    }
+    strain_ = stretch_before_.array() * stretch - 1.0;
+    weighted_strain_ = membrane.weighted(strain_);
+    errors_.volume = (after_.volume + arrival_volume_) / context_.state.reference_volume - 1.0;
+    errors_.area = inextensible() ? (after_.area + arrival_area_) / context_.state.reference_area - 1.0 : 0.0;
+    if (pass_ == 0) motion_.raw_area = errors_.area;
+    // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
+    errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
+    if (bending()) {
+      rhs_.curvature = dt_ * curvature_increment(membrane, fine().synthesize_hessian(velocity_)) - curvature_;
+      if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), kCurvatureFloor * mean_curvature_);
+      errors_.curvature = rhs_.curvature.norm() / curvature_scale_;
+    }
+  }
+
+  /// Does the motion hold what it has to, on arrival as well? The first pass is the step itself, however small its
+  /// residual.
+  bool arrives(const Arrival& arrival) {
+    const NumericalSettings& settings = context_.settings;
+    const bool is_there = pass_ > 0 && errors_.of_constraint() <= settings.constraint_tolerance &&
+                          errors_.strain <= settings.strain_tolerance &&
+                          errors_.curvature <= settings.curvature_tolerance;
+    if (!is_there) return false;
+    motion_.material.area_strain = fine().analyze(strain_);
+    motion_.arrived = arrival(motion_.material);
+    const Measure there = measure(fine(), motion_.arrived.position);
+    arrival_area_ = there.area - after_.area;
+    arrival_volume_ = there.volume - after_.volume;
+    errors_.volume = there.volume / context_.state.reference_volume - 1.0;
+    errors_.area = inextensible() ? there.area / context_.state.reference_area - 1.0 : 0.0;
+    return errors_.of_constraint() <= settings.constraint_tolerance;
+  }
+
+  /// One pass: (h, λ) and the uniform normal velocity that answer what is left. @throws ConvergenceError
+  void solve(FlowSystem& flow, int& iterations) {
+    const double push = -errors_.volume * context_.state.reference_volume / (area_ * dt_);
+    if (inextensible()) {
+      // The area as a whole answers for itself, free of what truncation does to the strain field.
+      weighted_strain_[0] = errors_.area * context_.state.reference_area / std::sqrt(4.0 * std::numbers::pi);
+      rhs_.divergence = -weighted_strain_ / dt_ - push * normal_divergence_;
+    }
+    const FlowSystem::Solution increment = flow.solve(rhs_, {}, pass_tolerance(excess()));
+    iterations += increment.report.iterations;
+    // What a pass leaves the next one answers for, as long as it gains.
+    constexpr double kGainless = 0.9;
+    if (!increment.report.converged() && !(increment.report.residual < kGainless)) {
+      throw ConvergenceError(fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
+                                         increment.report.residual, increment.report.iterations));
+    }
+    velocity_ += push * normal_ + increment.velocity;
+    if (bending()) curvature_ += increment.unknowns.curvature;
+    if (inextensible()) motion_.material.tension += increment.unknowns.tension;
+    ++pass_;
+  }
+
+  [[nodiscard]] int pass() const { return pass_; }
+  [[nodiscard]] Motion take() { return std::move(motion_); }
+  [[nodiscard]] std::string text() const {
+    return fmt::format("area error {:.1e}, volume error {:.1e}, strain {:.1e}, curvature {:.1e} after {} passes",
+                       errors_.area, errors_.volume, errors_.strain, errors_.curvature, pass_);
+  }
+
+ private:
+  [[nodiscard]] const SphereTransform& fine() const { return context_.membrane.fine; }
+  [[nodiscard]] bool bending() const { return context_.parameters.bending.has_value(); }
+  [[nodiscard]] bool inextensible() const { return context_.parameters.inextensible; }
+  /// Over what is accepted, the largest.
+  [[nodiscard]] double excess() const {
+    const NumericalSettings& settings = context_.settings;
+    return std::max({std::abs(errors_.volume) / settings.constraint_tolerance,
+                     std::abs(errors_.area) / settings.constraint_tolerance, errors_.strain / settings.strain_tolerance,
+                     errors_.curvature / settings.curvature_tolerance});
+  }
+
+  const MotionContext& context_;
+  const MotionStart& start_;
+  double dt_;
+  double area_;
+  Vector stretch_before_;
+  Matrix normal_;             // velocity of the volume correction, for unit amplitude
+  Vector normal_divergence_;  // weighted
+  double mean_curvature_ = 0.0;
+  double curvature_scale_ = 0.0;
+  int pass_ = 0;
+  Matrix velocity_;
+  Vector curvature_;  // h of Eq. (28), accumulated
+  Measure after_;
+  Vector strain_;
+  Vector weighted_strain_;
+  FlowRightHandSide rhs_;
+  Errors errors_;
+  // What arrival adds to area and volume, known from the last one.
+  double arrival_area_ = 0.0;
+  double arrival_volume_ = 0.0;
+  Motion motion_;
+};
+
+}  // namespace
+
+Motion constrained_motion(const MotionContext& context, const MotionStart& start, double dt, FlowSystem& flow,
+                          const Arrival& arrival, int& iterations) {
+  Iteration iteration(context, start, dt);
+  for (;;) {
+    iteration.move();
+    if (iteration.arrives(arrival)) return iteration.take();
+    const std::string left = iteration.text();
+    iteration.solve(flow, iterations);
+    if (iteration.pass() > kMaxPasses) throw ConvergenceError(left);
+  }
+}
+
+}  // namespace vehd

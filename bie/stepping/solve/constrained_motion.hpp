@@ -1,0 +1,37 @@
+#pragma once
+
+#include "bie/physics/membrane.hpp"
+#include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/solve/motion.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/state.hpp"
+
+namespace vehd {
+
+/// Where a motion starts from.
+struct MotionStart {
+  SurfaceFields fields;  ///< x and λ; V_m is that of the end
+  Matrix velocity;       ///< before the implicit increments, coefficients
+};
+
+/// What stays the same for all motions of one membrane in a step.
+struct MotionContext {
+  const FlowParameters& parameters;
+  const NumericalSettings& settings;
+  const VesicleState& state;  ///< at the start of the step: strain and the area and volume to hold
+  const Membrane& membrane;   ///< likewise
+};
+
+/// Solves (27) for x^{n+1}: the velocity of the start plus the implicit increments, for the operators at the start of
+/// the step. The first-order step starts from x^n with its velocity; deferred corrections start from an approximation
+/// of x^{n+1} with a velocity that would remove its residual. The right-hand side of the constraint, zero in (27b), is
+/// iterated until the step as a whole (not only its tangent) keeps the area of every membrane element; a uniform normal
+/// velocity of the size of the step's volume error accompanies it. Area and volume are those of the shape on arrival,
+/// so that what truncation costs there is answered for as well.
+/// @param flow        the linearised system of this membrane and this dt
+/// @param iterations  grows by those of the flow
+/// @throws ConvergenceError where there is no such motion
+Motion constrained_motion(const MotionContext& context, const MotionStart& start, double dt, FlowSystem& flow,
+                          const Arrival& arrival, int& iterations);
+
+}  // namespace vehd

@@ -1,0 +1,211 @@
+#include "bie/stepping/solve/flow_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "bie/physics/bending.hpp"
+#include "bie/physics/tension.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/solve/sphere_spectrum.hpp"
+
+namespace vehd {
+
+VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficients, bool hessian) {
+  return {coefficients,
+          hessian ? membrane.fine.synthesize_hessian(coefficients) : membrane.fine.synthesize_gradient(coefficients)};
+}
+
+Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membrane, const MembraneUnknowns& unknowns,
+                         const Vector& held_tension) {
+  if (unknowns.curvature.size() == 0 && unknowns.tension.size() == 0) {
+    return Matrix::Zero(n_coefficients(membrane.fine.order()), 3);
+  }
+  Matrix force = Matrix::Zero(membrane.surface.n_points(), 3);
+  if (unknowns.curvature.size() > 0) {
+    force += linearised_bending_force(*parameters.bending, membrane, unknowns.curvature);
+    if (held_tension.size() > 0) {
+      const Vector increment = membrane.fine.synthesize(unknowns.curvature).col(0);
+      force += 2.0 * held_tension.cwiseProduct(increment).asDiagonal() * membrane.surface.normal;
+    }
+  }
+  if (unknowns.tension.size() > 0) force += tension_force(membrane, unknowns.tension);
+  return membrane.velocity(membrane.layers.stokes_single.apply(membrane.weighted(force)) / parameters.viscosity);
+}
+
+bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane) {
+  if (!parameters.inextensible) return false;
+  // The response to a uniform tension grows with the square of the distance from a sphere: 1e-10 of any other at this.
+  constexpr double kSphere = 1e-5;
+  const Surface& surface = membrane.surface;
+  const Vector radius = (surface.position.rowwise() - centroid(surface).transpose()).rowwise().norm();
+  return radius.maxCoeff() - radius.minCoeff() < kSphere * membrane.radius;
+}
+
+namespace {
+
+/// A step holds strain to a tenth of what it holds the change of curvature to (NumericalSettings).
+constexpr double kStrainShare = 0.1;
+
+FlowLayout layout_of(const FlowParameters& parameters, const Membrane& membrane, double dt,
+                     const FlowOptions& options) {
+  FlowLayout layout{n_coefficients(membrane.fine.order()), options.entries, dt > 0.0 && parameters.bending.has_value(),
+                    parameters.inextensible};
+  if (layout.entries.empty()) {
+    layout.entries.resize(static_cast<std::size_t>(layout.n_all));
+    std::iota(layout.entries.begin(), layout.entries.end(), Index{0});
+  }
+  if (layout.bending) {
+    layout.curvature_scale = 1.0 / membrane.radius;
+    layout.tension_scale = kStrainShare * (parameters.viscosity * membrane.radius / dt +
+                                           parameters.bending->modulus / (membrane.radius * membrane.radius));
+  }
+  return layout;
+}
+
+/// Columns (h, λ) over their scales.
+Matrix over_scales(const FlowLayout& layout, Matrix unknowns) {
+  unknowns.topRows(layout.n_curvature()) /= layout.curvature_scale;
+  unknowns.bottomRows(layout.n_tension()) /= layout.tension_scale;
+  return unknowns;
+}
+
+/// The other way.
+Matrix times_scales(const FlowLayout& layout, Matrix unknowns) {
+  unknowns.topRows(layout.n_curvature()) *= layout.curvature_scale;
+  unknowns.bottomRows(layout.n_tension()) *= layout.tension_scale;
+  return unknowns;
+}
+
+/// All coefficients of the scalars, of which v holds those that can differ from zero, over their scales.
+MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
+  const auto all = [&](const auto& entries) {
+    Vector scalar = Vector::Zero(layout.n_all);
+    scalar(layout.entries) = entries;
+    return scalar;
+  };
+  MembraneUnknowns unknowns;
+  if (layout.bending) unknowns.curvature = all(layout.curvature_scale * v.head(layout.n()));
+  if (layout.tension) unknowns.tension = all(layout.tension_scale * v.tail(layout.n()));
+  return unknowns;
+}
+
+/// The coefficients that can differ from zero, one scalar behind the other; scalars that are empty count as zero.
+Vector entries_of(const FlowLayout& layout, const Vector& curvature, const Vector& divergence_or_tension) {
+  Vector v = Vector::Zero(layout.size());
+  if (layout.bending && curvature.size() > 0) v.head(layout.n()) = curvature(layout.entries);
+  if (layout.tension && divergence_or_tension.size() > 0) v.tail(layout.n()) = divergence_or_tension(layout.entries);
+  return v;
+}
+
+/// (h, λ) ↦ (Hop(u), J ∇_γ·u) of RecycledSubspaces as (h, λ) over their scales ↦ (h − dt Hop(u), J ∇_γ·u).
+RecycledSubspace in_system(const FlowLayout& layout, const RecycledSubspace& known, double dt) {
+  if (known.count() == 0) return {};
+  RecycledSubspace result{over_scales(layout, known.arguments), known.responses};
+  if (!layout.bending) return result;
+  auto curvature = result.responses.topRows(layout.n());
+  curvature = known.arguments.topRows(layout.n()) - dt * curvature;
+  return result;
+}
+
+/// The other way.
+RecycledSubspace in_memory(const FlowLayout& layout, const RecycledSubspace& learned, double dt) {
+  if (learned.count() == 0) return {};
+  RecycledSubspace result{times_scales(layout, learned.arguments), learned.responses};
+  if (!layout.bending) return result;
+  auto curvature = result.responses.topRows(layout.n());
+  curvature = (result.arguments.topRows(layout.n()) - curvature) / dt;
+  return result;
+}
+
+/// Stand-in for the response of the area to a uniform tension, which vanishes on a sphere.
+double mean_response(const FlowParameters& parameters, const Membrane& membrane) {
+  return 0.1 *
+         sphere_flow_block({membrane.radius, parameters.viscosity, 0.0, 0.0, parameters.viscosity_ratio}, 2)(1, 1);
+}
+
+/// (h, λ) over their scales ↦ the left sides of FlowRightHandSide and, behind them, the velocity.
+LinearMap flow_map(const FlowParameters& parameters, const Membrane& membrane, double dt, const FlowLayout& layout,
+                   const FlowOptions& options) {
+  return [=, &membrane](const Vector& v) {
+    const MembraneUnknowns unknowns = unknowns_of(layout, v);
+    const VelocityField u = velocity_field(
+        membrane, membrane_velocity(parameters, membrane, unknowns, options.held_tension), layout.bending);
+    Vector curvature;
+    Vector divergence;
+    if (layout.bending) curvature = unknowns.curvature - dt * curvature_increment(membrane, u.derivatives);
+    if (layout.tension) {
+      divergence = weighted_divergence(membrane, u.derivatives);
+      if (options.pin_uniform_tension) divergence[0] = mean_response(parameters, membrane) * unknowns.tension[0];
+    }
+    Vector result(layout.size() + u.coefficients.size());
+    result.head(layout.size()) = entries_of(layout, curvature, divergence);
+    result.tail(u.coefficients.size()) = u.coefficients.reshaped();
+    return result;
+  };
+}
+
+LinearMap sphere_inverse(const FlowParameters& parameters, const Membrane& membrane, double dt,
+                         const FlowLayout& layout, const FlowOptions& options) {
+  const Vector& area = membrane.surface.quadrature;
+  const double mean_tension = options.held_tension.size() > 0 ? options.held_tension.dot(area) / area.sum() : 0.0;
+  const SphereFlow sphere{membrane.radius,
+                          parameters.viscosity,
+                          layout.bending ? parameters.bending->modulus : 0.0,
+                          dt,
+                          parameters.viscosity_ratio,
+                          mean_tension};
+  std::vector<Eigen::Matrix2d> inverse;
+  for (int degree = 0; degree <= membrane.fine.order(); ++degree) {
+    Eigen::Matrix2d block = sphere_flow_block(sphere, degree);
+    // A uniform tension exerts no force on a sphere; away from it the response is weak but not zero.
+    if (degree == 0) block(1, 1) = mean_response(parameters, membrane);
+    if (!layout.tension) block(1, 1) = 1.0;
+    inverse.push_back(block.inverse());
+  }
+  return [=](const Vector& r) {
+    Vector result(layout.size());
+    for (Index i = 0; i < layout.n(); ++i) {
+      const Index behind = layout.n_curvature() + i;
+      const Eigen::Matrix2d& m = inverse[static_cast<std::size_t>(degree_of(layout.entries[i]))];
+      const double curvature = layout.bending ? r[i] : 0.0;
+      const double divergence = layout.tension ? r[behind] : 0.0;
+      if (layout.bending) result[i] = m(0, 0) * curvature + m(0, 1) * divergence;
+      if (layout.tension) result[behind] = m(1, 0) * curvature + m(1, 1) * divergence;
+    }
+    return over_scales(layout, std::move(result));
+  };
+}
+
+}  // namespace
+
+FlowSystem::FlowSystem(const FlowParameters& parameters, const Membrane& membrane, double dt,
+                       const FlowOptions& options, RecycledSubspace known)
+    : layout_(layout_of(parameters, membrane, dt, options)),
+      dt_(dt),
+      pinned_(layout_.tension && options.pin_uniform_tension),
+      // A pinned system is another operator, and cut to another degree responses are no longer those of their
+      // arguments.
+      known_(pinned_ || known.arguments.rows() != layout_.size() ? RecycledSubspace{} : std::move(known)),
+      solver_(flow_map(parameters, membrane, dt, layout_, options),
+              sphere_inverse(parameters, membrane, dt, layout_, options), layout_.size(), 3 * layout_.n_all,
+              in_system(layout_, known_, dt)) {}
+
+FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance) {
+  constexpr int kMaxIterations = 120;
+  Vector b = entries_of(layout_, rhs.curvature, rhs.divergence);
+  if (pinned_) b[layout_.n_curvature()] = 0.0;
+  const Vector x = over_scales(layout_, entries_of(layout_, start.curvature, start.tension));
+  RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, kMaxIterations});
+  return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_all, 3)};
+}
+
+RecycledSubspace FlowSystem::learned() const {
+  return pinned_ ? RecycledSubspace{} : in_memory(layout_, solver_.learned(), dt_);
+}
+
+RecycledSubspace FlowSystem::kept() const { return selected(known_, solver_.kept()); }
+
+}  // namespace vehd

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/linear/recycled_gcr.hpp"
+#include "bie/physics/membrane.hpp"
+#include "bie/physics/parameters.hpp"
+
+namespace vehd {
+
+/// Response of the membrane forces that depend on the unknowns: velocity u = S[F h + 2 λ_0 h n + T λ]/μ, through the
+/// velocity map of a viscosity contrast if there is one, of a curvature increment h (F of Eq. (28a)) and a tension λ (T
+/// of Eq. (28c)). Scalars of degree p replace the three components of x^{n+1}: (27a) needs x^{n+1} only through
+/// H^{n+1}. The held tension λ_0 is what the change of H does to a tension that is there already; the paper's scheme
+/// leaves it out, deferred corrections converge the better the more of the true response is implicit.
+struct MembraneUnknowns {
+  Vector curvature;  ///< h; empty without bending
+  Vector tension;    ///< λ; empty unless inextensible
+};
+
+/// u with its derivatives on the upsampled grid.
+struct VelocityField {
+  Matrix coefficients;
+  SphereDerivatives derivatives;  ///< Hessian only where bending needs it
+};
+
+VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficients, bool hessian);
+
+/// u of the unknowns, coefficients.
+/// @param held_tension  λ_0 ≥ 0 on the upsampled grid; empty: zero
+Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membrane, const MembraneUnknowns& unknowns,
+                         const Vector& held_tension = {});
+
+/// Right-hand side of the coupled system: h − dt Hop(u) = curvature, J ∇_γ·u = divergence for u = membrane_velocity.
+struct FlowRightHandSide {
+  Vector curvature;
+  Vector divergence;  ///< weighted
+};
+
+struct FlowOptions {
+  /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
+  bool pin_uniform_tension = false;
+  Vector held_tension{};  ///< see membrane_velocity
+  /// Coefficients of h and λ that can differ from zero, ascending; empty: all.
+  std::vector<Index> entries{};
+};
+
+/// Which scalars are unknown, and with which coefficients. The solver sees each scalar over its own natural scale, so
+/// that its norm adds like to like: one step of size dt bends a membrane of radius R by h R and strains it by
+/// λ dt/(μR), or by λ R²/κ_B where bending answers within the step.
+struct FlowLayout {
+  Index n_all = 0;             ///< coefficients of degree p
+  std::vector<Index> entries;  ///< those that can differ from zero
+  bool bending = false;
+  bool tension = false;
+  double curvature_scale = 1.0;  ///< 1/R
+  double tension_scale = 1.0;  ///< a share of μR/dt + κ_B/R²; where λ is the only unknown its scale is of no account
+
+  [[nodiscard]] Index n() const { return static_cast<Index>(entries.size()); }
+  [[nodiscard]] Index n_curvature() const { return bending ? n() : 0; }
+  [[nodiscard]] Index n_tension() const { return tension ? n() : 0; }
+  [[nodiscard]] Index size() const { return n_curvature() + n_tension(); }
+};
+
+/// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and
+/// the area cannot change at constant volume.
+bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane);
+
+/// The semi-implicit system (27) with (28) for the increments (h, λ) on one frozen membrane, preconditioned with its
+/// exact inverse on the sphere of the same area for the actual κ_B, both viscosities and dt. dt = 0 leaves the tension
+/// problem alone. What one solve learns of the operator serves the next, and so does what solves on other membranes and
+/// for other dt have learned.
+class FlowSystem {
+ public:
+  /// @param membrane  must outlive the system
+  /// @param known     of RecycledSubspaces, of the tension for dt = 0; forgotten if it is of another degree
+  FlowSystem(const FlowParameters& parameters, const Membrane& membrane, double dt, const FlowOptions& options = {},
+             RecycledSubspace known = {});
+
+  struct Solution {
+    SolveReport report;
+    MembraneUnknowns unknowns;
+    Matrix velocity;  ///< membrane_velocity of the unknowns, [n_coefficients x 3]
+  };
+  /// @param start      unknowns from which the solve starts; those that are empty are zero
+  /// @param tolerance  of the preconditioned residual, relative to the preconditioned right-hand side
+  Solution solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance);
+
+  /// What its own solves have learned, in the form of RecycledSubspaces.
+  [[nodiscard]] RecycledSubspace learned() const;
+  /// Of what was known before, what it has kept.
+  [[nodiscard]] RecycledSubspace kept() const;
+
+ private:
+  FlowLayout layout_;
+  double dt_;
+  bool pinned_;
+  RecycledSubspace known_;
+  RecycledGcr solver_;
+};
+
+}  // namespace vehd

@@ -1,0 +1,37 @@
+#include "bie/stepping/solve/flow_systems.hpp"
+
+namespace vehd {
+
+FlowSystems::FlowSystems(const FlowParameters& parameters, const Membrane& membrane, FlowOptions options,
+                         double explicit_relaxation, std::shared_ptr<const RecycledScalars> recycled)
+    : parameters_(parameters),
+      membrane_(membrane),
+      options_(std::move(options)),
+      // An ellipsoidal disturbance of a sphere relaxes under a tension λ at the rate 24 λ/((32 + 23 μ_i/μ_e) μ_e R)
+      // (quasi-spherical theory).
+      explicit_tension_time_(explicit_relaxation * (32.0 + 23.0 * parameters.viscosity_ratio) / 24.0 *
+                             parameters.viscosity * membrane.radius),
+      recycled_(std::move(recycled)) {}
+
+FlowSystem& FlowSystems::of(double dt) {
+  for (auto& [size, system] : systems_) {
+    if (size == dt) return system;
+  }
+  const std::shared_ptr<const RecycledScalars> so_far = recycled();
+  const Index n_scalars = (parameters_.bending ? 1 : 0) + (parameters_.inextensible ? 1 : 0);
+  FlowOptions options = options_;
+  options.held_tension = (options_.held_tension.array() - explicit_tension_time_ / dt).cwiseMax(0.0);
+  if (options.held_tension.isZero(0.0)) options.held_tension.resize(0);
+  FlowSystem system(parameters_, membrane_, dt, options,
+                    so_far ? so_far->in(options_.entries, n_scalars) : RecycledSubspace{});
+  return systems_.emplace_back(dt, std::move(system)).second;
+}
+
+std::shared_ptr<const RecycledScalars> FlowSystems::recycled() const {
+  if (systems_.empty()) return recycled_;
+  RecycledSubspace all = systems_.front().second.kept();
+  for (const auto& [size, system] : systems_) all = joined(system.learned(), all, most_recycled);
+  return recycled_scalars(options_.entries, std::move(all));
+}
+
+}  // namespace vehd

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+
+#include "bie/stepping/state/surface_fields.hpp"
+
+namespace vehd {
+
+/// What a motion over dt makes of one membrane.
+struct Motion {
+  SurfaceFields material;  ///< at the material points
+  SurfaceFields arrived;   ///< at the nodes where the motion ends, see Arrival
+  double raw_area = 0.0;   ///< relative area error of the start's own velocity, before the constraint takes it out
+};
+
+/// Takes the fields at the material points to the nodes where a motion ends: new ones at the end of a step, the
+/// material points themselves within it.
+using Arrival = std::function<SurfaceFields(const SurfaceFields& material)>;
+
+}  // namespace vehd

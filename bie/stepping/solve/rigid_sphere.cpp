@@ -1,0 +1,94 @@
+#include "bie/stepping/solve/rigid_sphere.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include "bie/stepping/space/remap.hpp"
+
+namespace vehd {
+
+namespace {
+
+Matrix from_centre(const Surface& s) { return s.position.rowwise() - centroid(s).transpose(); }
+
+/// Ω × r in every row.
+Matrix rotating(const Vector3& rate, const Matrix& r) {
+  Matrix result(r.rows(), 3);
+  for (Index i = 0; i < result.rows(); ++i) result.row(i) = rate.cross(Vector3(r.row(i)));
+  return result;
+}
+
+/// Ω of the part Ω × r of a tangential flow: ∫ r × v dA = (2/3) A R² Ω, and all other parts contribute nothing.
+Vector3 rotation_of(const Surface& s, const Matrix& r, const Matrix& velocity, double radius) {
+  Vector3 moment = Vector3::Zero();
+  for (Index i = 0; i < velocity.rows(); ++i) {
+    moment += s.quadrature[i] * Vector3(r.row(i)).cross(Vector3(velocity.row(i)));
+  }
+  return 1.5 / (s.quadrature.sum() * radius * radius) * moment;
+}
+
+/// The rotation that takes the rows of `from` nearest to those of `to`, in the mean square over the surface.
+Matrix3 nearest_rotation(const Surface& s, const Matrix& from, const Matrix& to) {
+  const Matrix3 moment = to.transpose() * s.quadrature.asDiagonal() * from;
+  const Eigen::JacobiSVD<Matrix3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3 signs = Vector3::Ones();
+  signs[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+/// Values of the divergence-free tangential flow.
+Matrix flow_within(const Membrane& sphere, const Matrix& velocity) {
+  const Surface& s = sphere.surface;
+  const SphereVectors flow = sliding_part(sphere.fine, s, velocity);
+  return flow.d1.asDiagonal() * s.tangent_1 + flow.d2.asDiagonal() * s.tangent_2;
+}
+
+}  // namespace
+
+Matrix rigid_sphere_velocity(const Membrane& sphere, const Matrix& velocity) {
+  const Vector3 translation = surface_mean(sphere.surface, sphere.fine.synthesize(velocity));
+  return sphere.fine.analyze(flow_within(sphere, velocity).rowwise() + translation.transpose());
+}
+
+SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, double dt) {
+  const Matrix r = from_centre(sphere.surface);
+  const Matrix flow = flow_within(sphere, velocity);
+  const Vector3 rate = rotation_of(sphere.surface, r, flow, sphere.radius);
+  SphereMotion motion;
+  motion.translation = dt * surface_mean(sphere.surface, sphere.fine.synthesize(velocity));
+  motion.rotation = Eigen::AngleAxisd(rate.norm() * dt, rate.stableNormalized()).toRotationMatrix();
+  motion.flow = dt * (flow - rotating(rate, r));
+  return motion;
+}
+
+SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displacement) {
+  const Surface& s = sphere.surface;
+  const Matrix r = from_centre(s);
+  const Matrix moved = sphere.fine.synthesize(displacement);
+  SphereMotion motion;
+  motion.translation = surface_mean(s, moved);
+  const Matrix end = r + (moved.rowwise() - motion.translation.transpose());
+  motion.rotation = nearest_rotation(s, r, end);
+  motion.flow = end * motion.rotation - r;
+  return motion;
+}
+
+Motion rigid_sphere_motion(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion,
+                           const Arrival& arrival) {
+  const Surface& s = sphere.surface;
+  Motion result;
+  Matrix radial = from_centre(s) + motion.flow;
+  const Vector retraction = sphere.radius * radial.rowwise().norm().cwiseInverse();
+  radial.array().colwise() *= retraction.array();
+  radial *= motion.rotation.transpose();
+  const Vector3 centre = centroid(s) + motion.translation;
+  result.material = start;
+  result.material.position = sphere.fine.analyze(radial.rowwise() + centre.transpose());
+  const Vector stretch = make_surface(sphere.fine, result.material.position).area_element.cwiseQuotient(s.area_element);
+  const Vector stretch_before = 1.0 + sphere.fine.synthesize(start.area_strain).col(0).array();
+  result.material.area_strain = sphere.fine.analyze(stretch_before.cwiseProduct(stretch).array() - 1.0);
+  result.arrived = arrival(result.material);
+  return result;
+}
+
+}  // namespace vehd

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "bie/physics/membrane.hpp"
+#include "bie/stepping/solve/motion.hpp"
+
+/// An inextensible sphere is rigid. To first order its points may leave it at constant area elements, which is the
+/// velocity of Eq. (27); but any shape that they form has more area than the sphere of its volume, so a uniform
+/// tension, which acts on nothing, grows until the membrane only translates and flows within itself.
+namespace vehd {
+
+/// The part of a membrane velocity that a sphere can follow, translation and divergence-free tangential flow:
+/// coefficients, [n_coefficients x 3].
+Matrix rigid_sphere_velocity(const Membrane& sphere, const Matrix& velocity);
+
+/// Where points of a sphere have moved to.
+struct SphereMotion {
+  Vector3 translation = Vector3::Zero();
+  Matrix3 rotation = Matrix3::Identity();  ///< about the centre
+  Matrix flow;                             ///< displacement within the sphere, before the rotation, [n_points x 3]
+};
+
+/// What rigid_sphere_velocity does in dt, its rotation a finite one that strains nothing however long the step.
+SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, double dt);
+
+/// The motion of points that end near x + displacement, with the rotation that is nearest to it. The flow is exact as
+/// far as these ends lie on the translated sphere.
+/// @param displacement  coefficients, [n_coefficients x 3]
+SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displacement);
+
+/// The sphere after the motion; points end on the translated sphere exactly. The mean tension stays undetermined.
+/// @param start  of the step: the strain there; V_m and λ as they are at the end
+Motion rigid_sphere_motion(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion,
+                           const Arrival& arrival);
+
+}  // namespace vehd

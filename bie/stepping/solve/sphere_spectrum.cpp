@@ -1,0 +1,40 @@
+#include "bie/stepping/solve/sphere_spectrum.hpp"
+
+#include "bie/physics/viscosity_contrast.hpp"
+
+namespace vehd {
+
+Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
+  const double n = degree;
+  const double odd = 2.0 * n + 1.0;
+  const ContrastSpectrum contrast = contrast_spectrum(sphere.viscosity_ratio, degree);
+  const double layer_v = n / (odd * (2.0 * n + 3.0)) / contrast.v;
+  const double layer_w = degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w;
+  const double mobility = 1.0 / (sphere.viscosity * sphere.radius);
+
+  // Coefficients of u on V and W for unit h and unit λ.
+  const double stiffness =
+      sphere.bending_modulus * n * (n + 1.0) + 2.0 * sphere.held_tension * sphere.radius * sphere.radius;
+  const double bending = stiffness / odd * mobility;
+  const double bending_v = -bending * layer_v;
+  const double bending_w = bending * layer_w;
+  const double tension = sphere.radius / odd * mobility;
+  const double tension_v = tension * (n + 2.0) * layer_v;
+  const double tension_w = tension * (n - 1.0) * layer_w;
+
+  // ½ Δ_γ u·n and J ∇_γ·u of unit V and W.
+  const double inverse_area = 1.0 / (sphere.radius * sphere.radius);
+  const double curvature_v = 0.5 * (n + 1.0) * (n + 1.0) * (n + 2.0) * inverse_area;
+  const double curvature_w = -0.5 * n * n * (n - 1.0) * inverse_area;
+  const double divergence_v = -(n + 1.0) * (n + 2.0) * sphere.radius;
+  const double divergence_w = -n * (n - 1.0) * sphere.radius;
+
+  Eigen::Matrix2d block;
+  block(0, 0) = 1.0 - sphere.dt * (curvature_v * bending_v + curvature_w * bending_w);
+  block(0, 1) = -sphere.dt * (curvature_v * tension_v + curvature_w * tension_w);
+  block(1, 0) = divergence_v * bending_v + divergence_w * bending_w;
+  block(1, 1) = divergence_v * tension_v + divergence_w * tension_w;
+  return block;
+}
+
+}  // namespace vehd

@@ -1,0 +1,54 @@
+#include "bie/stepping/space/discretisation.hpp"
+
+#include <numeric>
+
+namespace vehd {
+
+namespace {
+
+/// The least even number of longitudes that integrates products of harmonics and that the turns map onto itself.
+int n_longitudes(int grid_order, int fold) {
+  const int step = std::lcm(2, fold);
+  return step * ((2 * grid_order + 2 + step - 1) / step);
+}
+
+/// Cartesian components of axisymmetric vectors have the modes m = 0 and ±1 only.
+SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings& settings, int grid_order) {
+  if (symmetry.axisymmetric) return {settings.order, make_grid(grid_order, 4), 1};
+  const int fold = std::lcm(symmetry.fold, settings.longitude_fold);
+  return {settings.order, make_grid(grid_order, n_longitudes(grid_order, fold))};
+}
+
+}  // namespace
+
+MembraneSpace::MembraneSpace(const NumericalSettings& settings, const Symmetry& symmetry)
+    : subspace_(symmetry, settings.order),
+      whole_(settings.order, make_grid(settings.order), symmetry.axisymmetric ? 1 : settings.order),
+      targets_(transform_for(symmetry, settings, settings.order)),
+      fine_(transform_for(symmetry, settings, settings.upsampling * settings.order)),
+      quadrature_(make_rotated_quadrature(targets_.grid(), settings.quadrature_oversampling)),
+      fold_(symmetry.axisymmetric ? targets_.grid().n_phi : symmetry.fold) {}
+
+Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry& symmetry)
+    : Discretisation(settings, symmetry, {{settings.order, 1.0}}) {}
+
+Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry& symmetry,
+                               const std::vector<Fineness>& vesicles)
+    : settings_(settings), symmetry_(symmetry) {
+  for (const Fineness& fineness : vesicles) vesicles_.push_back(space_of(fineness));
+}
+
+Discretisation Discretisation::with(std::size_t vesicle, const Fineness& fineness) const {
+  Discretisation result = *this;
+  result.vesicles_[vesicle] = space_of(fineness);
+  return result;
+}
+
+std::shared_ptr<const MembraneSpace> Discretisation::space_of(const Fineness& fineness) const {
+  NumericalSettings settings = settings_;
+  settings.order = fineness.order;
+  settings.quadrature_oversampling *= fineness.quadrature_refinement;
+  return std::make_shared<const MembraneSpace>(settings, symmetry_);
+}
+
+}  // namespace vehd

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bie/potentials/rotated_quadrature.hpp"
+#include "bie/sphere/symmetry.hpp"
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+
+/// Numerical settings of a run; the defaults are the program's defaults.
+struct NumericalSettings {
+  int order = 16;                         ///< p
+  int time_order = 1;                     ///< order of a step in dt, 1 … highest_time_order
+  int upsampling = 2;                     ///< nonlinear terms live on the grid of order upsampling * p
+  int longitude_fold = 1;                 ///< every grid is its own image under turns by 2π/fold about z
+  double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
+  double quadrature_tolerance = 1e-4;     ///< of LayerCheck::error, above which finer quadrature is taken
+  double flow_tolerance = 1e-9;           ///< of the tension and velocity solves
+  double electric_tolerance = 1e-10;      ///< of the charge-density and charging solves
+  double constraint_tolerance = 1e-9;     ///< of area and volume, relative, at the end of a step
+  double curvature_tolerance = 1e-5;      ///< of Eq. (28), relative to the step's own curvature change
+  double strain_tolerance = 1e-6;         ///< of the resolved local strain
+};
+
+/// Degree, grids and singular quadrature of one membrane. Immutable.
+class MembraneSpace {
+ public:
+  /// @param settings  with the degree and the oversampling of this membrane
+  /// @param symmetry  of every state that will be stepped: only what it leaves independent is computed
+  MembraneSpace(const NumericalSettings& settings, const Symmetry& symmetry);
+
+  [[nodiscard]] int order() const { return whole_.order(); }
+  [[nodiscard]] const SymmetrySubspace& subspace() const { return subspace_; }
+  /// Transform between degree p and the grid of order p with all its longitudes; it knows m = 0 and ±1 alone where the
+  /// symmetry leaves no others.
+  [[nodiscard]] const SphereTransform& transform() const { return whole_; }
+  /// Transform between degree p and the grid of order p on the longitudes that the symmetry leaves: the targets of the
+  /// layers.
+  [[nodiscard]] const SphereTransform& targets() const { return targets_; }
+  /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
+  [[nodiscard]] const SphereTransform& fine_transform() const { return fine_; }
+  [[nodiscard]] const RotatedQuadrature& quadrature() const { return quadrature_; }
+  /// Turns by 2π/fold about z take states and longitudes of the targets to each other.
+  [[nodiscard]] int fold() const { return fold_; }
+
+ private:
+  SymmetrySubspace subspace_;
+  SphereTransform whole_;
+  SphereTransform targets_;
+  SphereTransform fine_;
+  RotatedQuadrature quadrature_;
+  int fold_;
+};
+
+/// How fine one membrane is resolved.
+struct Fineness {
+  int order = 16;                      ///< degree p
+  double quadrature_refinement = 1.0;  ///< nodes of the singular quadrature, relative to those of the settings
+};
+
+/// The spaces of all vesicles with the settings that they share. Immutable; a copy shares the spaces.
+class Discretisation {
+ public:
+  /// One vesicle with the degree and the quadrature of the settings.
+  explicit Discretisation(const NumericalSettings& settings, const Symmetry& symmetry = {});
+  Discretisation(const NumericalSettings& settings, const Symmetry& symmetry, const std::vector<Fineness>& vesicles);
+
+  /// The same but for one vesicle.
+  [[nodiscard]] Discretisation with(std::size_t vesicle, const Fineness& fineness) const;
+
+  [[nodiscard]] const NumericalSettings& settings() const { return settings_; }
+  [[nodiscard]] const Symmetry& symmetry() const { return symmetry_; }
+  [[nodiscard]] const MembraneSpace& vesicle(std::size_t a) const { return *vesicles_[a]; }
+  [[nodiscard]] std::size_t n_vesicles() const { return vesicles_.size(); }
+
+ private:
+  [[nodiscard]] std::shared_ptr<const MembraneSpace> space_of(const Fineness& fineness) const;
+
+  NumericalSettings settings_;
+  Symmetry symmetry_;
+  std::vector<std::shared_ptr<const MembraneSpace>> vesicles_;
+};
+
+}  // namespace vehd

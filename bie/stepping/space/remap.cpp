@@ -1,0 +1,147 @@
+#include "bie/stepping/space/remap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/neighbourhood.hpp"
+
+namespace vehd {
+
+SphereVectors sliding_part(const SphereTransform& fine, const Surface& s, const Matrix& displacement) {
+  SphereDerivatives u = fine.synthesize_gradient(displacement);
+  u.value.rowwise() -= surface_mean(s, u.value).transpose();
+  const Vector normal = u.value.cwiseProduct(s.normal).rowwise().sum();
+  const Vector divergence =
+      s.area_element.cwiseProduct(surface_divergence(s, u) + 2.0 * s.mean_curvature.cwiseProduct(normal));
+  Vector potential = fine.analyze(divergence);
+  potential[0] = 0.0;
+  for (int n = 1; n <= fine.order(); ++n) {
+    potential.segment(coefficient_index(n, -n), 2 * n + 1) /= -double(n) * (n + 1);
+  }
+  const SphereDerivatives psi = fine.synthesize_gradient(potential);
+  return {u.value.cwiseProduct(s.dual_1).rowwise().sum() - psi.d1.col(0).cwiseQuotient(s.area_element),
+          u.value.cwiseProduct(s.dual_2).rowwise().sum() - psi.d2.col(0).cwiseQuotient(s.area_element)};
+}
+
+namespace {
+
+/// Parameter displacement along ∇E, E = ½ Σ a_n |x_nm|² with a_n rising from 0 at n = 1 to 1 at n = p.
+SphereVectors smoothing_gradient(const SphereTransform& fine, const Surface& s, const Matrix& position) {
+  Matrix gradient = position;
+  const int order = fine.order();
+  for (int n = 0; n <= order; ++n) {
+    const double ratio = (n * (n + 1.0) - 2.0) / (order * (order + 1.0) - 2.0);
+    gradient.middleRows(coefficient_index(n, -n), 2 * n + 1) *= n == 0 ? 0.0 : ratio * ratio;
+  }
+  const Matrix values = fine.synthesize(gradient);
+  return {values.cwiseProduct(s.dual_1).rowwise().sum(), values.cwiseProduct(s.dual_2).rowwise().sum()};
+}
+
+/// Unit vectors to points of the parameter sphere, [n x 3].
+using Directions = Matrix;
+
+struct Angles {
+  Vector theta, phi;
+};
+
+Angles angles_of(const Directions& r) {
+  Angles angles{Vector(r.rows()), Vector(r.rows())};
+  for (Index i = 0; i < r.rows(); ++i) {
+    const SpherePoint point = point_of(Vector3(r.row(i)));
+    angles.theta[i] = point.theta;
+    angles.phi[i] = point.phi;
+  }
+  return angles;
+}
+
+Directions node_directions(const SphereGrid& grid) {
+  Directions r(grid.n_points(), 3);
+  for (Index i = 0; i < grid.n_points(); ++i) {
+    r.row(i) = direction(point_of(grid, i)).transpose();
+  }
+  return r;
+}
+
+/// Cartesian components, [n x 3], of vectors given along e_θ and e_φ at the nodes.
+Matrix cartesian(const SphereGrid& grid, const SphereVectors& field) {
+  Matrix vectors(grid.n_points(), 3);
+  for (Index i = 0; i < grid.n_points(); ++i) {
+    const double theta = grid.theta[i / grid.n_phi];
+    const double phi = grid.phi[i % grid.n_phi];
+    const Vector3 meridian(std::cos(phi), std::sin(phi), 0.0);
+    const Vector3 along_theta = std::cos(theta) * meridian - std::sin(theta) * Vector3::UnitZ();
+    const Vector3 along_phi(-meridian.y(), meridian.x(), 0.0);
+    vectors.row(i) = field.d1[i] * along_theta + field.d2[i] * along_phi;
+  }
+  return vectors;
+}
+
+/// r̂ moved by −vector, of which the tangential part counts, along great circles.
+Directions moved_back(const Directions& r, const Matrix& vectors) {
+  Directions result(r.rows(), 3);
+  for (Index i = 0; i < r.rows(); ++i) {
+    const Vector3 from = r.row(i);
+    const Vector3 way = Vector3(vectors.row(i)) - from.dot(Vector3(vectors.row(i))) * from;
+    result.row(i) = along_great_circle(from, -way);
+  }
+  return result;
+}
+
+/// Cartesian components of the sliding at the middle of the way, which keeps areas to third order: [n x 3]. Degrees
+/// whose wavelength the step slides past fade out.
+Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, const SphereVectors& sliding) {
+  constexpr double kLargestPhase = 1.5;
+  constexpr double kNoSliding = 1e-13;
+  const Matrix at_nodes = cartesian(fine.grid(), sliding);
+  const double length = at_nodes.rowwise().norm().maxCoeff();
+  // Without swirl, as in most axisymmetric runs, it is rounding.
+  if (length < kNoSliding) return Matrix::Zero(at_nodes.rows(), 3);
+  const auto share = [&](int degree) { return 1.0 / (1.0 + std::pow(degree * length / kLargestPhase, 8)); };
+  Matrix series = fine.analyze(at_nodes);
+  const Matrix beyond = at_nodes - fine.synthesize(series);
+  for (int n = 1; n <= fine.order(); ++n) {
+    series.middleRows(coefficient_index(n, -n), 2 * n + 1) *= share(n);
+  }
+  const Matrix start = fine.synthesize(series);
+  const Angles middle = angles_of(moved_back(nodes, 0.5 * start));
+  return evaluate_harmonics(series, middle.theta, middle.phi, fine.azimuthal_order()) +
+         share(fine.order() + 1) * beyond;
+}
+
+/// Every column at the given places.
+Matrix carried(const SphereTransform& fine, const Matrix& columns, const Directions& from) {
+  const Angles angles = angles_of(from);
+  return fine.analyze(evaluate_harmonics(columns, angles.theta, angles.phi, fine.azimuthal_order()));
+}
+
+/// All fields at the given places, which cost little more together than one of them.
+SurfaceFields carried(const SphereTransform& fine, const SurfaceFields& fields, const Directions& from) {
+  SurfaceFields result = fields;
+  Index n_scalars = 0;
+  for_each_scalar(fields, [&](const Vector&) { ++n_scalars; });
+  Matrix columns(fields.position.rows(), 3 + n_scalars);
+  columns.leftCols(3) = fields.position;
+  Index column = 3;
+  for_each_scalar(fields, [&](const Vector& scalar) { columns.col(column++) = scalar; });
+  columns = carried(fine, columns, from);
+  result.position = columns.leftCols(3);
+  column = 3;
+  for_each_scalar(result, [&](Vector& scalar) { scalar = columns.col(column++); });
+  return result;
+}
+
+}  // namespace
+
+SurfaceFields remap(const SphereTransform& fine, const Matrix& displacement, const SurfaceFields& fields) {
+  const Matrix& position = fields.position;
+  const Directions nodes = node_directions(fine.grid());
+  const Matrix sliding = midway_sliding(fine, nodes, sliding_part(fine, make_surface(fine, position), displacement));
+  // Smoothing answers to the shape at its new nodes. Taken at the old ones it would be out of phase with modes whose
+  // wavelength the sliding of one step passes, and would feed them.
+  const Matrix slid = sliding.isZero(0.0) ? position : carried(fine, position, moved_back(nodes, sliding));
+  const SphereVectors smoothing = smoothing_gradient(fine, make_surface(fine, slid), slid);
+  return carried(fine, fields, moved_back(nodes, sliding + cartesian(fine.grid(), smoothing)));
+}
+
+}  // namespace vehd

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "bie/geometry/surface.hpp"
+#include "bie/stepping/state/surface_fields.hpp"
+
+namespace vehd {
+
+/// Tangent vector at every grid point: contravariant components along the covariant basis x_1, x_2.
+struct SphereVectors {
+  Vector d1, d2;
+};
+
+/// Divergence-free part of the tangential part of `displacement`: with a its contravariant components, J a = ∇Ψ + r̂×∇X
+/// on the unit sphere, and the first part alone changes area elements. A uniform translation slides nothing, so the
+/// mean of the displacement over the surface is left out.
+SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, const Matrix& displacement);
+
+/// Moves the grid over the surface without moving the surface: new node s takes what the material point Φ(s) carries,
+/// for every field by spectral evaluation. Φ undoes the part of the last displacement that only slides
+/// points along the surface (the divergence-free part of the tangential velocity, which shears a grid without end
+/// in tank-treading while area elements stay), and descends the energy of the high degrees of x (Veerapaneni et al.
+/// 2011) by one step. Sliding of degrees whose wavelength one step passes is left: undoing it would feed them.
+/// @param fine          degree p ↔ upsampled grid
+/// @param displacement  dt u, coefficients: the last move of the material
+/// @param fields        at the material points
+/// @return              the same fields at the new nodes
+SurfaceFields remap(const SphereTransform& fine, const Matrix& displacement, const SurfaceFields& fields);
+
+}  // namespace vehd

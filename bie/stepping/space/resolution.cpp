@@ -1,0 +1,90 @@
+#include "bie/stepping/space/resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// max |f_n| ≤ |coefficients of degree n| √((2n+1)/4π), by the addition theorem.
+Vector degree_bounds(const Matrix& coefficients) {
+  const int order = order_of(coefficients.rows());
+  Vector bounds(order + 1);
+  for (int n = 0; n <= order; ++n) {
+    const double norm = coefficients.middleRows(coefficient_index(n, -n), 2 * n + 1).norm();
+    bounds[n] = norm * std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi));
+  }
+  return bounds;
+}
+
+double least_potential_scale(const AppliedField& electric, double radius) {
+  constexpr double kLeastShare = 0.1;
+  return kLeastShare * electric.field.norm() * radius;
+}
+
+double potential_scale(double least, double largest) {
+  const double scale = std::max(largest, least);
+  // Without a field and a potential any scale serves: the error is zero.
+  return scale > 0.0 ? scale : 1.0;
+}
+
+}  // namespace
+
+double potential_scale(const AppliedField& electric, double radius, double largest) {
+  return potential_scale(least_potential_scale(electric, radius), largest);
+}
+
+Resolution::Resolution(const Model& model, const VesicleState& vesicle) {
+  const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
+  shape_ = degree_bounds(vesicle.position) / radius;
+  shape_[0] = 0.0;  // where the vesicle is
+  if (!model.electric || vesicle.transmembrane_potential.size() == 0) return;
+  potential_ = degree_bounds(vesicle.transmembrane_potential);
+  least_scale_ = least_potential_scale(*model.electric, radius);
+}
+
+Resolution::Tail Resolution::tail_of_cut(int order) const {
+  Tail tail{shape_.head(order + 1)};
+  Vector& bound = tail.bound;
+  if (potential_.size() > 0) {
+    const Vector potential = potential_.head(order + 1);
+    bound = bound.cwiseMax(potential / potential_scale(least_scale_, potential.maxCoeff()));
+  }
+  // Symmetry can silence every other degree.
+  for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);
+  constexpr double kSlowest = 0.97;
+  constexpr double kFloor = 1e-16;
+  // The last but one holds the last as well, whichever of them is silent.
+  const int middle = order / 2;
+  const int end = std::max(middle + 1, order - 1);
+  const double ratio = std::max(bound[end], kFloor) / std::max(bound[middle], kFloor);
+  tail.decay = std::min(kSlowest, std::pow(ratio, 1.0 / (end - middle)));
+  return tail;
+}
+
+/// Sum of the geometric series from degree `order` + 1 on, where that is at least the last of the spectrum.
+double Resolution::Tail::beyond(int order) const {
+  const int last = static_cast<int>(bound.size()) - 1;
+  return bound[std::max(0, last - 1)] * decay / (1.0 - decay) * std::pow(decay, order - last);
+}
+
+double Resolution::remainder_at(int order) const {
+  const Tail whole = tail_of_cut(last());
+  if (order >= last()) return whole.beyond(order);
+  const double left_out = whole.beyond(last()) + whole.bound.tail(last() - order).sum();
+  return std::max(left_out, tail_of_cut(order).beyond(order));
+}
+
+double Resolution::remainder() const { return remainder_at(last()); }
+
+int Resolution::order_for(double target, int lowest, int highest) const {
+  int order = lowest + lowest % 2;
+  while (order < highest && remainder_at(order) > target) order += 2;
+  return std::min(order, highest);
+}
+
+}  // namespace vehd

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "bie/physics/parameters.hpp"
+#include "bie/stepping/state/model.hpp"
+#include "bie/stepping/state/state.hpp"
+
+namespace vehd {
+
+/// What an error of V_m is measured by: its largest value, or a tenth of what the field could charge at most.
+double potential_scale(const AppliedField& electric, double radius, double largest);
+
+/// How the degrees of one membrane die away.
+class Resolution {
+ public:
+  Resolution(const Model& model, const VesicleState& vesicle);
+
+  /// Estimate of what the degrees above p would add, in the maximum norm, to x over the radius or to V_m over its
+  /// scale, whichever is more. A geometric series continues the upper half of the spectrum.
+  [[nodiscard]] double remainder() const;
+  /// The least even degree, from `lowest` to `highest`, whose remainder is below the target. Of a lower degree than the
+  /// state's that holds for the state cut there as well: a spectrum that ends on a plateau leaves out more than the
+  /// degrees that were cut.
+  [[nodiscard]] int order_for(double target, int lowest, int highest) const;
+
+ private:
+  struct Tail {
+    Vector bound;        // of each degree, the larger of x and V_m; falling
+    double decay = 0.0;  // from degree to degree
+
+    [[nodiscard]] double beyond(int order) const;
+  };
+  [[nodiscard]] int last() const { return static_cast<int>(shape_.size()) - 1; }
+  [[nodiscard]] Tail tail_of_cut(int order) const;
+  [[nodiscard]] double remainder_at(int order) const;
+
+  Vector shape_;              // bounds of x over the radius, by degree
+  Vector potential_;          // of V_m; empty without electricity
+  double least_scale_ = 0.0;  // of V_m; 0 without a field
+};
+
+}  // namespace vehd

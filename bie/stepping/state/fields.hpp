@@ -1,0 +1,49 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// The physical fields of one membrane at one time, instantaneous (no step size enters): coefficients of its degree,
+/// empty where the effect is absent. Forces are per area, acting as in f = f_b + f_λ − f_E.
+struct VesicleFields {
+  Matrix velocity;        ///< of the membrane, [n_coefficients x 3]
+  Matrix force_bending;   ///< f_b
+  Matrix force_tension;   ///< f_λ
+  Matrix force_electric;  ///< f_E = [[n·Σ_el]]
+  Vector tension;         ///< λ
+  Vector charge;          ///< q = [[∂φ/∂n]]
+};
+
+/// The fields of every membrane of a State.
+struct Fields {
+  std::vector<VesicleFields> vesicles;
+};
+
+/// What history.csv tells of one membrane at one time.
+struct VesicleDiagnostics {
+  double area = 0, volume = 0, reduced_volume = 0;
+  double bending_energy_scaled = 0;  ///< ∫H² dA
+  double tension_integral = 0;       ///< ∫λ dA, 0 without tension
+  double Vm_north = 0, q_north = 0, Vm_max = 0;
+  double extent_x = 0, extent_y = 0, extent_z = 0;
+  double inclination_deg = 0;
+  double area_drift = 0, volume_drift = 0;  ///< relative, signed
+  double strain_max = 0;                    ///< max |W/W_ref − 1|
+  double spectrum_tail = 0;                 ///< see docs/conventions.md
+  double wrinkle_degree = 0;                ///< see wrinkle_degree()
+  double quadrature_error = 0;              ///< LayerCheck::error
+  /// The layers are less exact than NumericalSettings::quadrature_tolerance, and finer quadrature would help.
+  bool quadrature_is_coarse = false;
+  double separation = std::numeric_limits<double>::infinity();  ///< of its own parts, see separation()
+};
+
+/// The diagnostics of every membrane of a State.
+struct Diagnostics {
+  std::vector<VesicleDiagnostics> vesicles;
+};
+
+}  // namespace vehd

@@ -1,0 +1,155 @@
+#include "bie/stepping/state/frame.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/rotated.hpp"
+
+namespace vehd {
+
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+bool are_parallel(const Vector3& a, const Vector3& b) { return a.cross(b).norm() <= kRounding * a.norm() * b.norm(); }
+
+/// Unit vectors, no two of them parallel; coordinate axes come first, because nothing is rounded there.
+std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
+  std::vector<Vector3> result{Vector3::UnitZ(), Vector3::UnitX(), Vector3::UnitY()};
+  const auto add = [&](const Vector3& axis) {
+    if (!(axis.norm() > 0.0)) return;
+    const auto parallel = [&](const Vector3& known) { return are_parallel(known, axis); };
+    if (std::none_of(result.begin(), result.end(), parallel)) result.push_back(axis.normalized());
+  };
+  if (model.electric) add(model.electric->field);
+  for (const auto& effect : explicit_effects(model)) {
+    for (const Vector3& axis : effect->axis_candidates()) add(axis);
+  }
+  for (const VesicleState& vesicle : state.vesicles) {
+    // ∫ x xᵀ over the parameter sphere has the axes of the shape.
+    const Matrix shape = vesicle.position.bottomRows(vesicle.position.rows() - 1);
+    const Eigen::SelfAdjointEigenSolver<Matrix3> moments(Matrix3(shape.transpose() * shape));
+    for (int i = 0; i < 3; ++i) add(moments.eigenvectors().col(i));
+  }
+  return result;
+}
+
+bool is_invariant_under_turns(const Model& model) {
+  const auto effects = explicit_effects(model);
+  return (!model.electric || model.electric->field.head<2>().isZero(0.0)) &&
+         std::all_of(effects.begin(), effects.end(),
+                     [](const auto& effect) { return effect->is_invariant_under_turns(); });
+}
+
+bool is_same_everywhere(const Model& model) {
+  const auto effects = explicit_effects(model);
+  return std::all_of(effects.begin(), effects.end(), [](const auto& effect) { return effect->is_same_everywhere(); });
+}
+
+/// Mean over the parameter spheres.
+Vector3 mean_position(const State& state) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (const VesicleState& vesicle : state.vesicles) sum += vesicle.position.row(0);
+  return sum / (static_cast<double>(state.vesicles.size()) * std::sqrt(4.0 * std::numbers::pi));
+}
+
+/// The laboratory's, and the mean position where the scene is the same about it.
+std::vector<Vector3> origin_candidates(const Model& model, const State& state) {
+  std::vector<Vector3> result{Vector3::Zero()};
+  const auto is_away = [](const VesicleState& vesicle) {
+    const double size = vesicle.position.bottomRows(vesicle.position.rows() - 1).norm();
+    return vesicle.position.row(0).norm() > kRounding * size;
+  };
+  if (is_same_everywhere(model) && std::any_of(state.vesicles.begin(), state.vesicles.end(), is_away)) {
+    result.push_back(mean_position(state));
+  }
+  return result;
+}
+
+/// How much work a symmetry saves; zero where the frame is not worth leaving the laboratory's axes for.
+double worth(const Symmetry& symmetry, bool rotated) {
+  constexpr double kAxis = 1e6;
+  if (symmetry.axisymmetric) return kAxis + static_cast<double>(symmetry.reflections.size());
+  return rotated && symmetry.fold == 1 ? 0.0 : symmetry.group_order();
+}
+
+/// In coefficients of degree 0.
+Eigen::RowVector3d shift_of(const Frame& frame) { return frame.origin.transpose() * std::sqrt(4.0 * std::numbers::pi); }
+
+/// "x", "y", "z" or its components.
+std::string axis_name(const Vector3& axis) {
+  for (int i = 0; i < 3; ++i) {
+    if (axis == Vector3::Unit(i)) return std::string(1, "xyz"[i]);
+  }
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", axis.x(), axis.y(), axis.z());
+}
+
+}  // namespace
+
+Frame frame_along(const Vector3& direction) {
+  Frame frame;
+  for (int i = 0; i < 3; ++i) {
+    if (!are_parallel(direction, Vector3::Unit(i))) continue;
+    for (int j = 0; j < 3; ++j) frame.axes.col(j) = Vector3::Unit((i + 1 + j) % 3);
+    return frame;
+  }
+  frame.axes = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction).toRotationMatrix();
+  return frame;
+}
+
+Frame find_frame(const Model& model, const State& state) {
+  const std::vector<Vector3> axes = axis_candidates(model, state);
+  Frame best;
+  double most = 0.0;
+  for (const Vector3& origin : origin_candidates(model, state)) {
+    for (const Vector3& axis : axes) {
+      Frame frame = frame_along(axis);
+      frame.origin = origin;
+      const Model there = in_frame(frame, model);
+      if (frame.is_rotated() && !is_invariant_under_turns(there)) continue;
+      const Symmetry symmetry = find_symmetry(there, in_frame(frame, state));
+      const double here = worth(symmetry, frame.is_rotated());
+      if (here > most) {
+        best = frame;
+        most = here;
+      }
+      if (symmetry.axisymmetric) break;
+    }
+  }
+  return best;
+}
+
+std::string symmetry_text(const Symmetry& symmetry, const Frame& frame) {
+  std::array<std::string, 3> names;
+  for (int i = 0; i < 3; ++i) names[static_cast<std::size_t>(i)] = axis_name(frame.axes.col(i));
+  const std::string text = symmetry_text(symmetry, names);
+  if (!symmetry.any() || frame.origin.isZero(0.0)) return text;
+  return fmt::format("{}, through ({:.3g}, {:.3g}, {:.3g})", text, frame.origin.x(), frame.origin.y(),
+                     frame.origin.z());
+}
+
+Model in_frame(const Frame& frame, const Model& of_laboratory) {
+  return rotated(frame.axes.transpose(), of_laboratory);
+}
+
+State in_frame(const Frame& frame, State of_laboratory) {
+  for (VesicleState& vesicle : of_laboratory.vesicles) vesicle.position.row(0) -= shift_of(frame);
+  return rotated(frame.axes.transpose(), std::move(of_laboratory));
+}
+
+State in_laboratory(const Frame& frame, State of_frame) {
+  State result = rotated(frame.axes, std::move(of_frame));
+  for (VesicleState& vesicle : result.vesicles) vesicle.position.row(0) += shift_of(frame);
+  return result;
+}
+
+Fields in_laboratory(const Frame& frame, const Fields& of_frame) { return rotated(frame.axes, of_frame); }
+
+}  // namespace vehd

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "bie/stepping/state/fields.hpp"
+#include "bie/stepping/state/symmetry.hpp"
+
+namespace vehd {
+
+/// Cartesian coordinates in which a run computes: x_laboratory = origin + axes x_frame. The poles of the grid lie on
+/// the third axis.
+struct Frame {
+  Matrix3 axes = Matrix3::Identity();
+  Vector3 origin = Vector3::Zero();
+
+  [[nodiscard]] bool is_rotated() const { return axes != Matrix3::Identity(); }
+  [[nodiscard]] bool is_laboratory() const { return !is_rotated() && origin.isZero(0.0); }
+};
+
+/// A right-handed frame whose third axis is the given direction of any length: a cyclic permutation of x, y, z where
+/// that is one of them, so that nothing is rounded there.
+Frame frame_along(const Vector3& direction);
+
+/// The frame in which the scene is axisymmetric about the third axis, or else has the most images with at least three
+/// equal turns about it; that of the laboratory where there is none. Whether or not the symmetry is used, a grid with
+/// its poles on the axis suits such a scene best. Scenes that are the same everywhere may have their axis anywhere: the
+/// origin is then the membrane's mean position if that brings symmetries.
+Frame find_frame(const Model& model, const State& state);
+
+/// symmetry_text with the axes by their names in the laboratory, and where they meet if that is not its origin.
+std::string symmetry_text(const Symmetry& symmetry, const Frame& frame);
+
+/// What the laboratory shows, in the frame; the model must be the same at every origin but zero.
+Model in_frame(const Frame& frame, const Model& of_laboratory);
+State in_frame(const Frame& frame, State of_laboratory);
+/// The other way.
+State in_laboratory(const Frame& frame, State of_frame);
+Fields in_laboratory(const Frame& frame, const Fields& of_frame);
+
+}  // namespace vehd

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bie/physics/background_flow.hpp"
+#include "bie/physics/parameters.hpp"
+
+namespace vehd {
+
+/// One vesicle: its membrane and the fluid within.
+struct VesicleModel {
+  double viscosity_ratio = 1.0;  ///< μ_i/μ_e; at 1 there is no Stokes double layer
+  bool inextensible = true;
+  std::optional<BendingParameters> bending;
+  InnerDielectric inside;       ///< counts with Model::electric alone, as charging does
+  ChargingParameters charging;  ///< of the membrane
+  /// What acts on this vesicle alone: gravity, spontaneous curvature, …
+  std::vector<std::shared_ptr<const ExplicitEffect>> effects;
+};
+
+/// The effects that are present; an empty optional means that nothing of the effect is assembled or evaluated.
+struct Model {
+  double viscosity = 1.0;  ///< μ_e, of the fluid around the vesicles
+  std::optional<BackgroundFlow> flow;
+  std::optional<AppliedField> electric;
+  /// Whatever else acts on every vesicle: Poiseuille flow, …
+  std::vector<std::shared_ptr<const ExplicitEffect>> effects;
+  bool mobile = true;  ///< false: the shapes are frozen and only the membranes charge
+  std::vector<VesicleModel> vesicles = std::vector<VesicleModel>(1);
+};
+
+/// The fluids and the membrane that one vesicle moves with.
+FlowParameters flow_parameters(const Model& model, const VesicleModel& vesicle);
+
+/// The electric problem of one vesicle, the waveform with it; the model must have a field.
+ElectricParameters electric_parameters(const Model& model, const VesicleModel& vesicle);
+
+}  // namespace vehd

@@ -1,0 +1,46 @@
+#include "bie/stepping/state/recycled_subspaces.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+RecycledScalars::RecycledScalars(std::vector<Index> entries, RecycledSubspace subspace)
+    : entries_(std::move(entries)), subspace_(std::move(subspace)) {
+  const auto n = static_cast<Index>(entries_.size());
+  const Index rows = subspace_.arguments.rows();
+  if (n == 0 || rows % n != 0 || subspace_.responses.rows() != rows ||
+      subspace_.responses.cols() != subspace_.count()) {
+    throw ShapeError(fmt::format("recycled columns have {} and {} rows, which are not those of whole scalars of {}",
+                                 rows, subspace_.responses.rows(), n));
+  }
+}
+
+RecycledSubspace RecycledScalars::in(const std::vector<Index>& entries, Index n_scalars) const {
+  const bool same = entries == entries_ && subspace_.arguments.rows() == n_scalars * static_cast<Index>(entries.size());
+  return same ? subspace_ : RecycledSubspace{};
+}
+
+std::shared_ptr<const RecycledScalars> recycled_scalars(const std::vector<Index>& entries, RecycledSubspace subspace) {
+  return subspace.count() == 0 ? nullptr : std::make_shared<const RecycledScalars>(entries, std::move(subspace));
+}
+
+RecycledSubspaces after_step(const RecycledSubspaces& before, std::shared_ptr<const RecycledScalars> flow,
+                             int iterations) {
+  constexpr double kWorthwhile = 2.0;
+  constexpr std::int64_t kPause = 50;
+  RecycledSubspaces after = before;
+  if (!before.flow) {
+    after.unaided_iterations = iterations;
+    if (after.pause > 0) --after.pause;
+  } else if (iterations > kWorthwhile * static_cast<double>(before.unaided_iterations)) {
+    after.pause = kPause;
+  }
+  after.flow = after.pause > 0 ? nullptr : std::move(flow);
+  return after;
+}
+
+}  // namespace vehd

@@ -1,0 +1,43 @@
+#include "bie/stepping/state/resized.hpp"
+
+#include <utility>
+
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// Absent fields stay absent.
+Matrix resized(const Matrix& coefficients, int order) {
+  return coefficients.size() == 0 ? coefficients : resize_order(coefficients, order);
+}
+
+}  // namespace
+
+VesicleState resized(VesicleState vesicle, int order) {
+  if (n_coefficients(order) != vesicle.position.rows()) vesicle.recycled = {};
+  vesicle.position = resized(vesicle.position, order);
+  for_each_scalar(vesicle, [&](Vector& scalar) { scalar = resized(Matrix(scalar), order); });
+  return vesicle;
+}
+
+VesicleFields resized(VesicleFields fields, int order) {
+  for (Matrix* field : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric}) {
+    *field = resized(*field, order);
+  }
+  for (Vector* field : {&fields.charge, &fields.tension}) *field = resized(Matrix(*field), order);
+  return fields;
+}
+
+State resized(State state, int order) {
+  for (VesicleState& vesicle : state.vesicles) vesicle = resized(std::move(vesicle), order);
+  return state;
+}
+
+Fields resized(Fields fields, int order) {
+  for (VesicleFields& vesicle : fields.vesicles) vesicle = resized(std::move(vesicle), order);
+  return fields;
+}
+
+}  // namespace vehd

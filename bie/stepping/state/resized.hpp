@@ -1,0 +1,16 @@
+#pragma once
+
+#include "bie/stepping/state/fields.hpp"
+#include "bie/stepping/state/state.hpp"
+
+namespace vehd {
+
+/// The same fields in degrees up to `order`: cut, or continued by zeros. A membrane of another degree than before has
+/// nothing to recycle, see RecycledScalars.
+VesicleState resized(VesicleState vesicle, int order);
+VesicleFields resized(VesicleFields fields, int order);
+/// Every membrane in degrees up to `order`.
+State resized(State state, int order);
+Fields resized(Fields fields, int order);
+
+}  // namespace vehd

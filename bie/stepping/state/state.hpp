@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bie/stepping/state/recycled_subspaces.hpp"
+#include "bie/stepping/state/surface_fields.hpp"
+
+namespace vehd {
+
+/// One membrane of a state.
+struct VesicleState : SurfaceFields {
+  double reference_area = 0.0;  ///< area and volume that its constraint holds
+  double reference_volume = 0.0;
+  std::int64_t quadrature_level = 0;  ///< how often its quadrature has been made finer, see Evolution
+  RecycledSubspaces recycled;
+};
+
+/// Everything that one step hands to the next; a checkpoint stores exactly these values.
+struct State {
+  double time = 0.0;
+  std::int64_t step = 0;  ///< accepted steps so far
+  double dt_next = 0.0;   ///< step size the controller tries next
+  std::vector<VesicleState> vesicles;
+};
+
+}  // namespace vehd

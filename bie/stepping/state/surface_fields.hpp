@@ -1,0 +1,24 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// What rides on the material points of one membrane, in spherical-harmonic coefficients of one degree, index
+/// n² + n + m (docs/conventions.md). Fields of absent effects are empty.
+struct SurfaceFields {
+  Matrix position;                 ///< x, [n_coefficients x 3]
+  Vector area_strain;              ///< W/W_ref − 1
+  Vector transmembrane_potential;  ///< V_m, interior minus exterior; empty without electricity
+  Vector tension;                  ///< λ, also the initial guess of the next solve; empty unless inextensible
+};
+
+/// The scalars among them that are there, one after the other: visit(Vector&).
+template <typename Fields, typename Visit>
+void for_each_scalar(Fields& fields, const Visit& visit) {
+  for (auto* scalar : {&fields.area_strain, &fields.transmembrane_potential, &fields.tension}) {
+    if (scalar->size() > 0) visit(*scalar);
+  }
+}
+
+}  // namespace vehd

@@ -1,0 +1,65 @@
+#include "bie/stepping/time/step_control.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vehd {
+
+namespace {
+
+/// dt times this factor would be wrong by the tolerance: the estimate is of the order of the step's last correction.
+double size_factor(double estimate, double tolerance, int order) {
+  constexpr double kSafety = 0.85;
+  constexpr double kLeast = 0.2;
+  constexpr double kMost = 4.0;
+  if (estimate <= 0.0) return kMost;
+  return std::clamp(kSafety * std::pow(tolerance / estimate, 1.0 / order), kLeast, kMost);
+}
+
+}  // namespace
+
+StepControl fixed_steps(double dt) {
+  constexpr double kSmallestFraction = 1.0 / 1024.0;
+  return {dt, kSmallestFraction * dt, 0.0};
+}
+
+StepAttempt controlled_step(const Model& model, const Discretisation& discretisation, const State& state,
+                            const SolvedFields& at_start, const StepControl& control, double dt_limit,
+                            Instruments& instruments) {
+  constexpr double kRounding = 1e-9;
+  const int order = discretisation.settings().time_order;
+  const bool adapts = control.tolerance > 0.0;
+  StepAttempt result;
+  double wanted = std::min(state.dt_next, control.largest);
+  while (wanted >= control.smallest) {
+    // A limit that is the wanted step up to rounding is taken exactly: the caller has an appointment there.
+    const double dt = dt_limit <= wanted * (1.0 + kRounding) ? dt_limit : wanted;
+    const StepAttempt former = std::move(result);
+    result = attempt_step(model, discretisation, state, at_start, dt, instruments);
+    result.rejected = former.rejected;
+    result.iterations_flow += former.iterations_flow;
+    result.iterations_electric += former.iterations_electric;
+    const double factor = adapts ? size_factor(result.error_estimate, control.tolerance, order) : 2.0;
+    const bool solved = result.accepted;
+    result.accepted = solved && (!adapts || result.error_estimate <= control.tolerance);
+    if (result.accepted) {
+      // A step cut short by an appointment says little against the size that was wanted before.
+      const double next = adapts                 ? std::max(dt * factor, factor > 1.0 ? wanted : 0.0)
+                          : result.rejected == 0 ? factor * wanted
+                                                 : wanted;
+      result.state.dt_next = std::min(control.largest, next);
+      return result;
+    }
+    ++result.rejected;
+    if (solved) {
+      result.reason = fmt::format("the last correction of a step changes it by {:.1e}; accepted: {:.1e}",
+                                  result.error_estimate, control.tolerance);
+    }
+    wanted = solved ? dt * std::min(factor, 0.9) : 0.5 * dt;
+  }
+  return result;
+}
+
+}  // namespace vehd

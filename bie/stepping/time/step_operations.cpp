@@ -1,0 +1,199 @@
+#include "bie/stepping/time/step_operations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bie/physics/membrane_charging.hpp"
+#include "bie/stepping/space/remap.hpp"
+#include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/symmetry.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// The paper's scheme leaves explicit what a change of H does to the tension that is there. An explicit step overshoots
+/// where a disturbance relaxes by more than all of it, as near the sphere, where tensions are large. The first-order
+/// step leaves explicit the tension under which a disturbance relaxes by this much, and holds the rest.
+constexpr double kExplicitRelaxation = 0.5;
+
+FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const MembraneSpace& space, int time_order,
+                         const VesicleSolution& solution, const Vector& tension) {
+  const Membrane& membrane = *solution.membrane;
+  FlowOptions options;
+  options.entries = space.subspace().scalars();
+  if (parameters.inextensible && mobile) {
+    // A compression would soften the implicit response.
+    options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
+  }
+  return {parameters, membrane, options, time_order == 1 ? kExplicitRelaxation : 0.0, solution.recycled.flow};
+}
+
+Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fields) {
+  return {solution.is_sphere ? rigid_sphere_velocity(*solution.membrane, fields.velocity) : fields.velocity,
+          solution.potential_rate};
+}
+
+Rate rate_of(const SolvedFields& solved) {
+  Rate rate;
+  for (std::size_t a = 0; a < solved.vesicles.size(); ++a) {
+    rate.vesicles.push_back(rate_of(solved.vesicles[a], solved.fields.vesicles[a]));
+  }
+  return rate;
+}
+
+void require_finite(const Motion& motion) {
+  bool finite = motion.arrived.position.allFinite();
+  for_each_scalar(motion.arrived, [&](const Vector& scalar) { finite = finite && scalar.allFinite(); });
+  if (!finite) throw ConvergenceError("the new state is not finite");
+}
+
+}  // namespace
+
+StepOperations::StepOperations(const Model& model, const Discretisation& discretisation, const State& start,
+                               const SolvedFields& at_start, Instruments& instruments)
+    : model_(model), discretisation_(discretisation), start_(start), at_start_(at_start), instruments_(instruments) {
+  for (std::size_t a = 0; a < start.vesicles.size(); ++a) {
+    flow_.push_back(flow_systems(flow_parameters(model, model.vesicles[a]), model.mobile, discretisation.vesicle(a),
+                                 discretisation.settings().time_order, at_start.vesicles[a],
+                                 at_start.fields.vesicles[a].tension));
+  }
+}
+
+Rate StepOperations::rate() const { return rate_of(at_start_); }
+
+Rate StepOperations::rate(const NodeSolution& node) {
+  const SolvedFields solved =
+      solve_fields(model_, discretisation_, state_at(node), instruments_, &at_start_, Limit::before);
+  iterations_flow_ += solved.iterations_flow;
+  iterations_electric_ += solved.iterations_electric;
+  return rate_of(solved);
+}
+
+NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
+  NodeSolution result{start_.time + dt, {}};
+  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+    SurfaceFields fields = start_.vesicles[a];
+    if (charges()) {
+      const ElectricParameters electric = electric_parameters(model_, model_.vesicles[a]);
+      charge(electric.at(result.time, Limit::before), a, dt, fields.transmembrane_potential);
+      forget_decayed(result.time, a, fields.transmembrane_potential);
+    }
+    const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
+    if (model_.mobile) fields.tension = instantaneous.tension;
+    const auto rigid = [&](const Membrane& sphere) { return motion_of_velocity(sphere, instantaneous.velocity, dt); };
+    result.vesicles.push_back(motion(a, {std::move(fields), instantaneous.velocity}, rigid, dt, end));
+  }
+  return result;
+}
+
+NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end) {
+  NodeSolution result{y.time, {}};
+  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+    SurfaceFields fields = y.vesicles[a].material;
+    fields.area_strain = start_.vesicles[a].area_strain;
+    if (charges()) {
+      ElectricParameters homogeneous = electric_parameters(model_, model_.vesicles[a]).at(y.time, Limit::before);
+      homogeneous.field.setZero();
+      Vector change = r.vesicles[a].potential;
+      charge(homogeneous, a, dt, change);
+      fields.transmembrane_potential += change;
+      forget_decayed(result.time, a, fields.transmembrane_potential);
+    }
+    const Matrix& lacks = r.vesicles[a].position;
+    // A rigid motion has no stiffness, so nothing of it is implicit.
+    const auto rigid = [&](const Membrane& sphere) {
+      return motion_of_displacement(sphere, y.vesicles[a].material.position + lacks - start_.vesicles[a].position);
+    };
+    result.vesicles.push_back(motion(a, {std::move(fields), lacks / dt}, rigid, dt, end));
+  }
+  return result;
+}
+
+void StepOperations::charge(const ElectricParameters& electric, std::size_t a, double dt, Vector& potential) {
+  const auto timer = instruments_.time("electric");
+  const SolveReport report = charge_membrane(electric, model_.vesicles[a].charging, *at_start_.vesicles[a].membrane, dt,
+                                             discretisation_.settings().electric_tolerance, potential);
+  iterations_electric_ += report.iterations;
+  if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
+}
+
+/// A potential this small does nothing any more, and without it the electric part becomes inactive.
+void StepOperations::forget_decayed(double time, std::size_t a, Vector& potential) const {
+  constexpr double kDecayed = 1e-10;
+  const double scale = model_.electric->field.norm() * at_start_.vesicles[a].membrane->radius;
+  if (model_.electric->waveform.is_quiet(time) && potential.norm() < kDecayed * scale) potential.setZero();
+}
+
+Motion StepOperations::motion(std::size_t a, const MotionStart& start, const RigidMotion& rigid, double dt,
+                              NodeEnd end) {
+  const VesicleSolution& solution = at_start_.vesicles[a];
+  Motion result;
+  if (!model_.mobile) {
+    result.material = result.arrived = start.fields;
+  } else {
+    const auto timer = instruments_.time("velocity solve");
+    const Arrival there = arrival(a, end);
+    const FlowParameters parameters = flow_parameters(model_, model_.vesicles[a]);
+    result = solution.is_sphere
+                 ? rigid_sphere_motion(start.fields, *solution.membrane, rigid(*solution.membrane), there)
+                 : constrained_motion({parameters, discretisation_.settings(), start_.vesicles[a], *solution.membrane},
+                                      start, dt, flow_[a].of(dt), there, iterations_flow_);
+  }
+  require_finite(result);
+  return result;
+}
+
+Arrival StepOperations::arrival(std::size_t a, NodeEnd end) const {
+  if (end == NodeEnd::material) return [](const SurfaceFields& material) { return material; };
+  return [this, a](const SurfaceFields& material) {
+    const auto timer = instruments_.time("reparametrisation");
+    return remap(discretisation_.vesicle(a).fine_transform(), material.position - start_.vesicles[a].position,
+                 material);
+  };
+}
+
+State StepOperations::state_at(const NodeSolution& node) const {
+  State state = start_;
+  state.time = node.time;
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    VesicleState& vesicle = state.vesicles[a];
+    static_cast<SurfaceFields&>(vesicle) =
+        symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].material);
+    vesicle.recycled = at_start_.vesicles[a].recycled;
+  }
+  return state;
+}
+
+State StepOperations::end_state(const NodeSolution& node) const {
+  State state = start_;
+  state.time = node.time;
+  ++state.step;
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    VesicleState& vesicle = state.vesicles[a];
+    static_cast<SurfaceFields&>(vesicle) =
+        symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].arrived);
+    vesicle.recycled = after_step(at_start_.vesicles[a].recycled, flow_[a].recycled(), iterations_flow_);
+  }
+  return state;
+}
+
+double StepOperations::difference(const NodeSolution& a, const NodeSolution& b) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
+    const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
+    const double radius = at_start_.vesicles[i].membrane->radius;
+    const SurfaceFields& x = a.vesicles[i].material;
+    const SurfaceFields& y = b.vesicles[i].material;
+    const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff() / radius;
+    largest = std::max(largest, moved);
+    if (!model_.electric) continue;
+    const double size = fine.synthesize(y.transmembrane_potential).cwiseAbs().maxCoeff();
+    const Matrix change = fine.synthesize(y.transmembrane_potential - x.transmembrane_potential);
+    largest = std::max(largest, change.cwiseAbs().maxCoeff() / potential_scale(*model_.electric, radius, size));
+  }
+  return largest;
+}
+
+}  // namespace vehd

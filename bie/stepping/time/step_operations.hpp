@@ -1,0 +1,101 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/solve/constrained_motion.hpp"
+#include "bie/stepping/solve/flow_systems.hpp"
+#include "bie/stepping/solve/rigid_sphere.hpp"
+
+namespace vehd {
+
+/// The unknowns y = (x, V_m) at one node of a step: every membrane at its material points, and where the node ends the
+/// step also at new nodes.
+struct NodeSolution {
+  double time = 0.0;
+  std::vector<Motion> vesicles;
+};
+
+/// F = dy/dt of material points, coefficients; a part that does not change is empty.
+struct Rate {
+  struct OfVesicle {
+    Matrix velocity;
+    Vector potential;
+  };
+  std::vector<OfVesicle> vesicles;
+};
+
+/// What a node lacks of the equation of its time scheme, in the unknowns y.
+struct Residual {
+  struct OfVesicle {
+    Matrix position;
+    Vector potential;
+  };
+  std::vector<OfVesicle> vesicles;
+};
+
+/// What a node is for: within a step fields stay with the material; at its end they are carried to new nodes.
+enum class NodeEnd { material, remapped };
+
+/// The physics as a time scheme sees it during one step, with the operators at its start frozen. Four operations make
+/// every scheme:
+///
+/// - rate: F(y), everything solved anew at y;
+/// - implicit solve: (1 − dt L)⁻¹ with the stiff part L of F at the start, bending and tension by (27) and (28), the
+///   charging of the membranes by (30);
+/// - projection: each solve is repeated for what it leaves until area elements, areas and volumes hold;
+/// - remap: the end of the step on nodes that keep the grid good.
+///
+/// Solving and projecting are one iteration, since what a remap does to area and volume is projected out as well: see
+/// constrained_motion. A solve that fails throws ConvergenceError and ends the attempt; the iterations count all the
+/// same.
+class StepOperations {
+ public:
+  /// @param start  and what was solved there, like all else, must outlive the step
+  StepOperations(const Model& model, const Discretisation& discretisation, const State& start,
+                 const SolvedFields& at_start, Instruments& instruments);
+
+  [[nodiscard]] const State& start() const { return start_; }
+
+  /// F at the start.
+  [[nodiscard]] Rate rate() const;
+  /// F at a node, its forcing just before a discontinuity there.
+  Rate rate(const NodeSolution& node);
+
+  /// The paper's semi-implicit step from the start, Eqs. (27)–(31): y_0 + dt (1 − dt L)⁻¹ F(y_0), with the field at its
+  /// end.
+  NodeSolution first_order_step(double dt, NodeEnd end);
+  /// y + (1 − dt L)⁻¹ r.
+  NodeSolution implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end);
+
+  /// The state at the end of the step, from a node that is remapped.
+  [[nodiscard]] State end_state(const NodeSolution& node) const;
+  /// Largest difference of two solutions of one node, of x over the radius and of V_m over its size.
+  [[nodiscard]] double difference(const NodeSolution& a, const NodeSolution& b) const;
+
+  [[nodiscard]] int iterations_flow() const { return iterations_flow_; }
+  [[nodiscard]] int iterations_electric() const { return iterations_electric_; }
+
+ private:
+  [[nodiscard]] bool charges() const { return model_.electric.has_value() && !at_start_.electric_inactive; }
+  [[nodiscard]] State state_at(const NodeSolution& node) const;
+  void charge(const ElectricParameters& electric, std::size_t vesicle, double dt, Vector& potential);
+  void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
+  [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end) const;
+  using RigidMotion = std::function<SphereMotion(const Membrane& sphere)>;
+  /// Solves and projects; V_m of the start is that of the end.
+  /// @param rigid  the motion of a sphere, which takes the place of the start's velocity there
+  Motion motion(std::size_t vesicle, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end);
+
+  const Model& model_;
+  const Discretisation& discretisation_;
+  const State& start_;
+  const SolvedFields& at_start_;
+  Instruments& instruments_;
+  std::vector<FlowSystems> flow_;  // of each vesicle
+  int iterations_flow_ = 0;
+  int iterations_electric_ = 0;
+};
+
+}  // namespace vehd

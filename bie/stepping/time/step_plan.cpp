@@ -1,0 +1,32 @@
+#include "bie/stepping/time/step_plan.hpp"
+
+#include <cmath>
+
+namespace vehd {
+namespace {
+
+constexpr double rounding = 1e-9;
+
+}  // namespace
+
+StepPlan plan_step(double time, double dt, const EventTimes& events) {
+  StepPlan plan;
+  plan.event_time = events.end_time;
+  if (events.every) {
+    // k * every rather than a running sum: the k-th snapshot does not drift.
+    const double snapshot = (std::floor(time / *events.every + rounding) + 1.0) * *events.every;
+    if (snapshot < events.end_time - rounding * *events.every) plan.event_time = snapshot;
+  }
+  // A discontinuity within rounding of a snapshot is that snapshot.
+  if (events.discontinuity && *events.discontinuity < plan.event_time - rounding * dt) {
+    plan.event_time = *events.discontinuity;
+    plan.is_snapshot = false;
+  }
+  const double distance = plan.event_time - time;
+  const double n_steps = std::fmax(1.0, std::ceil(distance / dt - rounding));
+  plan.dt_limit = distance / n_steps;
+  plan.reaches_event = n_steps == 1.0;
+  return plan;
+}
+
+}  // namespace vehd
