@@ -3,7 +3,9 @@ cmake_policy(VERSION 3.25)
 
 # Every suite of a test program becomes an entry MODULE/SUITE. Its labels are the given ones and those of the suite in
 # its source: BOOST_AUTO_TEST_SUITE(name, *boost::unit_test::label("slow")). Limits of time only stop what hangs, on any
-# machine: about ten times what suites take, times SLOWER.
+# machine: about ten times what suites take, times SLOWER. Suites that are slow start first. Each has one thread, unless
+# OMP_NUM_THREADS says otherwise, so that as many can run at once as there are processors; one that is labelled "alone"
+# has them all.
 function(register_suites)
   cmake_parse_arguments(tests "" "PROGRAM;MODULE;FOLDER;SLOWER" "LABELS;ENVIRONMENT" ${ARGN})
   if(NOT EXISTS "${tests_PROGRAM}")
@@ -24,13 +26,22 @@ function(register_suites)
     string(REGEX MATCHALL "@[A-Za-z0-9_]+" labels "${suite}")
     list(TRANSFORM labels REPLACE "^@" "")
     set(seconds 300)
+    set(cost 0)
     if("slow" IN_LIST labels)
       set(seconds 1800)
+      set(cost 1)
+    endif()
+    set(alone FALSE)
+    set(environment ${tests_ENVIRONMENT})
+    if("alone" IN_LIST labels)
+      set(alone TRUE)
+    elseif(NOT DEFINED ENV{OMP_NUM_THREADS})
+      list(APPEND environment OMP_NUM_THREADS=1)
     endif()
     math(EXPR seconds "${seconds} * ${tests_SLOWER}")
     add_test(${tests_MODULE}/${name} "${tests_PROGRAM}" --run_test=${name})
     set_tests_properties(${tests_MODULE}/${name} PROPERTIES
-                         LABELS "${tests_LABELS};${labels}" TIMEOUT ${seconds} WORKING_DIRECTORY "${tests_FOLDER}"
-                         ENVIRONMENT "${tests_ENVIRONMENT}")
+                         LABELS "${tests_LABELS};${labels}" TIMEOUT ${seconds} COST ${cost} RUN_SERIAL ${alone}
+                         WORKING_DIRECTORY "${tests_FOLDER}" ENVIRONMENT "${environment}")
   endforeach()
 endfunction()

@@ -64,7 +64,8 @@ struct LongCheck {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(check_end, *boost::unit_test::precondition(finite_elements_are_built))
+BOOST_AUTO_TEST_SUITE(check_end,
+                      *boost::unit_test::precondition(finite_elements_are_built) * boost::unit_test::label("alone"))
 
 BOOST_AUTO_TEST_CASE(whatever_ends_a_check_ends_its_finite_elements) {
   for (const int signal : {SIGKILL, SIGTERM, SIGINT}) {

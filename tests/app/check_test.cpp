@@ -26,7 +26,8 @@ nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(f
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(check)
+// The finite elements are one process for each processor.
+BOOST_AUTO_TEST_SUITE(check, *boost::unit_test::label("slow") * boost::unit_test::label("alone"))
 
 BOOST_AUTO_TEST_CASE(methods_agree_on_a_shape_without_symmetry) {
   if (!has_finite_elements()) return;

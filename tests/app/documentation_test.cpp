@@ -70,7 +70,7 @@ struct ReaderFolder {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(documentation)
+BOOST_AUTO_TEST_SUITE(documentation, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(every_shipped_scene_is_valid) {
   int count = 0;

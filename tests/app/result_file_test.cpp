@@ -41,7 +41,7 @@ void check_holds(const fs::path& folder, const std::set<std::string>& names) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(result_file)
+BOOST_AUTO_TEST_SUITE(result_file, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(pipe_gets_the_result_and_stays_a_pipe) {
   const TemporaryDirectory directory;

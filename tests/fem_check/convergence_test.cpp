@@ -38,7 +38,7 @@ Errors errors_on_sphere(const Level& level) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(convergence)
+BOOST_AUTO_TEST_SUITE(convergence, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(potential_gains_degree_plus_one_and_flux_degree) {
   // Three levels with the layers in proportion to the cells per edge.

@@ -13,7 +13,7 @@ double sphere_kappa(double in, double out) { return 2.0 * in * out / (in + 2.0 *
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(exact_potential)
+BOOST_AUTO_TEST_SUITE(exact_potential, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(conducting_sphere_is_exact_at_every_conductivity_ratio) {
   const Discretisation space = discretise(unit_sphere(), {.degree = 5});

@@ -164,7 +164,7 @@ void check_steady_sphere(const Discretisation& space) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(figures)
+BOOST_AUTO_TEST_SUITE(figures, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(sphere) {
   const Discretisation space = table_space(unit_sphere(), kCheck);

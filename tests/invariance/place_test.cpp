@@ -47,7 +47,7 @@ double radius_of(const ShortRun& run) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(place_of_a_scene)
+BOOST_AUTO_TEST_SUITE(place_of_a_scene, *boost::unit_test::label("slow"))
 
 // A linear flow about another point is the same flow with a drift.
 BOOST_AUTO_TEST_CASE(the_place_of_a_vesicle_changes_nothing_of_it) {

@@ -71,7 +71,7 @@ UnitFactors random_factors(std::mt19937_64& random) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(units_of_a_scene)
+BOOST_AUTO_TEST_SUITE(units_of_a_scene, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(powers_of_two_change_no_bit) {
   for (const auto& [name, scene] : all_scenes()) {

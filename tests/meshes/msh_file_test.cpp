@@ -10,6 +10,7 @@
 
 #include "meshes/gmsh_session.hpp"
 #include "tests/meshes/shapes.hpp"
+#include "tests/support/files.hpp"
 
 using namespace vehd::meshes;
 using namespace vehd::meshes::testing;
@@ -56,13 +57,6 @@ ReadBack read_back(const std::filesystem::path& file, int element_type) {
   return result;
 }
 
-/// A file that goes away at the end of its test.
-struct TemporaryFile {
-  std::filesystem::path path;
-  explicit TemporaryFile(const char* name) : path(std::filesystem::temp_directory_path() / name) {}
-  ~TemporaryFile() { std::filesystem::remove(path); }
-};
-
 double shell_volume(const VolumeMesh& mesh, const FrozenShape& shape) {
   return 4.0 / 3.0 * std::numbers::pi * std::pow(mesh.outer_radius(), 3) - shape.volume();
 }
@@ -74,9 +68,10 @@ BOOST_AUTO_TEST_SUITE(msh_file)
 BOOST_AUTO_TEST_CASE(hexahedra_come_back_curved_and_right_handed) {
   const FrozenShape shape = shape_33();
   const HexMesh mesh = make_block_mesh(shape);
-  const TemporaryFile file("vehd_msh_file_test_hexahedra.msh");
-  write_msh(file.path, mesh, quality(mesh, shape));
-  const ReadBack found = read_back(file.path, 12);
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "mesh.msh";
+  write_msh(file, mesh, quality(mesh, shape));
+  const ReadBack found = read_back(file, 12);
   BOOST_TEST(found.n_elements[0] == 256u);
   BOOST_TEST(found.n_elements[1] == 384u);
   BOOST_TEST(found.names[0] == "inside");
@@ -94,9 +89,10 @@ BOOST_AUTO_TEST_CASE(tetrahedra_come_back_curved_and_right_handed) {
   const FrozenShape shape = disc();
   const TetMesh mesh = make_tetrahedral_mesh(shape);
   const MeshQuality expected = quality(mesh, shape);
-  const TemporaryFile file("vehd_msh_file_test_tetrahedra.msh");
-  write_msh(file.path, mesh, expected);
-  const ReadBack found = read_back(file.path, 11);
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "mesh.msh";
+  write_msh(file, mesh, expected);
+  const ReadBack found = read_back(file, 11);
   BOOST_TEST(found.n_elements[0] + found.n_elements[1] == std::size_t(mesh.n_cells()));
   BOOST_TEST(found.smallest_determinant > 0.0);
   BOOST_TEST(std::abs(found.volume[0] / expected.volume_inside - 1.0) < 1e-10);

@@ -59,7 +59,7 @@ bool agrees(double value, double reference, double tolerance) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(published_results)
+BOOST_AUTO_TEST_SUITE(published_results, *boost::unit_test::label("slow"))
 
 // Seifert, Berndl and Lipowsky's prolate branch, ∫H² dA/4π.
 BOOST_AUTO_TEST_CASE(relaxation_ends_on_the_known_prolates) {

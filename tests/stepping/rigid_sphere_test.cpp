@@ -26,7 +26,7 @@ double distance_from_sphere(const Discretisation& discretisation, const State& s
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(rigid_sphere)
+BOOST_AUTO_TEST_SUITE(rigid_sphere, *boost::unit_test::label("slow"))
 
 // Shear (z, 0, 0): the centre moves with the flow there.
 BOOST_AUTO_TEST_CASE(sphere_stays_a_sphere_in_flow_and_field) {

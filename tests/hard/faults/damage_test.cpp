@@ -66,7 +66,7 @@ void set_version(const std::string& path, std::int64_t version) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(damage)
+BOOST_AUTO_TEST_SUITE(damage, *boost::unit_test::label("slow"))
 
 BOOST_FIXTURE_TEST_CASE(every_bit_and_every_length_of_a_checkpoint_counts, StoppedRun) {
   const std::string original = file_text(checkpoint);
