@@ -3,7 +3,7 @@
 #include "tests/app/program.hpp"
 #include "tests/estimate/kept_costs.hpp"
 
-BOOST_AUTO_TEST_SUITE(menu, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(menu)
 
 BOOST_AUTO_TEST_CASE(command_reads_what_the_last_call_has_kept_unless_told_otherwise) {
   const TemporaryDirectory directory;
