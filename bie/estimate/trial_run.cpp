@@ -7,6 +7,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -30,8 +31,8 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
     trial.highest_order = std::max(trial.highest_order, evolution.order(0));
     const Resolution resolution(problem.model, evolution.state().vesicles.front());
     for (const double wanted : tolerances) {
-      record.orders.push_back(
-          resolution.order_for(truncation_share * wanted, lowest_adaptive_order, accuracy_defaults(wanted).order));
+      record.orders.push_back(resolution.order_for(thresholds::truncation_share * wanted, lowest_adaptive_order,
+                                                   accuracy_defaults(wanted).order));
     }
     trial.steps.push_back(std::move(record));
   }

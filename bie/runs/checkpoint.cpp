@@ -11,6 +11,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -167,7 +168,8 @@ void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
     const char* name = "/state, what its solves know,";
     const Matrix& arguments = known->subspace().arguments;
     const Matrix& responses = known->subspace().responses;
-    require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= most_recycled, name);
+    require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= thresholds::most_recycled,
+            name);
     require(arguments.allFinite() && responses.allFinite(), name);
   }
   for (const double value : {state.time, state.dt_next, vesicle.reference_area, vesicle.reference_volume}) {

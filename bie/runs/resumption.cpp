@@ -14,6 +14,7 @@
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -34,7 +35,7 @@ int order_of_state(const Scene& scene, const State& state) {
   const VesicleState& vesicle = state.vesicles.front();
   const int lowest = std::max(order_of(vesicle.position.rows()), lowest_adaptive_order);
   return Resolution(model_of(scene), vesicle)
-      .order_for(truncation_share * *numerics.tolerance, std::min(lowest, numerics.order), numerics.order);
+      .order_for(thresholds::truncation_share * *numerics.tolerance, std::min(lowest, numerics.order), numerics.order);
 }
 
 State adapted(State state, const Scene& before, const Scene& scene) {

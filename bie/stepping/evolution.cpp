@@ -10,28 +10,17 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
 
-/// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
-/// falls by two digits and more.
-constexpr std::array kQuadratureLevels = {1.0, 1.75, 2.6};
-constexpr std::int64_t kHighestLevel = kQuadratureLevels.size() - 1;
-
-/// Distance of two parts of the membrane, in grid spacings, at which D has lost all but two digits on the finest level.
-constexpr double kContact = 0.1;
-/// Two parts may come nearer by this factor in one step once they are closer than the grid spacing: with larger steps
-/// they could pass through each other unseen.
-constexpr double kLeastApproach = 0.5;
-
-/// Steps between two attempts to save work: one that fails every time costs little of what a run does.
-constexpr std::int64_t kEconomyInterval = 4;
+constexpr std::int64_t highest_level = thresholds::quadrature_levels.size() - 1;
 
 Fineness fineness_of(int order, std::int64_t quadrature_level) {
-  return {order, kQuadratureLevels.at(static_cast<std::size_t>(quadrature_level))};
+  return {order, thresholds::quadrature_levels.at(static_cast<std::size_t>(quadrature_level))};
 }
 
 /// The spaces that the vesicles of a state are in.
@@ -44,11 +33,11 @@ Discretisation discretisation_of(const EvolutionSetup& setup, const State& state
 }
 
 void require_apart(double separation, double before) {
-  if (separation < kContact) {
+  if (separation < thresholds::contact) {
     throw ConvergenceError(fmt::format(
         "two parts of the membrane are {:.2g} grid spacings from each other, too near for any quadrature", separation));
   }
-  if (separation < std::min(1.0, kLeastApproach * before)) {
+  if (separation < std::min(1.0, thresholds::least_approach * before)) {
     throw ConvergenceError(fmt::format(
         "two parts of the membrane come within {:.2g} grid spacings of each other in one step", separation));
   }
@@ -56,7 +45,7 @@ void require_apart(double separation, double before) {
 
 int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_order, setup.settings.order); }
 
-double truncation_target(const EvolutionSetup& setup) { return truncation_share * setup.control.tolerance; }
+double truncation_target(const EvolutionSetup& setup) { return thresholds::truncation_share * setup.control.tolerance; }
 
 /// A share of the time in which one membrane changes at the start. @returns the rate of that change
 double starting_rate(const EvolutionSetup& setup, const VesicleState& vesicle, const VesicleFields& fields,
@@ -75,13 +64,13 @@ double starting_rate(const EvolutionSetup& setup, const VesicleState& vesicle, c
 
 /// A first step small against the time in which the start changes.
 double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, const State& state) {
-  constexpr double kShare = 0.5;
   double rate = 0.0;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     rate =
         std::max(rate, starting_rate(setup, state.vesicles[a], evaluation.fields.vesicles[a], evaluation.vesicles[a]));
   }
-  const double share = kShare * std::pow(setup.control.tolerance, 1.0 / setup.settings.time_order);
+  const double share =
+      thresholds::first_step_share * std::pow(setup.control.tolerance, 1.0 / setup.settings.time_order);
   return rate > 0.0 ? std::min(share / rate, setup.control.largest) : setup.control.largest;
 }
 
@@ -184,7 +173,7 @@ bool refine_quadrature(State& state, Discretisation& discretisation, const Evalu
   bool refined = false;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     VesicleState& vesicle = state.vesicles[a];
-    if (!evaluation.diagnostics.vesicles[a].quadrature_is_coarse || vesicle.quadrature_level >= kHighestLevel) continue;
+    if (!evaluation.diagnostics.vesicles[a].quadrature_is_coarse || vesicle.quadrature_level >= highest_level) continue;
     ++vesicle.quadrature_level;
     discretisation = discretisation.with(a, fineness_of(discretisation.vesicle(a).order(), vesicle.quadrature_level));
     refined = true;
@@ -219,11 +208,10 @@ void Evolution::arrive(State state) {
 }
 
 void Evolution::lower_quadrature_if_idle(std::size_t a) {
-  constexpr double kIdle = 1e-2;
   const std::int64_t level = state_.vesicles[a].quadrature_level;
   if (level == 0) return;
   const double error = evaluation_.diagnostics.vesicles[a].quadrature_error;
-  if (error > kIdle * setup_.settings.quadrature_tolerance) return;
+  if (error > thresholds::idle_quadrature * setup_.settings.quadrature_tolerance) return;
   change_space(a, order(a), level - 1);
 }
 
@@ -257,16 +245,14 @@ bool Evolution::raise_orders_for(const State& reached) {
 }
 
 void Evolution::lower_order_if_idle(std::size_t a) {
-  // Far enough below the target that the degree does not rise again at once.
-  constexpr double kIdle = 0.1;
-  constexpr int kWorthwhile = 4;
   if (!adapts() || order(a) <= lowest_order(setup_)) return;
-  const int enough = resolution(state_, a).order_for(kIdle * truncation_target(setup_), lowest_order(setup_), order(a));
-  if (enough <= order(a) - kWorthwhile) change_space(a, enough, state_.vesicles[a].quadrature_level);
+  const int enough = resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(setup_),
+                                                     lowest_order(setup_), order(a));
+  if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 
 void Evolution::economise() {
-  if (state_.step % kEconomyInterval != 0) return;
+  if (state_.step % thresholds::economy_interval != 0) return;
   for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
     for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
       try {

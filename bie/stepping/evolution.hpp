@@ -10,8 +10,6 @@
 
 namespace vehd {
 
-/// Share of the tolerance that the degrees left out may make up.
-constexpr double truncation_share = 0.3;
 /// Degree below which a run with a tolerance does not go, unless it may not go that high.
 constexpr int lowest_adaptive_order = 8;
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bie/stepping/evolution.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -129,7 +130,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_raised_ends_the_run_with_that_reason)
     for (int i = 0; i < 1000; ++i) {
       evolution.step({std::nullopt, 70.0});
       // The steps before it stops are smaller ones, and each is resolved.
-      BOOST_TEST_REQUIRE(evolution.truncation() <= truncation_share * setup.control.tolerance);
+      BOOST_TEST_REQUIRE(evolution.truncation() <= thresholds::truncation_share * setup.control.tolerance);
       BOOST_TEST_REQUIRE(evolution.order(0) <= solvable);
     }
   };

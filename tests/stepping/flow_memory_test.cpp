@@ -4,6 +4,7 @@
 #include "bie/stepping/state/frame.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/state/rotated.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -106,8 +107,8 @@ BOOST_AUTO_TEST_CASE(what_does_not_pay_is_left_aside_for_a_while) {
 
 BOOST_AUTO_TEST_CASE(memory_stays_bounded) {
   const Steps steps = steps_of(shear_model(), ellipsoid(8, {2.0, 1.0, 0.9}), 0.1, 20);
-  BOOST_TEST(steps.end.vesicles[0].recycled.flow->subspace().count() <= most_recycled);
-  BOOST_TEST(steps.end.vesicles[0].recycled.tension->subspace().count() <= most_recycled);
+  BOOST_TEST(steps.end.vesicles[0].recycled.flow->subspace().count() <= thresholds::most_recycled);
+  BOOST_TEST(steps.end.vesicles[0].recycled.tension->subspace().count() <= thresholds::most_recycled);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_known_is_had_in_its_own_coefficients_alone) {

@@ -8,6 +8,7 @@
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -80,7 +81,7 @@ BOOST_AUTO_TEST_CASE(no_state_leaves_out_more_than_its_share_below_the_highest_d
         lowest = std::min(lowest, evolution.order(0));
         highest = std::max(highest, evolution.order(0));
         if (evolution.order(0) < kHighest) {
-          BOOST_TEST(evolution.truncation() <= truncation_share * tolerance,
+          BOOST_TEST(evolution.truncation() <= thresholds::truncation_share * tolerance,
                      scene.name << " at tolerance " << tolerance << ", time " << evolution.state().time << ", degree "
                                 << evolution.order(0) << ": " << evolution.truncation());
         }

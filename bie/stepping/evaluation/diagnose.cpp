@@ -13,6 +13,7 @@
 #include "bie/sphere/maximum.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/wrinkling.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -86,10 +87,9 @@ namespace {
 void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
                      const Membrane& membrane, VesicleDiagnostics& d) {
   // Truncation hides what is this close above it.
-  constexpr double kAboveTruncation = 3.0;
   const LayerCheck check = check_layers(membrane);
   d.quadrature_error = check.error;
-  d.quadrature_is_coarse = check.error > tolerance && check.error > kAboveTruncation * check.truncation;
+  d.quadrature_is_coarse = check.error > tolerance && check.error > thresholds::above_truncation * check.truncation;
   d.separation = separation(space.transform(), vesicle.position, space.subspace().symmetry().axisymmetric);
 }
 

@@ -7,6 +7,7 @@
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -77,7 +78,7 @@ void solve_velocity(const Task& task, const Forcing& forcing, int& iterations) {
     const FlowSystem::Solution solution = system.solve(rhs, {{}, task.state.tension}, task.settings.flow_tolerance);
     require_converged(solution.report, "tension, Eq. (27b)");
     task.solution.recycled.tension =
-        recycled_scalars(options.entries, joined(system.learned(), system.kept(), most_recycled));
+        recycled_scalars(options.entries, joined(system.learned(), system.kept(), thresholds::most_recycled));
     iterations += solution.report.iterations;
     velocity += solution.velocity;
     task.fields.tension = solution.unknowns.tension;

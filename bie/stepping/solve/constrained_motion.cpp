@@ -8,25 +8,16 @@
 
 #include "bie/physics/bending.hpp"
 #include "bie/physics/tension.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
 
-constexpr int kMaxPasses = 24;
-/// Every pass starts from the full residual, so it needs no more digits than its linearisation is worth, nor more than
-/// are left to gain.
 double pass_tolerance(double largest_excess) {
-  constexpr double kLinearisation = 1e-2;
-  constexpr double kRoughest = 0.3;
-  return std::clamp(kRoughest / largest_excess, kLinearisation, kRoughest);
+  return std::clamp(thresholds::roughest_pass / largest_excess, thresholds::finest_pass, thresholds::roughest_pass);
 }
-
-/// Smaller changes of H, relative to H, are those of a shape at rest.
-constexpr double kCurvatureFloor = 1e-6;
-/// Largest relative change of an area element that a step may make before corrections.
-constexpr double kLargestStretch = 0.5;
 
 /// Area element, area and volume of a shape whose curvature is not needed.
 struct Measure {
@@ -83,7 +74,8 @@ class Iteration {
     motion_.material.position = start_.fields.position + dt_ * velocity_;
     after_ = measure(fine(), motion_.material.position);
     const Eigen::ArrayXd stretch = after_.area_element.cwiseQuotient(membrane.surface.area_element);
-    if (!(stretch.minCoeff() > 1.0 - kLargestStretch && stretch.maxCoeff() < 1.0 + kLargestStretch)) {
+    if (!(stretch.minCoeff() > 1.0 - thresholds::largest_stretch &&
+          stretch.maxCoeff() < 1.0 + thresholds::largest_stretch)) {
       throw ConvergenceError(fmt::format("area elements change by factors {:.2g} to {:.2g} in one step",
                                          stretch.minCoeff(), stretch.maxCoeff()));
     }
@@ -96,7 +88,7 @@ class Iteration {
     errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
     if (bending()) {
       rhs_.curvature = dt_ * curvature_increment(membrane, fine().synthesize_hessian(velocity_)) - curvature_;
-      if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), kCurvatureFloor * mean_curvature_);
+      if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), thresholds::curvature_floor * mean_curvature_);
       errors_.curvature = rhs_.curvature.norm() / curvature_scale_;
     }
   }
@@ -130,8 +122,7 @@ class Iteration {
     const FlowSystem::Solution increment = flow.solve(rhs_, {}, pass_tolerance(excess()));
     iterations += increment.report.iterations;
     // What a pass leaves the next one answers for, as long as it gains.
-    constexpr double kGainless = 0.9;
-    if (!increment.report.converged() && !(increment.report.residual < kGainless)) {
+    if (!increment.report.converged() && !(increment.report.residual < thresholds::gainless_pass)) {
       throw ConvergenceError(fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
                                          increment.report.residual, increment.report.iterations));
     }
@@ -193,7 +184,7 @@ Motion constrained_motion(const MotionContext& context, const MotionStart& start
     if (iteration.arrives(arrival)) return iteration.take();
     const std::string left = iteration.text();
     iteration.solve(flow, iterations);
-    if (iteration.pass() > kMaxPasses) throw ConvergenceError(left);
+    if (iteration.pass() > thresholds::most_passes) throw ConvergenceError(left);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "bie/physics/tension.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -37,17 +38,12 @@ Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membr
 
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane) {
   if (!parameters.inextensible) return false;
-  // The response to a uniform tension grows with the square of the distance from a sphere: 1e-10 of any other at this.
-  constexpr double kSphere = 1e-5;
   const Surface& surface = membrane.surface;
   const Vector radius = (surface.position.rowwise() - centroid(surface).transpose()).rowwise().norm();
-  return radius.maxCoeff() - radius.minCoeff() < kSphere * membrane.radius;
+  return radius.maxCoeff() - radius.minCoeff() < thresholds::sphere_variation * membrane.radius;
 }
 
 namespace {
-
-/// A step holds strain to a tenth of what it holds the change of curvature to (NumericalSettings).
-constexpr double kStrainShare = 0.1;
 
 FlowLayout layout_of(const FlowParameters& parameters, const Membrane& membrane, double dt,
                      const FlowOptions& options) {
@@ -59,8 +55,9 @@ FlowLayout layout_of(const FlowParameters& parameters, const Membrane& membrane,
   }
   if (layout.bending) {
     layout.curvature_scale = 1.0 / membrane.radius;
-    layout.tension_scale = kStrainShare * (parameters.viscosity * membrane.radius / dt +
-                                           parameters.bending->modulus / (membrane.radius * membrane.radius));
+    layout.tension_scale =
+        thresholds::strain_share * (parameters.viscosity * membrane.radius / dt +
+                                    parameters.bending->modulus / (membrane.radius * membrane.radius));
   }
   return layout;
 }
@@ -194,11 +191,10 @@ FlowSystem::FlowSystem(const FlowParameters& parameters, const Membrane& membran
               in_system(layout_, known_, dt)) {}
 
 FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance) {
-  constexpr int kMaxIterations = 120;
   Vector b = entries_of(layout_, rhs.curvature, rhs.divergence);
   if (pinned_) b[layout_.n_curvature()] = 0.0;
   const Vector x = over_scales(layout_, entries_of(layout_, start.curvature, start.tension));
-  RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, kMaxIterations});
+  RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, thresholds::most_flow_iterations});
   return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_all, 3)};
 }
 

@@ -1,5 +1,7 @@
 #include "bie/stepping/solve/flow_systems.hpp"
 
+#include "bie/stepping/thresholds.hpp"
+
 namespace vehd {
 
 FlowSystems::FlowSystems(const FlowParameters& parameters, const Membrane& membrane, FlowOptions options,
@@ -30,7 +32,7 @@ FlowSystem& FlowSystems::of(double dt) {
 std::shared_ptr<const RecycledScalars> FlowSystems::recycled() const {
   if (systems_.empty()) return recycled_;
   RecycledSubspace all = systems_.front().second.kept();
-  for (const auto& [size, system] : systems_) all = joined(system.learned(), all, most_recycled);
+  for (const auto& [size, system] : systems_) all = joined(system.learned(), all, thresholds::most_recycled);
   return recycled_scalars(options_.entries, std::move(all));
 }
 

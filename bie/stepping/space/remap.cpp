@@ -5,6 +5,7 @@
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/neighbourhood.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -91,13 +92,13 @@ Directions moved_back(const Directions& r, const Matrix& vectors) {
 /// Cartesian components of the sliding at the middle of the way, which keeps areas to third order: [n x 3]. Degrees
 /// whose wavelength the step slides past fade out.
 Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, const SphereVectors& sliding) {
-  constexpr double kLargestPhase = 1.5;
-  constexpr double kNoSliding = 1e-13;
   const Matrix at_nodes = cartesian(fine.grid(), sliding);
   const double length = at_nodes.rowwise().norm().maxCoeff();
   // Without swirl, as in most axisymmetric runs, it is rounding.
-  if (length < kNoSliding) return Matrix::Zero(at_nodes.rows(), 3);
-  const auto share = [&](int degree) { return 1.0 / (1.0 + std::pow(degree * length / kLargestPhase, 8)); };
+  if (length < thresholds::no_sliding) return Matrix::Zero(at_nodes.rows(), 3);
+  const auto share = [&](int degree) {
+    return 1.0 / (1.0 + std::pow(degree * length / thresholds::largest_phase, thresholds::phase_power));
+  };
   Matrix series = fine.analyze(at_nodes);
   const Matrix beyond = at_nodes - fine.synthesize(series);
   for (int n = 1; n <= fine.order(); ++n) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -22,8 +23,7 @@ Vector degree_bounds(const Matrix& coefficients) {
 }
 
 double least_potential_scale(const AppliedField& electric, double radius) {
-  constexpr double kLeastShare = 0.1;
-  return kLeastShare * electric.field.norm() * radius;
+  return thresholds::least_potential_share * electric.field.norm() * radius;
 }
 
 double potential_scale(double least, double largest) {
@@ -56,13 +56,12 @@ Resolution::Tail Resolution::tail_of_cut(int order) const {
   }
   // Symmetry can silence every other degree.
   for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);
-  constexpr double kSlowest = 0.97;
   constexpr double kFloor = 1e-16;
   // The last but one holds the last as well, whichever of them is silent.
   const int middle = order / 2;
   const int end = std::max(middle + 1, order - 1);
   const double ratio = std::max(bound[end], kFloor) / std::max(bound[middle], kFloor);
-  tail.decay = std::min(kSlowest, std::pow(ratio, 1.0 / (end - middle)));
+  tail.decay = std::min(thresholds::slowest_decay, std::pow(ratio, 1.0 / (end - middle)));
   return tail;
 }
 

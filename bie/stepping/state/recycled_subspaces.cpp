@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -30,14 +31,12 @@ std::shared_ptr<const RecycledScalars> recycled_scalars(const std::vector<Index>
 
 RecycledSubspaces after_step(const RecycledSubspaces& before, std::shared_ptr<const RecycledScalars> flow,
                              int iterations) {
-  constexpr double kWorthwhile = 2.0;
-  constexpr std::int64_t kPause = 50;
   RecycledSubspaces after = before;
   if (!before.flow) {
     after.unaided_iterations = iterations;
     if (after.pause > 0) --after.pause;
-  } else if (iterations > kWorthwhile * static_cast<double>(before.unaided_iterations)) {
-    after.pause = kPause;
+  } else if (iterations > thresholds::misled_by_recycling * static_cast<double>(before.unaided_iterations)) {
+    after.pause = thresholds::steps_without_recycling;
   }
   after.flow = after.pause > 0 ? nullptr : std::move(flow);
   return after;

@@ -8,9 +8,6 @@
 
 namespace vehd {
 
-/// Columns of each kind that a state carries at most.
-constexpr Index most_recycled = 128;
-
 /// A recycled subspace of a map between scalars of one membrane, together with the coefficients that its rows stand
 /// for. It can be had for the coefficients of a solve alone, so that a change of degree or symmetry never goes
 /// unnoticed.

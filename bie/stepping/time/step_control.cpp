@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bie/stepping/thresholds.hpp"
+
 namespace vehd {
 
 namespace {
 
 /// dt times this factor would be wrong by the tolerance: the estimate is of the order of the step's last correction.
 double size_factor(double estimate, double tolerance, int order) {
-  constexpr double kSafety = 0.85;
-  constexpr double kLeast = 0.2;
-  constexpr double kMost = 4.0;
-  if (estimate <= 0.0) return kMost;
-  return std::clamp(kSafety * std::pow(tolerance / estimate, 1.0 / order), kLeast, kMost);
+  if (estimate <= 0.0) return thresholds::most_step_factor;
+  return std::clamp(thresholds::step_safety * std::pow(tolerance / estimate, 1.0 / order),
+                    thresholds::least_step_factor, thresholds::most_step_factor);
 }
 
 }  // namespace

@@ -7,27 +7,26 @@
 #include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/symmetry.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
 
-/// The paper's scheme leaves explicit what a change of H does to the tension that is there. An explicit step overshoots
-/// where a disturbance relaxes by more than all of it, as near the sphere, where tensions are large. The first-order
-/// step leaves explicit the tension under which a disturbance relaxes by this much, and holds the rest.
-constexpr double kExplicitRelaxation = 0.5;
-
 FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const MembraneSpace& space, int time_order,
                          const VesicleSolution& solution, const Vector& tension) {
   const Membrane& membrane = *solution.membrane;
+  // The paper's scheme leaves explicit what a change of H does to the tension that is there, which overshoots where
+  // tensions are large, as near the sphere.
+  const double explicit_relaxation = time_order == 1 ? thresholds::explicit_relaxation : 0.0;
   FlowOptions options;
   options.entries = space.subspace().scalars();
   if (parameters.inextensible && mobile) {
     // A compression would soften the implicit response.
     options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
   }
-  return {parameters, membrane, options, time_order == 1 ? kExplicitRelaxation : 0.0, solution.recycled.flow};
+  return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
 }
 
 Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fields) {
@@ -121,9 +120,9 @@ void StepOperations::charge(const ElectricParameters& electric, std::size_t a, d
 
 /// A potential this small does nothing any more, and without it the electric part becomes inactive.
 void StepOperations::forget_decayed(double time, std::size_t a, Vector& potential) const {
-  constexpr double kDecayed = 1e-10;
   const double scale = model_.electric->field.norm() * at_start_.vesicles[a].membrane->radius;
-  if (model_.electric->waveform.is_quiet(time) && potential.norm() < kDecayed * scale) potential.setZero();
+  if (model_.electric->waveform.is_quiet(time) && potential.norm() < thresholds::decayed_potential * scale)
+    potential.setZero();
 }
 
 Motion StepOperations::motion(std::size_t a, const MotionStart& start, const RigidMotion& rigid, double dt,

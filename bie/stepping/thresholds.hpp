@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "bie/support/types.hpp"
+
+/// What decides in a step, each with where it comes from: derived, or measured (docs/thresholds.md shows what halving
+/// and doubling the measured ones does to iterations and time).
+namespace vehd::thresholds {
+
+// Recycling between steps, see RecycledSubspaces.
+
+/// Columns of each kind that a state carries at most: those that a secant inverse can keep and a third more to choose
+/// from.
+constexpr Index most_recycled = 128;
+/// A step that takes this many times the iterations of one without recycling is misled by it. Measured.
+constexpr double misled_by_recycling = 2.0;
+/// Steps until recycling is tried again: at two steps in fifty a useless trial costs a few percent of a run.
+constexpr std::int64_t steps_without_recycling = 50;
+
+// The solve for (h, λ), Eq. (27).
+
+/// Strain counts in the norm of the joint system by this share of what the change of curvature does: the tolerance of
+/// the one over that of the other (NumericalSettings). Measured.
+constexpr double strain_share = 0.1;
+/// Variation of the distance from the centroid, over the radius, below which a membrane is a sphere. What a uniform
+/// tension moves grows with the square of it: 1e-10 of what any other tension does, which the solve cannot tell from
+/// its own tolerance.
+constexpr double sphere_variation = 1e-5;
+/// Iterations of one solve. Without a preconditioner of the right shape (1 : 1 : 5, degree 64) sixty are needed.
+constexpr int most_flow_iterations = 120;
+
+// The passes of a motion, see constrained_motion.
+
+/// A pass that converges reduces its residual by the square or by its own tolerance: ten are a tenth of a digit each.
+constexpr int most_passes = 24;
+/// Relative tolerance of a pass. Every pass starts from the full residual, so it needs no more digits than its
+/// linearisation is worth (a step changes the shape by about a hundredth), nor more than are left to gain. Measured.
+constexpr double finest_pass = 1e-2;
+constexpr double roughest_pass = 0.3;
+/// A pass that leaves more than this of its residual does not gain.
+constexpr double gainless_pass = 0.9;
+/// Changes of H smaller than this, relative to H, are those of a shape at rest: Eq. (28) to five digits of them is
+/// below what the constraint lets pass.
+constexpr double curvature_floor = 1e-6;
+/// Largest relative change of an area element that a motion may make before it is corrected: beyond a half the
+/// linearised constraint can turn an element over.
+constexpr double largest_stretch = 0.5;
+
+// Time.
+
+/// A disturbance that relaxes by more than all of it in one explicit step overshoots. The first-order step leaves
+/// explicit the tension under which a disturbance of a sphere relaxes by this share, and holds the rest.
+constexpr double explicit_relaxation = 0.5;
+/// A potential without a field that is this small over |E|R has decayed: its stress, its square, is below rounding.
+constexpr double decayed_potential = 1e-10;
+/// Size of the next step over the one that would be just good enough: the estimate is of the leading order alone.
+constexpr double step_safety = 0.85;
+/// A step changes its size by these factors at most.
+constexpr double least_step_factor = 0.2;
+constexpr double most_step_factor = 4.0;
+/// The first step covers this share of the time in which the start changes by the tolerance's root.
+constexpr double first_step_share = 0.5;
+
+// Where the grid is moved to, see remap.
+
+/// Sliding of degree n by an angle a is undone up to n a of this: a wave that slides past by a quarter of its length
+/// (π/2) is no longer followed by one step along great circles.
+constexpr double largest_phase = 1.5;
+/// How sharply degrees fade out there: half at the phase, a thousandth at 2.4 times it.
+constexpr int phase_power = 8;
+/// Sliding below this is rounding.
+constexpr double no_sliding = 1e-13;
+
+// Degree and quadrature.
+
+/// What an error of V_m is measured by is at least this share of |E|R, so that a small V_m at the start of charging
+/// need not be known to all its digits.
+constexpr double least_potential_share = 0.1;
+/// Slowest decay of a spectrum from degree to degree that a geometric series continues: slower ones do not decay within
+/// any degree that vehd has (0.97 to the power 64 is a seventh).
+constexpr double slowest_decay = 0.97;
+/// Share of the tolerance that the degrees left out may make up: the rest is that of the step.
+constexpr double truncation_share = 0.3;
+/// Share of that target below which a lower degree is idle: far enough that the degree does not rise again at once.
+constexpr double idle_truncation = 0.1;
+/// Degrees that a change has to save: four of sixteen are a quarter of the coefficients and half of the assembly.
+constexpr int worthwhile_degrees = 4;
+/// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
+/// falls by two digits and more.
+constexpr std::array quadrature_levels = {1.0, 1.75, 2.6};
+/// Share of the tolerance of the quadrature below which a coarser level, two digits worse, would still do.
+constexpr double idle_quadrature = 1e-2;
+/// Errors of the layers up to this many times what truncation does to them are hidden by it.
+constexpr double above_truncation = 3.0;
+/// Steps between two attempts to save work: one that fails every time costs little of what a run does.
+constexpr std::int64_t economy_interval = 4;
+
+// Contact.
+
+/// Distance of two parts of a membrane, in grid spacings, at which D has lost all but two digits on the finest level.
+constexpr double contact = 0.1;
+/// Two parts may come nearer by this factor in one step once they are closer than the grid spacing: with larger steps
+/// they could pass through each other unseen.
+constexpr double least_approach = 0.5;
+
+}  // namespace vehd::thresholds
