@@ -82,7 +82,7 @@ double order_over(double digits, const TrialRun& trial, int time_order, const Tr
 CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vector<double>& tolerances,
                       std::size_t index, const CostModel& model, const Trend& trend) {
   constexpr double kSafety = 0.85;  // as steps are chosen
-  constexpr double kLongest = 4.0;  // beyond that a change says nothing any more
+  constexpr double kLongest = 4.0;  // beyond that an error estimate says nothing any more
   CostRow row;
   row.tolerance = tolerances[index];
   const int time_order = accuracy_defaults(row.tolerance).time_order;
@@ -107,7 +107,8 @@ CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vect
     interval = {};
   };
   for (const TrialStep& step : trial.steps) {
-    const double room = step.change > 0.0 ? std::pow(row.tolerance / step.change, 1.0 / order_in_dt) : kLongest;
+    const double room =
+        step.error_estimate > 0.0 ? std::pow(row.tolerance / step.error_estimate, 1.0 / order_in_dt) : kLongest;
     const double size = std::min(largest, step.dt * kSafety * std::min(room, kLongest));
     const double share = step.dt / size;
     // Runs lower their degree only where it has long been idle, at other tolerances about where the trial run did.
@@ -145,27 +146,28 @@ int degrees_per_digit(const CostRow& first, const TrialRun& trial) {
 
 /// Means over the time of a trial run.
 struct MeanLogarithms {
-  double dt = 0.0, change = 0.0;
+  double dt = 0.0, error_estimate = 0.0;
   explicit MeanLogarithms(const TrialRun& trial) {
     double whole = 0.0;
     for (const TrialStep& step : trial.steps) {
-      if (step.change <= 0.0) continue;
+      if (step.error_estimate <= 0.0) continue;
       whole += step.dt;
       dt += step.dt * std::log(step.dt);
-      change += step.dt * std::log(step.change);
+      error_estimate += step.dt * std::log(step.error_estimate);
     }
     if (whole == 0.0) return;
     dt /= whole;
-    change /= whole;
+    error_estimate /= whole;
   }
 };
 
-/// Order in dt of the changes of two trial runs of one time order, whose steps differ enough.
+/// Order in dt of the error estimates of two trial runs of one time order, whose steps differ enough.
 std::optional<double> order_between(const TrialRun& trial, const TrialRun& next) {
   constexpr double kLeastRatio = 1.3;
   const MeanLogarithms coarse(trial), fine(next);
   if (trial.time_order != next.time_order || coarse.dt - fine.dt < std::log(kLeastRatio)) return std::nullopt;
-  return std::clamp((coarse.change - fine.change) / (coarse.dt - fine.dt), 1.0, static_cast<double>(next.time_order));
+  return std::clamp((coarse.error_estimate - fine.error_estimate) / (coarse.dt - fine.dt), 1.0,
+                    static_cast<double>(next.time_order));
 }
 
 /// Rows without any cost.

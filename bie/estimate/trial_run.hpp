@@ -13,7 +13,7 @@ namespace vehd {
 struct TrialStep {
   double time = 0.0;  ///< at its end
   double dt = 0.0;
-  double change = 0.0;  ///< see StepAttempt
+  double error_estimate = 0.0;  ///< see StepAttempt
   int attempts = 1;
   int order = 0;
   bool at_snapshot = false;

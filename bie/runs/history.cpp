@@ -44,8 +44,8 @@ constexpr std::array diagnostic_columns = {
 std::string header() {
   std::vector<std::string> names{"time", "dt"};
   for (const DiagnosticColumn& column : diagnostic_columns) names.emplace_back(column.name);
-  for (const char* name : {"iterations_flow", "iterations_electric", "rejected", "order", "truncation", "change",
-                           "quadrature_error", "separation", "raw_area", "wrinkle_degree"}) {
+  for (const char* name : {"iterations_flow", "iterations_electric", "rejected", "order", "truncation",
+                           "error_estimate", "quadrature_error", "separation", "raw_area", "wrinkle_degree"}) {
     names.emplace_back(name);
   }
   return csv_line(names);

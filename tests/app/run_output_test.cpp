@@ -35,7 +35,7 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
   BOOST_TEST(text.substr(0, text.find('\n')) ==
              "time,dt,area,volume,reduced_volume,bending_energy_scaled,tension_integral,Vm_north,q_north,Vm_max,"
              "extent_x,extent_y,extent_z,inclination_deg,area_drift,volume_drift,strain_max,spectrum_tail,"
-             "iterations_flow,iterations_electric,rejected,order,truncation,change,quadrature_error,separation,"
+             "iterations_flow,iterations_electric,rejected,order,truncation,error_estimate,quadrature_error,separation,"
              "raw_area,wrinkle_degree");
   const vehd::HistoryTable history(output + "/history.csv");
   BOOST_TEST(history.column("time").front() == 0.0);

@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(history_has_both_sides_of_every_switch) {
       BOOST_TEST(history.column(column)[row] == history.column(column)[row - 1], column);
     }
     BOOST_TEST(history.column("rejected")[row] == 0.0);
-    BOOST_TEST(history.column("change")[row] == 0.0);
+    BOOST_TEST(history.column("error_estimate")[row] == 0.0);
   }
   const std::vector<double>& charge = history.column("q_north");
   BOOST_TEST(charge[second[0] - 1] == 0.0);
