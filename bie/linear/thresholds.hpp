@@ -3,7 +3,7 @@
 #include <cstddef>
 
 /// What decides in the solvers with recycling, each with where it comes from. Numbers of iterations are those of the
-/// suites recycled_gcr, flow_solve and recycled_subspaces.
+/// suites recycled_gcr, flow_system and recycled_subspaces.
 namespace vehd::thresholds {
 
 /// What the sums of a map and its preconditioner lose, relative to what they take and give: the layers sum a few

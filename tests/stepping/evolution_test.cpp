@@ -80,9 +80,9 @@ BOOST_AUTO_TEST_CASE(turning_the_whole_scene_turns_the_result) {
   Model model = shear_model();
   const State here = run(model, discretisation, start(model, discretisation, position, 0.1), 0.1, 5);
   model.flow->gradient = rotation * model.flow->gradient * rotation.transpose();
-  const State turned =
+  const State rotated =
       run(model, discretisation, start(model, discretisation, position * rotation.transpose(), 0.1), 0.1, 5);
-  BOOST_TEST(max_difference(turned.vesicles[0].position, here.vesicles[0].position * rotation.transpose()) < 1e-7);
+  BOOST_TEST(max_difference(rotated.vesicles[0].position, here.vesicles[0].position * rotation.transpose()) < 1e-7);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

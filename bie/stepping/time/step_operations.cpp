@@ -147,7 +147,7 @@ Motion StepOperations::motion(std::size_t a, const MotionStart& start, const Rig
 Arrival StepOperations::arrival(std::size_t a, NodeEnd end) const {
   if (end == NodeEnd::material) return [](const SurfaceFields& material) { return material; };
   return [this, a](const SurfaceFields& material) {
-    const auto timer = instruments_.time("reparametrisation");
+    const auto timer = instruments_.time("remap");
     return remap(discretisation_.vesicle(a).fine_transform(), material.position - start_.vesicles[a].position,
                  material);
   };

@@ -1,7 +1,7 @@
-#include "bie/stepping/time/time_rule.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+
+#include "bie/stepping/time/time_rule.hpp"
 
 using namespace vehd;
 

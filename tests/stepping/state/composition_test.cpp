@@ -23,7 +23,7 @@ std::uint64_t count(const Counts& counts, const std::string& name) {
   return found == counts.end() ? 0 : found->second;
 }
 
-/// Kernel evaluations of n steps that end on the corners of the forcing, and the state in the end.
+/// Kernel evaluations of n steps that end on the discontinuities of the forcing, and the state in the end.
 struct CountedRun {
   State state;
   std::vector<Counts> after_step;
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(electric_part_sleeps_while_field_and_potential_are_zero) {
   BOOST_TEST(at(1) == 0);        // t = 0.25
   BOOST_TEST(at(3) > at(2));     // t = 0.75, on
   BOOST_TEST(at(5) > at(4));     // t = 1.25, decaying
-  BOOST_TEST(at(30) == at(32));  // t = 7.5 … 8, asleep
+  BOOST_TEST(at(30) == at(32));  // t = 7.5 … 8, inactive
   BOOST_TEST(at(35) > at(32));   // t = 8.75, awake again
   BOOST_TEST(run.state.vesicles[0].transmembrane_potential.norm() > 1e-3);
 }

@@ -1,8 +1,9 @@
+#include "bie/stepping/evaluation/operator_checks.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
-#include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/membrane.hpp"
@@ -38,7 +39,7 @@ Model drawing_model() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(health)
+BOOST_AUTO_TEST_SUITE(operator_checks)
 
 BOOST_AUTO_TEST_CASE(both_layers_are_checked_against_what_they_must_give) {
   const Matrix shape = asymmetric_shape(12);

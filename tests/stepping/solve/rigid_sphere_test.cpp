@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(sphere_off_the_axis_of_a_tube_lags_as_faxen_says_at_every_o
 }
 
 // A shear turns a sphere with the vorticity, and a field charges it along an axis that stays: V_m at material points is
-// exact only where the points have turned as far as the time says.
+// exact only where the points have rotated as far as the time says.
 BOOST_AUTO_TEST_CASE(sphere_that_turns_in_a_field_keeps_the_order_of_its_steps) {
   Model model = field_model();
   model.flow = shear_flow(1.0);

@@ -41,7 +41,7 @@ VesicleDiagnostics diagnostics_of_potential(const Matrix& position) {
   return diagnose({}, MembraneSpace(settings, {}), settings.quadrature_tolerance, vesicle, solution, fields);
 }
 
-Matrix turned_about_y(const Matrix& position, double degrees) {
+Matrix rotated_about_y(const Matrix& position, double degrees) {
   // Towards +z from +x, hence against the right-handed turn about +y.
   return position *
          Eigen::AngleAxisd(-degrees * std::numbers::pi / 180.0, Vector3::UnitY()).toRotationMatrix().transpose();
@@ -57,14 +57,14 @@ BOOST_AUTO_TEST_CASE(extents_are_those_of_the_surface_and_not_of_its_nodes) {
   BOOST_TEST(std::abs(d.extent_y - 2.6) < 1e-13);
   BOOST_TEST(std::abs(d.extent_z - 4.0) < 1e-13);
   // A tilted ellipsoid is as long along an axis as its support function says.
-  const VesicleDiagnostics tilted = diagnostics_of_shape(turned_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.0}), 30.0));
+  const VesicleDiagnostics tilted = diagnostics_of_shape(rotated_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.0}), 30.0));
   BOOST_TEST(std::abs(tilted.extent_x - 2.0 * std::sqrt(4.0 * 0.75 + 0.25)) < 1e-13);
   BOOST_TEST(std::abs(tilted.extent_z - 2.0 * std::sqrt(4.0 * 0.25 + 0.75)) < 1e-13);
 }
 
 BOOST_AUTO_TEST_CASE(inclination_is_the_angle_of_the_long_axis_from_x_towards_z) {
   for (const double degrees : {-80.0, -30.0, 0.0, 10.0, 45.0, 89.0}) {
-    const Matrix position = translated(turned_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.2}), degrees), {1.0, 2.0, 3.0});
+    const Matrix position = translated(rotated_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.2}), degrees), {1.0, 2.0, 3.0});
     BOOST_TEST(std::abs(diagnostics_of_shape(position).inclination_deg - degrees) < 1e-8);
   }
 }
@@ -72,11 +72,11 @@ BOOST_AUTO_TEST_CASE(inclination_is_the_angle_of_the_long_axis_from_x_towards_z)
 // Rounding would choose between the long axes of a disc, and between the ends of one that stands on the plane.
 BOOST_AUTO_TEST_CASE(inclination_of_a_body_with_many_long_axes_is_that_of_the_one_in_the_plane) {
   for (const double degrees : {-80.0, -30.0, 0.0, 10.0, 45.0, 89.0}) {
-    const Matrix disc = translated(turned_about_y(ellipsoid(kOrder, {1.3, 1.3, 0.7}), degrees), {1.0, 2.0, 3.0});
+    const Matrix disc = translated(rotated_about_y(ellipsoid(kOrder, {1.3, 1.3, 0.7}), degrees), {1.0, 2.0, 3.0});
     BOOST_TEST(std::abs(diagnostics_of_potential(disc).inclination_deg - degrees) < 1e-8);
   }
   for (const Vector3& axes : {Vector3{1.0, 1.0, 1.0}, Vector3{1.3, 0.7, 1.3}, Vector3{1.0, 2.0, 1.0}}) {
-    const Matrix body = translated(turned_about_y(ellipsoid(kOrder, axes), 17.0), {1.0, 2.0, 3.0});
+    const Matrix body = translated(rotated_about_y(ellipsoid(kOrder, axes), 17.0), {1.0, 2.0, 3.0});
     BOOST_TEST(diagnostics_of_potential(body).inclination_deg == 0.0);
   }
 }

@@ -44,7 +44,7 @@ Steps steps_of(const Model& model, const Matrix& position, double dt, int n) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(recycled)
+BOOST_AUTO_TEST_SUITE(recycled_subspaces)
 
 BOOST_AUTO_TEST_CASE(steps_come_to_take_few_iterations_at_every_degree_and_stiffness) {
   for (const int order : {8, 16, 32}) {
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(what_is_known_is_had_in_its_own_coefficients_alone) {
   BOOST_CHECK_THROW(RecycledScalars(all, {both, arguments}), ShapeError);
 }
 
-BOOST_AUTO_TEST_CASE(turned_state_knows_nothing_in_the_coefficients_of_former_axes) {
+BOOST_AUTO_TEST_CASE(rotated_state_knows_nothing_in_the_coefficients_of_former_axes) {
   const State learned = steps_of(shear_model(), ellipsoid(6, {2.0, 1.0, 0.9}), 0.1, 1).end;
   BOOST_TEST_REQUIRE((learned.vesicles[0].recycled.flow && learned.vesicles[0].recycled.tension));
   const State there = rotated(general_rotation(), learned);

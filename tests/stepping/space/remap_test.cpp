@@ -1,7 +1,8 @@
+#include "bie/stepping/space/remap.hpp"
+
 #include <boost/test/unit_test.hpp>
 
 #include "bie/physics/bending.hpp"
-#include "bie/stepping/space/remap.hpp"
 #include "tests/support/shapes.hpp"
 
 using namespace vehd;
@@ -14,7 +15,7 @@ struct Tables {
   explicit Tables(int order) : fine(order, make_grid(2 * order)) {}
 
   [[nodiscard]] Surface surface(const Matrix& position) const { return make_surface(fine, position); }
-  /// x after one reparametrisation that follows the given displacement.
+  /// x after one remap that follows the given displacement.
   [[nodiscard]] Matrix moved(const Matrix& position, const Matrix& displacement, const Matrix& fields) const {
     SurfaceFields material;
     material.position = position;
@@ -45,7 +46,7 @@ Changes changes(int order, const Matrix& position) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(reparametrisation)
+BOOST_AUTO_TEST_SUITE(remap)
 
 BOOST_AUTO_TEST_CASE(round_sphere_at_rest_stays_as_it_is) {
   const Tables tables(12);
@@ -89,14 +90,14 @@ BOOST_AUTO_TEST_CASE(fields_ride_on_their_material_points) {
 }
 
 BOOST_AUTO_TEST_CASE(sliding_of_the_last_step_is_undone) {
-  // A sphere that turned about its centre: its nodes go back to where they were, to the second order of the turn.
+  // A sphere that rotated about its centre: its nodes go back to where they were, to the second order of the turn.
   const int order = 12;
   const Tables tables(order);
   const Matrix position = sphere(order);
   const auto error = [&](double angle) {
     const Matrix3 turn = Eigen::AngleAxisd(angle, Vector3(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
-    const Matrix turned = position * turn.transpose();
-    return max_difference(tables.moved(turned, turned - position, turned), position);
+    const Matrix rotated = position * turn.transpose();
+    return max_difference(tables.moved(rotated, rotated - position, rotated), position);
   };
   BOOST_TEST(error(0.02) < 1e-3);
   BOOST_TEST(error(0.02) < 0.3 * error(0.04));

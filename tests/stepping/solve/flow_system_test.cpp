@@ -1,8 +1,9 @@
+#include "bie/stepping/solve/flow_system.hpp"
+
 #include <boost/test/unit_test.hpp>
 
 #include "bie/physics/bending.hpp"
 #include "bie/physics/tension.hpp"
-#include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "tests/support/membrane.hpp"
 #include "tests/support/runs.hpp"
@@ -34,7 +35,7 @@ MembraneUnknowns left_side(const Model& model, const Membrane& membrane, const M
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(flow_solve)
+BOOST_AUTO_TEST_SUITE(flow_system)
 
 BOOST_AUTO_TEST_CASE(sphere_flow_block_is_the_assembled_operator_on_a_sphere) {
   const double radius = 1.6;

@@ -59,7 +59,7 @@ struct Scenario {
   }
 };
 
-Matrix turned_shape(const Matrix3& rotation, const Matrix& position) {
+Matrix rotated_shape(const Matrix3& rotation, const Matrix& position) {
   State body;
   body.vesicles.emplace_back();
   body.vesicles[0].position = position;
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(coordinate_axes_are_reached_by_exact_right_handed_permutati
 
 BOOST_AUTO_TEST_CASE(turning_moves_the_body_with_its_parameters_and_back) {
   const Matrix shape = asymmetric_shape(kOrder);
-  const Matrix there = turned_shape(oblique(), shape);
+  const Matrix there = rotated_shape(oblique(), shape);
   const Vector3 s(0.48, -0.6, 0.64);
   const Vector3 moved = oblique() * s;
   const auto at = [](const Matrix& x, const Vector3& direction) {
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(turning_moves_the_body_with_its_parameters_and_back) {
             .row(0));
   };
   BOOST_TEST((at(there, moved) - oblique() * at(shape, s)).norm() < 1e-13);
-  BOOST_TEST(max_difference(turned_shape(oblique().transpose(), there), shape) < 1e-13);
+  BOOST_TEST(max_difference(rotated_shape(oblique().transpose(), there), shape) < 1e-13);
 }
 
 BOOST_AUTO_TEST_CASE(axis_is_found_in_the_field_the_flow_gravity_or_the_shape) {
@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(axis_is_found_in_the_field_the_flow_gravity_or_the_shape) {
   const Symmetry about_axis{true};
   const std::string expected = symmetry_text(about_axis, frame_along(axis));
   BOOST_TEST(name(in_field(axis), sphere(kOrder)).starts_with(expected));
-  BOOST_TEST(name(in_field(0.3 * axis), turned_shape(oblique(), pear(kOrder))) == expected);
+  BOOST_TEST(name(in_field(0.3 * axis), rotated_shape(oblique(), pear(kOrder))) == expected);
   Model model = relaxation_model(0.1);
   model.effects.push_back(std::make_shared<GravityEffect>(GravityParameters{1.0, axis}));
   BOOST_TEST(name(model, sphere(kOrder)) == expected);
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(axis_is_found_in_the_field_the_flow_gravity_or_the_shape) {
   model.flow = BackgroundFlow{oblique() * axisymmetric_extension(1.0).gradient * oblique().transpose()};
   BOOST_TEST(Scenario(model, sphere(kOrder)).symmetry.axisymmetric);
   // Nothing but the shape has a direction.
-  BOOST_TEST(Scenario(relaxation_model(0.1), turned_shape(oblique(), pear(kOrder))).symmetry.axisymmetric);
+  BOOST_TEST(Scenario(relaxation_model(0.1), rotated_shape(oblique(), pear(kOrder))).symmetry.axisymmetric);
 }
 
 BOOST_AUTO_TEST_CASE(scene_whose_axis_is_gone_stays_in_the_laboratory) {
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(scene_whose_axis_is_gone_stays_in_the_laboratory) {
   Model model = in_field({1.0, 0.0, 0.0});
   model.flow = shear_flow(1e-6);
   BOOST_TEST(stays(model, lying));
-  const Matrix tilted = turned_shape(oblique(), prolate(kOrder));
+  const Matrix tilted = rotated_shape(oblique(), prolate(kOrder));
   BOOST_TEST(stays(in_field(oblique().col(2) + Vector3(1e-6, 0.0, 0.0)), tilted));
   BOOST_TEST(!stays(in_field(oblique().col(2)), tilted));
 }
@@ -181,12 +181,12 @@ BOOST_AUTO_TEST_CASE(axis_may_miss_the_origin_where_nothing_depends_on_the_place
              "axisymmetric about z, mirror z, through (0.3, -2, 0.7)");
   BOOST_TEST(upright.difference_per_step(0.2, 3) < 1e-9);
   BOOST_TEST(upright.difference_from_laboratory(0.2, 3) < 1e-9);
-  const Scenario tilted(in_field(oblique().col(2)), translated(turned_shape(oblique(), pear(kOrder)), centre));
+  const Scenario tilted(in_field(oblique().col(2)), translated(rotated_shape(oblique(), pear(kOrder)), centre));
   BOOST_TEST(tilted.symmetry.axisymmetric);
   BOOST_TEST(tilted.difference_per_step(0.2, 3) < 1e-9);
   // What the laboratory shows is where it was.
-  const LabFrameOutput laboratory(upright.frame, with({}).settings());
-  BOOST_TEST(max_difference(laboratory.state(upright.state_there).vesicles[0].position,
+  const LabFrameOutput lab_frame(upright.frame, with({}).settings());
+  BOOST_TEST(max_difference(lab_frame.state(upright.state_there).vesicles[0].position,
                             upright.state.vesicles[0].position) < 1e-15);
   Model heavy = relaxation_model(0.1);
   heavy.effects.push_back(std::make_shared<GravityEffect>(GravityParameters{1.0, {0.0, 0.0, -1.0}}));
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(axis_may_miss_the_origin_where_nothing_depends_on_the_place
 BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps_about_any_axis) {
   const Scenario lying(in_field({1.0, 0.0, 0.0}), ellipsoid(kOrder, {2.0, 1.0, 1.0}));
   BOOST_TEST(lying.difference_per_step(0.5, 4) < 1e-9);
-  const Scenario tilted(in_field(oblique().col(2)), turned_shape(oblique(), pear(kOrder)));
+  const Scenario tilted(in_field(oblique().col(2)), rotated_shape(oblique(), pear(kOrder)));
   BOOST_TEST(tilted.symmetry.axisymmetric);
   BOOST_TEST(tilted.difference_per_step(0.2, 4) < 1e-9);
   Model stretched = relaxation_model(0.1);
@@ -211,7 +211,7 @@ BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps_about_any_axis) {
 BOOST_AUTO_TEST_CASE(frame_and_laboratory_agree_to_the_accuracy_of_the_order) {
   const Scenario lying(in_field({1.0, 0.0, 0.0}), ellipsoid(kOrder, {1.4, 1.0, 1.0}));
   BOOST_TEST(lying.difference_from_laboratory(0.2, 3) < 1e-8);
-  const Scenario tilted(in_field(oblique().col(2)), turned_shape(oblique(), ellipsoid(kOrder, {1.0, 1.0, 1.4})));
+  const Scenario tilted(in_field(oblique().col(2)), rotated_shape(oblique(), ellipsoid(kOrder, {1.0, 1.0, 1.4})));
   BOOST_TEST(tilted.symmetry.axisymmetric);
   BOOST_TEST(tilted.difference_from_laboratory(0.2, 3) < 1e-8);
 }
@@ -220,21 +220,21 @@ BOOST_AUTO_TEST_CASE(as_few_targets_are_evaluated_as_about_z) {
   const Scenario upright(in_field({0.0, 0.0, 1.0}), prolate(kOrder));
   BOOST_TEST(stokes_evaluations(Scenario(in_field({1.0, 0.0, 0.0}), ellipsoid(kOrder, {2.0, 1.0, 1.0}))) ==
              stokes_evaluations(upright));
-  BOOST_TEST(stokes_evaluations(Scenario(in_field(oblique().col(2)), turned_shape(oblique(), prolate(kOrder)))) ==
+  BOOST_TEST(stokes_evaluations(Scenario(in_field(oblique().col(2)), rotated_shape(oblique(), prolate(kOrder)))) ==
              stokes_evaluations(upright));
 }
 
 BOOST_AUTO_TEST_CASE(history_quantities_are_those_of_the_laboratory) {
-  const Scenario scenario(in_field(oblique().col(2)), turned_shape(oblique(), pear(kOrder)));
+  const Scenario scenario(in_field(oblique().col(2)), rotated_shape(oblique(), pear(kOrder)));
   const auto charged = [](const Model& model, const Discretisation& discretisation, const State& from) {
     return run(model, discretisation, start(model, discretisation, from.vesicles[0].position, 0.2), 0.2, 1);
   };
   const Discretisation reduced = with(scenario.symmetry);
   const State there = charged(scenario.model_there, reduced, scenario.state_there);
   const Evaluated evaluation = evaluated(scenario.model_there, reduced, there);
-  const LabFrameOutput laboratory(scenario.frame, reduced.settings());
+  const LabFrameOutput lab_frame(scenario.frame, reduced.settings());
   const VesicleDiagnostics d =
-      laboratory.diagnostics({{evaluation.diagnostics}}, there, {{evaluation.fields}}).vesicles[0];
+      lab_frame.diagnostics({{evaluation.diagnostics}}, there, {{evaluation.fields}}).vesicles[0];
   const VesicleDiagnostics expected =
       evaluated(scenario.model, with({}), rotated(scenario.frame.axes, there)).diagnostics;
   const auto close = boost::test_tools::tolerance(1e-4);
@@ -246,8 +246,8 @@ BOOST_AUTO_TEST_CASE(history_quantities_are_those_of_the_laboratory) {
   BOOST_TEST(d.q_north == expected.q_north, close);
   BOOST_TEST(d.area == expected.area, close);
   BOOST_TEST(std::abs(d.extent_x - evaluation.diagnostics.extent_x) > 0.01);
-  const VesicleFields fields = laboratory.fields({{evaluation.fields}}).vesicles[0];
-  const VesicleFields expected_fields = evaluated(scenario.model, with({}), laboratory.state(there)).fields;
+  const VesicleFields fields = lab_frame.fields({{evaluation.fields}}).vesicles[0];
+  const VesicleFields expected_fields = evaluated(scenario.model, with({}), lab_frame.state(there)).fields;
   BOOST_TEST(relative_difference(fields.velocity, expected_fields.velocity) < 1e-3);
   BOOST_TEST(relative_difference(fields.force_electric, expected_fields.force_electric) < 1e-3);
   BOOST_TEST(relative_difference(fields.charge, expected_fields.charge) < 1e-3);

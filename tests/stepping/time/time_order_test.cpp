@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(shape_tension_and_potential_of_example_2_reach_every_order)
   study.reaches(3, 2.5);
 }
 
-BOOST_AUTO_TEST_CASE(highest_orders_on_a_shape_that_reparametrisation_hardly_costs) {
+BOOST_AUTO_TEST_CASE(highest_orders_on_a_shape_that_remap_hardly_costs) {
   const OrderStudy study(field_model(), ellipsoid(16, {1.0, 1.0, 1.2}), 1.0, 4);
   study.reaches(3, 2.8);
   study.reaches(4, 3.8);
