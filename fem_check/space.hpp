@@ -37,7 +37,7 @@ struct Space {
   }
   [[nodiscard]] Cell cell(unsigned index) const { return cell(dofs, index); }
   [[nodiscard]] bool inside(unsigned index) const { return mesh->cell(index).region == meshes::Region::inside; }
-  /// Unit coordinates in the numbering of the mesh, whose cells deal.II may have turned.
+  /// Unit coordinates in the numbering of the mesh, whose cells deal.II may have rotated.
   [[nodiscard]] meshes::Point mesh_unit(unsigned cell, const UnitPoint& unit) const;
 
   std::shared_ptr<const meshes::VolumeMesh> mesh;

@@ -159,8 +159,8 @@ BlockAxes best_axes(const FrozenShape& shape) {
   };
 
   Point best = Point::Zero();
-  const double unturned = error_of(best);
-  double least = unturned;
+  const double unrotated = error_of(best);
+  double least = unrotated;
   const auto improves = [&](const Point& r) {
     const double error = error_of(r);
     if (!(error < (1.0 - kTie) * least)) return false;
@@ -177,7 +177,7 @@ BlockAxes best_axes(const FrozenShape& shape) {
       }
     }
   }
-  return least < (1.0 - kClearGain) * unturned ? rotated(principal, rotation_of(best)) : principal;
+  return least < (1.0 - kClearGain) * unrotated ? rotated(principal, rotation_of(best)) : principal;
 }
 
 }  // namespace vehd::meshes

@@ -18,7 +18,7 @@ struct BlockAxes {
 /// arbitrary.
 BlockAxes principal_axes(const FrozenShape& shape);
 
-/// The principal axes turned, as far as the stretches S leave it open, to where the faces of the cube follow x(θ, φ)
+/// The principal axes rotated, as far as the stretches S leave it open, to where the faces of the cube follow x(θ, φ)
 /// best: by any rotation if no stretch is marked, about an axis if the other two are equal, else not at all.
 ///
 /// Least truncation_error() over a grid of rotations that no symmetry of the cube maps onto each other, refined by a

@@ -13,7 +13,7 @@ namespace vehd {
 namespace {
 
 /// Any rotation without symmetry.
-Matrix3 turned_frame() {
+Matrix3 rotated_frame() {
   return (Eigen::AngleAxisd(0.7, Vector3::UnitX()) * Eigen::AngleAxisd(1.1, Vector3::UnitY()) *
           Eigen::AngleAxisd(0.4, Vector3::UnitZ()))
       .toRotationMatrix();
@@ -35,7 +35,7 @@ ProlateResult solve_translating_prolate(int order) {
   NumericalSettings settings;
   settings.order = order;
   const MembraneSpace space(settings, {});
-  const Matrix3 frame = turned_frame();
+  const Matrix3 frame = rotated_frame();
   const Matrix3 stretch = Vector3(1.0, 1.0, 2.0).asDiagonal();
   const Matrix position = linear_image_of_sphere(order, frame * stretch * frame.transpose());
   const ProlateSpeeds exact = translating_prolate_speeds();

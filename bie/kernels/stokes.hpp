@@ -20,8 +20,8 @@ inline std::array<double, 6> stokeslet(double rx, double ry, double rz, double i
 constexpr double kStokesDoubleLayerPrefactor = 3.0 / (4.0 * std::numbers::pi);
 
 /// Upper triangle xx, xy, xz, yy, yz, zz of r_i r_j (r·n(y))/|r|⁵ without prefactor: the stress −3/(4π) r_i r_j
-/// r_k/|r|⁵ of a Stokeslet, applied to the normal at the source and turned in sign, so that the layer obeys the same
-/// jumps as the Laplace double layer. For a rigid motion v = a + b × y
+/// r_k/|r|⁵ of a Stokeslet, applied to the normal at the source and with the opposite sign, so that the layer obeys the
+/// same jumps as the Laplace double layer. For a rigid motion v = a + b × y
 ///   D[v] = −v inside, −½ v on the surface (principal value), 0 outside,
 /// and D[v] of any v jumps by −v from outside to inside. A flow with velocity u and traction t = σ·n on the surface has
 ///   u = S[t]/μ − D[u] inside (½u on the surface), and with decay u = D[u] − S[t]/μ outside.

@@ -59,7 +59,7 @@ bool LinearFlowEffect::is_axisymmetric() const {
   return are_equal(flow_.gradient, axisymmetric);
 }
 
-bool LinearFlowEffect::is_invariant_under_turns() const {
+bool LinearFlowEffect::is_invariant_under_rotations() const {
   const Matrix3& a = flow_.gradient;
   Matrix3 swirling = Matrix3::Zero();
   swirling << a(0, 0), a(0, 1), 0.0, -a(0, 1), a(0, 0), 0.0, 0.0, 0.0, a(2, 2);

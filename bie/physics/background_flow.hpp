@@ -27,7 +27,7 @@ class LinearFlowEffect : public ExplicitEffect {
   void add(const EffectInput& input, Forcing& forcing) const override;
   [[nodiscard]] bool is_invariant_under(const Reflection& g) const override;
   [[nodiscard]] bool is_axisymmetric() const override;
-  [[nodiscard]] bool is_invariant_under_turns() const override;
+  [[nodiscard]] bool is_invariant_under_rotations() const override;
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const override;
   [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
   [[nodiscard]] std::optional<double> next_discontinuity(double time) const override;

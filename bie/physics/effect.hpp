@@ -50,11 +50,11 @@ class ExplicitEffect {
   [[nodiscard]] virtual bool is_invariant_under(const Reflection& g) const = 0;
   /// Is it axisymmetric about z, without swirl?
   [[nodiscard]] virtual bool is_axisymmetric() const = 0;
-  /// Is it its own image under every turn about z? Unlike an axisymmetric one it may swirl.
-  [[nodiscard]] virtual bool is_invariant_under_turns() const { return is_axisymmetric(); }
+  /// Is it its own image under every rotation about z? Unlike an axisymmetric one it may swirl.
+  [[nodiscard]] virtual bool is_invariant_under_rotations() const { return is_axisymmetric(); }
   /// Does it do the same to a membrane wherever that is?
   [[nodiscard]] virtual bool is_same_everywhere() const { return false; }
-  /// The same effect turned by the rotation R.
+  /// The same effect rotated by the rotation R.
   [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const = 0;
   /// Where to look for an axis about which it is axisymmetric; none where every axis is one.
   [[nodiscard]] virtual std::vector<Vector3> axis_candidates() const { return {}; }

@@ -4,7 +4,7 @@
 
 #include "bie/support/types.hpp"
 
-/// Vectors and tensors in turned coordinates. Symmetries are read off exact zeros, so what is nothing but rounding of
+/// Vectors and tensors in rotated coordinates. Symmetries are read off exact zeros, so what is nothing but rounding of
 /// the rotation becomes zero.
 namespace vehd {
 

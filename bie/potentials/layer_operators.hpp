@@ -93,7 +93,7 @@ std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, cons
 ///                     azimuthal order take no part
 /// @param reflections  maps g with x(g s) = g x(s), closed under composition: targets that are images of one another
 ///                     share one row
-/// @param fold         turns by 2π/fold about z are such maps as well; it divides the number of longitudes
+/// @param fold         rotations by 2π/fold about z are such maps as well; it divides the number of longitudes
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                         const Matrix& position, const LayerSelection& selection,
                                         Instruments& instruments, const std::vector<Reflection>& reflections = {},

@@ -57,7 +57,7 @@ TargetImages::TargetImages(const SurfaceMaps& maps, const KernelColumns& kernels
     }
   }
   for (const Reflection& g : azimuthal) signs_.push_back(signs(g, kernels, active));
-  for (int j = 1; j < maps.fold; ++j) turns_.emplace_back(2.0 * std::numbers::pi * j / maps.fold, kernels, active);
+  for (int j = 1; j < maps.fold; ++j) rotations_.emplace_back(2.0 * std::numbers::pi * j / maps.fold, kernels, active);
   for (int k = 0; k < n_phi; ++k) {
     if (images_[k].original >= 0) continue;
     originals_.push_back(k);
@@ -77,7 +77,7 @@ void TargetImages::fill(Eigen::Ref<RowMatrix> rows) const {
     const Image& image = images_[k];
     if (image.original < 0) continue;
     rows.row(k) = rows.row(image.original).cwiseProduct(signs_[image.reflection]);
-    if (image.turns > 0) turns_[image.turns - 1].apply(rows.row(k));
+    if (image.rotations > 0) rotations_[image.rotations - 1].apply(rows.row(k));
   }
 }
 

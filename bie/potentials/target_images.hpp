@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bie/potentials/kernel_columns.hpp"
-#include "bie/potentials/row_turn.hpp"
+#include "bie/potentials/row_rotation.hpp"
 #include "bie/sphere/reflection.hpp"
 
 namespace vehd {
@@ -20,7 +20,7 @@ struct ActiveCoefficients {
   [[nodiscard]] Index count() const { return static_cast<Index>(n.size()); }
 };
 
-/// Maps g with x(g s) = g x(s): reflections, closed under composition, and turns about z by multiples of 2π/fold.
+/// Maps g with x(g s) = g x(s): reflections, closed under composition, and rotations about z by multiples of 2π/fold.
 struct SurfaceMaps {
   const std::vector<Reflection>& reflections;
   int fold = 1;
@@ -28,7 +28,7 @@ struct SurfaceMaps {
 
 /// How the rows of one target follow from those of another when the surface is its own image. Under a reflection a row
 /// over coefficients changes sign with the parity of each harmonic and, in the Stokes blocks, with the components i and
-/// j; for turns see RowTurn.
+/// j; for rotations see RowRotation.
 class TargetImages {
  public:
   /// @param n_phi  even, and a multiple of the fold
@@ -47,16 +47,16 @@ class TargetImages {
   void fill(Eigen::Ref<RowMatrix> rows) const;
 
  private:
-  /// An azimuth as the image of another: reflected first, then turned.
+  /// An azimuth as the image of another: reflected first, then rotated.
   struct Image {
     int original = -1;  ///< −1 for an original
     int reflection = 0;
-    int turns = 0;
+    int rotations = 0;
   };
   std::vector<Image> images_;
   std::vector<int> originals_;
   std::vector<Eigen::RowVectorXd> signs_;  ///< of each reflection that keeps the latitude, the identity first
-  std::vector<RowTurn> turns_;             ///< by 2π/fold, 4π/fold, ...
+  std::vector<RowRotation> rotations_;     ///< by 2π/fold, 4π/fold, ...
   bool in_mirror_ = false;
   std::optional<Reflection> flip_;
   Eigen::RowVectorXd flip_signs_;

@@ -58,7 +58,7 @@ TargetRows::TargetRows(const RotatedQuadrature& quadrature, const KernelColumns&
       rotated_rows_(block_for(order_, order_, kernel_columns_, chunk)),
       shape_kinds_(kernels.need_source_normal() ? kShapeKinds : 1),
       kernel_places_(places_of(kernel_columns_.cosine, kernel_columns_.sine)),
-      turns_(chunk) {
+      rotation_entries_(chunk) {
   component_places_[0] = component_places_[1] = places_of(components_.cosine, components_.sine);
   // ∂/∂φ exchanges cosines and sines.
   component_places_[2] = places_of(components_.sine, components_.cosine);
@@ -78,17 +78,17 @@ std::vector<ColumnPlace> TargetRows::places_of(const std::vector<int>& first, co
 }
 
 void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
-  load_shape(targets);
+  phase_shift(targets);
   rotate(targets);
   synthesize_shape();
   evaluate_kernels(targets);
-  collect_rows();
+  adjoint_synthesis();
   rotate_back(targets);
   store_rows(targets, rows);
 }
 
 /// Coefficients of x(R_z(φ_t) s): a phase shift for every target of the chunk.
-void TargetRows::load_shape(std::span<const Target> targets) {
+void TargetRows::phase_shift(std::span<const Target> targets) {
   for (int m = 0; m <= azimuthal_order_; ++m) {
     for (int t = 0; t < chunk_; ++t) {
       const double c = std::cos(m * targets[t].phi);
@@ -111,18 +111,18 @@ void TargetRows::load_shape(std::span<const Target> targets) {
   }
 }
 
-void TargetRows::load_turns(std::span<const Target> targets, bool sine, int n, int after, int before) {
+void TargetRows::load_rotation_entries(std::span<const Target> targets, bool sine, int n, int after, int before) {
   const int first = sine ? 1 : 0;
   for (int t = 0; t < chunk_; ++t) {
     const RotationY& rotation = q_.rotations[targets[t].latitude];
-    turns_[t] = (sine ? rotation.sine : rotation.cosine)[n](after - first, before - first);
+    rotation_entries_[t] = (sine ? rotation.sine : rotation.cosine)[n](after - first, before - first);
   }
 }
 
-void TargetRows::add_turned(double* to, const double* from, Index columns) const {
+void TargetRows::add_rotated(double* to, const double* from, Index columns) const {
   for (Index i = 0; i < columns; i += chunk_, to += chunk_, from += chunk_) {
 #pragma omp simd
-    for (int t = 0; t < chunk_; ++t) to[t] += turns_[t] * from[t];
+    for (int t = 0; t < chunk_; ++t) to[t] += rotation_entries_[t] * from[t];
   }
 }
 
@@ -134,8 +134,8 @@ void TargetRows::rotate_one_by_one(std::span<const Target> targets, int n, const
       double* sum = to.block.row(sine, n, i);
       std::fill_n(sum, columns, 0.0);
       for (int k = sine; k <= from.highest; ++k) {
-        load_turns(targets, sine, n, back ? k : i, back ? i : k);
-        add_turned(sum, from.block.row(sine, n, k), columns);
+        load_rotation_entries(targets, sine, n, back ? k : i, back ? i : k);
+        add_rotated(sum, from.block.row(sine, n, k), columns);
       }
     }
   }
@@ -332,7 +332,7 @@ void TargetRows::evaluate_kernels(std::span<const Target> targets) {
 }
 
 /// Adjoint of the synthesis: the weighted kernel values become rows over rotated coefficients.
-void TargetRows::collect_rows() {
+void TargetRows::adjoint_synthesis() {
   const int quarter = q_.n_phi / 4;
   const auto k1 = values_.middleRows(0, quarter);
   const auto k2 = values_.middleRows(quarter, quarter);

@@ -85,11 +85,11 @@ class TargetRows {
 
   /// Columns of cosines alone first, then those of sines; all at once without a mirror.
   [[nodiscard]] std::vector<ColumnPlace> places_of(const std::vector<int>& first, const std::vector<int>& second) const;
-  void load_shape(std::span<const Target> targets);
+  void phase_shift(std::span<const Target> targets);
   void rotate(std::span<const Target> targets);
   void synthesize_shape();
   void evaluate_kernels(std::span<const Target> targets);
-  void collect_rows();
+  void adjoint_synthesis();
   void rotate_back(std::span<const Target> targets);
   /// Orders of one degree, up to the highest.
   struct Orders {
@@ -99,9 +99,9 @@ class TargetRows {
   /// Orders of degree n of every target by its own rotation, or by its transpose.
   void rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to, bool back);
   /// What the rotation of each target has at one place of the blocks of degree n.
-  void load_turns(std::span<const Target> targets, bool sine, int n, int after, int before);
-  /// to += turns · from, for every one of the columns, which have as many entries as there are targets.
-  void add_turned(double* to, const double* from, Index columns) const;
+  void load_rotation_entries(std::span<const Target> targets, bool sine, int n, int after, int before);
+  /// to += rotation_entries · from, for every one of the columns, which have as many entries as there are targets.
+  void add_rotated(double* to, const double* from, Index columns) const;
   void store_rows(std::span<const Target> targets, RowMatrix& rows) const;
 
   const RotatedQuadrature& q_;
@@ -119,7 +119,7 @@ class TargetRows {
   RowMatrix even_cosine_[kShapeKinds], even_sine_[kShapeKinds], odd_cosine_[kShapeKinds], odd_sine_[kShapeKinds];
   RowMatrix nodes_[kShapeKinds];
   std::vector<ColumnPlace> component_places_[kShapeKinds], kernel_places_;
-  std::vector<double> turns_;
+  std::vector<double> rotation_entries_;
   Matrix distance_;  ///< r and 1/|r| of the targets at one node
 };
 

@@ -9,11 +9,11 @@ namespace vehd {
 /// Right-handed; exact for quarter turns about the coordinate axes. The axis must not be zero.
 Matrix3 rotation_matrix(const AxisAngle& rotation);
 
-/// The body turned together with its parametrisation, R x(R⁻¹ s): a shape that is symmetric about an axis then has
-/// coefficients that are symmetric about the turned one.
+/// The body rotated together with its parametrisation, R x(R⁻¹ s): a shape that is symmetric about an axis then has
+/// coefficients that are symmetric about the rotated one.
 Matrix rotated(const Matrix& position, const Matrix3& rotation);
 
-/// A scalar field on the body, coefficients, turned with it.
+/// A scalar field on the body, coefficients, rotated with it.
 Vector rotated_scalar(const Vector& field, const Matrix3& rotation);
 
 /// The shape moved by the vector.

@@ -20,8 +20,8 @@ struct Reflection {
   }
   /// Where the map takes azimuth k of n_phi equispaced ones that start at φ = 0; n_phi must be even.
   [[nodiscard]] int azimuth(int k, int n_phi) const {
-    const int turned = x * y > 0 ? k : n_phi - k;
-    return (x > 0 ? turned : turned + n_phi / 2) % n_phi;
+    const int rotated = x * y > 0 ? k : n_phi - k;
+    return (x > 0 ? rotated : rotated + n_phi / 2) % n_phi;
   }
   bool operator==(const Reflection&) const = default;
 };

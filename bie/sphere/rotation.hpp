@@ -18,7 +18,7 @@ struct RotationY {
 /// Real Wigner blocks for all degrees ≤ order by the three-term recurrence in n at fixed (m, m'), stable upwards.
 RotationY rotation_y(int order, double beta);
 
-/// Coefficients of f(R⁻¹ s): every field, [n_coefficients x n_fields], turned by R together with the sphere it lives
+/// Coefficients of f(R⁻¹ s): every field, [n_coefficients x n_fields], rotated by R together with the sphere it lives
 /// on.
 Matrix rotated_fields(const Matrix& coefficients, const Matrix3& rotation);
 

@@ -96,9 +96,9 @@ Matrix axisymmetric_part(const Matrix& field) {
 }  // namespace
 
 int Symmetry::group_order() const {
-  const bool turned_twice =
+  const bool rotated_twice =
       fold % 2 == 0 && std::find(reflections.begin(), reflections.end(), Reflection{-1, -1, 1}) != reflections.end();
-  return fold * static_cast<int>(reflections.size()) / (turned_twice ? 2 : 1);
+  return fold * static_cast<int>(reflections.size()) / (rotated_twice ? 2 : 1);
 }
 
 SymmetrySubspace::SymmetrySubspace(Symmetry symmetry, int order)

@@ -48,7 +48,7 @@ void turn_flow(FlowScene& flow, const Model& model, const Matrix3& rotation) {
 
 }  // namespace
 
-Scene turned_scene(Scene scene, const AxisAngle& by) {
+Scene rotated_scene(Scene scene, const AxisAngle& by) {
   const Matrix3 rotation = rotation_matrix(by);
   const Model model = model_of(scene);
   const Matrix3 before = scene.shape.rotation ? rotation_matrix(*scene.shape.rotation) : Matrix3(Matrix3::Identity());

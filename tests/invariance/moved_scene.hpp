@@ -7,9 +7,9 @@
 
 namespace vehd::testing {
 
-/// The scene turned about the origin as a whole: shape, place, field, weight and flow.
+/// The scene rotated about the origin as a whole: shape, place, field, weight and flow.
 /// @param rotation  about x where the scene has a Poiseuille flow, which is along x
-Scene turned_scene(Scene scene, const AxisAngle& rotation);
+Scene rotated_scene(Scene scene, const AxisAngle& rotation);
 
 /// The same fluids moving past with this velocity everywhere.
 std::shared_ptr<const ExplicitEffect> uniform_drift(const Vector3& velocity);

@@ -85,11 +85,11 @@ BOOST_AUTO_TEST_CASE(a_rotation_of_everything_changes_no_scalar) {
   for (const auto& [name, shipped] : all_scenes()) {
     const Scene scene = plain(shipped);
     const ShortRun base = short_run(scene, kSteps);
-    const ShortRun turned = short_run(turned_scene(scene, random_rotation(random, scene)), kSteps);
+    const ShortRun rotated = short_run(rotated_scene(scene, random_rotation(random, scene)), kSteps);
     // Another grid on the same shape sees the same degrees, and what they leave out otherwise.
     double truncation = 0.0;
     for (const RunRow& row : base.rows) truncation = std::max(truncation, row.diagnostics.spectrum_tail);
-    const Deviation worst = largest_deviation(base, turned, {}, true);
+    const Deviation worst = largest_deviation(base, rotated, {}, true);
     BOOST_TEST(worst.size < bound_of(scene) + truncation, name << ": " << worst.column << " by " << worst.size);
   }
 }

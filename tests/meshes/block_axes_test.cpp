@@ -65,12 +65,12 @@ BOOST_AUTO_TEST_CASE(truncation_error_is_the_highest_legendre_mode_of_the_faces)
   BOOST_TEST(error < 1e-6);
   BOOST_TEST(std::abs(truncation_error(sphere, general_rotation()) / error - 1.0) < 1e-6);
   // Turning the directions and the cube together is no change at all.
-  const double turned = truncation_error(carried_33(general_rotation()), general_rotation());
-  BOOST_TEST(std::abs(turned / truncation_error(shape_33(), Matrix3::Identity()) - 1.0) < 1e-9);
+  const double rotated = truncation_error(carried_33(general_rotation()), general_rotation());
+  BOOST_TEST(std::abs(rotated / truncation_error(shape_33(), Matrix3::Identity()) - 1.0) < 1e-9);
 }
 
 BOOST_AUTO_TEST_CASE(corners_of_the_cube_lie_on_the_bumps_of_shape_33) {
-  // Y_3^2 turned by 45 degrees about z is proportional to xyz, whose extremes are the corners of the cube.
+  // Y_3^2 rotated by 45 degrees about z is proportional to xyz, whose extremes are the corners of the cube.
   const BlockAxes axes = best_axes(shape_33());
   BOOST_TEST(angle_between_cubes(axes.in_directions, turn_about_z(45.0)) < 1.0);
   BOOST_TEST((axes.in_space - axes.in_directions).cwiseAbs().maxCoeff() < 1e-12);
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(best_axes_are_found_wherever_they_are) {
 
 BOOST_AUTO_TEST_CASE(principal_axes_stay_where_no_turn_gains) {
   for (const FrozenShape& shape :
-       {off_centre_sphere(), prolate(), disc(), turned_disc(), carried_33(turn_about_z(45.0))}) {
+       {off_centre_sphere(), prolate(), disc(), rotated_disc(), carried_33(turn_about_z(45.0))}) {
     const BlockAxes best = best_axes(shape), principal = principal_axes(shape);
     BOOST_TEST((best.in_directions - principal.in_directions).norm() == 0.0);
     BOOST_TEST((best.in_space - principal.in_space).norm() == 0.0);
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(two_searches_end_at_the_same_axes) {
   BOOST_TEST((a.in_space - b.in_space).norm() == 0.0);
 }
 
-BOOST_AUTO_TEST_CASE(turned_blocks_are_as_well_formed) {
+BOOST_AUTO_TEST_CASE(rotated_blocks_are_as_well_formed) {
   BlockMeshOptions options;
   options.cells_per_edge = 3;
   options.blend_layers = 1;

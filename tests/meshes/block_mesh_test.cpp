@@ -97,8 +97,8 @@ BOOST_AUTO_TEST_CASE(every_shape_has_well_formed_elements) {
 
 BOOST_AUTO_TEST_CASE(tilted_disc_is_meshed_as_well_as_the_flat_one) {
   const double flat = quality(make_block_mesh(disc(), coarse()), disc()).smallest_scaled_jacobian;
-  const double turned = quality(make_block_mesh(turned_disc(), coarse()), turned_disc()).smallest_scaled_jacobian;
-  BOOST_TEST(std::abs(flat - turned) < 0.02);
+  const double rotated = quality(make_block_mesh(rotated_disc(), coarse()), rotated_disc()).smallest_scaled_jacobian;
+  BOOST_TEST(std::abs(flat - rotated) < 0.02);
 }
 
 BOOST_AUTO_TEST_CASE(volume_and_area_converge_at_the_order_of_the_quadrature) {

@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(area_vector_is_the_normal_times_the_area_element) {
 
 BOOST_AUTO_TEST_CASE(figures_move_with_the_shape) {
   const FrozenShape here = disc();
-  const FrozenShape there = turned_disc();
+  const FrozenShape there = rotated_disc();
   BOOST_TEST(std::abs(there.area() / here.area() - 1.0) < 1e-8);
   BOOST_TEST(std::abs(there.volume() / here.volume() - 1.0) < 1e-13);
   BOOST_TEST((off_centre_sphere().centroid() - Point(0.4, -1.3, 0.7)).norm() < 1e-13);

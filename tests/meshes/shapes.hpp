@@ -73,14 +73,14 @@ inline Point disc_point(const Point& r) {
 
 inline FrozenShape disc() { return FrozenShape(project(5, disc_point)); }
 
-/// The disc tilted in space, its surface coordinates turned by another rotation: a membrane that has tank-treaded.
-inline FrozenShape turned_disc() {
+/// The disc tilted in space, its surface coordinates rotated by another rotation: a membrane that has tank-treaded.
+inline FrozenShape rotated_disc() {
   const Matrix3 tilt = general_rotation();
   const Matrix3 carried = tilt * tilt;
   return FrozenShape(project(5, [&](const Point& r) { return Point(tilt * disc_point(carried.transpose() * r)); }));
 }
 
-/// No symmetry at all: ρ of several degrees, stretched, turned and moved.
+/// No symmetry at all: ρ of several degrees, stretched, rotated and moved.
 inline FrozenShape asymmetric() {
   const Matrix3 map = general_rotation() * Point(1.0, 0.9, 1.25).asDiagonal();
   return FrozenShape(project(16, [&](const Point& r) {
@@ -106,7 +106,7 @@ inline std::vector<NamedShape> all_shapes() {
           {"prolate", prolate()},
           {"shape (33)", shape_33()},
           {"disc", disc()},
-          {"turned disc", turned_disc()},
+          {"rotated disc", rotated_disc()},
           {"asymmetric", asymmetric()}};
 }
 

@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(two_runs_give_the_same_mesh) {
 
 BOOST_AUTO_TEST_CASE(no_cell_has_two_faces_on_the_membrane) {
   // gmsh leaves such cells here; on a smooth membrane their two faces would meet at 180°.
-  const TetMesh mesh = make_tetrahedral_mesh(turned_disc(), of_size(0.25));
+  const TetMesh mesh = make_tetrahedral_mesh(rotated_disc(), of_size(0.25));
   for (const MeshCell& cell : mesh.topology().cells) {
     BOOST_REQUIRE(std::count(cell.faces.begin(), cell.faces.end(), FaceKind::membrane) < 2);
   }

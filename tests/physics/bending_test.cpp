@@ -67,8 +67,8 @@ BOOST_AUTO_TEST_CASE(force_is_proportional_to_the_modulus) {
 
 BOOST_AUTO_TEST_CASE(force_turns_with_the_shape) {
   const Matrix3 rotation = general_rotation();
-  const Membrane turned = make_membrane(space, position * rotation.transpose(), {});
-  BOOST_TEST(relative_difference(bending_force(kBending, turned),
+  const Membrane rotated = make_membrane(space, position * rotation.transpose(), {});
+  BOOST_TEST(relative_difference(bending_force(kBending, rotated),
                                  bending_force(kBending, membrane) * rotation.transpose()) < 1e-11);
 }
 

@@ -101,10 +101,10 @@ BOOST_AUTO_TEST_CASE(symmetries_are_those_of_the_forcing) {
   BOOST_TEST(PoiseuilleFlowEffect({1.0, 1.0, {}, Vector3::UnitZ()}).is_axisymmetric());
 }
 
-BOOST_AUTO_TEST_CASE(turned_effect_does_the_same_to_the_turned_body) {
+BOOST_AUTO_TEST_CASE(rotated_effect_does_the_same_to_the_rotated_body) {
   const Matrix3 r = general_rotation();
-  const Matrix turned_position = position * r.transpose();
-  const Membrane turned_membrane = make_membrane(space, turned_position, {});
+  const Matrix rotated_position = position * r.transpose();
+  const Membrane rotated_membrane = make_membrane(space, rotated_position, {});
   const Waveform waveform = Waveform::alternating(1.0, 1.0, 0.0);
   BackgroundFlow flow = shear_flow(1.3);
   flow.waveform = waveform;
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(turned_effect_does_the_same_to_the_turned_body) {
   for (const auto& effect : effects) {
     const Forcing expected = forcing_of(*effect, 0.1);
     Forcing forcing{Matrix::Zero(expected.force.rows(), 3), Matrix::Zero(position.rows(), 3)};
-    effect->rotated(r)->add({turned_membrane, turned_position, 0.1}, forcing);
+    effect->rotated(r)->add({rotated_membrane, rotated_position, 0.1}, forcing);
     const double scale = expected.force.norm() + expected.velocity.norm();
     BOOST_TEST(scale > 0.1);
     BOOST_TEST((forcing.force - expected.force * r.transpose()).norm() < 1e-11 * scale);

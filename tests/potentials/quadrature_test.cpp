@@ -19,7 +19,7 @@ Matrix results(const LayerOperators& layers, const Matrix& density) {
   return all;
 }
 
-/// What a turned parametrisation changes in the results.
+/// What a rotated parametrisation changes in the results.
 double pole_dependence(int order) {
   const Space space(order);
   const Matrix3 rotation = general_rotation();

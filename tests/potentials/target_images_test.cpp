@@ -51,13 +51,13 @@ double difference(const Matrix& position, const std::vector<Reflection>& reflect
 
 BOOST_AUTO_TEST_SUITE(target_images)
 
-BOOST_AUTO_TEST_CASE(turned_targets_share_rows_without_change) {
+BOOST_AUTO_TEST_CASE(rotated_targets_share_rows_without_change) {
   BOOST_TEST(difference(star(3, 1.0), {{}}, 3, 18) < 1e-12);
   BOOST_TEST(difference(star(5, 1.0), {{}}, 5, 20) < 1e-12);
   BOOST_TEST(difference(star(4, 1.0), {{}, {-1, -1, 1}}, 4, 20) < 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(turned_and_reflected_targets_share_rows_without_change) {
+BOOST_AUTO_TEST_CASE(rotated_and_reflected_targets_share_rows_without_change) {
   const Reflection y{1, -1, 1}, x{-1, 1, 1};
   // n + m is even in each harmonic of the star: mirror z as well.
   BOOST_TEST(difference(star(3, 0.0), {{}, y, {1, 1, -1}, {1, -1, -1}}, 3, 18) < 1e-12);

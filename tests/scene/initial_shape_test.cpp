@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(quarter_turns_keep_coefficients_exactly_symmetric) {
 BOOST_AUTO_TEST_CASE(rotation_is_right_handed_and_keeps_size) {
   const std::string radial = "kind='radial'\nmodes=[{n=3,m=2,a=0.2},{n=2,m=-1,a=0.1}]\n";
   const Matrix start = position_of(radial);
-  const Matrix turned = position_of(radial + "rotation=[1,2,-0.5,40]");
+  const Matrix rotated = position_of(radial + "rotation=[1,2,-0.5,40]");
   const vehd::Matrix3 rotation =
       Eigen::AngleAxisd(40.0 * std::numbers::pi / 180.0, Vector3(1, 2, -0.5).normalized()).toRotationMatrix();
   const Matrix before = vehd::evaluate_harmonics(start, theta, phi);
@@ -211,12 +211,12 @@ BOOST_AUTO_TEST_CASE(rotation_is_right_handed_and_keeps_size) {
     theta_after(i) = std::atan2(std::hypot(d.x(), d.y()), d.z());
     phi_after(i) = std::atan2(d.y(), d.x());
   }
-  const Matrix after = vehd::evaluate_harmonics(turned, theta_after, phi_after);
+  const Matrix after = vehd::evaluate_harmonics(rotated, theta_after, phi_after);
   for (vehd::Index i = 0; i < theta.size(); ++i) {
     const Vector3 expected = rotation * before.row(i).transpose();
     BOOST_TEST((after.row(i).transpose() - expected).norm() < 1e-12);
   }
-  BOOST_TEST(vehd::size_of(turned).area == vehd::size_of(start).area, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(vehd::size_of(rotated).area == vehd::size_of(start).area, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(area_scale_and_centre_are_as_wanted) {
@@ -232,8 +232,8 @@ BOOST_AUTO_TEST_CASE(area_scale_and_centre_are_as_wanted) {
                boost::test_tools::tolerance(1e-10));
   }
   const Matrix moved = position_of(ellipsoid + "rotation=[0,0,1,90]\ncentre=[1,-2,3]");
-  const Matrix turned = position_of(ellipsoid + "rotation=[0,0,1,90]");
-  const Matrix shift = vehd::evaluate_harmonics(moved, theta, phi) - vehd::evaluate_harmonics(turned, theta, phi);
+  const Matrix rotated = position_of(ellipsoid + "rotation=[0,0,1,90]");
+  const Matrix shift = vehd::evaluate_harmonics(moved, theta, phi) - vehd::evaluate_harmonics(rotated, theta, phi);
   for (vehd::Index i = 0; i < theta.size(); ++i) {
     BOOST_TEST((shift.row(i).transpose() - Vector3(1, -2, 3)).norm() < 1e-13);
   }

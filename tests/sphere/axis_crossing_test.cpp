@@ -105,8 +105,8 @@ BOOST_AUTO_TEST_CASE(place_does_not_depend_on_how_the_surface_is_parametrised) {
   BOOST_TEST(place.z() > 0.5);
   for (const double angle : {0.4, 1.3, 2.9}) {
     const Matrix3 turn = Eigen::AngleAxisd(angle, Vector3(0.5, -0.7, 0.2).normalized()).toRotationMatrix();
-    const Shape turned = shape_of([&](const Vector3& n) { return map(turn * n); });
-    BOOST_TEST((place_above({0.1, 0.2, -0.1}, turned) - place).norm() < 1e-12);
+    const Shape rotated = shape_of([&](const Vector3& n) { return map(turn * n); });
+    BOOST_TEST((place_above({0.1, 0.2, -0.1}, rotated) - place).norm() < 1e-12);
   }
 }
 

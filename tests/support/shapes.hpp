@@ -49,7 +49,7 @@ inline Matrix dimpled_disc(int order, double c) {
 
 constexpr int kAsymmetricDegree = 5;
 
-/// A shape without any symmetry: ρ of degrees up to 4, then stretched, turned and moved off the origin. Of degree
+/// A shape without any symmetry: ρ of degrees up to 4, then stretched, rotated and moved off the origin. Of degree
 /// kAsymmetricDegree, hence the same surface at every order from there up.
 inline Matrix asymmetric_shape(int order) {
   const SphereTransform transform(kAsymmetricDegree, make_grid(2 * kAsymmetricDegree));

@@ -41,11 +41,11 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
   return result;
 }
 
-bool is_invariant_under_turns(const Model& model) {
+bool is_invariant_under_rotations(const Model& model) {
   const auto effects = explicit_effects(model);
   return (!model.electric || model.electric->field.head<2>().isZero(0.0)) &&
          std::all_of(effects.begin(), effects.end(),
-                     [](const auto& effect) { return effect->is_invariant_under_turns(); });
+                     [](const auto& effect) { return effect->is_invariant_under_rotations(); });
 }
 
 bool is_same_everywhere(const Model& model) {
@@ -113,7 +113,7 @@ Frame find_frame(const Model& model, const State& state) {
       Frame frame = frame_along(axis);
       frame.origin = origin;
       const Model there = in_frame(frame, model);
-      if (frame.is_rotated() && !is_invariant_under_turns(there)) continue;
+      if (frame.is_rotated() && !is_invariant_under_rotations(there)) continue;
       const Symmetry symmetry = find_symmetry(there, in_frame(frame, state));
       const double here = worth(symmetry, frame.is_rotated());
       if (here > most) {

@@ -53,9 +53,9 @@ int highest_degree(const State& state) {
 /// none. Beyond 2p + 2 it would not save anything.
 int find_fold(const Model& model, const State& state) {
   const auto effects = explicit_effects(model);
-  const auto is_invariant_under_turns = [](const auto& effect) { return effect->is_invariant_under_turns(); };
+  const auto is_invariant_under_rotations = [](const auto& effect) { return effect->is_invariant_under_rotations(); };
   if (model.electric && !model.electric->field.head<2>().isZero(0.0)) return 1;
-  if (!std::all_of(effects.begin(), effects.end(), is_invariant_under_turns)) return 1;
+  if (!std::all_of(effects.begin(), effects.end(), is_invariant_under_rotations)) return 1;
   for (int fold = 2 * highest_degree(state) + 2; fold > 2; --fold) {
     Symmetry turns;
     turns.fold = fold;

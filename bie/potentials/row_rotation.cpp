@@ -1,4 +1,4 @@
-#include "bie/potentials/row_turn.hpp"
+#include "bie/potentials/row_rotation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-RowTurn::RowTurn(double angle, const KernelColumns& kernels, const ActiveCoefficients& active)
+RowRotation::RowRotation(double angle, const KernelColumns& kernels, const ActiveCoefficients& active)
     : cosine_(std::cos(angle)),
       sine_(std::sin(angle)),
       n_active_(active.count()),
@@ -22,7 +22,7 @@ RowTurn::RowTurn(double angle, const KernelColumns& kernels, const ActiveCoeffic
   sines_ = (angle * multiples).array().sin();
 }
 
-void RowTurn::apply(Eigen::Ref<Eigen::RowVectorXd> row) const {
+void RowRotation::apply(Eigen::Ref<Eigen::RowVectorXd> row) const {
   Eigen::Map<RowMatrix> blocks(row.data(), n_kernels_, n_active_);
   Index offset = order_ + 1;
   for (Index m = 1; m < cosines_.size(); ++m) {

@@ -6,11 +6,11 @@ namespace vehd {
 
 struct ActiveCoefficients;
 
-/// How the kernel row of a target follows from that of the target before a turn R by the angle α about z, where the
+/// How the kernel row of a target follows from that of the target before a rotation R by the angle α about z, where the
 /// surface is its own image under R: cosine and sine of one m mix by the angle mα, Stokes blocks become R K Rᵀ.
-class RowTurn {
+class RowRotation {
  public:
-  RowTurn(double angle, const KernelColumns& kernels, const ActiveCoefficients& active);
+  RowRotation(double angle, const KernelColumns& kernels, const ActiveCoefficients& active);
 
   /// @param row  [kernels * active coefficients]
   void apply(Eigen::Ref<Eigen::RowVectorXd> row) const;
