@@ -16,7 +16,7 @@ namespace {
 
 struct PlanOptions {
   std::string scene_file;
-  bool menu = false;
+  bool costs = false;
   bool fresh = false;
   CommonOptions common;
 };
@@ -100,7 +100,7 @@ ExitCode plan(const PlanOptions& options) {
   const Scene scene = read_scene(options.scene_file);
   CostCache cache;
   if (options.fresh) cache.forget();
-  if (options.menu) return print_costs(options, scene, cache);
+  if (options.costs) return print_costs(options, scene, cache);
   RunPlan result = plan_of(scene);
   predict_cost(scene, result, cache);
   print(result);
@@ -115,7 +115,7 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "Say what a run of a scene will do and cost");
   const auto options = std::make_shared<PlanOptions>();
   command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
-  command->add_flag("--menu", options->menu, "Only a table of what each tolerance from 1e-1 to 1e-7 would cost");
+  command->add_flag("--menu", options->costs, "Only a table of what each tolerance from 1e-1 to 1e-7 would cost");
   command->add_flag("--fresh", options->fresh, "Measure again what is kept from former calls");
   add_common_options(*command, options->common);
   command->footer(

@@ -67,10 +67,10 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
     observer.status({evolution.state().step, 0.0, evolution.state().time, events.end_time, step.dt,
                      std::max(std::abs(now.area_drift), std::abs(now.volume_drift)), elapsed()});
   }
-  const LabFrameOutput laboratory(problem.frame, problem.settings);
+  const LabFrameOutput lab_frame(problem.frame, problem.settings);
   const State state = resized(evolution.state(), problem.settings.order);
   const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
-  run.diagnostics = laboratory.diagnostics(evolution.evaluation().diagnostics, state, fields).vesicles.front();
+  run.diagnostics = lab_frame.diagnostics(evolution.evaluation().diagnostics, state, fields).vesicles.front();
   run.n_steps = state.step;
   run.raw_drift = raw_area / events.end_time;
   run.seconds.push_back(elapsed());

@@ -194,8 +194,9 @@ class BudgetLeft {
   /// Whether a trial run for which that was predicted may well reach its end: it often takes less than what one with a
   /// tenth of the accuracy predicts.
   [[nodiscard]] bool may_do(const CostRow& predicted) const {
-    constexpr double kDoubt = 3.0;
-    return budget_.steps ? double(predicted.steps) < kDoubt * double(steps()) : predicted.seconds < kDoubt * seconds();
+    constexpr double kUncertainty = 3.0;
+    return budget_.steps ? double(predicted.steps) < kUncertainty * double(steps())
+                         : predicted.seconds < kUncertainty * seconds();
   }
   void take(const TrialRun& trial) { taken_ += std::ssize(trial.steps); }
 

@@ -11,9 +11,9 @@ namespace vehd {
 namespace {
 
 /// Times this close, relative to their size or to what the waveform does in time, are the same: steps that end on a
-/// corner do so up to rounding.
+/// discontinuity do so up to rounding.
 constexpr double kSameTime = 1e-11;
-/// Likewise for factors, over the largest: on both sides of a corner of a table they are interpolated.
+/// Likewise for factors, over the largest: on both sides of a discontinuity of a table they are interpolated.
 constexpr double kSameFactor = 1e-9;
 
 }  // namespace
@@ -97,8 +97,8 @@ std::optional<double> Waveform::next_discontinuity(double time) const {
       return std::nullopt;
     case Kind::pulse_train: {
       const double k = std::max(0.0, std::floor((after - start_) / period_));
-      for (const double corner : {start_ + k * period_, start_ + k * period_ + duration_}) {
-        if (corner > after) return corner;
+      for (const double discontinuity : {start_ + k * period_, start_ + k * period_ + duration_}) {
+        if (discontinuity > after) return discontinuity;
       }
       return start_ + (k + 1.0) * period_;
     }
@@ -118,8 +118,8 @@ bool Waveform::jumps_at(double time) const {
 bool Waveform::is_quiet(double time) const {
   if (kind_ == Kind::constant) return false;
   if (kind_ == Kind::alternating) return amplitude_ == 0.0;
-  const std::optional<double> corner = next_discontinuity(time);
-  return at(time) == 0.0 && (!corner || at(*corner, Limit::before) == 0.0);
+  const std::optional<double> discontinuity = next_discontinuity(time);
+  return at(time) == 0.0 && (!discontinuity || at(*discontinuity, Limit::before) == 0.0);
 }
 
 }  // namespace vehd

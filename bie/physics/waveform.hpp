@@ -28,13 +28,13 @@ class Waveform {
   [[nodiscard]] std::optional<double> next_discontinuity(double time) const;
   /// Does the factor itself jump at this time, not only its slope?
   [[nodiscard]] bool jumps_at(double time) const;
-  /// Is the factor zero from `time` up to the next corner?
+  /// Is the factor zero from `time` up to the next discontinuity?
   [[nodiscard]] bool is_quiet(double time) const;
 
  private:
   enum class Kind { constant, alternating, pulse, pulse_train, table };
 
-  /// Rounding of a time near a corner.
+  /// Rounding of a time near a discontinuity.
   [[nodiscard]] double slack(double time) const;
 
   Kind kind_ = Kind::constant;

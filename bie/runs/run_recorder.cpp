@@ -61,7 +61,7 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
     : paths_(paths),
       si_scale_(si_scales(parse_units(start.scene, "scene"))),
       output_(settings.order, make_grid(settings.order)),
-      laboratory_(frame, settings),
+      lab_frame_(frame, settings),
       last_(written(paths, start)),
       snapshots_(paths.snapshots(), header_writer(output_, start, si_scale_),
                  kept_snapshots(paths, output_, last_, si_scale_)),
@@ -82,8 +82,8 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
   const State written = resized(state, output_.order());
   for (const auto& [row, fields] : sides) {
     HistoryRow shown = row;
-    if (laboratory_.is_rotated()) {
-      shown.diagnostics = laboratory_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
+    if (lab_frame_.is_rotated()) {
+      shown.diagnostics = lab_frame_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
     }
     history_.append(shown);
     ++last_.n_rows;
@@ -104,7 +104,7 @@ void RunRecorder::keep_last_state(const Fields& fields) {
 void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
   snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
     const std::int64_t checksum =
-        write_snapshot(file, name, output_, laboratory_.state(state), laboratory_.fields(fields), si_scale_);
+        write_snapshot(file, name, output_, lab_frame_.state(state), lab_frame_.fields(fields), si_scale_);
     const auto has = [&](const std::string& field) { return file.has("/snapshots/" + name + "/" + field); };
     if (xdmf_.times.empty()) name_fields(xdmf_, has);
     return checksum;

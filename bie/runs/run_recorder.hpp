@@ -55,7 +55,7 @@ class RunRecorder {
   const RunPaths& paths_;
   SiScale si_scale_;
   SphereTransform output_;  ///< degree and grid of the files
-  LabFrameOutput laboratory_;
+  LabFrameOutput lab_frame_;
   Checkpoint last_;
   SnapshotStore snapshots_;
   HistoryFile history_;

@@ -8,8 +8,9 @@
 
 namespace {
 
-/// Menus of a quick scene with a cache that starts empty, from so many steps of trial runs: the same at any speed.
-struct Menu {
+/// Cost tables of a quick scene with a cache that starts empty, from so many steps of trial runs: the same at any
+/// speed.
+struct QuickScene {
   TemporaryDirectory directory;
   std::string cache = directory / "costs.json";
   std::string scene = quick_scene("1.0");
@@ -28,9 +29,9 @@ bool is_measured(const vehd::CostRow& row) { return row.measured; }
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(menu)
+BOOST_AUTO_TEST_SUITE(cost_table)
 
-BOOST_FIXTURE_TEST_CASE(every_digit_has_a_price_and_no_digit_is_free, Menu) {
+BOOST_FIXTURE_TEST_CASE(every_digit_has_a_price_and_no_digit_is_free, QuickScene) {
   for (const std::int64_t steps : {1, 60, 600}) {
     const std::vector<vehd::CostRow> rows = read(steps);
     BOOST_TEST_REQUIRE(rows.size() == 7);
@@ -45,7 +46,7 @@ BOOST_FIXTURE_TEST_CASE(every_digit_has_a_price_and_no_digit_is_free, Menu) {
   }
 }
 
-BOOST_FIXTURE_TEST_CASE(pilots_measure_as_many_digits_as_their_budget_allows, Menu) {
+BOOST_FIXTURE_TEST_CASE(trial_runs_measure_as_many_digits_as_their_budget_allows, QuickScene) {
   const auto n_measured = [this](std::int64_t steps) {
     const std::vector<vehd::CostRow> rows = read(steps);
     // The loosest ones, and no other.
@@ -61,15 +62,15 @@ BOOST_FIXTURE_TEST_CASE(pilots_measure_as_many_digits_as_their_budget_allows, Me
   BOOST_TEST(more > some);
 }
 
-BOOST_FIXTURE_TEST_CASE(degrees_and_steps_from_steps_of_pilots_do_not_depend_on_the_clock, Menu) {
-  const std::vector<vehd::CostRow> rows = read(60), again = Menu().read(60);
+BOOST_FIXTURE_TEST_CASE(degrees_and_steps_from_steps_of_trial_runs_do_not_depend_on_the_clock, QuickScene) {
+  const std::vector<vehd::CostRow> rows = read(60), again = QuickScene().read(60);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BOOST_TEST((rows[i].order == again[i].order && rows[i].steps == again[i].steps));
     BOOST_TEST(rows[i].measured == again[i].measured);
   }
 }
 
-BOOST_FIXTURE_TEST_CASE(another_scene_is_another_menu, Menu) {
+BOOST_FIXTURE_TEST_CASE(another_scene_is_another_cost_table, QuickScene) {
   read();
   forge(cache);
   BOOST_TEST(is_read_from_cache());
@@ -77,7 +78,7 @@ BOOST_FIXTURE_TEST_CASE(another_scene_is_another_menu, Menu) {
   BOOST_TEST(!is_read_from_cache());
 }
 
-BOOST_FIXTURE_TEST_CASE(damaged_or_foreign_cache_is_made_again, Menu) {
+BOOST_FIXTURE_TEST_CASE(damaged_or_foreign_cache_is_made_again, QuickScene) {
   read();
   forge(cache);
   const std::string whole = file_text(cache);
@@ -103,7 +104,7 @@ BOOST_FIXTURE_TEST_CASE(damaged_or_foreign_cache_is_made_again, Menu) {
   }
 }
 
-BOOST_FIXTURE_TEST_CASE(cache_that_cannot_be_written_is_no_error, Menu) {
+BOOST_FIXTURE_TEST_CASE(cache_that_cannot_be_written_is_no_error, QuickScene) {
   // A file where the folder should be: root may write into any folder.
   write_text(directory / "occupied", "");
   cache = directory / "occupied/costs.json";

@@ -96,10 +96,10 @@ BOOST_AUTO_TEST_CASE(unit_of_time_does_not_matter) {
           BOOST_TEST(std::abs(waveforms[i].at(time * unit, limit) - same[i].at(time, limit)) < 1e-12,
                      "waveform " << i << " at " << time << " in the unit " << unit);
         }
-        const std::optional<double> corner = same[i].next_discontinuity(time);
+        const std::optional<double> discontinuity = same[i].next_discontinuity(time);
         const std::optional<double> scaled = waveforms[i].next_discontinuity(time * unit);
-        BOOST_TEST_REQUIRE(corner.has_value() == scaled.has_value());
-        if (corner) BOOST_TEST(std::abs(*scaled / unit - *corner) < 1e-12);
+        BOOST_TEST_REQUIRE(discontinuity.has_value() == scaled.has_value());
+        if (discontinuity) BOOST_TEST(std::abs(*scaled / unit - *discontinuity) < 1e-12);
       }
     }
   }

@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_switch_are_those_of_the_forcing_that_holds_
   BOOST_TEST(!evolution.before_jump().has_value());
 }
 
-BOOST_AUTO_TEST_CASE(corner_without_a_jump_has_one_side) {
+BOOST_AUTO_TEST_CASE(discontinuity_of_the_slope_alone_has_one_side) {
   const Matrix position = prolate(8);
   Model model = field_model();
   model.electric->waveform = Waveform::table({0.0, 0.1, 0.3}, {0.0, 1.0, 0.3});

@@ -80,8 +80,8 @@ LayerSelection needed_layers(const Model& model, const VesicleModel& vesicle, bo
 
 std::optional<double> next_discontinuity(const Model& model, double time) {
   std::optional<double> result;
-  const auto add = [&](const std::optional<double>& corner) {
-    if (corner) result = std::min(*corner, result.value_or(*corner));
+  const auto add = [&](const std::optional<double>& discontinuity) {
+    if (discontinuity) result = std::min(*discontinuity, result.value_or(*discontinuity));
   };
   if (model.electric) add(model.electric->waveform.next_discontinuity(time));
   for (const auto& effect : explicit_effects(model)) add(effect->next_discontinuity(time));

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(surface_keeps_area_volume_and_energy_to_truncation) {
   BOOST_TEST(fine.energy < 1e-8);
 }
 
-BOOST_AUTO_TEST_CASE(nodes_land_on_the_old_surface) {
+BOOST_AUTO_TEST_CASE(new_nodes_lie_on_the_old_surface) {
   // The implicit equation of the ellipsoid tells the distance of every node, to first order.
   const Vector3 axes(1.0, 1.2, 2.0);
   const Tables tables(24);

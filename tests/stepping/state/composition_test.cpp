@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(frozen_shape_is_assembled_once) {
 }
 
 // After the pulse V_m decays at a rate of about 6; before it and long after it nothing electric is evaluated.
-BOOST_AUTO_TEST_CASE(electric_part_sleeps_while_field_and_potential_are_zero) {
+BOOST_AUTO_TEST_CASE(electric_part_is_inactive_while_field_and_potential_are_zero) {
   Model model = field_model();
   model.electric->waveform = Waveform::pulse_train(1.0, 0.5, 0.5, 8.0);
   const CountedRun run = counted_run(model, prolate(kOrder), 0.25, 9.0);
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(electric_part_sleeps_while_field_and_potential_are_zero) {
   BOOST_TEST(at(3) > at(2));     // t = 0.75, on
   BOOST_TEST(at(5) > at(4));     // t = 1.25, decaying
   BOOST_TEST(at(30) == at(32));  // t = 7.5 … 8, inactive
-  BOOST_TEST(at(35) > at(32));   // t = 8.75, awake again
+  BOOST_TEST(at(35) > at(32));   // t = 8.75, active again
   BOOST_TEST(run.state.vesicles[0].transmembrane_potential.norm() > 1e-3);
 }
 

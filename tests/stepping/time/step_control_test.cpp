@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(absurd_step_is_rejected_with_a_reason) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(advance_halves_until_the_step_is_good_and_recovers) {
+BOOST_AUTO_TEST_CASE(control_halves_until_the_step_is_good_and_recovers) {
   const Discretisation discretisation = discretisation_of(8);
   const Model model = shear_model();
   const double nominal = 32.0;
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(step_cut_by_the_limit_does_not_shorten_those_that_follow) {
   BOOST_TEST(result.state.dt_next == 0.1);
 }
 
-BOOST_AUTO_TEST_CASE(advance_gives_up_with_the_reason_when_no_step_is_good) {
+BOOST_AUTO_TEST_CASE(control_gives_up_with_the_reason_when_no_step_is_good) {
   const Discretisation discretisation = discretisation_of(8);
   const Model model = shear_model();
   State state = start(model, discretisation, example_3_shape(8), 0.1);

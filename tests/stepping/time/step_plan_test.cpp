@@ -4,7 +4,7 @@
 
 BOOST_AUTO_TEST_SUITE(step_plan)
 
-BOOST_AUTO_TEST_CASE(steps_land_exactly_on_every_snapshot) {
+BOOST_AUTO_TEST_CASE(steps_end_exactly_on_every_snapshot) {
   for (const double dt : {0.5, 0.3, 0.07, 2.0}) {
     const vehd::EventTimes events{0.1, 12.3};
     double time = 0.0;
