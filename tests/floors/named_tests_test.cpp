@@ -38,12 +38,13 @@ std::vector<fs::path> files_below(const std::string& folder, const std::set<std:
 /// Cases of every suite; suites of one name in several programs count as one.
 std::map<std::string, std::set<std::string>> suites() {
   std::map<std::string, std::set<std::string>> result;
-  const std::regex line(R"(BOOST_(AUTO_TEST_SUITE|AUTO_TEST_CASE|FIXTURE_TEST_CASE|DATA_TEST_CASE)\(\s*(\w+))");
+  const std::regex line(
+      R"(BOOST_(AUTO_TEST_SUITE|FIXTURE_TEST_SUITE|AUTO_TEST_CASE|FIXTURE_TEST_CASE|DATA_TEST_CASE)\(\s*(\w+))");
   for (const fs::path& file : files_below("tests", {".cpp"})) {
     const std::string text = text_of(file);
     std::string suite;
     for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) {
-      if ((*it)[1] == "AUTO_TEST_SUITE") {
+      if (it->str(1).ends_with("SUITE")) {
         suite = (*it)[2];
         result[suite];
       } else {
