@@ -5,8 +5,8 @@
 
 #include "bie/support/types.hpp"
 
-/// What decides in a step, each with where it comes from: derived, or measured (docs/thresholds.md shows what halving
-/// and doubling the measured ones does to iterations and time).
+/// What decides in a step, each with where it comes from: derived, or measured (docs/thresholds.md shows what
+/// other values do to the iterations).
 namespace vehd::thresholds {
 
 // Recycling between steps, see RecycledSubspaces.
@@ -16,7 +16,7 @@ namespace vehd::thresholds {
 constexpr Index most_recycled = 128;
 /// A step that takes this many times the iterations of one without recycling is misled by it. Measured.
 constexpr double misled_by_recycling = 2.0;
-/// Steps until recycling is tried again: at two steps in fifty a useless trial costs a few percent of a run.
+/// Steps until recycling is tried again: at two steps in fifty a useless trial costs a few percent of a run. Measured.
 constexpr std::int64_t steps_without_recycling = 50;
 
 // The solve for (h, λ), Eq. (27).
