@@ -6,17 +6,27 @@
 namespace vehd {
 
 /// Prefactor of G = 1/(4π|r|) and of its derivatives.
+/// Source: paper Eq. (9)
 constexpr double kLaplacePrefactor = 1.0 / (4.0 * std::numbers::pi);
 
-/// |r| G / prefactor-free parts: single layer 1/|r|.
+/// G without prefactor: 1/|r|, for a target that is not the source.
+/// @param inverse_r  1/|r|
+/// Accuracy: rounding
+/// Source: paper Eq. (9)
 inline double laplace_single_kernel(double inverse_r) { return inverse_r; }
 
 /// ∂G/∂n(y) without prefactor: r·n(y)/|r|³, Eq. (9).
+/// @param r_dot_source_normal  r·n(y), or r·J n(y) where the area element is to be in the kernel; its units come out
+/// Accuracy: rounding
+/// Source: paper Eq. (9)
 inline double laplace_double_kernel(double r_dot_source_normal, double inverse_r) {
   return r_dot_source_normal * inverse_r * inverse_r * inverse_r;
 }
 
 /// ∂G/∂n(x) without prefactor: −r·n(x)/|r|³.
+/// @param r_dot_target_normal  r·n(x), or r·J n(x)
+/// Accuracy: rounding
+/// Source: paper Eq. (10), first part
 inline double laplace_adjoint_kernel(double r_dot_target_normal, double inverse_r) {
   return -r_dot_target_normal * inverse_r * inverse_r * inverse_r;
 }

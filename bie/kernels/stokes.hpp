@@ -6,10 +6,16 @@
 /// Pointwise Stokes kernels, r = x − y (target minus source). No quadrature, no area element.
 namespace vehd {
 
-/// 1/(8πμ), Eq. (6).
+/// 1/(8πμ).
+/// @param viscosity  μ > 0
+/// Source: paper Eq. (6)
 constexpr double stokes_single_layer_prefactor(double viscosity) { return 1.0 / (8.0 * std::numbers::pi * viscosity); }
 
 /// Upper triangle xx, xy, xz, yy, yz, zz of δ_ij/|r| + r_i r_j/|r|³, Eq. (6) without prefactor.
+/// @param inverse_r  1/|r|
+/// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11
+/// (tests/potentials/stokes_sphere_test.cpp)
+/// Source: paper Eq. (6)
 inline std::array<double, 6> stokeslet(double rx, double ry, double rz, double inverse_r) {
   const double inverse_r3 = inverse_r * inverse_r * inverse_r;
   return {inverse_r + rx * rx * inverse_r3, rx * ry * inverse_r3, rx * rz * inverse_r3,
@@ -26,6 +32,11 @@ constexpr double kStokesDoubleLayerPrefactor = 3.0 / (4.0 * std::numbers::pi);
 /// and D[v] of any v jumps by −v from outside to inside. A flow with velocity u and traction t = σ·n on the surface has
 ///   u = S[t]/μ − D[u] inside (½u on the surface), and with decay u = D[u] − S[t]/μ outside.
 /// As r·n(y) = O(|r|²) for smooth surfaces, the kernel is O(1/|r|).
+/// @param r_dot_source_normal  r·n(y), or r·J n(y)
+/// @param inverse_r            1/|r|
+/// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11
+/// (tests/potentials/stokes_sphere_test.cpp)
+/// Source: Pozrikidis 1992 (Boundary integral and singularity methods for linearized viscous flow)
 inline std::array<double, 6> stokes_double_kernel(double rx, double ry, double rz, double r_dot_source_normal,
                                                   double inverse_r) {
   const double inverse_r2 = inverse_r * inverse_r;

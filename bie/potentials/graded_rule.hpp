@@ -25,6 +25,11 @@ struct GradedRule {
   [[nodiscard]] Index n_nodes() const { return theta.size() * n_phi; }
 };
 
+/// @param order    degree p of the harmonics that the tables are for
+/// @param scale    smallest angle that is resolved, > 0; height over largest stretch of a foot point
+/// Accuracy: spectral in n_theta and n_phi; a peak of width 1e-8 and more is integrated to 1e-11
+/// (tests/potentials/foot_point_test.cpp)
+/// Source: the substitution is that of Johnston and Elliott 2005 (sinh transformation of nearly singular integrals)
 GradedRule make_graded_rule(int order, double scale, int n_theta, int n_phi);
 
 }  // namespace vehd

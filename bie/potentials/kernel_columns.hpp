@@ -4,7 +4,8 @@
 
 namespace vehd {
 
-/// What each column of the assembled rows means.
+/// Which columns of the assembled rows belong to which layer: one for a scalar layer, six for a Stokes layer, −1 for a
+/// layer that is not selected.
 struct KernelColumns {
   int single = -1, double_layer = -1, adjoint = -1, stokes = -1, stokes_double = -1;
   int count = 0;

@@ -21,6 +21,7 @@ struct LayerFields {
 };
 
 /// @throws ShapeError if a density does not match the order of the position
+/// @param position  coefficients of x, [n_coefficients x 3]
 LayerFields make_layer_fields(const Matrix& position, const LayerDensities& densities);
 
 }  // namespace vehd

@@ -37,6 +37,9 @@ struct NodeBlock {
 };
 
 /// Adds the block's share for the target at `offset` from the origin of the block's positions.
+/// @param offset  target minus origin of the positions in the block, so that near targets lose no digits
+/// Accuracy: rounding of the sums; vectorised, equal bits for any count of threads
+/// Source: paper Eqs. (6), (8); ∇D in the form ∫ ∇G × (n×∇_γ f) dA, as paper Eq. (24)
 void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayerSums& sums);
 
 }  // namespace vehd

@@ -10,6 +10,7 @@
 
 namespace vehd {
 
+/// How far the rules of OffSurfaceLayers go.
 struct OffSurfaceSettings {
   /// Largest change from one rule to the next, relative to the largest density (times the radius √(area/4π) for the
   /// single layers, times its surface gradient for ∇D). The accepted value is that of the finer rule.
@@ -26,6 +27,7 @@ struct LayerField {
   Vector error;   ///< estimate per target, absolute: the last change. Truncation to degree p is not part of it.
 };
 
+/// The layers at every target, all with one row per target.
 struct OffSurfaceValues {
   LayerField laplace_single, laplace_single_gradient;
   LayerField laplace_double, laplace_double_gradient;
@@ -44,6 +46,8 @@ struct OffSurfaceValues {
 ///   ∇D[f] = ∫ ∇G × (n×∇_γ f) dA,
 /// in place of the strongly singular forms. Every target goes through rules of rising size until two agree.
 /// Accuracy: that of the densities and of the surface at degree p, whatever the distance (docs/near_membrane.md).
+/// Layers of harmonics on a sphere to 1e-9 at every distance on either side (tests/potentials/off_surface_test.cpp).
+/// Source: paper Eqs. (6), (8), (9); D[1] of Gauss's theorem
 class OffSurfaceLayers {
  public:
   /// @param position  coefficients of the membrane, [n_coefficients x 3]

@@ -27,6 +27,10 @@ struct RotatedQuadrature {
 };
 
 /// @param oversampling  nodes in θ per degree: n_theta = ceil(oversampling * order) + a constant for low orders
+/// @param targets       the grid whose nodes are the targets; its order is that of the densities
+/// Accuracy: spectral in the oversampling; at the default 1.15 within 1e-5 of 4.0 on shape (33) at p = 16
+/// (tests/potentials/quadrature_test.cpp)
+/// Source: paper Eq. (23) with the pole at the target, but Gauss-Legendre nodes in θ in place of its weights
 RotatedQuadrature make_rotated_quadrature(const SphereGrid& targets, double oversampling);
 
 }  // namespace vehd

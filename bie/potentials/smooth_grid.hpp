@@ -16,9 +16,13 @@ struct SmoothGrid {
   [[nodiscard]] Index n_nodes() const { return nodes.rows(); }
 };
 
+/// The fields on the grid of order grid_order, with their quadrature.
+/// Source: paper Eq. (22)
 SmoothGrid make_smooth_grid(const LayerFields& fields, int grid_order);
 
 /// Sums of the smooth rule: error about exp(−2π distance/spacing).
+/// @param target  off the surface, in the coordinates of the grid
+/// Source: paper Eq. (22); error of the trapezoidal rule near a singularity: Trefethen and Weideman 2014
 LayerSums smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const Vector3& target);
 
 /// √(area/4π).
@@ -27,12 +31,14 @@ double mean_radius(const SmoothGrid& grid);
 /// Nodes from which the nearest point of the membrane is sought: the nearest one and, if hardly farther, the nearest
 /// one whose normal points the other way. Where two parts of the membrane are closer than their nodes, the nearest node
 /// may belong to the farther part.
+/// Distances are from node to target.
 struct NearestNodes {
   Index first = 0, opposite = 0;
   bool opposite_counts = false;
   double distance = 0.0;  ///< of the first
 };
 
+/// The nodes nearest to a target by a look at all of them.
 NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target);
 
 }  // namespace vehd

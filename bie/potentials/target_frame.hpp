@@ -9,9 +9,11 @@
 namespace vehd {
 
 /// Fields on the membrane in the frame whose north pole is a given direction.
+/// Accuracy: rounding of the rotation
 class TargetFrame {
  public:
   /// @param fields  must outlive the frame
+  /// @param theta, phi  direction of the pole
   TargetFrame(const LayerFields& fields, double theta, double phi);
 
   /// Values of the fields at the pole.

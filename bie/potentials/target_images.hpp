@@ -15,6 +15,7 @@ struct ActiveCoefficients {
   std::vector<Index> position;  ///< among the active ones in coefficient order
   std::vector<Index> indices;   ///< coefficient_index of each position; empty if all are active
 
+  /// @param azimuthal_order  at most `order`
   ActiveCoefficients(int order, int azimuthal_order);
 
   [[nodiscard]] Index count() const { return static_cast<Index>(n.size()); }
@@ -29,6 +30,7 @@ struct SurfaceMaps {
 /// How the rows of one target follow from those of another when the surface is its own image. Under a reflection a row
 /// over coefficients changes sign with the parity of each harmonic and, in the Stokes blocks, with the components i and
 /// j; for rotations see RowRotation.
+/// Accuracy: rounding; operators agree with those without images to 1e-12 (tests/potentials/target_images_test.cpp)
 class TargetImages {
  public:
   /// @param n_phi  even, and a multiple of the fold

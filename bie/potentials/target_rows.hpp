@@ -71,8 +71,13 @@ struct ColumnPlace {
 /// Work of one thread: the kernel rows of a chunk of targets, which share the matrix products. Targets of one latitude
 /// stand together. Where all targets lie in a plane of symmetry y = 0, what they see at azimuths φ and −φ about them is
 /// equal up to signs, so that one half of the nodes is enough.
+/// Source: Gimbutas and Veerapaneni 2013 for phase shift, rotation and synthesis; here the same chain runs backwards as
+/// well, so that a kernel row becomes a row over coefficients
 class TargetRows {
  public:
+  /// @param position  coefficients of x, [n_coefficients x 3]; it and the other references must outlive the rows
+  /// @param chunk     targets at a time
+  /// @param mirrored  all targets lie in a plane of symmetry y = 0
   TargetRows(const RotatedQuadrature& quadrature, const KernelColumns& kernels, const Matrix& position,
              int azimuthal_order, int chunk, bool mirrored);
 

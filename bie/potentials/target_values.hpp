@@ -14,9 +14,12 @@ struct TargetValues {
   double enclosure = 0.0;  ///< D[1]
 };
 
+/// The sums with 1/(4π), and 1/(8π) for the Stokes layer at μ = 1.
+/// Source: paper Eqs. (6), (9)
 TargetValues with_prefactors(const LayerSums& sums);
 
 /// D[1]: −1 inside, 0 outside, −½ on the membrane.
+/// Source: Gauss's theorem
 double enclosure_of(Side side);
 
 /// One size per layer: of a change, or of what a change is small against.
@@ -28,6 +31,7 @@ struct LayerSizes {
 LayerSizes change(const TargetValues& a, const TargetValues& b);
 
 /// Largest densities on the membrane: times √(area/4π) for the single layers, ∇_γ f for ∇D.
+/// What a change of the layers is small against: units of each layer.
 LayerSizes density_sizes(const SmoothGrid& grid, const NodeColumns& columns);
 
 /// Whether every change is below the tolerance times its size.
