@@ -16,6 +16,7 @@ namespace vehd {
 /// grows what the map's rounding leaves between A x and what is kept of it. The coefficients are carried along: they
 /// tell which proposals are too dependent to be used, and how far the recurrence for the residual can be off. Success
 /// is reported where the residual is small with that added, and else only of b − A x itself.
+/// Accuracy: the true residual is below the tolerance wherever success is reported (tests/linear/recycled_gcr_test.cpp)
 class RecycledGcr {
  public:
   /// @param map             x ↦ A x of length `size`, followed by n_further entries that depend linearly on x

@@ -7,8 +7,10 @@
 
 namespace vehd {
 
+/// x ↦ A x.
 using LinearMap = std::function<Vector(const Vector&)>;
 
+/// When a solve is done, and when it gives up.
 struct SolveOptions {
   double tolerance = 1e-10;  ///< of the preconditioned residual relative to the preconditioned right-hand side
   int max_iterations = 100;

@@ -7,18 +7,25 @@
 namespace vehd {
 
 /// Linear background flow v_inf(x, t) = waveform(t) gradient x, gradient(i, j) = dv_i/dx_j, trace zero.
+/// Gradient in 1/time.
+/// Source: paper Eq. (1c)
 struct BackgroundFlow {
   Matrix3 gradient = Matrix3::Zero();
   Waveform waveform{};
 };
 
 /// v = rate (z, 0, 0): flow along x, gradient along z.
+/// Accuracy: exact (tests/physics/background_flow_test.cpp)
 BackgroundFlow shear_flow(double rate);
 /// v = rate (x, 0, -z).
+/// Accuracy: exact (tests/physics/background_flow_test.cpp)
 BackgroundFlow planar_extension(double rate);
 /// v = rate (-x/2, -y/2, z).
+/// Accuracy: exact (tests/physics/background_flow_test.cpp)
 BackgroundFlow axisymmetric_extension(double rate);
 
+/// Adds v_∞(x) of a BackgroundFlow to the velocity of the undisturbed fluid: linear in x, hence exact in coefficients.
+/// Source: paper Eqs. (1c), (5)
 class LinearFlowEffect : public ExplicitEffect {
  public:
   explicit LinearFlowEffect(BackgroundFlow flow) : flow_(std::move(flow)) {}

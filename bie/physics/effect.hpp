@@ -12,6 +12,7 @@
 
 namespace vehd {
 
+/// A layer that an effect needs, with the reason in words.
 struct OperatorNeed {
   bool LayerSelection::*layer;
   std::string why;
@@ -44,7 +45,9 @@ class ExplicitEffect {
  public:
   virtual ~ExplicitEffect() = default;
 
+  /// What it adds and the operators that it needs.
   [[nodiscard]] virtual EffectDescription description() const = 0;
+  /// Adds its force or its velocity to what other effects have left there.
   virtual void add(const EffectInput& input, Forcing& forcing) const = 0;
   /// Is the effect its own image under the reflection g?
   [[nodiscard]] virtual bool is_invariant_under(const Reflection& g) const = 0;

@@ -6,11 +6,15 @@ namespace vehd {
 
 /// Body force on the inner fluid beyond that on the outer one, (ρ_i − ρ_e) g. As its gradient parts balance in either
 /// fluid, it acts as f_g = (ρ_i − ρ_e)(g·x) n on the membrane; the total is (ρ_i − ρ_e) g V.
+/// Density difference times acceleration is a force per volume.
 struct GravityParameters {
   double density_difference = 0.0;  ///< ρ_i − ρ_e
   Vector3 acceleration = Vector3::Zero();
 };
 
+/// The force f_g of GravityParameters, per area, [n_points x 3].
+/// Accuracy: rounding; the sum is (ρ_i − ρ_e) g V to 1e-10 (tests/physics/explicit_effects_test.cpp), a sphere sinks
+/// with the speed of Hadamard and Rybczynski or of Stokes to 1e-9 (tests/stepping/state/composition_test.cpp)
 class GravityEffect : public ExplicitEffect {
  public:
   explicit GravityEffect(GravityParameters parameters) : parameters_(std::move(parameters)) {}

@@ -21,6 +21,7 @@ struct Membrane {
   std::optional<ViscosityContrast> contrast{};  ///< empty where both fluids have the same viscosity
 
   /// Coefficients of J f from values on the upsampled grid.
+  /// @param values  [n_points x n_fields] @return [n_coefficients x n_fields]
   [[nodiscard]] Matrix weighted(const Matrix& values) const {
     return fine.analyze(surface.area_element.asDiagonal() * values);
   }

@@ -8,6 +8,8 @@
 namespace vehd {
 
 /// Bending energy kappa_B ∫ H² dA, force Eq. (2).
+/// The usual Helfrich modulus is κ_c = κ_B/2; unit energy.
+/// Source: paper Eq. (2)
 struct BendingParameters {
   double modulus = 0.0;  ///< kappa_B
 };
@@ -35,6 +37,7 @@ struct InnerDielectric {
 };
 
 /// Leaky-dielectric bulk fluids on both sides of one membrane in a uniform applied field, Eq. (4).
+/// Source: paper Eqs. (3), (4)
 struct ElectricParameters {
   Vector3 field = Vector3::Zero();  ///< E_inf where the waveform is 1
   double conductivity_in = 1.0;     ///< sigma_i
@@ -53,6 +56,8 @@ struct ElectricParameters {
 };
 
 /// Membrane as a leaky capacitor, Eq. (4e).
+/// Per area of membrane.
+/// Source: paper Eq. (4e)
 struct ChargingParameters {
   double capacitance = 1.0;  ///< C_m
   double conductance = 0.0;  ///< G_m

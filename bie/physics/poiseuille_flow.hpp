@@ -7,6 +7,7 @@ namespace vehd {
 
 /// Unbounded Poiseuille flow along a unit vector d, v = waveform(t) centre_velocity (1 − |x − (x·d) d|²/radius²) d: no
 /// wall stands at `radius`, it only sets the curvature of the profile.
+/// centre_velocity in length/time, radius in length.
 struct PoiseuilleParameters {
   double centre_velocity = 1.0;
   double radius = 1.0;
@@ -14,6 +15,9 @@ struct PoiseuilleParameters {
   Vector3 direction = Vector3::UnitX();
 };
 
+/// Adds the flow of PoiseuilleParameters to the velocity of the undisturbed fluid: quadratic in x, evaluated on the
+/// upsampled grid and truncated to degree p.
+/// Accuracy: the written profile to 1e-12 (tests/physics/explicit_effects_test.cpp)
 class PoiseuilleFlowEffect : public ExplicitEffect {
  public:
   explicit PoiseuilleFlowEffect(PoiseuilleParameters parameters) : parameters_(std::move(parameters)) {}

@@ -20,11 +20,13 @@ typename Derived::PlainObject without_rounding(const Eigen::MatrixBase<Derived>&
 }  // namespace detail
 
 /// R v.
+/// Accuracy: rounding; entries below 1e-14 of the largest are zero
 inline Vector3 rotated_vector(const Matrix3& rotation, const Vector3& v) {
   return detail::without_rounding((rotation * v).eval());
 }
 
 /// R A Rᵀ.
+/// Accuracy: rounding; entries below 1e-14 of the largest are zero
 inline Matrix3 rotated_tensor(const Matrix3& rotation, const Matrix3& a) {
   return detail::without_rounding((rotation * a * rotation.transpose()).eval());
 }

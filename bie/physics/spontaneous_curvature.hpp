@@ -6,11 +6,14 @@ namespace vehd {
 
 /// Bending energy κ_B ∫ (H − c)² dA with a preferred mean curvature c (H = −1 on the unit sphere). On top of the
 /// bending force of c = 0 it exerts f_c = −2 κ_B c (K − c H) n.
+/// Source: Helfrich 1973, with the sign H = −1 on the unit sphere
 struct SpontaneousCurvatureParameters {
   double bending_modulus = 0.0;  ///< κ_B
   double curvature = 0.0;        ///< c
 };
 
+/// The force f_c of SpontaneousCurvatureParameters, per area.
+/// Accuracy: spectral; with bending the slope of the energy to 1e-5 (tests/physics/explicit_effects_test.cpp)
 class SpontaneousCurvatureEffect : public ExplicitEffect {
  public:
   explicit SpontaneousCurvatureEffect(SpontaneousCurvatureParameters parameters) : parameters_(parameters) {}

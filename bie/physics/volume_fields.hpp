@@ -14,6 +14,7 @@ struct PotentialSources {
   Vector weighted_charge;           ///< J q, q = [[∂φ/∂n]] = η g
 };
 
+/// The potential and its field at points off the membrane.
 struct PotentialSamples {
   Vector potential;        ///< φ, [n_points]
   Matrix field;            ///< E = −∇φ, [n_points x 3]
@@ -30,6 +31,8 @@ struct PotentialSamples {
 /// @param side      limit taken at points on the membrane; its principal value is the mean of both
 /// @throws ConvergenceError if the quadrature is not resolved at some point
 /// Accuracy: docs/near_membrane.md
+/// Potential and field around a sphere to 1e-9, inside a 2:1 prolate to 1e-8 (tests/physics/volume_fields_test.cpp)
+/// Source: paper Eq. (7)
 PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& position, const PotentialSources& sources,
                               const OffSurfaceSettings& settings, Instruments& instruments);
 
@@ -40,6 +43,7 @@ struct VelocitySources {
   Matrix weighted_force;  ///< J f, f = f_b + f_λ − f_E acting on the fluid, coefficients [n_coefficients x 3]
 };
 
+/// The velocity at points off the membrane.
 struct VelocitySamples {
   Matrix velocity;        ///< [n_points x 3]
   Vector velocity_error;  ///< estimate of the quadrature's error, absolute
@@ -50,6 +54,11 @@ struct VelocitySamples {
 /// v(x) = v_∞(x) + (1/8πμ) ∫ (I/|r| + r rᵀ/|r|³) f dA, Eq. (5), r = x − y: continuous across the membrane, so that
 /// points on it need no side.
 /// @throws ConvergenceError if the quadrature is not resolved at some point
+/// @param points    [n_points x 3]
+/// @param position  coefficients of the membrane, [n_coefficients x 3]
+/// Accuracy: that of the force at degree p; around a translating sphere to 1e-10, around a 2:1 prolate to 1e-7
+/// (tests/physics/volume_fields_test.cpp)
+/// Source: paper Eq. (5)
 VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const VelocitySources& sources,
                             const OffSurfaceSettings& settings, Instruments& instruments);
 

@@ -9,6 +9,8 @@ namespace vehd {
 enum class Limit { before, after };
 
 /// Factor that a field or a flow is multiplied with in the course of time.
+/// Times that differ by rounding are one time, relative to their size or to what the waveform does in time; so its unit
+/// does not matter (tests/physics/waveform_test.cpp).
 class Waveform {
  public:
   /// 1 at all times.
@@ -18,11 +20,13 @@ class Waveform {
   /// amplitude during [start, start + duration), 0 otherwise.
   static Waveform pulse(double amplitude, double start, double duration);
   /// A pulse at start, start + period, …
+  /// @throws InputError unless the pulses are shorter than the period
   static Waveform pulse_train(double amplitude, double start, double duration, double period);
   /// Linear between (times, values), constant beyond its ends; equal times make a jump.
   /// @throws InputError unless there are at least two entries in ascending order
   static Waveform table(std::vector<double> times, std::vector<double> values);
 
+  /// The factor; at a jump the value before or after it.
   [[nodiscard]] double at(double time, Limit limit = Limit::after) const;
   /// The first time after `time` at which the factor or its slope jumps: a step should end there.
   [[nodiscard]] std::optional<double> next_discontinuity(double time) const;

@@ -17,11 +17,14 @@ namespace vehd {
 /// @param nodes         x at the nodes of the grid, with its Hessian
 /// @param coefficients  of x
 /// @returns             nothing where the line misses the surface
+/// Accuracy: rounding; heights of ellipsoids to 1e-13, whatever the parametrisation to 1e-12
+/// (tests/sphere/axis_crossing_test.cpp)
 std::optional<SpherePoint> highest_on_line(const Vector3& point, const SphereGrid& grid, const SphereDerivatives& nodes,
                                            const Matrix& coefficients);
 
 /// The same for a surface that is axisymmetric about z and a point of its axis: one of its poles.
 /// @param coefficients  of x
+/// Accuracy: rounding (tests/sphere/axis_crossing_test.cpp)
 SpherePoint higher_pole(const Matrix& coefficients);
 
 }  // namespace vehd

@@ -7,6 +7,7 @@
 /// The complex harmonic of Eq. (17) has Re = Y_{n,m}/√2, Im = Y_{n,-m}/√2 for m > 0.
 namespace vehd {
 
+/// (p + 1)², the number of harmonics of degree up to p.
 constexpr Index n_coefficients(int order) { return Index{order + 1} * (order + 1); }
 
 /// Position of (n, m), −n ≤ m ≤ n, in a coefficient vector: degree-major, so truncation keeps a prefix.
@@ -23,6 +24,8 @@ Matrix resize_order(const Matrix& coefficients, int order);
 
 /// Values at arbitrary points: [n_points x n_fields] from coefficients [(p+1)² x n_fields].
 /// θ = 0 and π are allowed. Cost O(n_points p²).
+/// Accuracy: rounding; low degrees are the written formulas to 1e-14 (tests/sphere/transform_test.cpp)
+/// Source: paper Eqs. (16), (17)
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi);
 /// The same of the harmonics with |m| ≤ azimuthal_order alone, at cost O(n_points p azimuthal_order).
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order);

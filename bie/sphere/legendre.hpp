@@ -18,6 +18,7 @@ struct LegendreTables {
 
 /// Tables at the given colatitudes, poles included. Derivatives follow from ladder relations in n and m, so that
 /// nothing is divided by sin θ; relative accuracy near machine precision for order ≤ 256.
+/// Source: three-term recurrence in n from the sectoral functions, normalised (as in Gimbutas and Veerapaneni 2013)
 LegendreTables legendre_tables(int order, const Vector& theta);
 
 /// Coefficients of the three-term recurrence T_n = a (cos θ T_{n−1} − b T_{n−2}) at fixed m < n.
@@ -25,6 +26,7 @@ struct LegendreRecurrence {
   double a;
   double b;
 };
+/// See LegendreRecurrence; 0 ≤ m < n.
 LegendreRecurrence legendre_recurrence(int n, int m);
 
 /// T_mm = legendre_sectoral_factor(m) sin θ T_{m−1,m−1}; T_00 = 1/√(4π).

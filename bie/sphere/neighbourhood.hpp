@@ -11,6 +11,7 @@ struct SpherePoint {
   double phi = 0.0;
 };
 
+/// The point of a node of the grid.
 SpherePoint point_of(const SphereGrid& grid, Index node);
 /// The point in the direction of a vector of any length but zero.
 SpherePoint point_of(const Vector3& vector);

@@ -5,9 +5,12 @@
 namespace vehd {
 
 /// The map (x, y, z) → (±x, ±y, ±z), of space or of the unit sphere.
+/// Eight of them, a group under composition.
+/// Accuracy: exact
 struct Reflection {
   int x = 1, y = 1, z = 1;
 
+  /// Sign of the coordinate with this number.
   [[nodiscard]] int sign(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   /// Sign of cos mφ (m ≥ 0) or sin |m|φ (m < 0) under the map of the azimuth.
   [[nodiscard]] int azimuthal_parity(int m) const {

@@ -25,6 +25,8 @@ struct Symmetry {
 
 /// Which coefficients of the fields on one membrane can differ from zero under its symmetries, and the part of a field
 /// that is its own image. Immutable; copies are cheap next to a field.
+/// Accuracy: exact for reflections; means under rotations to rounding. Steps within the subspace agree with full ones
+/// to 1e-9 (tests/stepping/state/symmetry_test.cpp, tests/stepping/state/fold_test.cpp)
 class SymmetrySubspace {
  public:
   /// @param order  degree of the fields
@@ -42,7 +44,9 @@ class SymmetrySubspace {
 
   /// Means of a field and its images: what rounding breaks of a symmetry an instability would feed on.
   [[nodiscard]] Vector symmetric_scalar(const Vector& field) const;
+  /// See symmetric_scalar; of one that takes the sign of V_m.
   [[nodiscard]] Vector symmetric_potential(const Vector& field) const;
+  /// See symmetric_scalar; of a vector field, [n_coefficients x 3].
   [[nodiscard]] Matrix symmetric_vector(const Matrix& field) const;
 
  private:

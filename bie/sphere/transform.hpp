@@ -16,6 +16,8 @@ struct SphereDerivatives {
 /// Spherical-harmonic transform between coefficients of degree ≤ order and a grid (Legendre sums by Eigen, Fourier
 /// sums by FFTW). Immutable after construction; every call may run concurrently. Copies share their tables, which live
 /// as long as the last of them. Cost O(order² n_theta) a field.
+/// Accuracy: rounding; round trips to 2e-13 up to degree 64 (tests/sphere/transform_test.cpp)
+/// Source: paper Eqs. (16), (17), (21)
 class SphereTransform {
  public:
   /// @throws ShapeError if the grid is too coarse for the order
@@ -32,6 +34,7 @@ class SphereTransform {
   [[nodiscard]] Matrix synthesize(const Matrix& coefficients) const;
   /// Value and first derivatives only (d11, d12, d22 stay empty).
   [[nodiscard]] SphereDerivatives synthesize_gradient(const Matrix& coefficients) const;
+  /// Value, first and second derivatives.
   [[nodiscard]] SphereDerivatives synthesize_hessian(const Matrix& coefficients) const;
   /// Coefficients of degree ≤ order by Gauss quadrature; exact for fields of degree ≤ 2 grid.order + 1 − order.
   [[nodiscard]] Matrix analyze(const Matrix& values) const;
