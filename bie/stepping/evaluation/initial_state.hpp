@@ -20,6 +20,8 @@ struct StartMembrane {
 
 /// State at time 0, every membrane in the degree of its position, with its own area, volume and area element as
 /// references: strain zero.
+/// @param discretisation  of the degrees that the positions are cut to or continued by zeros
+/// @throws ConvergenceError where a steady V_m is not found
 State initial_state(const Model& model, const Discretisation& discretisation,
                     const std::vector<StartMembrane>& membranes, double dt, Instruments& instruments);
 

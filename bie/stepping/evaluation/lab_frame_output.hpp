@@ -8,6 +8,7 @@
 namespace vehd {
 
 /// Results of a run as they look in the laboratory, whatever the frame that it computes in.
+/// Accuracy: rounding of the rotation (tests/stepping/state/frame_test.cpp)
 class LabFrameOutput {
  public:
   /// @param settings  with the degree of the results

@@ -14,6 +14,9 @@ struct LayerCheck {
   double truncation = 0.0;
 };
 
+/// The check of whatever layers the membrane has.
+/// Accuracy: below 1e-6 for exact layers on an asymmetric shape at p = 12, above 1e-5 at half the quadrature
+/// (tests/stepping/evaluation/operator_checks_test.cpp)
 LayerCheck check_layers(const Membrane& membrane);
 
 /// Least distance of two parts of the membrane that face each other, in grid spacings: over pairs of nodes of order p,
@@ -23,6 +26,8 @@ LayerCheck check_layers(const Membrane& membrane);
 /// @param nodes     of order p and all longitudes
 /// @param position  coefficients of x
 /// @param one_meridian_suffices  true where every meridian is the image of the first
+/// Accuracy: the distance of the parts of a dimpled disc to 5 % below and 0.15 spacings above
+/// (tests/stepping/evaluation/operator_checks_test.cpp)
 double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices);
 
 }  // namespace vehd

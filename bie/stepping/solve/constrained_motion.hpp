@@ -31,6 +31,9 @@ struct MotionContext {
 /// @param flow        the linearised system of this membrane and this dt
 /// @param iterations  grows by those of the flow
 /// @throws ConvergenceError where there is no such motion
+/// Accuracy: area and volume to the tolerance of the constraint, 1e-9 by default
+/// (tests/stepping/time/step_control_test.cpp)
+/// Source: paper Eqs. (27), (28); the iterated right-hand side of (27b) is of this project
 Motion constrained_motion(const MotionContext& context, const MotionStart& start, double dt, FlowSystem& flow,
                           const Arrival& arrival, int& iterations);
 

@@ -13,6 +13,7 @@ namespace vehd {
 /// of Eq. (28c)). Scalars of degree p replace the three components of x^{n+1}: (27a) needs x^{n+1} only through
 /// H^{n+1}. The held tension λ_0 is what the change of H does to a tension that is there already; the paper's scheme
 /// leaves it out, deferred corrections converge the better the more of the true response is implicit.
+/// Source: paper Eqs. (27), (28)
 struct MembraneUnknowns {
   Vector curvature;  ///< h; empty without bending
   Vector tension;    ///< λ; empty unless inextensible
@@ -24,10 +25,12 @@ struct VelocityField {
   SphereDerivatives derivatives;  ///< Hessian only where bending needs it
 };
 
+/// A velocity given by its coefficients, [n_coefficients x 3], on the upsampled grid.
 VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficients, bool hessian);
 
 /// u of the unknowns, coefficients.
 /// @param held_tension  λ_0 ≥ 0 on the upsampled grid; empty: zero
+/// Source: paper Eqs. (5), (28a), (28c)
 Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membrane, const MembraneUnknowns& unknowns,
                          const Vector& held_tension = {});
 
@@ -64,12 +67,16 @@ struct FlowLayout {
 
 /// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and
 /// the area cannot change at constant volume.
+/// @param membrane  a sphere up to rounding, or not
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane);
 
 /// The semi-implicit system (27) with (28) for the increments (h, λ) on one frozen membrane, preconditioned with its
 /// exact inverse on the sphere of the same area for the actual κ_B, both viscosities and dt. dt = 0 leaves the tension
 /// problem alone. What one solve learns of the operator serves the next, and so does what solves on other membranes and
 /// for other dt have learned.
+/// Accuracy: the tolerance of the solve; solutions satisfy the system to 1e-8, in at most 40 iterations at every ratio
+/// of viscosities (tests/stepping/solve/flow_system_test.cpp)
+/// Source: paper Eqs. (27), (28); preconditioned with the spectrum of the sphere as Veerapaneni et al. 2011
 class FlowSystem {
  public:
   /// @param membrane  must outlive the system

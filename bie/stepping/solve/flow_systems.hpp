@@ -18,6 +18,7 @@ class FlowSystems {
   /// @param recycled             of RecycledSubspaces
   FlowSystems(const FlowParameters& parameters, const Membrane& membrane, FlowOptions options,
               double explicit_relaxation, std::shared_ptr<const RecycledScalars> recycled);
+  /// The system of this size, made where it is asked for first.
   [[nodiscard]] FlowSystem& of(double dt);
   /// What was recycled and what has been learned, for the next step.
   [[nodiscard]] std::shared_ptr<const RecycledScalars> recycled() const;

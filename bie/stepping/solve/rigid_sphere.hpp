@@ -10,6 +10,7 @@ namespace vehd {
 
 /// The part of a membrane velocity that a sphere can follow, translation and divergence-free tangential flow:
 /// coefficients, [n_coefficients x 3].
+/// Accuracy: spectral; a sphere stays one to 1e-10 of its radius (tests/stepping/solve/rigid_sphere_test.cpp)
 Matrix rigid_sphere_velocity(const Membrane& sphere, const Matrix& velocity);
 
 /// Where points of a sphere have moved to.
@@ -20,6 +21,9 @@ struct SphereMotion {
 };
 
 /// What rigid_sphere_velocity does in dt, its rotation a finite one that strains nothing however long the step.
+/// @param velocity  coefficients, [n_coefficients x 3]
+/// Accuracy: exact for constant velocities; spheres fall as Stokes says and drift in a tube as Faxén says to 1e-8 at
+/// every time order (tests/stepping/solve/rigid_sphere_test.cpp)
 SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, double dt);
 
 /// The motion of points that end near x + displacement, with the rotation that is nearest to it. The flow is exact as

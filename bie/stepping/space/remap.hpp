@@ -13,6 +13,10 @@ struct SphereVectors {
 /// Divergence-free part of the tangential part of `displacement`: with a its contravariant components, J a = ∇Ψ + r̂×∇X
 /// on the unit sphere, and the first part alone changes area elements. A uniform translation slides nothing, so the
 /// mean of the displacement over the surface is left out.
+/// @param displacement  coefficients, [n_coefficients x 3]
+/// Accuracy: spectral; a rotation about the centre of a sphere is undone to second order
+/// (tests/stepping/space/remap_test.cpp)
+/// Source: Helmholtz decomposition on the unit sphere
 SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, const Matrix& displacement);
 
 /// Moves the grid over the surface without moving the surface: new node s takes what the material point Φ(s) carries,
@@ -24,6 +28,9 @@ SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, 
 /// @param displacement  dt u, coefficients: the last move of the material
 /// @param fields        at the material points
 /// @return              the same fields at the new nodes
+/// Accuracy: spectral; area to 1e-11, volume to 1e-12, energy to 1e-8 at p = 32, new nodes on the
+/// old surface to 1e-7 (tests/stepping/space/remap_test.cpp)
+/// Source: Veerapaneni et al. 2011 for the descent; undoing the sliding is of this project
 SurfaceFields remap(const SphereTransform& fine, const Matrix& displacement, const SurfaceFields& fields);
 
 }  // namespace vehd

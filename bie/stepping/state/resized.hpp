@@ -8,9 +8,11 @@ namespace vehd {
 /// The same fields in degrees up to `order`: cut, or continued by zeros. A membrane of another degree than before has
 /// nothing to recycle, see RecycledScalars.
 VesicleState resized(VesicleState vesicle, int order);
+/// Fields of one membrane likewise.
 VesicleFields resized(VesicleFields fields, int order);
 /// Every membrane in degrees up to `order`.
 State resized(State state, int order);
+/// The fields of every membrane likewise.
 Fields resized(Fields fields, int order);
 
 }  // namespace vehd

@@ -22,6 +22,8 @@ struct StepAttempt {
 };
 
 /// One try of size dt and of the order that the settings ask for, from a state and what was solved there.
+/// Accuracy: order time_order in dt (tests/stepping/time/time_order_test.cpp); nothing is thrown where a solve fails:
+/// the attempt says why
 StepAttempt attempt_step(const Model& model, const Discretisation& discretisation, const State& state,
                          const SolvedFields& at_start, double dt, Instruments& instruments);
 

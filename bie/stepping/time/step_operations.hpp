@@ -50,12 +50,14 @@ enum class NodeEnd { material, remapped };
 /// Solving and projecting are one iteration, since what a remap does to area and volume is projected out as well: see
 /// constrained_motion. A solve that fails throws ConvergenceError and ends the attempt; the iterations count all the
 /// same.
+/// Source: paper Eqs. (27)–(31); the four operations are those that Dutt, Greengard and Rokhlin 2000 correct with
 class StepOperations {
  public:
   /// @param start  and what was solved there, like all else, must outlive the step
   StepOperations(const Model& model, const Discretisation& discretisation, const State& start,
                  const SolvedFields& at_start, Instruments& instruments);
 
+  /// The state that the step starts from.
   [[nodiscard]] const State& start() const { return start_; }
 
   /// F at the start.
@@ -65,6 +67,7 @@ class StepOperations {
 
   /// The paper's semi-implicit step from the start, Eqs. (27)–(31): y_0 + dt (1 − dt L)⁻¹ F(y_0), with the field at its
   /// end.
+  /// Accuracy: first order in dt (tests/stepping/time/time_order_test.cpp)
   NodeSolution first_order_step(double dt, NodeEnd end);
   /// y + (1 − dt L)⁻¹ r.
   NodeSolution implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end);
@@ -74,7 +77,9 @@ class StepOperations {
   /// Largest difference of two solutions of one node, of x over the radius and of V_m over its size.
   [[nodiscard]] double difference(const NodeSolution& a, const NodeSolution& b) const;
 
+  /// Iterations so far of the flow solves.
   [[nodiscard]] int iterations_flow() const { return iterations_flow_; }
+  /// Iterations so far of the charging and charge solves.
   [[nodiscard]] int iterations_electric() const { return iterations_electric_; }
 
  private:

@@ -21,6 +21,7 @@ struct StepPlan {
 
 /// The way to the next event in equal steps no longer than dt, so that no sliver is left before it. A remainder
 /// within 1e-9 of a whole number of steps counts as whole.
+/// Accuracy: steps end on every event to rounding (tests/stepping/time/step_plan_test.cpp)
 StepPlan plan_step(double time, double dt, const EventTimes& events);
 
 }  // namespace vehd
