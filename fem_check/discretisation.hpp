@@ -14,6 +14,7 @@ enum class Ranks { all, each_alone };
 
 /// Continuous elements of one degree on each side of γ, on a curved mesh. The two sides share no vertex, so a field
 /// may jump across γ. Every rank knows the whole mesh; matrices and solves are distributed.
+/// Accuracy: area and volume of the membrane to 1e-6 (tests/fem_check/discretisation_test.cpp)
 class Discretisation {
  public:
   /// @param mesh    block mesh with split interface
@@ -21,9 +22,12 @@ class Discretisation {
   /// @throws std::invalid_argument for another mesh or a degree outside 1 … 8
   Discretisation(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, Ranks ranks = Ranks::all);
 
+  /// Degree k of the elements.
   [[nodiscard]] int degree() const;
+  /// Cells on both sides.
   [[nodiscard]] int n_cells() const;
   [[nodiscard]] int n_faces() const;  ///< of the membrane
+  /// Nodes of the scalar element on both sides.
   [[nodiscard]] long n_nodes() const;
 
   /// Gauss points of γ, `per_edge` squared on every face.

@@ -17,23 +17,28 @@ struct FlowProblem {
   double tolerance = 1e-10;  ///< of the linear solver, relative
 };
 
+/// Velocity on the membrane.
 struct FlowTraces {
   Vectors velocity;   ///< v on γ
   Vector divergence;  ///< ∇_γ·v: zero if the membrane is inextensible
 };
 
+/// Solution of a FlowProblem. Immutable.
 class FlowSolution {
  public:
   struct Data;
   explicit FlowSolution(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
+  /// Traces at points of γ.
   [[nodiscard]] FlowTraces on_surface(const SurfacePoints& points) const;
+  /// v at points of the volume.
   [[nodiscard]] Vectors velocity(const VolumePoints& points) const;
   /// Pressure, zero far away.
   [[nodiscard]] Vector pressure(const VolumePoints& points) const;
   /// ∫ f dA and ∫ (x − centre) × f dA, centre that of the outer sphere: both enter the outer condition.
   [[nodiscard]] const Vector3& net_force() const;
   [[nodiscard]] const Vector3& net_torque() const;
+  /// What the solve took.
   [[nodiscard]] const Cost& cost() const;
 
  private:
@@ -42,6 +47,8 @@ class FlowSolution {
 
 /// @throws std::invalid_argument for a degree below 2, a viscosity that is not positive or a gradient with a trace
 /// @throws SolveError if the linear solver does not converge
+/// Accuracy: converges with the degree of the elements (tests/fem_check/exact_flow_test.cpp)
+/// Source: weak form in docs/weak_forms.md; Taylor–Hood elements
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem);
 
 }  // namespace vehd::fem_check

@@ -24,6 +24,7 @@ class MembraneTrace {
   [[nodiscard]] Vector integrate(const Vector& f) const;
   /// Nodal values of the trace function whose products with all w are given.
   [[nodiscard]] Vector project(const Vector& functional) const;
+  /// Values of a trace function, given by its nodal values, at points of γ.
   [[nodiscard]] Vector evaluate(const Vector& nodal, const SurfacePoints& points) const;
 
  private:

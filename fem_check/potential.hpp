@@ -31,6 +31,7 @@ struct ChargingMembrane {
 
 /// What holds at the outer sphere for the disturbance ψ = φ + E_∞·x.
 struct OuterCondition {
+  /// Which condition holds.
   enum class Kind {
     radiation,  ///< ∂ψ/∂r = −2ψ/R: exact for the dipole, error R⁻⁷ in a uniform field
     dirichlet,  ///< ψ given
@@ -63,14 +64,17 @@ struct PotentialTraces {
   Vectors force;  ///< f_E = [[n·Σ]], Σ = ε (E ⊗ E − ½|E|² I): tangential gradients, recovered fluxes
 };
 
+/// Solution of a PotentialProblem. Immutable.
 class PotentialSolution {
  public:
   struct Data;
   explicit PotentialSolution(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
+  /// Traces at points of γ.
   [[nodiscard]] PotentialTraces on_surface(const SurfacePoints& points) const;
   /// φ at points of the volume.
   [[nodiscard]] Vector potential(const VolumePoints& points) const;
+  /// What the solve took.
   [[nodiscard]] const Cost& cost() const;
 
  private:
@@ -79,6 +83,8 @@ class PotentialSolution {
 
 /// @throws std::invalid_argument if a conductivity, conductance, capacitance or time step is out of range
 /// @throws SolveError if the linear solver does not converge
+/// Accuracy: φ and V_m of order degree + 1, fluxes of order degree (tests/fem_check/convergence_test.cpp)
+/// Source: paper Eqs. (4), (30); weak form in docs/weak_forms.md
 PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem);
 
 }  // namespace vehd::fem_check

@@ -4,8 +4,10 @@
 
 namespace vehd::fem_check {
 
+/// Velocity components and pressure, distributed.
 using Blocks = dealii::TrilinosWrappers::MPI::BlockVector;
 
+/// Of the fluids on both sides.
 struct Viscosities {
   double inside;
   double outside;
@@ -18,6 +20,7 @@ class SaddlePoint {
   SaddlePoint(const Space& space, const dealii::DoFHandler<3>& pressure_dofs, const Constraints& constraints,
               const Viscosities& viscosity);
 
+  /// A vector of zeros with these blocks.
   [[nodiscard]] Blocks zero() const;
   [[nodiscard]] double seconds_assembly() const { return seconds_assembly_; }
 

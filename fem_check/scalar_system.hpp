@@ -5,8 +5,11 @@
 
 namespace vehd::fem_check {
 
+/// A vector distributed over the ranks.
 using Distributed = dealii::TrilinosWrappers::MPI::Vector;
+/// A sparse matrix distributed over the ranks.
 using DistributedMatrix = dealii::TrilinosWrappers::SparseMatrix;
+/// Which degrees of freedom are tied or fixed.
 using Constraints = dealii::AffineConstraints<double>;
 
 /// a(u, w) = Σ_side coefficient ∫ ∇u·∇w dV + membrane ∫_γ [[u]][[w]] dA + robin ∫_{r=R} u w dA

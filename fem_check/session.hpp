@@ -13,7 +13,9 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  /// Number of this process.
   [[nodiscard]] int rank() const;
+  /// Number of processes.
   [[nodiscard]] int n_ranks() const;
 
  private:

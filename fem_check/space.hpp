@@ -9,7 +9,9 @@
 /// Inner workings of Discretisation, for the sources of this folder.
 namespace vehd::fem_check {
 
+/// Number of a degree of freedom.
 using DofIndex = dealii::types::global_dof_index;
+/// A point of the unit cell, in deal.II's numbering.
 using UnitPoint = dealii::Point<3>;
 
 /// One face of γ from both sides. Corner k has the face coordinates (k & 1, k >> 1), on both sides at the same place.
@@ -20,6 +22,7 @@ struct MembraneFace {
   std::array<UnitPoint, 4> outer_corners;
 };
 
+/// A face on the outer sphere.
 struct OuterFace {
   unsigned cell;
   unsigned face;
@@ -63,6 +66,7 @@ struct SheetPairs {
   std::vector<int> index_of_inner;             ///< for each degree of freedom the number of its pair, or −1
   std::vector<std::vector<int>> of_face;  ///< pairs on each face, Gauss–Lobatto lattice, first coordinate fastest
 };
+/// The pairs of a handler.
 SheetPairs sheet_pairs(const Space& space, const dealii::DoFHandler<3>& handler);
 
 /// Shape functions of one cell at given unit points: [n_points x n_dofs].

@@ -13,12 +13,16 @@ namespace vehd::meshes {
 /// Evaluated as polynomials in the direction, Y_{n,m} = Q_n^m(z) Re (x + iy)^m (Im for m < 0), with Q_n^m the
 /// normalised Legendre function without its factor sin^m θ. Nothing is singular at the poles; stable up to degree 64
 /// and beyond. Immutable, so that threads may share it.
+/// Accuracy: low degrees are the written formulas to 1e-14, squares of a degree sum to a constant to 1e-12 up to degree
+/// 64 (tests/meshes/harmonic_series_test.cpp)
 class HarmonicSeries {
  public:
   /// @throws std::invalid_argument if the number of rows is not the square of a positive integer
   explicit HarmonicSeries(const Eigen::MatrixXd& coefficients);
 
+  /// Largest degree n.
   [[nodiscard]] int degree() const { return degree_; }
+  /// Number of functions.
   [[nodiscard]] Eigen::Index n_columns() const { return coefficients_.rows(); }
 
   /// All columns at one unit vector, [n_columns].

@@ -25,6 +25,7 @@ struct MeshQuality {
 };
 
 /// @param n_gauss  points per direction of the quadrature that gives volume and area
+/// Accuracy: volume and area of a fine block mesh to 2e-6 (tests/meshes/block_mesh_test.cpp)
 MeshQuality quality(const VolumeMesh& mesh, const FrozenShape& shape, int n_gauss = 4);
 
 /// @throws MeshError naming position, region, value and threshold unless every cell reaches the threshold

@@ -8,8 +8,11 @@
 /// Cells, faces and the interface of a volume mesh, numbered as deal.II numbers them.
 namespace vehd::meshes {
 
+/// Shape of all cells of a mesh.
 enum class CellShape { hexahedron, tetrahedron };
+/// Side of the membrane that a cell lies on.
 enum class Region { inside = 0, outside = 1 };
+/// What a face of a cell lies on.
 enum class FaceKind { interior, membrane, outer_sphere };
 
 /// Hexahedron: vertex v has the unit coordinates (v & 1, v >> 1 & 1, v >> 2 & 1); faces x = 0, x = 1, y = 0, y = 1,
@@ -32,6 +35,7 @@ struct InterfacePair {
   std::array<int, 4> outside_vertex;
 };
 
+/// Cells of a mesh and which of their faces meet on the membrane.
 struct MeshTopology {
   CellShape shape = CellShape::hexahedron;
   /// Block meshes: reference coordinates (BlockMap). Tetrahedra: positions in space.
@@ -42,7 +46,9 @@ struct MeshTopology {
   std::vector<std::array<int, 2>> interface_vertices;
 };
 
+/// 8 or 4.
 int vertices_per_cell(CellShape shape);
+/// 6 or 4.
 int faces_per_cell(CellShape shape);
 /// Vertex numbers within a cell of one of its faces, in deal.II's order; the fourth is −1 for a triangle.
 const std::array<int, 4>& face_vertices(CellShape shape, int face);

@@ -8,6 +8,7 @@
 
 namespace vehd::meshes {
 
+/// Triangles of the unit sphere.
 struct SphereTriangulation {
   std::vector<Point> directions;              ///< unit vectors
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside

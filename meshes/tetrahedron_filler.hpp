@@ -8,6 +8,7 @@
 
 namespace vehd::meshes {
 
+/// A closed surface of flat triangles.
 struct ClosedSurface {
   std::vector<Point> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside

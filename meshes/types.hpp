@@ -5,7 +5,9 @@
 
 namespace vehd::meshes {
 
+/// A point or a vector of space.
 using Point = Eigen::Vector3d;
+/// A Jacobian or a frame.
 using Matrix3 = Eigen::Matrix3d;
 
 /// A mesh that cannot be used: an element inverted or too flat, a shape that the outer sphere does not hold, or a

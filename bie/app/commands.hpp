@@ -10,19 +10,28 @@
 /// One function per command: it adds the command's options and a callback that runs it and sets the exit code.
 namespace vehd {
 
+/// vehd run: simulates a scene.
 void add_run_command(CLI::App& program, ExitCode& exit_code);
+/// vehd plot: pictures of a run.
 void add_plot_command(CLI::App& program, ExitCode& exit_code);
+/// vehd verify: Example 1 of the paper.
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
+/// vehd plan: what a run will do and cost.
 void add_plan_command(CLI::App& program, ExitCode& exit_code);
+/// vehd mesh: volume mesh of a frozen shape.
 void add_mesh_command(CLI::App& program, ExitCode& exit_code);
+/// vehd check: compares with the finite elements.
 void add_check_command(CLI::App& program, ExitCode& exit_code);
+/// vehd bench: what accuracy costs.
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
+/// vehd help: reference of the scene keys.
 void add_help_command(CLI::App& program, ExitCode& exit_code);
 
 /// Options that every command has.
 struct CommonOptions {
   std::optional<ResultFile> json;
 };
+/// Adds --json.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// Writes the machine-readable result if it was asked for.

@@ -8,6 +8,7 @@
 
 namespace vehd {
 
+/// Which benches are run, and which pages they renew.
 struct AllTask {
   std::filesystem::path docs;  ///< folder with the pages, images/ and scenes/
   BenchOutput output;

@@ -7,6 +7,7 @@
 namespace vehd {
 
 /// Example 1 of the paper: Eq. (35) on shape (33) with σ_i = 2, σ_e = 1 and six point sources.
+/// Source: paper, Example 1 and Figure 1
 struct Example1Result {
   int order = 0;
   PointSourceErrors errors;  ///< over the nodes of the upsampled grid
@@ -19,8 +20,10 @@ Example1Result solve_example1(int order, int upsampling = 1);
 
 /// What the example gives.
 std::vector<PointSource> example1_sources();
+/// Conductivities of the example: σ_i = 2, σ_e = 1.
 ElectricParameters example1_electric();
 /// Shape (33) truncated to a degree, coefficients [n_coefficients x 3].
+/// Source: paper Eq. (33)
 Matrix example1_position(int order);
 
 }  // namespace vehd

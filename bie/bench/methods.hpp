@@ -25,6 +25,7 @@ struct MethodLevel {
   double charge_l2 = 0.0, charge_max = 0.0, force_l2 = 0.0, force_max = 0.0;  ///< relative errors
 };
 
+/// How much is measured.
 struct MethodsTask {
   bool quick = false;  ///< two levels of each
   int repeats = 3;

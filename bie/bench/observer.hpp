@@ -19,8 +19,9 @@ class BenchObserver {
   virtual void note(const std::string& line) = 0;
   /// Something beside the numbers is missing.
   virtual void warn(const std::string& problem) = 0;
-  /// A table begins, a row of it is known.
+  /// A table begins.
   virtual void heading(const BenchTable& table) = 0;
+  /// A row of the table is known.
   virtual void row(const BenchTable& table, const std::vector<BenchCell>& row) = 0;
   /// A task begins, the first with number 1.
   virtual void task(int number, int n_tasks, const std::string& what) = 0;
@@ -33,6 +34,7 @@ class BenchTasks {
  public:
   BenchTasks(int n_tasks, BenchObserver& observer) : n_tasks_(n_tasks), observer_(observer) {}
 
+  /// The next task begins.
   void next(const std::string& what) { observer_.task(++n_begun_, n_tasks_, what); }
 
  private:

@@ -8,6 +8,7 @@
 
 namespace vehd {
 
+/// Which hard cases are run, and where their files go.
 struct StabilityTask {
   std::vector<std::filesystem::path> scenes;  ///< with their criteria, see StabilityCase
   /// Each run has a folder of its own below `runs`, always a fresh one; its first and last shape go to shapes/NAME.png.
@@ -15,6 +16,7 @@ struct StabilityTask {
   bool brief = false;  ///< the short form of every case
 };
 
+/// What came of the cases.
 struct StabilityOutcome {
   BenchResult result;
   int n_failed = 0;

@@ -18,6 +18,7 @@ class StepTimer {
   /// @throws ConvergenceError
   explicit StepTimer(const Scene& scene);
 
+  /// One step under the clock.
   void timed_step();
   /// Not timed.
   void metered_step();

@@ -13,6 +13,7 @@ namespace vehd {
 /// Unknown, a name, a count, a number, or the repeats of a timing.
 using BenchCell = std::variant<std::monostate, std::string, std::int64_t, double, Spread>;
 
+/// One column of a table: its name in files and in print.
 struct BenchColumn {
   std::string key;      ///< in CSV and JSON
   std::string heading;  ///< for people; empty: not shown to them
@@ -29,12 +30,16 @@ struct BenchTable {
   std::vector<std::vector<BenchCell>> rows{};
 };
 
+/// The table as CSV.
 std::string csv_of(const BenchTable& table);
+/// The rows as an array of objects.
 nlohmann::ordered_json json_of(const BenchTable& table);
+/// The table as a page shows it.
 std::string markdown_of(const BenchTable& table);
 
 /// Lines for a terminal; every row can be printed when it is there.
 std::string heading_line(const BenchTable& table);
+/// One row as a line on a terminal.
 std::string row_line(const BenchTable& table, const std::vector<BenchCell>& row);
 
 }  // namespace vehd

@@ -8,6 +8,7 @@
 
 namespace vehd {
 
+/// Which orders and step sizes are measured.
 struct TimeTask {
   Scene scene;
   double at = 0.0;                   ///< time at which the history quantities are compared

@@ -9,6 +9,7 @@
 
 namespace vehd {
 
+/// What is compared, and how.
 struct CheckTask {
   FrozenState frozen;
   std::filesystem::path directory;  ///< for the files of both sides; created if missing

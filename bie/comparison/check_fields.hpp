@@ -36,13 +36,17 @@ struct CheckFields {
 /// f on the fluid: f_b + f_λ − f_E of the frozen fields, and whatever else acts.
 Matrix given_force(const FrozenState& frozen);
 
-/// E_∞ and the gradient of the background flow at the frozen time.
+/// E_∞ at the frozen time.
 Vector3 applied_field(const FrozenState& frozen);
+/// ∂v_i/∂x_j of the background flow at the frozen time.
 Matrix3 flow_gradient(const FrozenState& frozen);
 
 /// Solves at an order not below that of the frozen state: shape, V_m and force are continued by zeros.
 /// @param force    given_force, [n_coefficients x 3]
 /// @param samples  [n_points x 3]
+/// @throws ConvergenceError where a solve fails
+/// Accuracy: spectral in the order; the comparison takes the difference of two orders for its error (docs/check.md)
+/// Source: paper Eqs. (5), (11), (12), (14)
 CheckFields check_fields(const FrozenState& frozen, const CheckContents& contents, const Matrix& force, int order,
                          const Matrix& samples);
 

@@ -9,8 +9,10 @@
 /// The file through which the boundary-integral side talks to the finite-element side: docs/check.md has its layout.
 namespace vehd {
 
+/// Version of the layout, which both sides must agree in.
 constexpr std::int64_t check_schema_version = 1;
 
+/// All that the file holds.
 struct CheckInput {
   const FrozenState& frozen;
   const CheckContents& contents;

@@ -8,6 +8,7 @@
 
 namespace vehd {
 
+/// Which mesh is made, and where it goes.
 struct MeshTask {
   const Matrix& position;        ///< coefficients [n_coefficients x 3]
   std::filesystem::path output;  ///< MSH 4.1; untouched where the mesh cannot be made

@@ -9,6 +9,7 @@
 namespace vehd {
 
 /// Seconds and memory against the degree, of all scenes with the same effects and the same symmetry.
+/// Accuracy: an estimate; docs/digits.md compares predicted with measured seconds
 class CostModel {
  public:
   /// One degree at which steps were timed.
@@ -23,6 +24,7 @@ class CostModel {
 
   /// Between the points by power laws, beyond the last one by the powers of assembly and of operators.
   [[nodiscard]] double seconds_per_shape(int order) const;
+  /// Likewise of memory.
   [[nodiscard]] double bytes(int order) const;
 
  private:

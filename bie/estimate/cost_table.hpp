@@ -39,6 +39,8 @@ struct CostBudget {
 /// there says which degree T needs; each step costs what the cost model says at that degree. From two of them come the
 /// order that such steps really have and the most degrees that another digit takes. Degree and time order of the scene
 /// are left to each tolerance.
+/// Accuracy: degrees and steps of the same budget of steps are the same on every machine
+/// (tests/estimate/cost_table_test.cpp)
 std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
                                    const CostBudget& budget = {});
 

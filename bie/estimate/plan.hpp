@@ -8,12 +8,14 @@
 
 namespace vehd {
 
+/// One effect of a plan, present or absent.
 struct PlannedEffect {
   std::string name;
   std::string adds;       ///< the term of the model
   std::string if_absent;  ///< what a run would save without it
 };
 
+/// One operator of a plan, with the reason.
 struct PlannedOperator {
   std::string name;  ///< as in kernel_evaluations of summary.json
   std::string why;

@@ -39,6 +39,8 @@ struct TrialBudget {
 };
 
 /// @param tolerances  for which degrees are predicted from the spectrum of each state
+/// @param tolerance   of the trial run itself
+/// @throws InputError if the shape file of the scene cannot be used
 TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
                    const TrialBudget& budget);
 

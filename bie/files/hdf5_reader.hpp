@@ -14,10 +14,12 @@ namespace vehd {
 /// taken. @throws InputError "file: what is wrong" from every member
 class Hdf5Reader {
  public:
+  /// Opens a file for reading.
   explicit Hdf5Reader(const std::filesystem::path& path);
   /// A file in memory; `name` stands for it in messages.
   Hdf5Reader(const std::string& image, std::string name);
 
+  /// Whether there is an object of this path.
   [[nodiscard]] bool has(const std::string& object) const;
   /// Names of a group's members in ascending order.
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
@@ -26,13 +28,18 @@ class Hdf5Reader {
   [[nodiscard]] Matrix matrix(const std::string& dataset) const;
   /// All values of a dataset in the file's order.
   [[nodiscard]] Vector vector(const std::string& dataset) const;
+  /// A dataset of one string.
   [[nodiscard]] std::string text(const std::string& dataset) const;
+  /// Whether the object has an attribute of this name.
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
+  /// Value of an attribute that is one number.
   [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
+  /// Value of an attribute that is one integer.
   [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
   /// What stands for the file in messages.
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Throws InputError "name: problem".
   [[noreturn]] void refuse(const std::string& problem) const;
 
  private:

@@ -25,18 +25,24 @@ class Hdf5Writer {
   /// `read` is for the source of copies: it never touches the file. `in_memory` writes no file:
   /// its path only names it in messages.
   enum class Mode { create, in_memory, extend, read };
+  /// @param path  of the file, or what stands for it in messages
   Hdf5Writer(const std::filesystem::path& path, Mode mode);
 
+  /// Makes a group; those above it must be there.
   void group(const std::string& path);
   [[nodiscard]] bool has(const std::string& path) const;
+  /// A dataset of numbers.
+  /// @param extents  of each dimension, the slowest first; their product is the count of values
   void numbers(const std::string& path, std::span<const double> values, const std::vector<hsize_t>& extents,
                const DatasetLabel& label);
   void integers(const std::string& path, std::span<const std::int64_t> values, const std::vector<hsize_t>& extents,
                 const DatasetLabel& label);
+  /// A dataset of one string.
   void text(const std::string& path, const std::string& value);
   /// Copies an object with all below it.
   void copy_from(const Hdf5Writer& source, const std::string& path);
 
+  /// Attributes of an object that is there.
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   void attribute(const std::string& object, const std::string& name, const std::string& value);
@@ -44,6 +50,7 @@ class Hdf5Writer {
   /// All bytes of the file so far.
   [[nodiscard]] std::string image() const;
 
+  /// Names of a group's members in ascending order.
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
 
   /// Must be called; the destructor alone would lose the error of a full disk.

@@ -12,7 +12,9 @@ struct MachineRecord {
   int threads = 0;  ///< that this process uses
   std::string compiler, version, commit;
 };
+/// That of this process.
 MachineRecord machine_record();
+/// An object with the members as keys.
 nlohmann::ordered_json json_of(const MachineRecord& machine);
 /// One line for people.
 std::string text_of(const MachineRecord& machine);

@@ -34,6 +34,7 @@ void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const 
 /// @param state, fields  of the degree of the transform
 /// @param si_scale  every dataset says in `scale` what it says
 /// @return its checksum
+/// @throws OutputError
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields, const SiScale& si_scale);
 

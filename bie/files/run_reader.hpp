@@ -12,6 +12,7 @@
 
 namespace vehd {
 
+/// Version of the layout of run.h5 that this program reads and writes.
 constexpr std::int64_t run_schema_version = 1;
 
 /// Datasets that a snapshot may have, in the order in which its checksum takes them; each on the grid, in coefficients/
@@ -36,6 +37,7 @@ class RunReader {
   explicit RunReader(Hdf5Reader file);
   explicit RunReader(const std::filesystem::path& path) : RunReader(Hdf5Reader(path)) {}
 
+  /// Times of the snapshots, ascending.
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   /// Number of the snapshot whose time is nearest.
   [[nodiscard]] std::size_t nearest(double time) const;
@@ -45,9 +47,11 @@ class RunReader {
   [[nodiscard]] std::size_t at(double time) const;
   /// The path of the file, or what stands for it in messages.
   [[nodiscard]] const std::string& name() const { return file_.name(); }
+  /// Whether the run has kept its scene.
   [[nodiscard]] bool has_scene() const { return file_.has("/scene"); }
   /// The effective scene of the run.
   [[nodiscard]] std::string scene() const { return file_.text("/scene"); }
+  /// Whether a snapshot has the coefficients of this field.
   [[nodiscard]] bool has_field(std::size_t snapshot, const std::string& name) const;
   /// Harmonic coefficients, [n_coefficients x components], of a snapshot that is intact as a whole. A run.h5 without
   /// checksums is of an earlier program and is read as it is.

@@ -17,6 +17,7 @@ struct XdmfSeries {
   std::vector<double> times;  ///< of snapshots 000000, 000001, ...
 };
 
+/// The XML text that ParaView opens.
 std::string xdmf_text(const XdmfSeries& series);
 
 }  // namespace vehd

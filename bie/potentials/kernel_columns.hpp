@@ -10,6 +10,7 @@ struct KernelColumns {
   int single = -1, double_layer = -1, adjoint = -1, stokes = -1, stokes_double = -1;
   int count = 0;
 
+  /// Columns in the order of the selection's members.
   explicit KernelColumns(const LayerSelection& selection) {
     if (selection.laplace_single) single = count++;
     if (selection.laplace_double) double_layer = count++;

@@ -52,6 +52,9 @@ class StokesOperator {
 
   [[nodiscard]] bool empty() const { return transposed_[0].size() == 0; }
   /// @throws ShapeError
+  /// @param density  force per area of the single layer as J f, velocity of the double layer as it is, [n_coefficients
+  ///     x 3]
+  /// @return         velocity, [n_coefficients x 3]
   [[nodiscard]] Matrix apply(const Matrix& density) const;
   [[nodiscard]] const std::array<Matrix, 6>& transposed() const { return transposed_; }
   /// coefficient_index of each row, empty if all coefficients are there.

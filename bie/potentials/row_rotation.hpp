@@ -11,6 +11,8 @@ struct ActiveCoefficients;
 /// Accuracy: rounding; operators agree with those without images to 1e-12 (tests/potentials/target_images_test.cpp)
 class RowRotation {
  public:
+  /// @param angle   α in radians
+  /// @param active  with a full set of degrees for every order
   RowRotation(double angle, const KernelColumns& kernels, const ActiveCoefficients& active);
 
   /// @param row  [kernels * active coefficients]

@@ -38,6 +38,7 @@ struct Checkpoint {
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 /// @throws InputError if the file is truncated, altered or of another schema version
+/// Accuracy: exact; a resumed run takes the same steps bit for bit (tests/app/resume_test.cpp)
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 /// The same from the HDF5 image that its seal has vouched for. @throws InputError

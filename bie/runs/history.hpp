@@ -27,6 +27,7 @@ struct HistoryRow {
 void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum);
 
 /// Appends rows to history.csv; each is in the file when `append` returns.
+/// Numbers have 17 significant digits: reading them back gives the same bits.
 class HistoryFile {
  public:
   /// Starts a file, or continues one after its first `kept_bytes` bytes when that is not 0.
@@ -36,7 +37,9 @@ class HistoryFile {
 
   /// A row that the disk has no room for leaves nothing of itself behind. @throws OutputError
   void append(const HistoryRow& row);
+  /// Bytes in the file so far.
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }
+  /// Checksum of these bytes.
   [[nodiscard]] std::int64_t checksum() const { return checksum_.value(); }
 
  private:

@@ -8,6 +8,7 @@
 namespace vehd {
 
 /// Content of summary.json.
+/// @return  the stable keys of the command `run`, and more
 nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const Checkpoint& checkpoint,
                           const RunOutcome& outcome);
 

@@ -10,6 +10,9 @@ struct AccuracyDefaults {
   int time_order;  ///< order of a step
 };
 
+/// @param tolerance  > 0, relative
+/// Accuracy: chosen so that runs deliver the tolerance (docs/digits.md; tests/stepping/adaptive_evolution_test.cpp
+/// holds three times it)
 AccuracyDefaults accuracy_defaults(double tolerance);
 
 /// The scene at a tolerance: degree and time order are those of the tolerance. A dt stays where it bounds the steps of

@@ -20,6 +20,7 @@ struct DimensionlessGroup {
 
 /// The groups that the effects of the scene define, geometry first. Built from the initial shape, which a shape of
 /// kind "file" reads.
+/// @throws InputError if the shape file cannot be used
 std::vector<DimensionlessGroup> dimensionless_groups(const Scene& scene);
 
 /// The value with its SI unit, "0.012 s"; empty for pure numbers and where the scene does not give the scale.

@@ -13,6 +13,7 @@ namespace vehd {
 template <typename Member>
 struct MemberTraits;
 
+/// A member that is stored as it is.
 template <typename Stored_, ValueType type_>
 struct PlainMember {
   using Stored = Stored_;
@@ -40,8 +41,10 @@ struct MemberTraits<std::vector<HarmonicMode>> : PlainMember<std::vector<Harmoni
 template <typename Contained>
 struct MemberTraits<std::optional<Contained>> : MemberTraits<Contained> {};
 
+/// Rows of the key table in the making: begin() opens a table, add() a key of it.
 class KeyTable {
  public:
+  /// Words of a row.
   struct Text {
     std::string_view symbol, unit, description;
   };
@@ -87,6 +90,7 @@ class KeyTable {
     return key;
   }
 
+  /// The rows, in the order in which they were added.
   std::vector<KeyDescription> take() { return std::move(keys_); }
 
  private:

@@ -10,6 +10,7 @@ namespace vehd {
 /// The effects that the scene calls for, in laboratory coordinates.
 Model model_of(const Scene& scene);
 
+/// The numerical settings that [numerics] asks for; the rest are the defaults.
 NumericalSettings settings_of(const Scene& scene);
 
 /// Fixed steps, or those that a tolerance rules.

@@ -7,6 +7,7 @@
 namespace vehd {
 
 /// Right-handed; exact for quarter turns about the coordinate axes. The axis must not be zero.
+/// @param rotation  axis of any length, angle in degrees
 Matrix3 rotation_matrix(const AxisAngle& rotation);
 
 /// The body rotated together with its parametrisation, R x(R⁻¹ s): a shape that is symmetric about an axis then has
@@ -27,6 +28,8 @@ struct ShapeSize {
   double area = 0.0;
   double volume = 0.0;
 };
+/// @param position  coefficients, [n_coefficients x 3]
+/// Accuracy: spectral
 ShapeSize size_of(const Matrix& position);
 
 }  // namespace vehd

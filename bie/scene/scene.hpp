@@ -10,7 +10,9 @@
 
 namespace vehd {
 
+/// Three numbers: a vector.
 using Triple = std::array<double, 3>;
+/// Rows of a 3 x 3 matrix.
 using TripleOfTriples = std::array<Triple, 3>;
 /// Axis of any length and angle in degrees, right-handed.
 using AxisAngle = std::array<double, 4>;
@@ -23,10 +25,15 @@ struct HarmonicMode {
   bool operator==(const HarmonicMode&) const = default;
 };
 
+/// Values of kind in [shape].
 enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, stomatocyte, radial, file };
+/// Values of kind in [flow].
 enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient, poiseuille };
+/// Values of kind in a waveform.
 enum class WaveformKind { dc, ac, pulse, pulse_train, table };
+/// Values of initial_Vm in [electric].
 enum class InitialPotential { zero, steady, file };
+/// Values of symmetry in [numerics].
 enum class SymmetryUse { automatic, off, axisymmetric };
 
 /// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
@@ -56,6 +63,7 @@ struct ShapeScene {
   bool operator==(const ShapeScene&) const = default;
 };
 
+/// Table [membrane], in units of the scene; see docs/scene_keys.md.
 struct MembraneScene {
   std::optional<double> bending_modulus;
   double spontaneous_curvature = 0.0;
@@ -66,6 +74,7 @@ struct MembraneScene {
   bool operator==(const MembraneScene&) const = default;
 };
 
+/// Table [fluid].
 struct FluidScene {
   double viscosity = 1.0;
   double viscosity_ratio = 1.0;
@@ -73,6 +82,7 @@ struct FluidScene {
   bool operator==(const FluidScene&) const = default;
 };
 
+/// Table [gravity].
 struct GravityScene {
   Triple acceleration{0.0, 0.0, 0.0};
   bool operator==(const GravityScene&) const = default;
@@ -91,6 +101,7 @@ struct WaveformScene {
   bool operator==(const WaveformScene&) const = default;
 };
 
+/// Table [flow]; which members count depends on the kind.
 struct FlowScene {
   FlowKind kind = FlowKind::shear;
   double rate = 1.0;
@@ -101,6 +112,7 @@ struct FlowScene {
   bool operator==(const FlowScene&) const = default;
 };
 
+/// Table [electric].
 struct ElectricScene {
   Triple field{0.0, 0.0, 0.0};
   double conductivity_in = 1.0;
@@ -112,6 +124,7 @@ struct ElectricScene {
   bool operator==(const ElectricScene&) const = default;
 };
 
+/// Table [numerics].
 struct NumericsScene {
   std::optional<double> tolerance;  ///< absent: fixed degree and steps
   int order = 16;                   ///< with a tolerance: the highest degree
@@ -122,6 +135,7 @@ struct NumericsScene {
   bool operator==(const NumericsScene&) const = default;
 };
 
+/// Table [output].
 struct OutputScene {
   std::optional<double> every;  ///< absent: snapshots at the start and at the end only
   bool operator==(const OutputScene&) const = default;

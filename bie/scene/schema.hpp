@@ -17,6 +17,7 @@ namespace vehd {
 /// `quantity` is a number that always has a unit, kept in SI; every other value is dimensionless once read.
 enum class ValueType { boolean, integer, number, word, text, triple, matrix, axis_angle, numbers, modes, quantity };
 
+/// Value of a key of any type.
 using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, AxisAngle,
                            std::vector<double>, std::vector<HarmonicMode>>;
 
@@ -26,11 +27,13 @@ struct Range {
   double upper = std::numeric_limits<double>::infinity();
   bool lower_excluded = false;
 
+  /// Is the value in the interval?
   [[nodiscard]] bool contains(double value) const;
   /// "> 0", ">= 0", "4 ... 64" or "any finite number"
   [[nodiscard]] std::string text() const;
 };
 
+/// One key of a scene: what it is called, what it accepts, where its value is.
 struct KeyDescription {
   std::string_view table;
   std::string_view name;
@@ -45,9 +48,11 @@ struct KeyDescription {
   std::function<std::optional<Value>(const Scene&)> get;  ///< nullopt: the optional value is absent
   std::function<void(Scene&, const Value&)> set;
 
+  /// Does the key belong to this kind of its table?
   [[nodiscard]] bool is_for(std::string_view kind) const;
 };
 
+/// One table of a scene.
 struct TableDescription {
   std::string_view name;
   std::string_view description;
@@ -58,6 +63,7 @@ struct TableDescription {
 
 /// In the order in which tables and keys are read and written.
 const std::vector<TableDescription>& scene_tables();
+/// Likewise the keys of all tables.
 const std::vector<KeyDescription>& scene_keys();
 
 /// The first such key, or nullptr. A table may have rows of one name for different kinds.

@@ -18,6 +18,7 @@ class ShapeFile {
 
   /// Coefficients in the order of that run, [n_coefficients x 3]. @throws InputError
   [[nodiscard]] Matrix position() const;
+  /// Whether the snapshot has V_m.
   [[nodiscard]] bool has_potential() const { return run_.has_field(snapshot_, "Vm"); }
   /// V_m of a file that has it, likewise. @throws InputError
   [[nodiscard]] Vector potential() const;

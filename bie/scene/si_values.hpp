@@ -13,6 +13,7 @@ class SiValues {
  public:
   explicit SiValues(const toml::table& file) : file_(file) {}
 
+  /// Whether the file has this table.
   [[nodiscard]] bool has_table(std::string_view table) const;
   /// Magnitude of a number, length of a vector or of the longest row of a matrix, in SI base units.
   /// @return nullopt if it is absent, zero, or has a part other than zero without a unit

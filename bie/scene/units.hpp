@@ -21,6 +21,7 @@ struct Unit {
   double over = 1.0;
 };
 
+/// A physical dimension as powers of the reference scales, with the units that its values may have.
 struct Dimension {
   std::string_view name;
   std::array<int, 4> powers;  ///< of the reference length, time, viscosity and potential
@@ -35,6 +36,7 @@ struct Dimension {
   [[nodiscard]] std::string scale_text() const;
 };
 
+/// All dimensions that keys of a scene may have.
 const std::vector<Dimension>& dimensions();
 
 /// nullptr if there is none of that name.
@@ -45,6 +47,7 @@ struct Quantity {
   double number = 0.0;
   std::string unit;  ///< in ASCII: u for micro, ^2 for a square, one space for a product
 
+  /// The number in SI base units.
   [[nodiscard]] double in_si(const Unit& of) const { return number * of.times / of.over; }
 };
 

@@ -15,6 +15,8 @@ namespace vehd {
 /// Source: FFTW (Frigo and Johnson 2005)
 class FourierPlan {
  public:
+  /// @param n_theta  rows that are transformed together
+  /// @param n_phi    even
   FourierPlan(int n_theta, int n_phi);
 
   /// @param spectrum  overwritten; sines at m = 0 and m = n_phi/2 must be zero

@@ -11,6 +11,7 @@ struct PointDerivatives {
 
   /// (d1, d2) of one field.
   [[nodiscard]] Eigen::Vector2d gradient(Index column) const { return {d1[column], d2[column]}; }
+  /// (d11, d12; d12, d22) of one field.
   [[nodiscard]] Eigen::Matrix2d hessian(Index column) const;
 };
 

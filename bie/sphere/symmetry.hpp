@@ -18,6 +18,7 @@ struct Symmetry {
   /// Turns by 2π/fold about z are symmetries as well; 1 where there is none beyond the half turn of the reflections.
   int fold = 1;
 
+  /// Is there any symmetry?
   [[nodiscard]] bool any() const { return axisymmetric || reflections.size() > 1 || fold > 1; }
   /// Number of images that a point in general position has, itself included; not for axisymmetric ones.
   [[nodiscard]] int group_order() const;

@@ -26,8 +26,11 @@ class SphereTransform {
   /// found (they come out zero), and the grid needs only n_phi > 2 azimuthal_order + 1.
   SphereTransform(int order, SphereGrid grid, int azimuthal_order);
 
+  /// Degree p of the coefficients.
   [[nodiscard]] int order() const;
+  /// Largest |m| that it knows.
   [[nodiscard]] int azimuthal_order() const;
+  /// The grid of the values.
   [[nodiscard]] const SphereGrid& grid() const;
 
   /// Values [n_points x F] from coefficients [(order+1)² x F].

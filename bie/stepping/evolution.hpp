@@ -44,11 +44,14 @@ class Evolution {
   /// @throws ConvergenceError where no step is acceptable; the state is the last good one
   StepAttempt step(const EventTimes& events);
 
+  /// The last accepted state.
   [[nodiscard]] const State& state() const { return state_; }
+  /// What was solved there.
   [[nodiscard]] const Evaluation& evaluation() const { return evaluation_; }
   /// Where the forcing jumps at the time of the state and a step has led there: the evaluation just before the jump,
   /// without operators. The other one is that just after it.
   [[nodiscard]] const std::optional<Evaluation>& before_jump() const { return before_jump_; }
+  /// Degree of a vesicle at present.
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
   /// Estimated share of what the degrees leave out, see Resolution; of the vesicle that loses most.
   [[nodiscard]] double truncation() const;

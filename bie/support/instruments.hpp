@@ -11,7 +11,9 @@ namespace vehd {
 class PartObserver {
  public:
   virtual ~PartObserver() = default;
+  /// A part begins; it lies within those that have begun and not ended.
   virtual void begin(const std::string& part) = 0;
+  /// The part that began last ends.
   virtual void end() = 0;
 };
 
@@ -52,9 +54,12 @@ class Instruments {
 
   /// Kernel evaluations are counted one per (target, quadrature node) pair, whatever the number of components.
   void count_kernel(const std::string& kernel, std::uint64_t evaluations) { kernels_[kernel] += evaluations; }
+  /// Times a part until the end of the scope.
   [[nodiscard]] ScopedTimer time(const std::string& part) { return {*this, part}; }
 
+  /// Evaluations so far by the name of the kernel.
   const std::map<std::string, std::uint64_t>& kernel_evaluations() const { return kernels_; }
+  /// Wall time so far by the name of the part.
   const std::map<std::string, double>& seconds() const { return seconds_; }
 
  private:

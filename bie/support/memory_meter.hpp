@@ -16,6 +16,7 @@ class MemoryMeter : public PartObserver {
  public:
   /// Until then nothing is metered. Freed memory goes back to the system at each begin of a part.
   void start() { active_ = true; }
+  /// Nothing is metered from now on.
   void stop() { active_ = false; }
 
   void begin(const std::string& part) override;

@@ -8,6 +8,7 @@ namespace vehd {
 /// How far some work is, on standard error: a bar redrawn in place on a terminal, otherwise a plain line now and then.
 class Progress {
  public:
+  /// How it is shown.
   enum class Style { bar, lines, none };
   /// Bar on a terminal, lines elsewhere.
   static Style suitable_style();

@@ -9,6 +9,7 @@ namespace vehd {
 /// A folder among the temporary files of the machine that ends with its owner. @throws OutputError
 class TemporaryFolder {
  public:
+  /// @param stem  beginning of its name
   explicit TemporaryFolder(const std::string& stem);
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

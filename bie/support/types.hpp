@@ -7,11 +7,17 @@
 /// Cartesian component contiguous, which is the row-major [3, n] of the output files without a copy.
 namespace vehd {
 
+/// Column of doubles.
 using Vector = Eigen::VectorXd;
+/// Column-major matrix of doubles: one column per field, one row per point or coefficient.
 using Matrix = Eigen::MatrixXd;
+/// Row-major matrix of doubles.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// A point or a vector of space.
 using Vector3 = Eigen::Vector3d;
+/// A tensor or a frame of space.
 using Matrix3 = Eigen::Matrix3d;
+/// Signed size of matrices.
 using Index = Eigen::Index;
 
 }  // namespace vehd

@@ -16,7 +16,9 @@ class LabFrameOutput {
 
   /// Whether its axes are others than those of the frame.
   [[nodiscard]] bool is_rotated() const { return fine_.has_value(); }
+  /// A state in the axes of the laboratory.
   [[nodiscard]] State state(const State& of_frame) const { return in_laboratory(frame_, of_frame); }
+  /// Fields in the axes of the laboratory.
   [[nodiscard]] Fields fields(const Fields& of_frame) const { return in_laboratory(frame_, of_frame); }
   /// @param d       of the state in the frame
   /// @param state   in the frame, as are the fields

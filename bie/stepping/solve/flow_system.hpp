@@ -40,6 +40,7 @@ struct FlowRightHandSide {
   Vector divergence;  ///< weighted
 };
 
+/// What the system leaves out and what it holds.
 struct FlowOptions {
   /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
   bool pin_uniform_tension = false;

@@ -41,6 +41,7 @@ class MembraneSpace {
   [[nodiscard]] const SphereTransform& targets() const { return targets_; }
   /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
   [[nodiscard]] const SphereTransform& fine_transform() const { return fine_; }
+  /// Singular quadrature about the targets.
   [[nodiscard]] const RotatedQuadrature& quadrature() const { return quadrature_; }
   /// Turns by 2π/fold about z take states and longitudes of the targets to each other.
   [[nodiscard]] int fold() const { return fold_; }
@@ -65,6 +66,7 @@ class Discretisation {
  public:
   /// One vesicle with the degree and the quadrature of the settings.
   explicit Discretisation(const NumericalSettings& settings, const Symmetry& symmetry = {});
+  /// Vesicles each with its own degree and quadrature.
   Discretisation(const NumericalSettings& settings, const Symmetry& symmetry, const std::vector<Fineness>& vesicles);
 
   /// The same but for one vesicle.
@@ -72,6 +74,7 @@ class Discretisation {
 
   [[nodiscard]] const NumericalSettings& settings() const { return settings_; }
   [[nodiscard]] const Symmetry& symmetry() const { return symmetry_; }
+  /// Space of one vesicle.
   [[nodiscard]] const MembraneSpace& vesicle(std::size_t a) const { return *vesicles_[a]; }
   [[nodiscard]] std::size_t n_vesicles() const { return vesicles_.size(); }
 
