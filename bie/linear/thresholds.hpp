@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-/// What decides in the solvers with recycling, each with where it comes from. Numbers of iterations are those of the
-/// suites recycled_gcr, flow_system and recycled_subspaces.
+/// What decides in the solvers with recycling, each with where it comes from: derived, or measured
+/// (docs/thresholds.md).
 namespace vehd::thresholds {
 
 /// What the sums of a map and its preconditioner lose, relative to what they take and give: the layers sum a few
