@@ -89,7 +89,7 @@ constexpr double idle_truncation = 0.1;
 constexpr int worthwhile_degrees = 4;
 /// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
 /// falls by two digits and more.
-constexpr std::array quadrature_levels = {1.0, 1.75, 2.6};
+inline constexpr std::array quadrature_levels = {1.0, 1.75, 2.6};
 /// Share of the tolerance of the quadrature below which a coarser level, two digits worse, would still do.
 constexpr double idle_quadrature = 1e-2;
 /// Errors of the layers up to this many times what truncation does to them are hidden by it.
