@@ -18,7 +18,7 @@ struct LegendreTables {
 
 /// Tables at the given colatitudes, poles included. Derivatives follow from ladder relations in n and m, so that
 /// nothing is divided by sin θ; relative accuracy near machine precision for order ≤ 256.
-/// Source: three-term recurrence in n from the sectoral functions, normalised (as in Gimbutas and Veerapaneni 2013)
+/// Source: normalised three-term recurrence in n from the sectoral functions, Holmes and Featherstone 2002
 LegendreTables legendre_tables(int order, const Vector& theta);
 
 /// Coefficients of the three-term recurrence T_n = a (cos θ T_{n−1} − b T_{n−2}) at fixed m < n.
