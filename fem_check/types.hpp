@@ -15,6 +15,7 @@ using Matrix3 = Eigen::Matrix3d;
 using Vector = Eigen::VectorXd;
 using Vectors = Eigen::Matrix3Xd;  ///< one column per point
 
+/// Side of the membrane.
 enum class Side { inside, outside };
 
 /// A solver that did not reach its tolerance, or a result that is not finite.

@@ -20,6 +20,7 @@ constexpr std::int64_t run_schema_version = 1;
 constexpr std::array<std::string_view, 10> snapshot_fields = {
     "x",  "velocity", "force_bending", "force_tension", "force_electric",
     "Vm", "q",        "tension",       "area_strain",   "area_element"};
+/// Where a snapshot has each of them.
 constexpr std::array<std::string_view, 3> snapshot_parts = {"", "coefficients/", "surface/"};
 
 /// @throws InputError if the file is of another schema version

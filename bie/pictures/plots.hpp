@@ -8,6 +8,7 @@
 
 namespace vehd {
 
+/// Which pictures are drawn, and where they go.
 struct PlotTask {
   RunPaths paths;
   std::vector<double> times;     ///< of the shapes; empty: evenly spread

@@ -8,6 +8,7 @@
 
 namespace vehd::fem_check {
 
+/// What is compared, and where the files go.
 struct CheckTask {
   std::filesystem::path input;
   std::filesystem::path directory;  ///< for the files of fields

@@ -9,6 +9,7 @@
 /// [n_coefficients x components]; an empty one is absent.
 namespace vehd::fem_check {
 
+/// Fluids, membrane, field and flow of the frozen state.
 struct Physics {
   Vector3 field = Vector3::Zero();  ///< E_∞
   double conductivity_in = 1.0, conductivity_out = 1.0;
@@ -27,12 +28,14 @@ struct BieFields {
   Eigen::MatrixXd sample_potential, sample_velocity;  ///< [n_samples x components]
 };
 
+/// Points off the membrane at which φ and v are compared.
 struct Samples {
   Vectors points;
   std::vector<bool> inside;
   std::vector<bool> near;  ///< within one grid spacing of γ
 };
 
+/// All that the file holds.
 struct CheckInput {
   std::string source;
   double time = 0.0;

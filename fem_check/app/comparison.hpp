@@ -45,6 +45,7 @@ struct FieldQuestion {
   double solver_tolerance = 0.0;
 };
 
+/// The errors of both methods and what stands between them.
 FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence);
 
 }  // namespace vehd::fem_check

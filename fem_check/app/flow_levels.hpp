@@ -17,6 +17,7 @@ struct FlowLevels {
   std::vector<FlowSolution> solutions;  ///< of every level, force given
 };
 
+/// Solves the flow with the given force. @throws SolveError
 FlowLevels solve_flow_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
                              const Report& report);
 

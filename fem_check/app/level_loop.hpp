@@ -10,6 +10,7 @@
 
 namespace vehd::fem_check {
 
+/// Which degrees are solved, and when that is enough.
 struct LevelPlan {
   std::string problem;  ///< as in Level
   DegreeRange degrees;

@@ -8,6 +8,7 @@
 
 namespace vehd::fem_check {
 
+/// Which mesh is made, and where it goes.
 struct MeshTask {
   std::filesystem::path input;   ///< file with the shape
   std::filesystem::path output;  ///< MSH 4.1
@@ -15,6 +16,7 @@ struct MeshTask {
   int refine = 0;                ///< how often the element size is divided by 1.5
 };
 
+/// Figures of the mesh.
 struct MeshResult {
   std::string family;
   int n_cells = 0, n_faces = 0;  ///< faces: on the membrane
@@ -26,7 +28,9 @@ struct MeshResult {
 /// Meshes the shape and writes the mesh. @throws InputError, meshes::MeshError
 MeshResult run_mesh(const MeshTask& task);
 
+/// The figures for people.
 std::string text_of(const MeshResult& result);
+/// The figures for programs.
 nlohmann::json json_of(const MeshResult& result);
 
 }  // namespace vehd::fem_check

@@ -10,6 +10,7 @@ namespace vehd::fem_check {
 
 /// Harmonic potentials with an exact solution on any shape: sources inside γ make φ outside, sources outside γ make φ
 /// inside. They obey prescribed jumps of φ and of σ ∂φ/∂n.
+/// Source: paper, Example 1
 struct PointSources {
   Vectors position;
   Vector strength;  ///< φ = strength/(4π|x − y|)
@@ -17,6 +18,7 @@ struct PointSources {
   double conductivity_in = 1.0, conductivity_out = 1.0;
 };
 
+/// One level of the problem.
 struct PointSourceTask {
   std::filesystem::path input;  ///< shape, conductivities and sources
   int degree = 4;
@@ -24,6 +26,7 @@ struct PointSourceTask {
   double outer_radius = 8.0;  ///< over the radius of the shape
 };
 
+/// What the level costs, and its errors.
 struct PointSourceResult {
   int degree = 0, n_cells = 0;
   long n_unknowns = 0;
@@ -39,6 +42,7 @@ struct PointSourceResult {
 /// @throws InputError, meshes::MeshError, SolveError
 PointSourceResult run_point_sources(const PointSourceTask& task);
 
+/// The result for programs.
 nlohmann::json json_of(const PointSourceResult& result);
 
 }  // namespace vehd::fem_check

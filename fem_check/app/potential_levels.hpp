@@ -19,6 +19,7 @@ struct PotentialLevels {
   std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
 };
 
+/// Solves the potential with V_m given, and under the membrane law where the input has that. @throws SolveError
 PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
                                        const Report& report);
 

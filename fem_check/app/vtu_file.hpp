@@ -13,6 +13,7 @@ struct NamedField {
   Eigen::MatrixXd values;
 };
 
+/// Shape of the cells of a file.
 enum class VtuCells { quadrilaterals, hexahedra };
 
 /// Lattices of (intervals + 1)^d points each, first coordinate fastest, as they come in a row.
