@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "bie/sphere/harmonics.hpp"
@@ -8,6 +9,7 @@
 #include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/time/step_control.hpp"
+#include "tests/support/fields.hpp"
 
 /// Models of the tests and short runs of them.
 namespace vehd::testing {
@@ -118,6 +120,25 @@ State run(const Model& model, const Discretisation& discretisation, State state,
 
 inline State run(const Model& model, const Discretisation& discretisation, State state, double dt, int n_steps) {
   return run(model, discretisation, std::move(state), dt, n_steps, [](const State&) {});
+}
+
+/// Largest difference of x and V_m of two states of one vesicle.
+inline double largest_difference(const State& a, const State& b) {
+  const VesicleState& one = a.vesicles[0];
+  const VesicleState& other = b.vesicles[0];
+  double difference = max_difference(one.position, other.position);
+  if (one.transmembrane_potential.size() > 0) {
+    difference = std::max(difference, max_difference(one.transmembrane_potential, other.transmembrane_potential));
+  }
+  return difference;
+}
+
+/// That of the states in which n steps end from the same shape in two discretisations, per step.
+inline double difference_per_step(const Model& model, const Matrix& position, const Discretisation& one,
+                                  const Discretisation& other, double dt, int n_steps) {
+  const State a = run(model, one, start(model, one, position, dt), dt, n_steps);
+  const State b = run(model, other, start(model, other, position, dt), dt, n_steps);
+  return largest_difference(a, b) / n_steps;
 }
 
 }  // namespace vehd::testing

@@ -50,7 +50,7 @@ enum class NodeEnd { material, remapped };
 /// Solving and projecting are one iteration, since what a remap does to area and volume is projected out as well: see
 /// constrained_motion. A solve that fails throws ConvergenceError and ends the attempt; the iterations count all the
 /// same.
-/// Source: paper Eqs. (27)–(31); the four operations are those that Dutt, Greengard and Rokhlin 2000 correct with
+/// Source: paper Eqs. (27)–(31)
 class StepOperations {
  public:
   /// @param start  and what was solved there, like all else, must outlive the step

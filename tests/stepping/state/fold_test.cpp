@@ -44,14 +44,7 @@ double difference_per_step(const Model& model, const Matrix& position, double dt
   const Symmetry symmetry = found(model, position);
   const Discretisation reduced(settings_for(symmetry), symmetry);
   const Discretisation full(settings_for(symmetry));
-  const State a = run(model, reduced, start(model, reduced, position, dt), dt, n_steps);
-  const State b = run(model, full, start(model, full, position, dt), dt, n_steps);
-  double difference = max_difference(a.vesicles[0].position, b.vesicles[0].position);
-  if (model.electric) {
-    difference = std::max(difference,
-                          max_difference(a.vesicles[0].transmembrane_potential, b.vesicles[0].transmembrane_potential));
-  }
-  return difference / n_steps;
+  return testing::difference_per_step(model, position, reduced, full, dt, n_steps);
 }
 
 std::uint64_t evaluations(const Model& model, const Matrix& position, const Symmetry& used, const Symmetry& grid) {

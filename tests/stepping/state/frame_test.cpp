@@ -38,15 +38,7 @@ struct Scenario {
   [[nodiscard]] double difference_per_step(double dt, int n_steps) const {
     const Discretisation reduced = with(symmetry);
     const Discretisation full = with({});
-    const State a =
-        run(model_there, reduced, start(model_there, reduced, state_there.vesicles[0].position, dt), dt, n_steps);
-    const State b = run(model_there, full, start(model_there, full, state_there.vesicles[0].position, dt), dt, n_steps);
-    double difference = max_difference(a.vesicles[0].position, b.vesicles[0].position);
-    if (model.electric) {
-      difference = std::max(
-          difference, max_difference(a.vesicles[0].transmembrane_potential, b.vesicles[0].transmembrane_potential));
-    }
-    return difference / n_steps;
+    return testing::difference_per_step(model_there, state_there.vesicles[0].position, reduced, full, dt, n_steps);
   }
 
   /// The same between the frame and the laboratory, where the grid has its poles elsewhere.

@@ -26,14 +26,7 @@ State state_of(const Model& model, const Matrix& position) {
 double difference_per_step(const Model& model, const Matrix& position, double dt, int n_steps) {
   const Symmetry symmetry = find_symmetry(model, state_of(model, position));
   const Discretisation reduced(solved_to_rounding(kOrder), symmetry), full(solved_to_rounding(kOrder));
-  const State a = run(model, reduced, start(model, reduced, position, dt), dt, n_steps);
-  const State b = run(model, full, start(model, full, position, dt), dt, n_steps);
-  double difference = max_difference(a.vesicles[0].position, b.vesicles[0].position);
-  if (model.electric) {
-    difference = std::max(difference,
-                          max_difference(a.vesicles[0].transmembrane_potential, b.vesicles[0].transmembrane_potential));
-  }
-  return difference / n_steps;
+  return testing::difference_per_step(model, position, reduced, full, dt, n_steps);
 }
 
 std::uint64_t stokes_evaluations(const Model& model, const Matrix& position, const Symmetry& symmetry) {
