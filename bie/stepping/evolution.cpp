@@ -47,7 +47,7 @@ int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_
 
 double truncation_target(const EvolutionSetup& setup) { return thresholds::truncation_share * setup.control.tolerance; }
 
-/// A share of the time in which one membrane changes at the start. @returns the rate of that change
+/// Rate at which one membrane changes at the start, relative to its size.
 double starting_rate(const EvolutionSetup& setup, const VesicleState& vesicle, const VesicleFields& fields,
                      const VesicleSolution& solution) {
   const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));

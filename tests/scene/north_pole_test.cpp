@@ -55,7 +55,7 @@ Reading reading_of(const SphereTransform& fine, const Matrix& position) {
   VesicleFields fields;
   fields.charge = Vector::Zero(position.rows());
   const Surface surface = make_surface(fine, position);
-  return {along_laboratory_axes({}, {}, fine, surface, state.vesicles[0], fields).Vm_north, centroid(surface)};
+  return {along_lab_frame_axes({}, {}, fine, surface, state.vesicles[0], fields).Vm_north, centroid(surface)};
 }
 
 SphereTransform transform_of(int order, bool axisymmetric) {

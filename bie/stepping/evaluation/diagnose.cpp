@@ -51,8 +51,8 @@ double spectrum_tail(const Matrix& position) {
 
 }  // namespace
 
-VesicleDiagnostics along_laboratory_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
-                                         const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields) {
+VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
+                                        const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields) {
   // About its mean, so that no digit depends on where the vesicle is.
   const Vector3 mean = membrane.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
   Matrix position = membrane.position * frame.axes.transpose();
@@ -128,7 +128,7 @@ VesicleDiagnostics diagnose(const FlowParameters& parameters, const MembraneSpac
   } else {
     check_operators(space, quadrature_tolerance, vesicle, membrane, d);
   }
-  return along_laboratory_axes(d, Frame{}, fine, s, vesicle, fields);
+  return along_lab_frame_axes(d, Frame{}, fine, s, vesicle, fields);
 }
 
 }  // namespace vehd

@@ -19,7 +19,7 @@ VesicleDiagnostics diagnose(const FlowParameters& parameters, const MembraneSpac
 /// found anew along the axes of the laboratory.
 /// @param fine  of all longitudes: an extreme of an axisymmetric surface lies on any of them
 /// @param s     the surface on its grid
-VesicleDiagnostics along_laboratory_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
-                                         const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields);
+VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
+                                        const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields);
 
 }  // namespace vehd

@@ -17,7 +17,7 @@ Diagnostics LabFrameOutput::diagnostics(const Diagnostics& d, const State& state
   Diagnostics result;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     const VesicleState& vesicle = state.vesicles[a];
-    result.vesicles.push_back(along_laboratory_axes(
+    result.vesicles.push_back(along_lab_frame_axes(
         d.vesicles[a], frame_, *fine_, make_surface(*fine_, vesicle.position), vesicle, fields.vesicles[a]));
   }
   return result;
