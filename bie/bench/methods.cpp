@@ -97,7 +97,7 @@ class FemLevels {
   TemporaryFile input_;
 };
 
-BenchTable empty_table() {
+BenchTable empty_methods_table() {
   constexpr const char* kError = "{:.1e}";
   return {"rows",
           {{"method", ""},
@@ -160,7 +160,7 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
 
   observer.note(
       fmt::format("Example 1 on shape (33), seconds of one core, up to {} repeats; errors: relative L2", task.repeats));
-  BenchResult result{"methods", machine_record(), task.repeats, {}, {empty_table()}, {}};
+  BenchResult result{"methods", machine_record(), task.repeats, {}, {empty_methods_table()}, {}};
   BenchTable& table = result.tables.front();
   BenchTasks tasks(static_cast<int>(plan.orders.size() + plan.element_degree.size() + plan.cells_per_edge.size() + 1),
                    observer);

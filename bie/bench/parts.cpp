@@ -23,7 +23,7 @@ std::string key_of(std::string part) {
   return part;
 }
 
-BenchTable empty_table(const std::vector<std::string>& parts) {
+BenchTable empty_parts_table(const std::vector<std::string>& parts) {
   BenchTable table{"rows", {{"order", "p"}}};
   for (const std::string& part : parts) table.columns.push_back({"seconds_" + key_of(part), part, "{:.2g}", true});
   table.columns.push_back({"iterations_flow", "iterations", "{:.0f}", true});
@@ -114,7 +114,7 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
     }
     if (parts.empty()) {
       parts = timer.parts();
-      result.tables.push_back(empty_table(parts));
+      result.tables.push_back(empty_parts_table(parts));
       observer.heading(result.tables.front());
     }
     const std::map<std::string, double> operations = timer.operations();

@@ -18,7 +18,7 @@ struct PaperErrors {
 const std::map<int, PaperErrors> paper_errors{
     {12, {2.5e-3, 2.7e-2}}, {16, {3.0e-4, 9.7e-3}}, {24, {3.7e-5, 8.7e-4}}, {32, {2.3e-6, 2.2e-4}}};
 
-BenchTable empty_table() {
+BenchTable empty_space_table() {
   constexpr const char* kError = "{:.1e}";
   return {"rows",
           {{"order", "p"},
@@ -36,7 +36,7 @@ BenchTable empty_table() {
 }  // namespace
 
 BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserver& observer) {
-  BenchResult result{"space", machine_record(), repeats, {}, {empty_table()}, {}};
+  BenchResult result{"space", machine_record(), repeats, {}, {empty_space_table()}, {}};
   result.facts = {{"charge_problem", "Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources"},
                   {"velocity_problem", "2:1 prolate pulled along and across its axis, poles of the grid off the axis"},
                   {"seconds_are", "from the shape to the fields, tables of the degree excluded"}};

@@ -81,7 +81,7 @@ std::string end_text(const StabilityCase& hard, const RunOutcome& outcome, const
   return hard.expect == ExpectedEnd::flagged ? "flagged: " + verdict : "";
 }
 
-BenchTable empty_table() {
+BenchTable empty_stability_table() {
   return {"rows",
           {{"case", "case", "{}", false, 26},
            {"family", ""},
@@ -137,7 +137,7 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
        machine_record(),
        1,
        {{"brief", task.brief}},
-       {empty_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}},
+       {empty_stability_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}},
        {}}};
   BenchTable& table = outcome.result.tables.front();
   BenchTasks tasks(static_cast<int>(cases.size()), observer);

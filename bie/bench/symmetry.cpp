@@ -10,7 +10,7 @@
 namespace vehd {
 namespace {
 
-BenchTable empty_table() {
+BenchTable empty_symmetry_table() {
   return {"rows",
           {{"order", "p"},
            {"seconds_full", "full solver", "{:.2g}", true},
@@ -34,7 +34,7 @@ BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repe
   if (!problem_of(with_symmetry(scene, SymmetryUse::automatic)).symmetry.any()) {
     throw InputError("bench symmetry needs a scene that has one");
   }
-  BenchResult result{"symmetry", machine_record(), repeats, {}, {empty_table()}, {}};
+  BenchResult result{"symmetry", machine_record(), repeats, {}, {empty_symmetry_table()}, {}};
   result.facts = {{"dt", *scene.numerics.dt},
                   {"difference_is", "of x and V_m after the same steps, over the largest coefficient"}};
   BenchTable& table = result.tables.front();

@@ -14,7 +14,7 @@
 namespace vehd {
 namespace {
 
-BenchTable empty_table(int first_count) {
+BenchTable empty_threads_table(int first_count) {
   return {"rows",
           {{"part", "part", "{}", false, 18},
            {"threads", "threads"},
@@ -52,7 +52,7 @@ BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repea
     }
   }
 
-  BenchResult result{"threads", machine_record(), repeats, {}, {empty_table(counts.front())}, {}};
+  BenchResult result{"threads", machine_record(), repeats, {}, {empty_threads_table(counts.front())}, {}};
   result.facts = {{"order", scene.numerics.order},
                   {"dt", *scene.numerics.dt},
                   {"difference_is", "of x and V_m after the same steps from the first count, over the largest"}};

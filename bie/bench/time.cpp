@@ -108,7 +108,7 @@ double relative_error(const Quantity& quantity, const VesicleDiagnostics& d, con
   return difference == 0.0 ? 0.0 : difference / std::abs(value);
 }
 
-BenchTable empty_table() {
+BenchTable empty_time_table() {
   BenchTable table{"rows",
                    {{"integrator", "integrator", "{}", false, 20},
                     {"setting", "dt, tolerance"},
@@ -264,7 +264,7 @@ BenchResult bench_time(const TimeTask& task, BenchObserver& observer) {
   }
   const TimedRun& reference = runs.back().back();
 
-  BenchResult result{"time", machine_record(), task.repeats, {}, {empty_table()}, {}};
+  BenchResult result{"time", machine_record(), task.repeats, {}, {empty_time_table()}, {}};
   result.facts = {{"time", task.at},
                   {"order", task.scene.numerics.order},
                   {"reference", reference.integrator + " " + reference.setting}};

@@ -18,7 +18,7 @@
 namespace vehd {
 namespace {
 
-constexpr const char* kEntry = "seconds per shape";
+constexpr const char* shape_cost_entry = "seconds per shape";
 constexpr std::array kOrders{8, 12, 16, 24, 32, 48};
 /// Growth where nothing was timed.
 constexpr double kSecondsGrowth = 4.5, kBytesGrowth = 4.0;
@@ -116,13 +116,13 @@ double CostModel::bytes(int order) const { return at(order, &Point::bytes, kByte
 
 CostModel cost_model_of(const Scene& scene, double seconds, CostCache& cache) {
   const std::string kind = kind_of(problem_of(at_tolerance(scene, 1e-1)));
-  if (const auto entry = cache.find(kEntry, kind)) {
+  if (const auto entry = cache.find(shape_cost_entry, kind)) {
     if (std::vector<CostModel::Point> points = points_of(*entry); !points.empty()) return CostModel(std::move(points));
   }
   std::vector<CostModel::Point> points = measure(scene, seconds);
   nlohmann::json entry = nlohmann::json::array();
   for (const CostModel::Point& point : points) entry.push_back({point.order, point.seconds, point.bytes});
-  cache.keep(kEntry, kind, entry);
+  cache.keep(shape_cost_entry, kind, entry);
   return CostModel(std::move(points));
 }
 

@@ -20,7 +20,7 @@
 namespace vehd {
 namespace {
 
-constexpr const char* kEntry = "cost table";
+constexpr const char* cost_table_entry = "cost table";
 
 /// What decides the cost table: every key of the scene but those that a tolerance decides, the shape that it may read,
 /// and steps of trial runs where they are counted.
@@ -287,11 +287,11 @@ std::vector<CostRow> table_or_reason(const Scene& scene, const std::vector<doubl
 std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
                                    const CostBudget& budget) {
   const std::string identity = identity_of(scene, tolerances, budget);
-  if (const auto entry = cache.find(kEntry, identity)) {
+  if (const auto entry = cache.find(cost_table_entry, identity)) {
     if (std::vector<CostRow> rows = rows_of(*entry, tolerances.size()); !rows.empty()) return rows;
   }
   std::vector<CostRow> rows = table_or_reason(scene, tolerances, cache, budget);
-  cache.keep(kEntry, identity, json_of(rows));
+  cache.keep(cost_table_entry, identity, json_of(rows));
   return rows;
 }
 

@@ -13,8 +13,8 @@
 namespace vehd {
 namespace {
 
-constexpr int panel_width = 620;
-constexpr int panel_height = 560;
+constexpr int difference_width = 620;
+constexpr int difference_height = 560;
 constexpr int coordinates = 3;
 
 /// Names of the columns, from the first line "# x y z q …".
@@ -72,7 +72,7 @@ bool draw_differences(const std::filesystem::path& directory) {
       "unset border; unset tics; set colorbox\n"
       "set cbtics in; set format cb '%g'\n"
       "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n",
-      across * panel_width, down * panel_height, gnuplot_quoted((directory / "differences.png").string()));
+      across * difference_width, down * difference_height, gnuplot_quoted((directory / "differences.png").string()));
   script += cube_around(quoted_data);
   script +=
       fmt::format("set multiplot layout {},{} title 'log_{{10}} of |FEM − BIE| over the largest value of the field'\n",

@@ -16,8 +16,6 @@
 namespace vehd {
 namespace {
 
-constexpr std::size_t longest_shown = 60;
-
 /// One key of one file: everything that a message about it needs.
 struct Context {
   const KeyDescription& key;
@@ -202,8 +200,7 @@ std::string shown(const toml::node& node) {
   });
   std::string text = stream.str();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  if (text.size() > longest_shown) text = text.substr(0, longest_shown) + " ...";
-  return text;
+  return shortened(text);
 }
 
 std::string accepted_text(const KeyDescription& key) {

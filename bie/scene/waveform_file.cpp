@@ -16,11 +16,6 @@ namespace {
 /// checkpoint holds and which must not be too long for a scene file itself.
 constexpr std::size_t most_rows = 10000;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 22;
-constexpr std::size_t longest_shown = 60;
-
-std::string shown(const std::string& line) {
-  return line.size() > longest_shown ? line.substr(0, longest_shown) + " ..." : line;
-}
 
 }  // namespace
 
@@ -35,8 +30,8 @@ void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std
     double time = 0.0, value = 0.0;
     std::string more;
     if (!(words >> time >> value) || words >> more || !std::isfinite(time) || !std::isfinite(value)) {
-      throw InputError(
-          fmt::format("{}:{}: is \"{}\"; accepted: two finite numbers, time and factor", name, number, shown(line)));
+      throw InputError(fmt::format("{}:{}: is \"{}\"; accepted: two finite numbers, time and factor", name, number,
+                                   shortened(line)));
     }
     if (waveform.times.size() == most_rows) {
       throw InputError(fmt::format("{}:{}: more than {} rows", name, number, most_rows));

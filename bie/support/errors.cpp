@@ -18,6 +18,11 @@ std::string one_line(std::string text) {
 
 InputError::InputError(std::string message) : std::runtime_error(one_line(std::move(message))) {}
 
+std::string shortened(const std::string& text) {
+  constexpr std::size_t longest_shown = 60;
+  return text.size() > longest_shown ? text.substr(0, longest_shown) + " ..." : text;
+}
+
 void require_size(const char* what, long actual, long expected) {
   if (actual != expected) {
     throw ShapeError(fmt::format("{} has {} entries but {} are expected", what, actual, expected));

@@ -24,6 +24,9 @@ class ConvergenceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A text as a message quotes it: cut after 60 characters, then with " ...".
+std::string shortened(const std::string& text);
+
 /// Throws ShapeError "what has ACTUAL ... but EXPECTED ..." unless both agree.
 void require_size(const char* what, long actual, long expected);
 

@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(reduced_run_about_x_is_the_full_run_and_needs_fewer_kernels
     BOOST_TEST(largest_difference(a.column(name), b.column(name)) < 1e-9 * static_cast<double>(a.n_rows()), name);
   }
   const auto evaluations = [](const std::string& run) {
-    const auto summary = nlohmann::json::parse(file_text(run + "/summary.json"));
+    const auto summary = json_of(run + "/summary.json");
     return summary["kernel_evaluations"]["stokes_single"].get<double>();
   };
   // Order 6: all 7 x 14 targets with all nodes against half the nodes of one longitude with the 4 latitudes that the

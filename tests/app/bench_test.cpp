@@ -26,8 +26,8 @@ struct Bench {
     arguments.insert(arguments.end(), {"-o", directory / "out", "--json", directory / "copy.json"});
     result = run_vehd(arguments);
     BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
-    json = nlohmann::json::parse(file_text(directory / ("out/" + name + ".json")));
-    BOOST_TEST((json == nlohmann::json::parse(file_text(directory / "copy.json"))));
+    json = json_of(directory / ("out/" + name + ".json"));
+    BOOST_TEST((json == json_of(directory / "copy.json")));
   }
 
   [[nodiscard]] std::string file(const std::string& end) const { return directory / ("out/" + name + end); }

@@ -31,7 +31,7 @@ struct EditedRun {
     const ProgramResult result = session();
     BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
   }
-  [[nodiscard]] nlohmann::json summary() const { return nlohmann::json::parse(file_text(output + "/summary.json")); }
+  [[nodiscard]] nlohmann::json summary() const { return json_of(output + "/summary.json"); }
 };
 
 /// Degrees of the rows of a history, each as often as it begins.

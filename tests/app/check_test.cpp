@@ -22,8 +22,6 @@ const std::string crooked_scene =
     "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\ninitial_Vm = 'steady'\n"
     "[numerics]\norder = 10\ndt = 0.1\nend_time = 0.0\n";
 
-nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(file_text(path)); }
-
 }  // namespace
 
 // The finite elements are one process for each processor.

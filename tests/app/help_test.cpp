@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(scene_help_has_every_key_once_with_its_default) {
   const ProgramResult result = run_vehd({"help", "scene", "--json", directory / "keys.json"});
   BOOST_TEST(result.exit_code == 0);
   BOOST_TEST(result.errors.empty());
-  const nlohmann::json keys = nlohmann::json::parse(file_text(directory / "keys.json"))["keys"];
+  const nlohmann::json keys = json_of(directory / "keys.json")["keys"];
   BOOST_TEST(keys.size() == vehd::scene_keys().size());
   for (const auto& key : keys) {
     for (const char* column : {"symbol", "type", "unit", "range", "default", "meaning"}) {
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(groups_of_a_scene_are_printed) {
       run_vehd({"help", "groups", directory / "scene.toml", "--json", directory / "groups.json"});
   BOOST_TEST(result.exit_code == 0, result.errors);
   BOOST_TEST(result.output.find("electric capillary number") != std::string::npos, result.output);
-  const nlohmann::json groups = nlohmann::json::parse(file_text(directory / "groups.json"))["groups"];
+  const nlohmann::json groups = json_of(directory / "groups.json")["groups"];
   BOOST_TEST(groups[1]["symbol"] == "v");
   BOOST_TEST(groups[1]["value"].get<double>() < 1.0);
 }

@@ -39,8 +39,8 @@ BOOST_AUTO_TEST_CASE(both_methods_approach_the_exact_solution_each_at_its_rate,
   const ProgramResult run =
       run_vehd({"bench", "methods", "--quick", "-o", directory / "out", "--json", directory / "copy.json"});
   BOOST_REQUIRE_MESSAGE(run.exit_code == 0, run.errors);
-  const auto bench = nlohmann::json::parse(file_text(directory / "out/methods.json"));
-  BOOST_TEST((bench == nlohmann::json::parse(file_text(directory / "copy.json"))));
+  const auto bench = json_of(directory / "out/methods.json");
+  BOOST_TEST((bench == json_of(directory / "copy.json")));
 
   const auto bie = levels_of(bench, "bie");
   const auto by_degree = levels_of(bench, "fem_degree"), by_mesh = levels_of(bench, "fem_mesh");

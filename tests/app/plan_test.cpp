@@ -8,8 +8,6 @@
 
 namespace {
 
-nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(file_text(path)); }
-
 /// A scene and what a run of it says at its end.
 struct Run {
   OwnCache cache;

@@ -25,7 +25,7 @@ struct ShortRun {
     return run_vehd({"plot", output, "--times", times, "--json", directory / "plot.json"});
   }
   [[nodiscard]] std::vector<double> times() const {
-    return nlohmann::json::parse(file_text(directory / "plot.json")).at("times").get<std::vector<double>>();
+    return json_of(directory / "plot.json").at("times").get<std::vector<double>>();
   }
   [[nodiscard]] std::string note(const std::string& asked, const std::string& taken) const {
     return file() + ": no snapshot at time " + asked + "; taken: the nearest, at " + taken + "\n";

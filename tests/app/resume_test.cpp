@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(interrupt_leaves_a_resumable_run) {
     const ProgramResult result = program.wait();
     BOOST_TEST(result.exit_code == 3);
     BOOST_TEST(result.errors.find("continue with: vehd run ") != std::string::npos, result.errors);
-    const auto summary = nlohmann::json::parse(file_text(run.output + "/summary.json"));
+    const auto summary = json_of(run.output + "/summary.json");
     BOOST_TEST(!summary.at("completed").get<bool>());
     BOOST_TEST(summary.at("verdict").get<std::string>().starts_with("stopped: a signal came at time "));
     run.finish_soon();
@@ -67,7 +67,7 @@ BOOST_FIXTURE_TEST_CASE(complete_run_has_nothing_to_do, ReferenceRun) {
   BOOST_TEST(result.exit_code == 0);
   BOOST_TEST(result.output.find("nothing to do") != std::string::npos);
   BOOST_TEST((file_text(reference + "/history.csv") == history));
-  BOOST_TEST(nlohmann::json::parse(file_text(directory / "summary.json")).at("completed").get<bool>());
+  BOOST_TEST(json_of(directory / "summary.json").at("completed").get<bool>());
 }
 
 BOOST_FIXTURE_TEST_CASE(a_later_end_continues_the_run, ReferenceRun) {

@@ -126,7 +126,7 @@ BOOST_FIXTURE_TEST_CASE(absent_effects_write_no_datasets, Run) {
 
 BOOST_FIXTURE_TEST_CASE(summary_has_the_stable_keys, Run) {
   run(quick_scene());
-  const auto summary = nlohmann::json::parse(file_text(output + "/summary.json"));
+  const auto summary = json_of(output + "/summary.json");
   for (const char* key : {"completed", "verdict", "steps", "rejected_steps", "seconds", "seconds_per_step",
                           "peak_memory_bytes", "area_drift", "volume_drift", "strain_max", "kernel_evaluations"}) {
     BOOST_TEST(summary.contains(key), key);
@@ -134,7 +134,7 @@ BOOST_FIXTURE_TEST_CASE(summary_has_the_stable_keys, Run) {
   BOOST_TEST(summary.at("completed").get<bool>());
   BOOST_TEST(summary.at("steps").get<int>() ==
              static_cast<int>(vehd::HistoryTable(output + "/history.csv").n_rows()) - 1);
-  BOOST_TEST(summary == nlohmann::json::parse(file_text(directory / "result.json")));
+  BOOST_TEST(summary == json_of(directory / "result.json"));
 }
 
 BOOST_FIXTURE_TEST_CASE(a_snapshot_serves_as_initial_shape, Run) {
@@ -160,7 +160,7 @@ BOOST_FIXTURE_TEST_CASE(pictures_are_drawn_without_a_display, Run) {
   const ProgramResult plot =
       run_vehd({"plot", output, "-o", directory / "pictures", "--times", "0,0.5", "--json", directory / "plot.json"});
   BOOST_TEST(plot.exit_code == 0, plot.errors);
-  BOOST_TEST(nlohmann::json::parse(file_text(directory / "plot.json")).at("pictures").size() == 2);
+  BOOST_TEST(json_of(directory / "plot.json").at("pictures").size() == 2);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

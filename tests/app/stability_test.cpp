@@ -25,7 +25,7 @@ BOOST_AUTO_TEST_CASE(every_hard_case_holds_in_its_short_form) {
   const ProgramResult result =
       run_vehd({"bench", "stability", kScenes.string(), "--quick", "-o", directory / "out", "--no-plot"});
   BOOST_TEST(result.exit_code == 0, result.output);
-  const auto json = nlohmann::json::parse(file_text(directory / "out/stability.json"));
+  const auto json = json_of(directory / "out/stability.json");
   const auto n_scenes = std::distance(fs::directory_iterator(kScenes), fs::directory_iterator());
   BOOST_TEST(json["rows"].size() == static_cast<std::size_t>(n_scenes));
   for (const auto& row : json["rows"]) {

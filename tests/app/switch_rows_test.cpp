@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(history_has_both_sides_of_every_switch) {
   // Just after the end of the pulse the charge is that of V_m alone.
   BOOST_TEST(std::abs(charge[second[1]] - charge[second[1] - 1]) > 0.1 * std::abs(charge[second[1]]));
 
-  const auto summary = nlohmann::json::parse(file_text(run.reference + "/summary.json"));
+  const auto summary = json_of(run.reference + "/summary.json");
   const auto is_start_or_switch = static_cast<int>(std::count(dt.begin(), dt.end(), 0.0));
   BOOST_TEST(summary.at("steps").get<int>() == static_cast<int>(history.n_rows()) - is_start_or_switch);
 }

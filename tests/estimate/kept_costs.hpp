@@ -5,8 +5,6 @@
 
 #include "tests/support/files.hpp"
 
-inline nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(file_text(path)); }
-
 /// Gives every cost table kept in a file another number of steps, which no run would find.
 inline constexpr int kForged = 12345;
 inline void forge(const std::string& cache) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(named_tests)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,8 +86,6 @@ std::vector<std::string> test_files_named_in(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(named_tests)
 
 BOOST_AUTO_TEST_CASE(every_test_that_a_page_names_exists) {
   const auto known = suites();

@@ -5,6 +5,8 @@
 
 using namespace vehd;
 
+BOOST_AUTO_TEST_SUITE(recycled_subspace)
+
 namespace {
 
 constexpr Index kSize = 40;
@@ -29,8 +31,6 @@ Matrix columns(Index count, double phase) {
 RecycledSubspace known_of(const Matrix& matrix, const Matrix& arguments) { return {arguments, matrix * arguments}; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(recycled_subspace)
 
 BOOST_AUTO_TEST_CASE(recycled_subspace_are_taken_to_their_arguments) {
   const RecycledSubspace known = known_of(test_matrix(), columns(7, 0.0));

@@ -8,6 +8,8 @@
 
 using namespace vehd;
 
+BOOST_AUTO_TEST_SUITE(subspace_solve)
+
 namespace {
 
 /// Unsymmetric with well-separated eigenvalues: Krylov spaces need some ten dimensions for it.
@@ -35,8 +37,6 @@ SolveReport solve(const LinearMap& map, const LinearMap& preconditioner, const V
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(subspace_solve)
 
 BOOST_AUTO_TEST_CASE(solves_a_known_system) {
   const Matrix matrix = test_matrix(60);

@@ -12,13 +12,13 @@ using namespace vehd::testing;
 
 namespace {
 
-constexpr int kOrder = 8;
+constexpr int charging_order = 8;
 constexpr double kTolerance = 1e-13;
 
 /// Sphere of radius 1 in a field along z: V_m = V cos θ with C_m V̇ = −G_m V + κ(3E/2 − V).
 struct ChargingSphere {
-  Space space{kOrder};
-  Membrane membrane = make_membrane(space, sphere(kOrder), kLaplaceLayers);
+  Space space{charging_order};
+  Membrane membrane = make_membrane(space, sphere(charging_order), kLaplaceLayers);
   ElectricParameters electric{{0.0, 0.0, 1.3}, 1.0, 2.0, 1.0};
   ChargingParameters charging{0.8, 0.6};
 
@@ -34,7 +34,7 @@ struct ChargingSphere {
   [[nodiscard]] Vector dipole(double v) const { return v * space.fine.analyze(membrane.surface.position).col(2); }
   /// V_m at `time` after n_steps steps from zero.
   [[nodiscard]] Vector charged(double time, int n_steps) const {
-    Vector v = Vector::Zero(n_coefficients(kOrder));
+    Vector v = Vector::Zero(n_coefficients(charging_order));
     for (int i = 0; i < n_steps; ++i) {
       require_converged(charge_membrane(electric, charging, membrane, time / n_steps, kTolerance, v), "charging");
     }
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(law_holds_at_extreme_conductivity_ratios) {
 BOOST_AUTO_TEST_CASE(mean_potential_leaks_through_the_membrane_alone) {
   // No current leaves a closed membrane: C_m V̇ = −G_m V for the mean, whatever the field.
   const double dt = 0.3;
-  Vector v = 0.9 * harmonic(kOrder, 0, 0);
+  Vector v = 0.9 * harmonic(charging_order, 0, 0);
   require_converged(charge_membrane(electric, charging, membrane, dt, kTolerance, v), "charging");
   const double storage = charging.capacitance / dt;
   BOOST_TEST(std::abs(v[0] - 0.9 * storage / (storage + charging.conductance)) < 1e-12);

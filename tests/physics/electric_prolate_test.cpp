@@ -10,12 +10,12 @@ using namespace vehd::testing;
 
 namespace {
 
-constexpr int kOrder = 24;
+constexpr int prolate_order = 24;
 
 /// The 2:1 prolate with the field along its axis.
 struct ProlateInField {
-  Space space{kOrder};
-  Membrane membrane = make_membrane(space, prolate(kOrder), kLaplaceLayers);
+  Space space{prolate_order};
+  Membrane membrane = make_membrane(space, prolate(prolate_order), kLaplaceLayers);
   double field = 1.3;
 
   [[nodiscard]] ElectricParameters electric(double ratio) const { return {{0.0, 0.0, field}, ratio, 1.0, 1.0}; }
@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(depolarisation_factor_is_the_tabulated_one) {
 BOOST_AUTO_TEST_CASE(interior_field_is_uniform_and_charge_follows_the_normal) {
   for (const double ratio : {1e-8, 0.5, 1.0, 2.0, 20.0, 1e8}) {
     const double interior = field / (1.0 + depolarisation() * (ratio - 1.0));
-    const Vector none = Vector::Zero(n_coefficients(kOrder));
+    const Vector none = Vector::Zero(n_coefficients(prolate_order));
     const ElectricTraces traces = solve_traces(electric(ratio), membrane, none);
     const Vector normal_z = membrane.surface.normal.col(2);
     const Vector charge = -(1.0 - ratio) * interior * normal_z;

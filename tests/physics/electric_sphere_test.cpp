@@ -9,7 +9,7 @@ using namespace vehd::testing;
 
 namespace {
 
-constexpr int kOrder = 12;
+constexpr int sphere_order = 12;
 constexpr std::array kRatios{1e-8, 0.5, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 2.0, 1e8};
 
 /// Unit sphere with V_m = V cos θ in the field E ẑ: φ_i = −a r cos θ, φ_e = (b/r² − E r) cos θ.
@@ -27,8 +27,8 @@ SphereSolution exact_solution(const ElectricParameters& electric, double v) {
 ElectricParameters field_along_z(double ratio) { return {{0.0, 0.0, 1.3}, ratio, 1.0, 1.0}; }
 
 struct UnitSphere {
-  Space space{kOrder};
-  Membrane membrane = make_membrane(space, sphere(kOrder), kLaplaceLayers);
+  Space space{sphere_order};
+  Membrane membrane = make_membrane(space, sphere(sphere_order), kLaplaceLayers);
   Vector cos_theta = membrane.surface.position.col(2);
 
   [[nodiscard]] Vector dipole(double v) const { return space.fine.analyze(v * cos_theta); }

@@ -10,13 +10,13 @@ using namespace vehd::testing;
 
 namespace {
 
-constexpr int kOrder = 24;
+constexpr int tension_order = 24;
 
 struct TensionFixture {
-  Space space{kOrder};
-  Matrix position = asymmetric_shape(kOrder);
+  Space space{tension_order};
+  Matrix position = asymmetric_shape(tension_order);
   Membrane membrane = make_membrane(space, position, {});
-  Vector tension = smooth_coefficients(kOrder, 5, 1, 70);
+  Vector tension = smooth_coefficients(tension_order, 5, 1, 70);
 
   [[nodiscard]] double integral(const Vector& values) const { return values.dot(membrane.surface.quadrature); }
 };
@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(force_is_minus_the_gradient_of_the_energy_of_frozen_tension
   const auto energy = [&](const Matrix& x) { return lambda.dot(make_surface(space.fine, x).quadrature); };
   const Matrix force = tension_force(membrane, tension);
   for (const int band : {1, 4, 8}) {
-    Matrix direction = smooth_coefficients(kOrder, band, 3, 71 + band);
+    Matrix direction = smooth_coefficients(tension_order, band, 3, 71 + band);
     direction /= direction.norm();
     const double h = 1e-4;
     const double slope = (energy(position + h * direction) - energy(position - h * direction)) / (2.0 * h);
@@ -43,8 +43,8 @@ BOOST_AUTO_TEST_CASE(force_is_minus_the_gradient_of_the_energy_of_frozen_tension
 BOOST_AUTO_TEST_CASE(positive_tension_pulls_a_sphere_inwards) {
   // Young and Laplace: 2λ/R towards the centre.
   const double radius = 1.6;
-  const Membrane round = make_membrane(space, sphere(kOrder, radius), {});
-  const Vector uniform = 0.8 * std::sqrt(4.0 * std::numbers::pi) * harmonic(kOrder, 0, 0);
+  const Membrane round = make_membrane(space, sphere(tension_order, radius), {});
+  const Vector uniform = 0.8 * std::sqrt(4.0 * std::numbers::pi) * harmonic(tension_order, 0, 0);
   const Matrix expected = -2.0 * 0.8 / radius * round.surface.normal;
   BOOST_TEST(max_difference(tension_force(round, uniform), expected) < 1e-11);
 }
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(force_is_linear_and_falls_with_size) {
 }
 
 BOOST_AUTO_TEST_CASE(weighted_divergence_is_the_rate_of_change_of_the_area_element) {
-  const Matrix velocity = smooth_coefficients(kOrder, 5, 3, 75);
+  const Matrix velocity = smooth_coefficients(tension_order, 5, 3, 75);
   const double h = 1e-5;
   const Vector grown = make_surface(space.fine, position + h * velocity).area_element;
   const Vector shrunk = make_surface(space.fine, position - h * velocity).area_element;
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(weighted_divergence_is_the_rate_of_change_of_the_area_eleme
 
 BOOST_AUTO_TEST_CASE(tension_does_no_work_on_inextensible_motion) {
   // ∫ f_λ·u dA = −∫ λ ∇_γ·u dA: the constraint operator is minus the adjoint of the force.
-  const Matrix velocity = smooth_coefficients(kOrder, 6, 3, 76);
+  const Matrix velocity = smooth_coefficients(tension_order, 6, 3, 76);
   const SphereDerivatives u = space.fine.synthesize_gradient(velocity);
   const double work = integral(row_dot(tension_force(membrane, tension), u.value));
   BOOST_TEST(std::abs(work + tension.dot(weighted_divergence(membrane, u))) < 1e-12 * std::abs(work));

@@ -8,6 +8,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(stokes_sphere)
+
 namespace {
 
 using Eigenvalues = std::array<double, 3>;
@@ -44,8 +46,6 @@ std::array<double, 3> spectrum_errors(const Space& space, const StokesOperator& 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(stokes_sphere)
 
 BOOST_AUTO_TEST_CASE(layers_have_the_eigenvalues_of_the_vector_harmonics) {
   for (const int order : {8, 16}) {

@@ -6,6 +6,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(target_images)
+
 namespace {
 
 constexpr int kOrder = 8;
@@ -48,8 +50,6 @@ double difference(const Matrix& position, const std::vector<Reflection>& reflect
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(target_images)
 
 BOOST_AUTO_TEST_CASE(rotated_targets_share_rows_without_change) {
   BOOST_TEST(difference(star(3, 1.0), {{}}, 3, 18) < 1e-12);

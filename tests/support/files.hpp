@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bie/support/file_system.hpp"
@@ -17,6 +18,8 @@ class TemporaryDirectory {
 };
 
 inline std::string file_text(const std::filesystem::path& path) { return vehd::text_of_file(path); }
+
+inline nlohmann::json json_of(const std::filesystem::path& path) { return nlohmann::json::parse(file_text(path)); }
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;

@@ -12,6 +12,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(flow_system)
+
 namespace {
 
 FlowParameters parameters_of(const Model& model) { return flow_parameters(model, model.vesicles[0]); }
@@ -34,8 +36,6 @@ MembraneUnknowns left_side(const Model& model, const Membrane& membrane, const M
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(flow_system)
 
 BOOST_AUTO_TEST_CASE(sphere_flow_block_is_the_assembled_operator_on_a_sphere) {
   const double radius = 1.6;

@@ -12,6 +12,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(composition)
+
 namespace {
 
 constexpr int kOrder = 8;
@@ -55,8 +57,6 @@ Model frozen_field_model() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(composition)
 
 BOOST_AUTO_TEST_CASE(absent_effects_evaluate_no_kernels) {
   const Counts shear = counted_run(shear_model(), ellipsoid(kOrder, {1.5, 1.0, 1.0}), 0.1, 0.2).after_step.back();

@@ -8,6 +8,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(fold)
+
 namespace {
 
 constexpr int kOrder = 12;
@@ -61,8 +63,6 @@ double reduction(const Model& model, const Matrix& position) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(fold)
 
 BOOST_AUTO_TEST_CASE(largest_number_of_turns_is_found) {
   BOOST_TEST(symmetry_text(found(field_model(), star(3, 1.0))) == "3-fold about z");

@@ -8,6 +8,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(symmetry)
+
 namespace {
 
 constexpr int kOrder = 12;
@@ -38,8 +40,6 @@ std::uint64_t stokes_evaluations(const Model& model, const Matrix& position, con
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(symmetry)
 
 BOOST_AUTO_TEST_CASE(prolate_in_a_field_along_its_axis_is_axisymmetric) {
   const Symmetry found = find_symmetry(field_model(), state_of(field_model(), prolate(kOrder)));
