@@ -93,6 +93,7 @@ int run_program(int argc, char** argv) {
   add_check_command(program, exit_code);
   add_bench_command(program, exit_code);
   add_help_command(program, exit_code);
+  add_completion_command(program, exit_code);
   return static_cast<int>(parse_and_run(program, argc, argv, exit_code));
 }
 

@@ -26,6 +26,8 @@ void add_check_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
 /// vehd help: reference of the scene keys.
 void add_help_command(CLI::App& program, ExitCode& exit_code);
+/// `vehd completion SHELL`: a script that completes commands and options, made from what the help is printed from.
+void add_completion_command(CLI::App& program, ExitCode& exit_code);
 
 /// Options that every command has.
 struct CommonOptions {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "bie/files/hdf5_handle.hpp"
+#include "bie/linear/instruction_set.hpp"
 #include "commit.hpp"
 
 namespace vehd {
@@ -16,7 +17,9 @@ std::string compiler() {
 #else
   const std::string name = "g++ " __VERSION__;
 #endif
-  const std::string architecture = VEHD_ARCHITECTURE;
+  // Of several instruction sets the one that the loader took.
+  const std::string built_for = VEHD_ARCHITECTURE;
+  const std::string architecture = built_for == "levels" ? instruction_set() : built_for;
   return architecture.empty() ? name : name + " -march=" + architecture;
 }
 

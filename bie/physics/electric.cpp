@@ -130,7 +130,7 @@ EffectDescription electric_description(const ElectricParameters& electric) {
                  {&LayerSelection::stokes_single, "velocity of f_E, Eq. (5)"}};
   d.unknowns = {"V_m"};
   if (conductivity_contrast(electric) != 0.0) {
-    d.operators.emplace_back(&LayerSelection::laplace_adjoint, "charge density, Eq. (12)");
+    d.operators.push_back({&LayerSelection::laplace_adjoint, "charge density, Eq. (12)"});
     d.unknowns.emplace_back("g");
   }
   return d;

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "bie/app/commands.hpp"
+
+namespace vehd {
+namespace {
+
+/// A word that may stand at some place of a command line, and what it means.
+struct Word {
+  std::string text;
+  std::string meaning;
+};
+
+/// A command and what may follow it, from the tables that its help is printed from.
+struct Completion {
+  std::string command;
+  std::vector<Word> options;
+  std::vector<Word> words;
+};
+
+std::vector<Word> options_of(const CLI::App& command) {
+  std::vector<Word> words;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) words.push_back({"--" + name, option->get_description()});
+    for (const std::string& name : option->get_snames()) words.push_back({"-" + name, option->get_description()});
+  }
+  return words;
+}
+
+std::vector<Word> commands_of(const CLI::App& command) {
+  std::vector<Word> words;
+  for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
+    words.push_back({subcommand->get_name(), subcommand->get_description()});
+  }
+  return words;
+}
+
+std::vector<Completion> completions(const CLI::App& program) {
+  std::vector<Completion> result;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    result.push_back({command->get_name(), options_of(*command), commands_of(*command)});
+  }
+  return result;
+}
+
+std::string joined(const std::vector<Word>& words) {
+  std::vector<std::string> texts;
+  for (const Word& word : words) texts.push_back(word.text);
+  return fmt::format("{}", fmt::join(texts, " "));
+}
+
+std::string bash_script(const CLI::App& program) {
+  std::string cases;
+  for (const Completion& completion : completions(program)) {
+    cases += fmt::format("    {}) options=\"{}\"; words=\"{}\" ;;\n", completion.command, joined(completion.options),
+                         joined(completion.words));
+  }
+  return fmt::format(R"(# Completion of vehd for bash.
+_vehd() {{
+  local current="${{COMP_WORDS[COMP_CWORD]}}" options words
+  case "${{COMP_CWORD}}:${{COMP_WORDS[1]}}" in
+    1:*) options="{}"; words="{}" ;;
+    *) _vehd_after "${{COMP_WORDS[1]}}" ;;
+  esac
+  if [[ "$current" == -* ]]; then
+    COMPREPLY=($(compgen -W "$options" -- "$current"))
+  else
+    COMPREPLY=($(compgen -W "$words" -- "$current"))
+  fi
+}}
+_vehd_after() {{
+  case "$1" in
+{}    *) options=""; words="" ;;
+  esac
+}}
+# Files where no word fits.
+complete -o default -F _vehd vehd
+)",
+                     joined(options_of(program)), joined(commands_of(program)), cases);
+}
+
+/// A description as an array of zsh holds it: "word:meaning" in single quotes.
+std::string zsh_entry(const Word& word) {
+  std::string meaning = word.meaning.substr(0, word.meaning.find('\n'));
+  std::string quoted;
+  for (const char letter : meaning) {
+    if (letter == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += letter;
+    }
+  }
+  return fmt::format("'{}:{}'", word.text, quoted);
+}
+
+std::string zsh_entries(const std::vector<Word>& words) {
+  std::vector<std::string> entries;
+  entries.reserve(words.size());
+  for (const Word& word : words) entries.push_back(zsh_entry(word));
+  return fmt::format("({})", fmt::join(entries, " "));
+}
+
+std::string zsh_script(const CLI::App& program) {
+  std::string cases;
+  for (const Completion& completion : completions(program)) {
+    cases += fmt::format("    {}) options={}; choices={} ;;\n", completion.command, zsh_entries(completion.options),
+                         zsh_entries(completion.words));
+  }
+  return fmt::format(R"(#compdef vehd
+# Completion of vehd for zsh.
+_vehd() {{
+  local -a options choices
+  if (( CURRENT == 2 )); then
+    options={}; choices={}
+  else
+    case "${{words[2]}}" in
+{}    esac
+  fi
+  if [[ "$PREFIX" == -* ]]; then
+    _describe -o option options
+  else
+    (( ${{#choices}} )) && _describe word choices
+    (( CURRENT > 2 )) && _files
+  fi
+}}
+_vehd "$@"
+)",
+                     zsh_entries(options_of(program)), zsh_entries(commands_of(program)), cases);
+}
+
+}  // namespace
+
+void add_completion_command(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("completion", "Print a script that completes commands and options");
+  command->require_subcommand(1);
+  const auto add = [&](const char* shell, const char* use, std::string (*script)(const CLI::App&)) {
+    CLI::App* topic = command->add_subcommand(shell, use);
+    topic->callback([&program, &exit_code, script] {
+      fmt::print("{}", script(program));
+      exit_code = ExitCode::done;
+    });
+  };
+  add("bash", "For bash: source <(vehd completion bash)", bash_script);
+  add("zsh", "For zsh: as a file _vehd in a folder of $fpath", zsh_script);
+}
+
+}  // namespace vehd

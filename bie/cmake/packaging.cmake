@@ -1,0 +1,30 @@
+# cpack -G DEB: one package with everything that is installed. Built with VEHD_ARCHITECTURE=levels it runs on every x86-64.
+set(CPACK_PACKAGE_NAME vehd)
+set(CPACK_PACKAGE_VENDOR vehd)
+set(CPACK_PACKAGE_CONTACT "vehd developers <vehd@packages.debian.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "simulator of lipid vesicles in flow and electric field")
+set(CPACK_PACKAGE_DESCRIPTION
+    "vehd simulates lipid vesicles, which are membranes that bend, keep their local
+area and charge like leaky capacitors, in viscous flow and electric field. It
+solves boundary integral equations by spherical harmonics and draws what it
+finds. Scenes are written in TOML, dimensionless or in SI units.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_GENERATOR DEB)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libfmt-dev, paraview")
+# What Debian asks of the files and folders of a package.
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+                                                WORLD_EXECUTE)
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+set(changelog ${PROJECT_BINARY_DIR}/changelog.gz)
+add_custom_command(OUTPUT ${changelog}
+                   COMMAND gzip -9nc ${CMAKE_CURRENT_LIST_DIR}/debian/changelog > ${changelog}
+                   DEPENDS ${CMAKE_CURRENT_LIST_DIR}/debian/changelog VERBATIM)
+add_custom_target(vehd_changelog ALL DEPENDS ${changelog})
+install(FILES ${changelog} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+include(CPack)
