@@ -1,16 +1,18 @@
 # One site from the pages of docs/, the files of the top folder and the headers of bie/, in SITE, which is made anew:
 #   cmake -DSITE=build/site -P bie/cmake/site.cmake
-# A warning of Sphinx or doxygen is an error. Without them it says so and builds nothing.
+# A warning of Sphinx or doxygen is an error. With -DOPTIONAL=ON it is made only where its tools are there.
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 get_filename_component(site "${SITE}" ABSOLUTE)
-find_program(sphinx sphinx-build)
-find_program(doxygen doxygen)
-find_file(mathjax MathJax.js PATHS /usr/share/javascript/mathjax NO_DEFAULT_PATH)
-if(NOT sphinx OR NOT doxygen OR NOT mathjax)
-  message("No site: sphinx-build, doxygen or MathJax (Debian: libjs-mathjax) is missing")
-  return()
+include("${CMAKE_CURRENT_LIST_DIR}/site_tools.cmake")
+if(missing_site_tools)
+  list(JOIN missing_site_tools " " names)
+  if(OPTIONAL)
+    message("No site: not there, by the names of their Debian packages, are ${names}")
+    return()
+  endif()
+  message(FATAL_ERROR "a site needs the Debian packages ${names}")
 endif()
 
 # Links lead from page to page as they do in the project, so the copy has its folders.

@@ -18,10 +18,11 @@ mathjax_path = "MathJax.js?config=TeX-AMS_SVG"
 mathjax2_config = {"tex2jax": {"processClass": "math"}, "SVG": {"linebreaks": {"automatic": True}}, "messageStyle": "none"}
 
 
-def add_pages_without_a_place(app, docname, source):
-    """A page that the index does not name still has its place, at the end."""
+def complete_index(app, docname, source):
+    """What only the site has; and a page that the index does not name still has its place, at the end."""
     if docname != root_doc:
         return
+    source[0] += '\n<p><a href="../interfaces/files.html">Interfaces of all headers</a></p>\n'
     named = set(re.findall(r"^/(\S+)$", source[0], re.MULTILINE))
     others = sorted(app.env.found_docs - named - {root_doc})
     if others:
@@ -30,4 +31,4 @@ def add_pages_without_a_place(app, docname, source):
 
 
 def setup(app):
-    app.connect("source-read", add_pages_without_a_place)
+    app.connect("source-read", complete_index)
