@@ -86,7 +86,8 @@ BOOST_AUTO_TEST_SUITE(floors_of_modules)
 BOOST_AUTO_TEST_CASE(every_folder_is_a_module_with_a_floor) {
   std::size_t n_modules = 0;
   for (const auto& entry : fs::directory_iterator(source / "bie")) {
-    if (!entry.is_directory()) continue;
+    // Modules hold code; bie/cmake holds none.
+    if (!entry.is_directory() || entry.path().filename() == "cmake") continue;
     BOOST_TEST(floors.contains(entry.path().filename().string()), entry.path().string());
     ++n_modules;
   }

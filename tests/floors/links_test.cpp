@@ -39,6 +39,11 @@ std::vector<std::string> links_in(const std::string& page) {
   return targets;
 }
 
+/// Files and folders of the project that a page names as code, from the top folder on.
+std::vector<std::string> paths_named_in(const std::string& page) {
+  return found(page, R"(`((?:bie|docs|fem_check|meshes|tests)/[\w/.-]*(?:\.[a-z]+|/))`)");
+}
+
 /// What GitHub and Sphinx make of the text of a heading: lower case, spaces as hyphens, no punctuation. Of letters
 /// beyond ASCII those of two bytes stay (é, κ); longer ones are signs in these pages.
 std::string anchor_of(const std::string& heading) {
@@ -121,6 +126,17 @@ BOOST_AUTO_TEST_CASE(every_link_of_every_page_leads_somewhere) {
   BOOST_TEST(n_links > 100);
 }
 
+BOOST_AUTO_TEST_CASE(every_file_and_folder_that_a_page_names_exists) {
+  std::size_t n_named = 0;
+  for (const fs::path& page : pages()) {
+    for (const std::string& path : paths_named_in(text_of(page))) {
+      BOOST_TEST(fs::exists(source / path), page.string() + ": " + path);
+      ++n_named;
+    }
+  }
+  BOOST_TEST(n_named > 80);
+}
+
 BOOST_AUTO_TEST_CASE(every_source_of_a_docstring_stands_in_the_references) {
   const std::vector<std::string> keys = reference_keys();
   BOOST_TEST(keys.size() > 10);
@@ -144,6 +160,7 @@ BOOST_AUTO_TEST_CASE(links_that_lead_nowhere_are_seen) {
   BOOST_TEST(trouble_with("conventions.md", page) == "no such file");
   BOOST_TEST(trouble_with("../conventions.md#potential-and-pressure", page) == "no such heading");
   BOOST_TEST(trouble_with("../../../", page) == "outside of the project");
+  BOOST_TEST(paths_named_in("`bie/a/b.hpp`, `tests/hard/`, `bie/setup`, `SUITE/case`, bie/c.cpp").size() == 2);
   const std::vector<std::string> expected = {"a.md", "b.png", "c.md"};
   BOOST_TEST(
       links_in("[a](a.md) `[x](x.md)`\n```\n[y](y.md)\n```\n![b](b.png \"title\") [w](https://w.org)\n[c]: c.md\n") ==
