@@ -1,17 +1,12 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <regex>
-#include <string>
-#include <vector>
+
+#include "tests/floors/source_files.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path source = VEHD_SOURCE_DIR;
 
 /// A module includes and links modules of lower floors alone: those of one floor do not know each other.
 const std::map<std::string, int> floors = {{"support", 0},  {"sphere", 1},     {"kernels", 1},    {"linear", 1},
