@@ -51,11 +51,11 @@ State adapted(State state, const Scene& before, const Scene& scene) {
 
 }  // namespace
 
-void require_same_physics(const Scene& scene, const std::filesystem::path& scene_file, const Checkpoint& checkpoint,
+void require_same_physics(const Scene& scene, const SceneSource& source, const Checkpoint& checkpoint,
                           const RunPaths& paths) {
   const Scene stored = stored_scene(checkpoint, paths);
   const auto refuse = [&](const std::string& key, const std::string& why) {
-    throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(scene_file, key), key,
+    throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(source, key), key,
                                  shown(key_text(scene, key)), paths.directory.string(), shown(key_text(stored, key)),
                                  why));
   };
@@ -71,7 +71,7 @@ void require_same_physics(const Scene& scene, const std::filesystem::path& scene
     throw InputError(
         fmt::format("{}: \"numerics.end_time\" is {:g}, but the run in {} has already reached {:g}; accepted: "
                     "that or later",
-                    key_place(scene_file, "numerics.end_time"), scene.numerics.end_time, paths.directory.string(),
+                    key_place(source, "numerics.end_time"), scene.numerics.end_time, paths.directory.string(),
                     checkpoint.state.time));
   }
 }

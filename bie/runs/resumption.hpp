@@ -12,9 +12,9 @@ namespace vehd {
 
 /// The physics of a run stay what they were; [numerics] and [output] may change, but for a symmetry that was switched
 /// off and an end that lies in the past.
-/// @param scene_file  of the scene, for messages
+/// @param source  of the scene, for messages
 /// @throws InputError naming file and line of the scene, the key and both its values
-void require_same_physics(const Scene& scene, const std::filesystem::path& scene_file, const Checkpoint& checkpoint,
+void require_same_physics(const Scene& scene, const SceneSource& source, const Checkpoint& checkpoint,
                           const RunPaths& paths);
 
 /// The checkpoint from which a run goes on with the numerics of the scene, every change recorded. Where nothing has

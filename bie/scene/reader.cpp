@@ -189,12 +189,16 @@ void apply_tolerance(NumericsScene& numerics, const toml::table& file) {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& path) {
-  return parse_scene(file_text(path), path.string(), path.parent_path());
+Scene read_scene(const std::filesystem::path& path) { return read_scene(SceneSource{path, {}}); }
+
+Scene read_scene(const SceneSource& source) {
+  return parse_scene(file_text(source.file), source.file.string(), source.file.parent_path(), source.settings);
 }
 
-Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder) {
-  const toml::table file = parse_toml(text, name);
+Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                  const std::vector<std::string>& settings) {
+  toml::table file = parse_toml(text, name);
+  apply_settings(file, settings);
   for (const auto& [key, node] : file) {
     const std::vector<std::string_view> known = table_names();
     if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
