@@ -68,7 +68,7 @@ void print(const RunPlan& plan) {
 
 /// A plan of steps that cannot be taken is none.
 ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
-  fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene_file, what);
+  fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene.source.file.string(), what);
   return ExitCode::does_not_hold;
 }
 

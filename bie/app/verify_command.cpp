@@ -19,7 +19,7 @@ struct VerifyOptions {
 ExitCode verify(const VerifyOptions& options) {
   const Example1Result result = solve_example1(options.order);
   fmt::print("Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources\n");
-  fmt::print("{:>6} {:>10} {:>10} {:>11} {:>9}\n", "order", "error_q", "error_f_E", "iterations", "seconds");
+  fmt::print("{:>6} {:>10} {:>10} {:>11} {:>9}\n", "degree", "error_q", "error_f_E", "iterations", "seconds");
   fmt::print("{:>6} {:>10.2e} {:>10.2e} {:>11} {:>9.3f}\n", result.order, result.errors.charge, result.errors.force,
              result.errors.report.iterations, result.seconds);
   write_json(options.common, {{"order", result.order},

@@ -99,12 +99,12 @@ int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPa
 }
 
 std::string what_may_help(const NumericsScene& numerics) {
-  const std::string order = fmt::format("order (now {})", numerics.order);
+  const std::string degree = fmt::format("degree (now {})", numerics.order);
   if (numerics.tolerance) {
-    return fmt::format("change tolerance (now {:g}) or {} in [numerics]", *numerics.tolerance, order);
+    return fmt::format("change tolerance (now {:g}) or {} in [numerics]", *numerics.tolerance, degree);
   }
   return fmt::format("change dt (now {:g}), {} or time_order (now {}), or give a tolerance, in [numerics]",
-                     *numerics.dt, order, numerics.time_order);
+                     *numerics.dt, degree, numerics.time_order);
 }
 
 }  // namespace vehd

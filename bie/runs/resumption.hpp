@@ -27,7 +27,7 @@ Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& 
 /// @throws InputError if the run has snapshots and their file cannot be read
 int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths);
 
-/// "change dt (now 0.05), order (now 16) ... in [numerics]": what may help where no step is acceptable.
+/// "change dt (now 0.05), degree (now 16) ... in [numerics]": what may help where no step is acceptable.
 std::string what_may_help(const NumericsScene& numerics);
 
 }  // namespace vehd

@@ -24,6 +24,12 @@ std::string key_place(const SceneSource& source, const std::string& name) {
   try {
     toml::table table = toml::parse_file(file);
     apply_settings(table, source.settings);
+    const std::size_t last = name.rfind('.');
+    const KeyDescription* key = find_key(name.substr(0, last), name.substr(last + 1));
+    if (key != nullptr && !key->other_name.empty()) {
+      const auto node = table.at_path(fmt::format("{}.{}", key->table, key->other_name));
+      if (node) return place(*node.node(), file);
+    }
     for (std::string path = name; !path.empty();) {
       if (const auto node = table.at_path(path)) return place(*node.node(), file);
       const std::size_t dot = path.rfind('.');

@@ -87,12 +87,23 @@ void merge(toml::table& to, toml::table&& from) {
   }
 }
 
+/// A key of two names is not to be there under both.
+void forget_other_name(toml::table& file, const std::string& name) {
+  const std::size_t last = name.rfind('.');
+  const std::string table = name.substr(0, last), word = name.substr(last + 1);
+  const KeyDescription* key = find_key(table, word);
+  toml::table* owner = file.at_path(table).as_table();
+  if (key == nullptr || owner == nullptr || key->other_name.empty()) return;
+  owner->erase(word == key->name ? key->other_name : key->name);
+}
+
 }  // namespace
 
 void apply_settings(toml::table& file, const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) {
     const Assignment given = assignment_of(setting);
     const std::string value = is_toml_value(given.value) ? given.value : to_toml(Value(given.value));
+    forget_other_name(file, given.key);
     merge(file, toml::parse(given.key + " = " + value + "\n", std::string(option) + setting));
   }
 }

@@ -14,7 +14,7 @@ inline std::string quick_scene(const std::string& end_time = "3.0") {
 
 /// A scene of docs/scenes at a low order and with few steps.
 inline std::string shortened_scene(std::string scene) {
-  scene = std::regex_replace(scene, std::regex("order = \\d+"), "order = 6");
+  scene = std::regex_replace(scene, std::regex("\n(degree|order) = \\d+"), "\n$1 = 6");
   scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
   scene = std::regex_replace(scene, std::regex("\nend_time = [0-9.e-]+"), "\nend_time = 0.3");
   return std::regex_replace(scene, std::regex("\nevery = [0-9.e-]+"), "\nevery = 0.1");
