@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -164,8 +165,12 @@ void add_completion_command(CLI::App& program, ExitCode& exit_code) {
   command->require_subcommand(1);
   const auto add = [&](const char* shell, const char* use, std::string (*script)(const CLI::App&)) {
     CLI::App* topic = command->add_subcommand(shell, use);
-    topic->callback([&program, &exit_code, script] {
-      fmt::print("{}", script(program));
+    const auto common = std::make_shared<CommonOptions>();
+    add_common_options(*topic, *common);
+    topic->callback([&program, &exit_code, script, common, shell = topic->get_name()] {
+      const std::string text = script(program);
+      fmt::print("{}", text);
+      write_json(*common, {{"shell", shell}, {"script", text}});
       exit_code = ExitCode::done;
     });
   };

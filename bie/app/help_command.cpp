@@ -102,8 +102,14 @@ void add_help_command(CLI::App& program, ExitCode& exit_code) {
   add_scene_topic(*command, exit_code);
   add_groups_topic(*command, exit_code);
   add_command_topics(*command, program, "vehd", exit_code);
-  command->callback([command, &exit_code] {
-    if (command->get_subcommands().empty()) fmt::print("{}", command->help("vehd"));
+  const auto options = std::make_shared<HelpOptions>();
+  add_common_options(*command, options->common);
+  command->callback([command, options, &exit_code] {
+    if (command->get_subcommands().empty()) {
+      const std::string text = command->help("vehd");
+      fmt::print("{}", text);
+      write_json(options->common, {{"command", command->get_name()}, {"help", text}});
+    }
     exit_code = ExitCode::done;
   });
 }

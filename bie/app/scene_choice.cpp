@@ -34,7 +34,7 @@ std::string quoted(const std::string& word) {
 
 std::string SceneChoice::text() const {
   std::string text = quoted(source.file.string());
-  for (const std::string& setting : source.settings) text += " --set " + quoted(setting);
+  for (const std::string& setting : source.settings) text += fmt::format(" --set {}", quoted(setting));
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/run_directory.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/scene/settings.hpp"
 
 /// What a session of a run may change of its scene.
 namespace vehd {

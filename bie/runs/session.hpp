@@ -11,6 +11,7 @@
 #include "bie/runs/run_loop.hpp"
 #include "bie/runs/scene_changes.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/scene/settings.hpp"
 
 namespace vehd {
 

@@ -10,7 +10,8 @@ std::string title_of(const ShippedScene& scene) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     const std::size_t start = line.find_first_not_of("# ");
     if (start == std::string_view::npos) break;
-    comment += (comment.empty() ? "" : " ") + std::string(line.substr(start));
+    if (!comment.empty()) comment += ' ';
+    comment += line.substr(start);
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
   }
   return comment.substr(0, comment.find(". "));
