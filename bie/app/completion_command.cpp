@@ -30,12 +30,18 @@ std::vector<Word> options_of(const CLI::App& command) {
     for (const std::string& name : option->get_lnames()) words.push_back({"--" + name, option->get_description()});
     for (const std::string& name : option->get_snames()) words.push_back({"-" + name, option->get_description()});
   }
+  // Some options stand in groups, which are commands without a name.
+  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!group->get_name().empty()) continue;
+    for (Word& word : options_of(*group)) words.push_back(std::move(word));
+  }
   return words;
 }
 
 std::vector<Word> commands_of(const CLI::App& command) {
   std::vector<Word> words;
   for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (subcommand->get_name().empty()) continue;
     words.push_back({subcommand->get_name(), subcommand->get_description()});
   }
   return words;
@@ -59,6 +65,7 @@ void add_completions(const CLI::App& command, const std::string& call, std::vect
   for (Word& choice : choices_of(command)) words.push_back(std::move(choice));
   result.push_back({call, options_of(command), std::move(words)});
   for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (subcommand->get_name().empty()) continue;
     add_completions(*subcommand, (call.empty() ? "" : call + " ") + subcommand->get_name(), result);
   }
 }

@@ -76,7 +76,8 @@ void add_groups_topic(CLI::App& help, ExitCode& exit_code) {
 /// @param call  of the owner
 void add_command_topics(CLI::App& help, const CLI::App& owner, const std::string& call, ExitCode& exit_code) {
   for (const CLI::App* command : owner.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command == &help) continue;
+    // A group of options is a command without a name.
+    if (command == &help || command->get_name().empty()) continue;
     CLI::App* topic = help.add_subcommand(command->get_name(), command->get_description());
     topic->group("Help on a command");
     topic->require_subcommand(0, 1);

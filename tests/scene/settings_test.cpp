@@ -83,8 +83,8 @@ BOOST_AUTO_TEST_CASE(messages_name_the_option) {
   BOOST_TEST(problem_of({"flow.rate=0", "flow.waveform.kind=dc"}).starts_with("--set flow.waveform.kind=dc: "));
   BOOST_TEST(problem_of({"numerics.dt=1e-12", "numerics.end_time=1"}).starts_with("--set numerics.dt=1e-12: "));
   // What stands in the file is still found there.
-  BOOST_TEST(problem_of({"flow.rate=1"}, with_appended("[flow]\nkind = \"shear\"\nspeed = 1\n")) ==
-             "scene.toml:10: unknown key \"speed\" in [flow]; did you mean \"rate\"?");
+  BOOST_TEST(problem_of({"flow.rate=1"}, with_appended("[flow]\nkind = \"shear\"\nrtae = 1\n")) ==
+             "scene.toml:10: unknown key \"rtae\" in [flow]; did you mean \"rate\"?");
 }
 
 BOOST_AUTO_TEST_CASE(have_one_form) {

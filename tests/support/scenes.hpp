@@ -12,9 +12,17 @@ inline std::string quick_scene(const std::string& end_time = "3.0") {
          end_time + "\n[output]\nevery = 0.5\n";
 }
 
-/// A scene of docs/scenes at a low order and with few steps.
+/// A scene of docs/scenes at a low degree and with few steps. One in SI units keeps its steps and ends after a hundredth
+/// of its time.
 inline std::string shortened_scene(std::string scene) {
   scene = std::regex_replace(scene, std::regex("\n(degree|order) = \\d+"), "\n$1 = 6");
+  std::smatch end;
+  if (std::regex_search(scene, end, std::regex("\nend_time = \"([0-9.]+) (\\w+)\""))) {
+    const double time = 0.01 * std::stod(end[1]);
+    const std::string unit = " " + end[2].str() + "\"";
+    scene = std::regex_replace(scene, std::regex("\nend_time = .*"), "\nend_time = \"" + std::to_string(time) + unit);
+    return std::regex_replace(scene, std::regex("\nevery = .*"), "\nevery = \"" + std::to_string(0.5 * time) + unit);
+  }
   scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
   scene = std::regex_replace(scene, std::regex("\nend_time = [0-9.e-]+"), "\nend_time = 0.3");
   return std::regex_replace(scene, std::regex("\nevery = [0-9.e-]+"), "\nevery = 0.1");
