@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <regex>
 #include <string>
 
@@ -19,9 +21,11 @@ inline std::string shortened_scene(std::string scene) {
   std::smatch end;
   if (std::regex_search(scene, end, std::regex("\nend_time = \"([0-9.]+) (\\w+)\""))) {
     const double time = 0.01 * std::stod(end[1]);
-    const std::string unit = " " + end[2].str() + "\"";
-    scene = std::regex_replace(scene, std::regex("\nend_time = .*"), "\nend_time = \"" + std::to_string(time) + unit);
-    return std::regex_replace(scene, std::regex("\nevery = .*"), "\nevery = \"" + std::to_string(0.5 * time) + unit);
+    const auto line = [unit = end[2].str()](const char* key, double value) {
+      return fmt::format("\n{} = \"{} {}\"", key, value, unit);
+    };
+    scene = std::regex_replace(scene, std::regex("\nend_time = .*"), line("end_time", time));
+    return std::regex_replace(scene, std::regex("\nevery = .*"), line("every", 0.5 * time));
   }
   scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
   scene = std::regex_replace(scene, std::regex("\nend_time = [0-9.e-]+"), "\nend_time = 0.3");
