@@ -14,7 +14,7 @@ endfunction()
 function(look_at_texts prefix)
   file(GLOB manual "${prefix}/share/man/man1/vehd.1.gz")
   if(manual)
-    expect("--resume" sh -c "zcat ${prefix}/share/man/man1/vehd-run.1.gz | sed 's/\\\\\\\\-/-/g'")
+    expect("resume" zcat "${prefix}/share/man/man1/vehd-run.1.gz")
     expect("simulate lipid vesicles" zcat "${manual}")
   endif()
   foreach(file IN ITEMS share/vehd/scenes/figure2.toml share/doc/vehd/README.md share/doc/vehd/conventions.md
@@ -23,16 +23,15 @@ function(look_at_texts prefix)
       message(FATAL_ERROR "${file} is not installed")
     endif()
   endforeach()
-  # Bash offers the one command that begins so, and the option of that command.
-  expect("^plan plot \n" bash -c "source '${prefix}/share/bash-completion/completions/vehd'
-COMP_WORDS=(vehd pl) COMP_CWORD=1; _vehd; printf '%s ' \"\${COMPREPLY[@]}\"; echo")
-  expect("^--resume \n" bash -c "source '${prefix}/share/bash-completion/completions/vehd'
-COMP_WORDS=(vehd run --res) COMP_CWORD=2; _vehd; printf '%s ' \"\${COMPREPLY[@]}\"; echo")
+  set(complete "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/complete")
+  set(script "${prefix}/share/bash-completion/completions/vehd")
+  expect("^plot plan\n" bash ${complete}.bash "${script}" vehd pl)
+  expect("^--resume\n" bash ${complete}.bash "${script}" vehd run --res)
   find_program(zsh zsh NO_CACHE)
   if(zsh)
-    expect("plot:.*run:" "${zsh}" -fc "_describe() { print -l \"\${(@P)2}\" }; _files() { : }
-words=(vehd ''); CURRENT=2; PREFIX=''; source '${prefix}/share/zsh/vendor-completions/_vehd'")
-    expect("--resume:" "${zsh}" -fc "_describe() { [ \"$1\" = -o ] && shift; print -l \"\${(@P)2}\" }; _files() { : }
-words=(vehd run --); CURRENT=3; PREFIX='--'; source '${prefix}/share/zsh/vendor-completions/_vehd'")
+    set(script "${prefix}/share/zsh/vendor-completions/_vehd")
+    expect("run:Simulate" "${zsh}" -f ${complete}.zsh "${script}" vehd r)
+    expect("--resume:" "${zsh}" -f ${complete}.zsh "${script}" vehd run --)
+    expect("^files" "${zsh}" -f ${complete}.zsh "${script}" vehd run fig)
   endif()
 endfunction()

@@ -9,7 +9,7 @@ expect("" "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
 
 expect("^vehd [0-9]+\\.[0-9]+\\.[0-9]+\n" "${prefix}/bin/vehd" --version)
 look_at_texts("${prefix}")
-expect("a run needs|predicted|memory" "${prefix}/bin/vehd" plan "${prefix}/share/vehd/scenes/figure5_no_field.toml")
+expect("stokes_single" "${prefix}/bin/vehd" plan "${prefix}/share/vehd/scenes/figure5_no_field.toml")
 
 set(consumer "${FOLDER}/consumer")
 expect("" "${CMAKE_COMMAND}" -S "${SOURCE}/tests/installed/consumer" -B "${consumer}" "-DCMAKE_PREFIX_PATH=${prefix}"
