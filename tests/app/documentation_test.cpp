@@ -36,8 +36,8 @@ std::vector<fs::path> pages() {
 
 /// The command with little to measure: that it works is under test here, not its figures.
 std::string shortened(std::string command) {
-  command = std::regex_replace(command, std::regex("--orders [0-9,]+"), "--orders 6,8");
-  command = std::regex_replace(command, std::regex("--order [0-9]+"), "--order 6");
+  command = std::regex_replace(command, std::regex("--degrees [0-9,]+"), "--degrees 6,8");
+  command = std::regex_replace(command, std::regex("--degree [0-9]+"), "--degree 6");
   command = std::regex_replace(command, std::regex("--repeats [0-9]+"), "--repeats 1");
   command = std::regex_replace(command, std::regex("--dt [0-9.,]+"), "--dt 0.1,0.05,0.025");
   command = std::regex_replace(command, std::regex("--tolerance [0-9e.,-]+"), "--tolerance 1e-1,1e-2");
