@@ -58,11 +58,12 @@ struct ReaderFolder {
   ReaderFolder() {
     fs::create_directories(directory / "build");
     fs::create_symlink(VEHD_PROGRAM, directory / "build/vehd");
-    fs::create_directories(directory / "docs/scenes");
-    for (const auto& entry : fs::directory_iterator(fs::path(VEHD_SOURCE_DIR) / "docs/scenes")) {
-      if (entry.path().extension() != ".toml") continue;
-      write_text(directory / ("docs/scenes/" + entry.path().filename().string()),
-                 shortened_scene(file_text(entry.path())));
+    for (const char* folder : {"docs/scenes", "docs/examples"}) {
+      fs::create_directories(directory / folder);
+      for (const auto& entry : fs::directory_iterator(fs::path(VEHD_SOURCE_DIR) / folder)) {
+        if (entry.path().extension() != ".toml") continue;
+        write_text(fs::path(directory / folder) / entry.path().filename(), shortened_scene(file_text(entry.path())));
+      }
     }
     copy_some_hard_cases(directory / "");
   }
@@ -92,6 +93,12 @@ BOOST_AUTO_TEST_CASE(every_shipped_scene_has_its_row_where_the_scenes_end) {
     const std::string name = entry.path().filename().string();
     BOOST_TEST(table.find("| " + name + " |") != std::string::npos, name);
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_scene_of_the_tutorial_is_the_one_that_its_page_shows) {
+  const std::string scene = file_text(VEHD_SOURCE_DIR "/docs/examples/tutorial.toml");
+  BOOST_TEST(file_text(VEHD_SOURCE_DIR "/docs/tutorial.md").find("```toml\n" + scene + "```\n") != std::string::npos);
+  BOOST_CHECK_NO_THROW(vehd::read_scene(VEHD_SOURCE_DIR "/docs/examples/tutorial.toml"));
 }
 
 BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {
