@@ -2,6 +2,7 @@
 #include <bie/scene/problem.hpp>
 #include <bie/scene/reader.hpp>
 #include <bie/stepping/evolution.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <exception>
