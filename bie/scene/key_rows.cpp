@@ -80,8 +80,9 @@ void add_shape_keys(KeyTable& table) {
       .required = true;
   table.begin("shape", {"file"});
   table
-      .add("path", any_number, {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units"},
-           shape, &ShapeScene::path)
+      .add("path", any_number,
+           {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units"}, shape,
+           &ShapeScene::path)
       .required = true;
   table.add("time", not_negative, {"t", "time", "time of the snapshot in that run; absent: the last one"}, shape,
             &ShapeScene::time);
