@@ -111,8 +111,9 @@ RunPlan plan_of(const Scene& scene) {
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
+  EventTimes events = events_of(scene);
   while (!scene.numerics.tolerance && time < scene.numerics.end_time) {
-    const EventTimes events{scene.output.every, scene.numerics.end_time, next_discontinuity(model, time)};
+    events.discontinuity = next_discontinuity(model, time);
     const StepPlan step = plan_step(time, *scene.numerics.dt, events);
     plan.n_steps += std::lround((step.event_time - time) / step.dt_limit);
     time = step.event_time;

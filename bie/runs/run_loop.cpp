@@ -51,9 +51,11 @@ class Simulation {
       : scene_(task.scene),
         start_(task.checkpoint.value_or(Checkpoint{})),
         problem_(problem_of(task.scene, start_order())),
+        events_(events_of(task.scene)),
         evolution_(evolution()),
         meter_(start_.totals, instruments_),
-        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_)),
+        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_), OutputUnits(task.scene)),
+        time_unit_(recorder_.units().of("time")),
         after_step_(task.after_step),
         tell_(task.tell),
         start_time_(evolution_.state().time) {}
@@ -102,9 +104,10 @@ class Simulation {
       start();
       while (evolution_.state().time < scene_.numerics.end_time) {
         if (interruption.requested()) {
-          return {.completed = false, .reason = fmt::format("a signal came at time {:g}", evolution_.state().time)};
+          const std::string now = time_unit_.text_of(evolution_.state().time);
+          return {.completed = false, .reason = fmt::format("a signal came at time {}", now)};
         }
-        record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
+        record(evolution_.step(events_));
         if (after_step_) after_step_();
       }
       return {.completed = true, .reason = {}};
@@ -147,16 +150,21 @@ class Simulation {
     const VesicleDiagnostics& diagnostics = evolution_.evaluation().diagnostics.vesicles.front();
     recorder_.record(state, sides_of(step), meter_.totals());
     const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
-    if (tell_) tell_({state.step, start_time_, state.time, scene_.numerics.end_time, step.dt, drift, meter_.seconds()});
+    if (!tell_) return;
+    const auto shown = [&](double time) { return time * time_unit_.factor; };
+    tell_({state.step, shown(start_time_), shown(state.time), shown(scene_.numerics.end_time), shown(step.dt), drift,
+           meter_.seconds(), time_unit_.symbol});
   }
 
   const Scene& scene_;
   Instruments instruments_;
   Checkpoint start_;
   Problem problem_;
+  EventTimes events_;
   Evolution evolution_;
   WorkMeter meter_;
   RunRecorder recorder_;
+  OutputUnit time_unit_;
   const std::function<void()>& after_step_;
   const TellStatus& tell_;
   double start_time_;

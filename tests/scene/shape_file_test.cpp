@@ -47,7 +47,7 @@ class StoredRun {
     const vehd::SphereTransform transform(stored_order, vehd::make_grid(stored_order));
     const vehd::Scene parsed = vehd::parse_scene(scene, "stored.toml", directory_ / "");
     vehd::Hdf5Writer file(path(), vehd::Hdf5Writer::Mode::create);
-    vehd::write_run_header(file, transform, {vehd::effective_scene(parsed), 1, vehd::si_scales(parsed.units)});
+    vehd::write_run_header(file, transform, {vehd::effective_scene(parsed), 1, vehd::si_units_of(parsed.units)});
     for (int number = 0; number < 5; ++number) {
       vehd::State state;
       state.time = number;
@@ -56,7 +56,7 @@ class StoredRun {
       if (parsed.electric) state.vesicles[0].transmembrane_potential = potential(number);
       state.vesicles[0].area_strain = Vector::Zero(state.vesicles[0].position.rows());
       vehd::write_snapshot(file, vehd::snapshot_name(number), transform, state,
-                           vehd::Fields{std::vector<vehd::VesicleFields>(1)}, vehd::si_scales(parsed.units));
+                           vehd::Fields{std::vector<vehd::VesicleFields>(1)}, vehd::si_units_of(parsed.units));
     }
     file.close();
   }

@@ -6,7 +6,7 @@ BOOST_AUTO_TEST_SUITE(step_plan)
 
 BOOST_AUTO_TEST_CASE(steps_end_exactly_on_every_snapshot) {
   for (const double dt : {0.5, 0.3, 0.07, 2.0}) {
-    const vehd::EventTimes events{0.1, 12.3};
+    const vehd::EventTimes events{{0.1}, 12.3};
     double time = 0.0;
     int snapshots = 0;
     while (time < events.end_time) {
@@ -24,15 +24,15 @@ BOOST_AUTO_TEST_CASE(steps_end_exactly_on_every_snapshot) {
 }
 
 BOOST_AUTO_TEST_CASE(no_sliver_is_left) {
-  const vehd::StepPlan plan = vehd::plan_step(0.0, 0.3, {std::nullopt, 1.0});
+  const vehd::StepPlan plan = vehd::plan_step(0.0, 0.3, {{}, 1.0});
   BOOST_TEST(plan.dt_limit == 0.25);
   BOOST_TEST(!plan.reaches_event);
   // One rounding error more than dt is still one step.
-  BOOST_TEST(vehd::plan_step(0.0, 0.1, {std::nullopt, 0.1 * (1.0 + 1e-12)}).reaches_event);
+  BOOST_TEST(vehd::plan_step(0.0, 0.1, {{}, 0.1 * (1.0 + 1e-12)}).reaches_event);
 }
 
 BOOST_AUTO_TEST_CASE(end_that_rounds_onto_a_snapshot_is_one_event) {
-  const vehd::StepPlan plan = vehd::plan_step(0.2, 1.0, {0.1, 0.3});
+  const vehd::StepPlan plan = vehd::plan_step(0.2, 1.0, {{0.1}, 0.3});
   BOOST_TEST(plan.event_time == 0.3);
   BOOST_TEST(plan.reaches_event);
 }
