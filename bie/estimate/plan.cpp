@@ -83,6 +83,9 @@ RunPlan plan_of(const Scene& scene) {
   const Symmetry& symmetry = problem.symmetry;
   const std::vector<EffectDescription> effects = effects_of(model);
   RunPlan plan;
+  plan.groups = dimensionless_groups(scene);
+  plan.times = run_times(scene, plan.groups);
+  std::erase_if(plan.groups, [](const DimensionlessGroup& group) { return group.unit == "time"; });
   plan.symmetry = text_of(problem);
   std::size_t n_fields = 0;
   for (const EffectDescription& effect : effects) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/scene/run_times.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
@@ -25,6 +26,8 @@ struct PlannedOperator {
 struct RunPlan {
   std::vector<PlannedEffect> effects;
   std::vector<std::string> absent;
+  std::vector<DimensionlessGroup> groups;  ///< without times
+  std::vector<RunTime> times;
   std::string symmetry;
   std::vector<PlannedOperator> operators;
   std::uint64_t kernel_evaluations = 0;  ///< of each operator at each new shape

@@ -55,9 +55,9 @@ std::string panel_script(const Panel& panel, const HistoryTable& table, const st
   } else {
     script += "unset y2label; unset y2tics\n";
   }
-  script += fmt::format("plot {} using (column('{}')):(column('{}')) with lines lw 3 lc rgb '{}' axes x1y1",
-                        gnuplot_quoted(history), table.header("time"), table.header(panel.curves[0].column),
-                        first_colour);
+  script +=
+      fmt::format("plot {} using (column('{}')):(column('{}')) with lines lw 3 lc rgb '{}' axes x1y1",
+                  gnuplot_quoted(history), table.header("time"), table.header(panel.curves[0].column), first_colour);
   if (panel.curves.size() > 1) {
     script +=
         fmt::format(", '' using (column('{}')):(column('{}')) with lines lw 3 dashtype (12,6) lc rgb '{}' axes x1y2",

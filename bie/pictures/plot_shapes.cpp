@@ -249,9 +249,10 @@ void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
       "set lmargin at screen 0; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen 1\n",
       width, height, gnuplot_quoted(picture.string()), across(row.image.width), upward(label_height));
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    script += fmt::format("set label {} 't = {:.4g}{}' at screen {},{} center\n", i + 1,
-                          shapes[i].time * time_unit.factor, time_unit.is_si() ? " " + printed_unit(time_unit.symbol) : "",
-                          across((static_cast<double>(i) + 0.5) * row.cell_width), upward(label_height / 2.0));
+    script +=
+        fmt::format("set label {} 't = {:.4g}{}' at screen {},{} center\n", i + 1, shapes[i].time * time_unit.factor,
+                    time_unit.is_si() ? " " + printed_unit(time_unit.symbol) : "",
+                    across((static_cast<double>(i) + 0.5) * row.cell_width), upward(label_height / 2.0));
   }
   script += fmt::format(
       "set xrange [0:{0}]; set yrange [0:{1}]\n"

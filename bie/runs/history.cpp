@@ -53,8 +53,8 @@ std::pair<std::string, std::string> parts_of(const std::string& header) {
 
 bool is_header(const std::string& line) {
   const std::vector<std::string> cells = csv_cells(line);
-  return std::ranges::equal(cells, history_columns(), {}, [](const std::string& cell) { return parts_of(cell).first; },
-                            &HistoryColumn::name);
+  return std::ranges::equal(
+      cells, history_columns(), {}, [](const std::string& cell) { return parts_of(cell).first; }, &HistoryColumn::name);
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {

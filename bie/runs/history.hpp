@@ -25,7 +25,8 @@ struct HistoryRow {
   double truncation = 0.0;  ///< see Evolution::truncation
 };
 
-/// A column of history.csv by its plain name; its header is that name, and " [unit]" behind it where the file has units.
+/// A column of history.csv by its plain name; its header is that name, and " [unit]" behind it where the file has
+/// units.
 struct HistoryColumn {
   std::string_view name;
   std::string_view dimension;  ///< see units.hpp; "1" of a pure number

@@ -13,7 +13,7 @@ struct RunStatus {
   double time = 0.0;
   double end_time = 0.0;
   double dt = 0.0;
-  double drift = 0.0;    ///< larger of area and volume drift
+  double drift = 0.0;       ///< larger of area and volume drift
   double seconds = 0.0;     ///< of this session, on the clock
   std::string time_unit{};  ///< symbol; empty where times are dimensionless
 };

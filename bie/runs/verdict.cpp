@@ -69,9 +69,8 @@ std::vector<std::string> beyond_limits(const HistoryTable& history, std::optiona
     const auto time = first_time(history, values, [&](double value) { return std::abs(value) <= limit.largest; });
     if (!time) continue;
     const double most = std::abs(worst(values, [](double a, double b) { return std::abs(a) > std::abs(b); }));
-    findings.push_back(
-        fmt::format("{} above {:g} since time {} (worst {:.3g})", limit.column, limit.largest, history.time_text(*time),
-                    most));
+    findings.push_back(fmt::format("{} above {:g} since time {} (worst {:.3g})", limit.column, limit.largest,
+                                   history.time_text(*time), most));
   }
   const std::vector<double>& separation = history.column("separation");
   if (const auto time = first_time(history, separation, [](double value) { return value >= least_separation; })) {

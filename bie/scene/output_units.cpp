@@ -18,10 +18,9 @@ struct Prefix {
   double times = 1.0;  ///< of the unit without it, as a ratio of two exact numbers
   double over = 1.0;
 };
-constexpr std::array prefixes = {Prefix{"M", 1e6},     Prefix{"k", 1e3},     Prefix{""},
-                                 Prefix{"m", 1, 1e3},  Prefix{"u", 1, 1e6},  Prefix{"n", 1, 1e9},
-                                 Prefix{"p", 1, 1e12}, Prefix{"f", 1, 1e15}, Prefix{"a", 1, 1e18},
-                                 Prefix{"z", 1, 1e21}};
+constexpr std::array prefixes = {Prefix{"M", 1e6},     Prefix{"k", 1e3},    Prefix{""},           Prefix{"m", 1, 1e3},
+                                 Prefix{"u", 1, 1e6},  Prefix{"n", 1, 1e9}, Prefix{"p", 1, 1e12}, Prefix{"f", 1, 1e15},
+                                 Prefix{"a", 1, 1e18}, Prefix{"z", 1, 1e21}};
 
 /// Dimensions whose unit is a power of that of another.
 struct PowerOf {
@@ -96,9 +95,7 @@ class Magnitudes {
     return si(end > 0.0 ? end : 1.0, "time");
   }
 
-  [[nodiscard]] double field() const {
-    return scene_.electric ? si(length_of(scene_.electric->field), "field") : 0.0;
-  }
+  [[nodiscard]] double field() const { return scene_.electric ? si(length_of(scene_.electric->field), "field") : 0.0; }
 
   /// Of bending, flow and field, whichever gives most.
   [[nodiscard]] double tension() const {
@@ -113,8 +110,7 @@ class Magnitudes {
   [[nodiscard]] double shear_rate() const {
     const FlowScene& flow = *scene_.flow;
     if (flow.kind == FlowKind::poiseuille) {
-      return 2.0 * std::abs(si(flow.centre_velocity, "velocity")) * radius() /
-             std::pow(si(flow.radius, "length"), 2);
+      return 2.0 * std::abs(si(flow.centre_velocity, "velocity")) * radius() / std::pow(si(flow.radius, "length"), 2);
     }
     if (flow.kind != FlowKind::gradient) return std::abs(si(flow.rate, "1/time"));
     double most = 0.0;
@@ -125,9 +121,7 @@ class Magnitudes {
   const Scene& scene_;
 };
 
-bool wants_si(const Scene& scene) {
-  return scene.units && scene.output.units != ResultUnits::dimensionless;
-}
+bool wants_si(const Scene& scene) { return scene.units && scene.output.units != ResultUnits::dimensionless; }
 
 }  // namespace
 
@@ -162,6 +156,13 @@ OutputUnit OutputUnits::of(std::string_view dimension) const {
   const double scale = si_scale(scales_, dimension);
   if (!size || !std::isfinite(scale)) return {};
   return {symbol->second, scale * (*size)[1] / (*size)[0]};
+}
+
+std::string si_number(double value, std::string_view dimension) {
+  const Dimension& known = *find_dimension(dimension);
+  const std::string symbol = suitable_symbol(known, std::abs(value));
+  const auto size = size_of_unit(known, symbol);
+  return fmt::format("{:.4g} {}", value * (*size)[1] / (*size)[0], symbol);
 }
 
 std::string printed_unit(std::string_view symbol) {

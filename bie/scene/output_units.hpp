@@ -40,6 +40,10 @@ class OutputUnits {
   std::map<std::string, std::string, std::less<>> symbols_;
 };
 
+/// A number in SI base units with the prefix that suits it: "12 ms" of 0.012 and "time".
+/// @param dimension  of results: see OutputUnits
+std::string si_number(double value, std::string_view dimension);
+
 /// A symbol as in print: "µm²" of "um^2".
 std::string printed_unit(std::string_view symbol);
 

@@ -41,10 +41,10 @@ enum class ResultUnits { automatic, si, dimensionless };
 
 /// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
 struct UnitsScene {
-  std::optional<double> length;     ///< m
-  std::optional<double> time;       ///< s
-  std::optional<double> viscosity;  ///< Pa s
-  std::optional<double> potential;  ///< V
+  std::optional<double> length;         ///< m
+  std::optional<double> time;           ///< s
+  std::optional<double> viscosity;      ///< Pa s
+  std::optional<double> potential;      ///< V
   std::optional<double> temperature{};  ///< K, of energies in kBT; no scale
   bool operator==(const UnitsScene&) const = default;
 };

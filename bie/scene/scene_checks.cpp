@@ -211,8 +211,7 @@ class Checks {
     const OutputScene& output = scene_.output;
     const auto fall = std::is_sorted_until(output.times.begin(), output.times.end());
     if (fall != output.times.end()) {
-      refuse("output", "times",
-             fmt::format("\"times\" in [output] falls to {:g}; accepted: ascending times", *fall));
+      refuse("output", "times", fmt::format("\"times\" in [output] falls to {:g}; accepted: ascending times", *fall));
     }
     if (output.units == ResultUnits::si && !scene_.units) {
       refuse("output", "units", "\"units\" in [output] is \"si\", but the scene has no table [units]");

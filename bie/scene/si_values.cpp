@@ -11,8 +11,7 @@ namespace vehd {
 namespace {
 
 /// nullopt for what is no number with a unit of the dimension; a plain zero has every unit.
-std::optional<double> magnitude(const toml::node& node, const Dimension& dimension,
-                                std::optional<double> temperature) {
+std::optional<double> magnitude(const toml::node& node, const Dimension& dimension, std::optional<double> temperature) {
   if (const auto number = number_of(node)) return *number == 0.0 ? number : std::nullopt;
   const toml::value<std::string>* text = node.as_string();
   const auto quantity = text == nullptr ? std::nullopt : parse_quantity(text->get());

@@ -19,8 +19,7 @@ namespace {
 /// Centroid and its velocity are vectors of the frame.
 void place(const Frame& frame, VesicleDiagnostics& d) {
   const Vector3 centroid = frame.origin + frame.axes * Vector3(d.centroid_x, d.centroid_y, d.centroid_z);
-  const Vector3 velocity =
-      frame.axes * Vector3(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z);
+  const Vector3 velocity = frame.axes * Vector3(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z);
   d.centroid_x = centroid.x();
   d.centroid_y = centroid.y();
   d.centroid_z = centroid.z();

@@ -45,7 +45,8 @@ struct VesicleDiagnostics {
   double elastic_energy_scaled = 0;  ///< ∫(H − c)² dA
   double aspect_ratio = 0;           ///< longest over shortest axis of the gyration tensor
   double aspect_ratio_field = 0;     ///< of the gyration tensor along the field over across, 0 without a field
-  double Vm_pole_plus = 0, Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
+  double Vm_pole_plus = 0,
+         Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
 };
 
 /// The diagnostics of every membrane of a State.

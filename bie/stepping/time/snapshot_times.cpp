@@ -22,12 +22,12 @@ std::optional<double> SnapshotTimes::next(double time, double end) const {
     if (moment < end - tolerance && (!earliest || moment < *earliest)) earliest = moment;
   };
   if (every) consider(index_after(time, *every) * *every, rounding * *every);
-  const auto listed = std::ranges::find_if(
-      times, [&](double moment) { return moment - time > rounding_of_time * std::max(std::abs(moment), std::abs(time)); });
+  const auto listed = std::ranges::find_if(times, [&](double moment) {
+    return moment - time > rounding_of_time * std::max(std::abs(moment), std::abs(time));
+  });
   if (listed != times.end()) consider(*listed, rounding_of_time * *listed);
   for (const SnapshotWindow& window : windows) {
-    const double moment =
-        window.from + std::max(0.0, index_after(time - window.from, window.every)) * window.every;
+    const double moment = window.from + std::max(0.0, index_after(time - window.from, window.every)) * window.every;
     const double tolerance = rounding * window.every;
     // A window that begins at the start has its first snapshot there already.
     if (moment - time > tolerance && moment <= window.to + tolerance) consider(moment, tolerance);

@@ -21,7 +21,8 @@ struct SnapshotTimes {
 
   /// The next one after `time`. What is apart from it or from the end by rounding is the same moment.
   /// @return nullopt if there is none before `end`
-  /// Accuracy: each moment is one product or sum, so that the k-th does not drift (tests/stepping/time/step_plan_test.cpp)
+  /// Accuracy: each moment is one product or sum, so that the k-th does not drift
+  /// (tests/stepping/time/step_plan_test.cpp)
   [[nodiscard]] std::optional<double> next(double time, double end) const;
   /// How many there are until `end`, about: moments that coincide count each.
   [[nodiscard]] double count(double end) const;
