@@ -36,8 +36,11 @@ nlohmann::json json_of(const RunPlan& plan) {
   json["shapes_per_step"] = plan.shapes_per_step;
   json["groups"] = nlohmann::json::array();
   for (const DimensionlessGroup& group : plan.groups) {
-    json["groups"].push_back(
-        {{"name", group.name}, {"symbol", group.symbol}, {"value", group.value}, {"meaning", group.meaning}});
+    json["groups"].push_back({{"name", group.name},
+                              {"symbol", group.symbol},
+                              {"value", group.value},
+                              {"si", plan.si_of_groups[json["groups"].size()]},
+                              {"meaning", group.meaning}});
   }
   json["times"] = nlohmann::json::array();
   for (const RunTime& time : plan.times) {
@@ -62,8 +65,9 @@ nlohmann::json json_of(const RunPlan& plan) {
 void print_groups_and_times(const RunPlan& plan) {
   TextTable groups, times;
   for (const DimensionlessGroup& group : plan.groups) {
-    groups.push_back({std::string(group.symbol), fmt::format("{:.4g}", group.value), std::string(group.name),
-                      std::string(group.meaning)});
+    const std::string& si = plan.si_of_groups[groups.size()];
+    groups.push_back({std::string(group.symbol), si.empty() ? fmt::format("{:.4g}", group.value) : si,
+                      std::string(group.name), std::string(group.meaning)});
   }
   for (const RunTime& time : plan.times) {
     times.push_back({time.symbol.empty() ? "–" : time.symbol, time.text(), time.name, time.meaning});

@@ -86,6 +86,7 @@ RunPlan plan_of(const Scene& scene) {
   plan.groups = dimensionless_groups(scene);
   plan.times = run_times(scene, plan.groups);
   std::erase_if(plan.groups, [](const DimensionlessGroup& group) { return group.unit == "time"; });
+  for (const DimensionlessGroup& group : plan.groups) plan.si_of_groups.push_back(si_text(scene, group));
   plan.symmetry = text_of(problem);
   std::size_t n_fields = 0;
   for (const EffectDescription& effect : effects) {

@@ -27,6 +27,7 @@ struct RunPlan {
   std::vector<PlannedEffect> effects;
   std::vector<std::string> absent;
   std::vector<DimensionlessGroup> groups;  ///< without times
+  std::vector<std::string> si_of_groups;   ///< their values with units; empty of pure numbers and without a scale
   std::vector<RunTime> times;
   std::string symmetry;
   std::vector<PlannedOperator> operators;

@@ -53,7 +53,8 @@ class Groups {
   void add_bending() {
     add({"bending time", "t_κ", bending_time(), "time", "μa³/κ_B: shapes relax by bending"});
     if (scene_.membrane.spontaneous_curvature != 0.0) {
-      add({"spontaneous curvature", "c₀", scene_.membrane.spontaneous_curvature * radius(), "1", "ca, −1 on a sphere; the usual C₀ is −2c"});
+      add({"spontaneous curvature", "c₀", scene_.membrane.spontaneous_curvature * radius(), "1",
+           "ca, −1 on a sphere; the usual C₀ is −2c"});
       add({"the usual spontaneous curvature", "C₀a", -2.0 * scene_.membrane.spontaneous_curvature * radius(), "1",
            "−2ca of (κ_c/2)∫(C₁ + C₂ − C₀)² dA with κ_c = κ_B/2, 2 on a sphere"});
     }

@@ -166,16 +166,19 @@ std::string si_number(double value, std::string_view dimension) {
 }
 
 std::string printed_unit(std::string_view symbol) {
-  std::string text(symbol);
-  const auto replace = [&text](std::string_view plain, std::string_view printed) {
-    for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain, at + printed.size())) {
-      text.replace(at, plain.size(), printed);
+  std::string text;
+  for (std::size_t at = 0; at < symbol.size(); ++at) {
+    const std::string_view rest = symbol.substr(at);
+    if (rest.starts_with("^2") || rest.starts_with("^3")) {
+      text += rest[1] == '2' ? "²" : "³";
+      ++at;
+    } else if (at == 0 && rest[0] == 'u') {
+      // No unit of results but the prefix begins so.
+      text += "µ";
+    } else {
+      text += rest[0];
     }
-  };
-  replace("^2", "²");
-  replace("^3", "³");
-  // No unit of results but the prefix begins so.
-  if (text.starts_with('u')) text.replace(0, 1, "µ");
+  }
   return text;
 }
 

@@ -41,7 +41,7 @@ class Times {
   [[nodiscard]] std::string meaning_of(const DimensionlessGroup& group) const {
     const double end = scene_.numerics.end_time;
     std::string text(group.meaning);
-    if (end > 0.0) text += fmt::format("; the run lasts {:.3g} of it", end / group.value);
+    if (end > 0.0) text += fmt::format("; the run lasts {:.3g} {}", end / group.value, group.symbol);
     return text;
   }
 
@@ -55,10 +55,12 @@ class Times {
                 "at least four steps each; the run has {:.3g}");
         return;
       case WaveformKind::pulse_train:
-        add(of + " period", "", waveform.period, count_text(waveform.period, "from pulse to pulse; the run has {:.3g}"));
+        add(of + " period", "", waveform.period,
+            count_text(waveform.period, "from pulse to pulse; the run has {:.3g}"));
         [[fallthrough]];
       case WaveformKind::pulse:
-        forcing(of + " pulse", "", waveform.duration, 1.0, "a step ends where it begins and ends; the run lasts {:.3g}");
+        forcing(of + " pulse", "", waveform.duration, 1.0,
+                "a step ends where it begins and ends; the run lasts {:.3g} of it");
     }
   }
 
@@ -91,9 +93,7 @@ class Times {
 
 }  // namespace
 
-std::string RunTime::text() const {
-  return seconds ? si_number(*seconds, "time") : fmt::format("{:.4g}", value);
-}
+std::string RunTime::text() const { return seconds ? si_number(*seconds, "time") : fmt::format("{:.4g}", value); }
 
 std::vector<RunTime> run_times(const Scene& scene, const std::vector<DimensionlessGroup>& groups) {
   return Times(scene, groups).take();
