@@ -11,6 +11,7 @@
 
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_recorder.hpp"
+#include "bie/runs/run_units.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
@@ -50,12 +51,14 @@ class Simulation {
   explicit Simulation(const RunTask& task)
       : scene_(task.scene),
         start_(task.checkpoint.value_or(Checkpoint{})),
+        units_(start_.history_bytes > 0 ? units_of_history(task.paths.history(), task.scene.units)
+                                        : OutputUnits(task.scene)),
+        time_unit_(units_.of("time")),
         problem_(problem_of(task.scene, start_order())),
         events_(events_of(task.scene)),
         evolution_(evolution()),
         meter_(start_.totals, instruments_),
-        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_), OutputUnits(task.scene)),
-        time_unit_(recorder_.units().of("time")),
+        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_), units_),
         after_step_(task.after_step),
         tell_(task.tell),
         start_time_(evolution_.state().time) {}
@@ -80,8 +83,10 @@ class Simulation {
   }
 
   Evolution evolution() {
-    if (goes_on()) return {setup_of(problem_), start_.state, instruments_};
-    return {setup_of(problem_), problem_.start, instruments_};
+    EvolutionSetup setup = setup_of(problem_);
+    setup.time_text = [unit = time_unit_](double time) { return unit.text_of(time); };
+    if (goes_on()) return {std::move(setup), start_.state, instruments_};
+    return {std::move(setup), problem_.start, instruments_};
   }
 
   [[nodiscard]] NumericalSettings settings_of_files(const RunPaths& paths) const {
@@ -159,12 +164,13 @@ class Simulation {
   const Scene& scene_;
   Instruments instruments_;
   Checkpoint start_;
+  OutputUnits units_;
+  OutputUnit time_unit_;
   Problem problem_;
   EventTimes events_;
   Evolution evolution_;
   WorkMeter meter_;
   RunRecorder recorder_;
-  OutputUnit time_unit_;
   const std::function<void()>& after_step_;
   const TellStatus& tell_;
   double start_time_;

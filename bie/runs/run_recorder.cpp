@@ -2,7 +2,6 @@
 
 #include "bie/files/hdf5_reader.hpp"
 #include "bie/files/run_file.hpp"
-#include "bie/runs/run_units.hpp"
 #include "bie/runs/snapshot_copy.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/units.hpp"
@@ -64,10 +63,9 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
       output_(settings.order, make_grid(settings.order)),
       lab_frame_(frame, settings),
       last_(written(paths, start)),
-      units_(start.history_bytes > 0 ? units_of_run(paths) : units),
       snapshots_(paths.snapshots(), header_writer(output_, start, si_units_),
                  kept_snapshots(paths, output_, last_, si_units_)),
-      history_(paths.history(), start.history_bytes, start.history_checksum, units_) {
+      history_(paths.history(), start.history_bytes, start.history_checksum, units) {
   const SphereGrid& grid = output_.grid();
   xdmf_.n_points = grid.n_points() + 2;
   xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;

@@ -31,7 +31,7 @@ class RunRecorder {
   /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
   /// @param settings  with the degree of the files, which must not be less than that of files that exist
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
-  /// @param units  of a history that begins; one that goes on keeps its own
+  /// @param units  of the history: where it goes on, those that it began with
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start,
               const OutputUnits& units);
 
@@ -46,8 +46,6 @@ class RunRecorder {
   void end_session(const RunTotals& totals);
 
   [[nodiscard]] std::int64_t n_rows() const { return last_.n_rows; }
-  /// Of the history.
-  [[nodiscard]] const OutputUnits& units() const { return units_; }
   /// Marks the files as final.
   void finish() { snapshots_.finish(); }
 
@@ -61,7 +59,6 @@ class RunRecorder {
   SphereTransform output_;  ///< degree and grid of the files
   LabFrameOutput lab_frame_;
   Checkpoint last_;
-  OutputUnits units_;
   SnapshotStore snapshots_;
   HistoryFile history_;
   XdmfSeries xdmf_;

@@ -11,15 +11,19 @@
 
 namespace vehd {
 
-OutputUnits units_of_run(const RunPaths& paths) {
-  if (!std::filesystem::exists(paths.history()) || !std::filesystem::exists(paths.scene())) return {};
+OutputUnits units_of_history(const std::filesystem::path& history, const std::optional<UnitsScene>& scales) {
   // The headers alone: a kill can leave part of a row at the end.
-  std::ifstream file(paths.history());
+  std::ifstream file(history);
   std::string header;
-  std::getline(file, header);
+  if (!std::getline(file, header)) return {};
   std::istringstream first_line(header + "\n");
-  const HistoryTable history(first_line, paths.history().string());
-  return history.units(parse_units(text_of_file(paths.scene()), paths.scene().string()));
+  return HistoryTable(first_line, history.string()).units(scales);
+}
+
+OutputUnits units_of_run(const RunPaths& paths) {
+  if (!std::filesystem::exists(paths.scene())) return {};
+  const std::string scene = text_of_file(paths.scene());
+  return units_of_history(paths.history(), parse_units(scene, paths.scene().string()));
 }
 
 }  // namespace vehd
