@@ -10,7 +10,6 @@
 #include "bie/pictures/plots.hpp"
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/session.hpp"
-#include "bie/scene/output_units.hpp"
 #include "bie/scene/reader.hpp"
 
 namespace vehd {
@@ -37,7 +36,7 @@ void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
   const auto unit = summary["units"]["time"].get<std::string>();
   fmt::print("{} at time {:g}{}: {} steps ({} rejected) in {}\n",
              summary["completed"].get<bool>() ? "completed" : "stopped", summary["time"].get<double>(),
-             unit == "1" ? "" : " " + printed_unit(unit), summary["steps"].get<int>(),
+             unit == "1" ? "" : " " + unit, summary["steps"].get<int>(),
              summary["rejected_steps"].get<int>(), duration_text(summary["seconds"].get<double>()));
   fmt::print("bending energy ∫H² dA {:.6g}, area drift {:.1e}, volume drift {:.1e}, local strain {:.1e}\n",
              summary["bending_energy_scaled"].get<double>(), summary["area_drift"].get<double>(),

@@ -71,6 +71,7 @@ class Magnitudes {
     if (dimension == "potential") return field() > 0.0 ? 1.5 * field() * radius() : si(1.0, "potential");
     if (dimension == "potential/length") return field() > 0.0 ? field() : si(1.0, "field");
     if (dimension == "force/length") return tension();
+    if (dimension == "force/area") return tension() / radius();
     if (dimension == "energy") return tension() * radius() * radius();
     return si(1.0, dimension);
   }
