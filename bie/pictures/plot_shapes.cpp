@@ -8,6 +8,8 @@
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/renderer.hpp"
+#include "bie/runs/run_units.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/surface_mesh.hpp"
 #include "bie/sphere/transform.hpp"
@@ -33,6 +35,7 @@ Camera camera_for(double radius) { return {14.0, 16.0, 5.0 * radius}; }
 struct Field {
   std::string name;   ///< in run.h5; empty if there is none to show
   std::string label;  ///< for gnuplot
+  std::string dimension{};
 };
 
 struct ColourRange {
@@ -47,8 +50,8 @@ struct Shape {
 };
 
 Field field_to_show(const RunReader& run, std::size_t snapshot) {
-  if (run.has_field(snapshot, "Vm")) return {"Vm", "V_m"};
-  if (run.has_field(snapshot, "tension")) return {"tension", "tension λ"};
+  if (run.has_field(snapshot, "Vm")) return {"Vm", "V_m", "potential"};
+  if (run.has_field(snapshot, "tension")) return {"tension", "tension λ", "force/length"};
   return {};
 }
 
@@ -215,7 +218,12 @@ void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
   const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
   const Field field = field_to_show(run, choices.front().snapshot);
   std::vector<Shape> shapes;
-  for (const SnapshotChoice& choice : choices) shapes.push_back(shape_of(run, choice.snapshot, field));
+  const OutputUnits units = units_of_run(task.paths);
+  const OutputUnit field_unit = units.of(field.dimension), time_unit = units.of("time");
+  for (const SnapshotChoice& choice : choices) {
+    shapes.push_back(shape_of(run, choice.snapshot, field));
+    shapes.back().values *= field_unit.factor;
+  }
   const ColourRange range = range_of(shapes, field);
   for (Shape& shape : shapes) {
     shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
@@ -241,8 +249,10 @@ void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
       "set lmargin at screen 0; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen 1\n",
       width, height, gnuplot_quoted(picture.string()), across(row.image.width), upward(label_height));
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    script += fmt::format("set label {} 't = {:.4g}' at screen {},{} center\n", i + 1, shapes[i].time,
-                          across((static_cast<double>(i) + 0.5) * row.cell_width), upward(label_height / 2.0));
+    script +=
+        fmt::format("set label {} 't = {:.4g}{}' at screen {},{} center\n", i + 1, shapes[i].time * time_unit.factor,
+                    time_unit.is_si() ? " " + printed_unit(time_unit.symbol) : "",
+                    across((static_cast<double>(i) + 0.5) * row.cell_width), upward(label_height / 2.0));
   }
   script += fmt::format(
       "set xrange [0:{0}]; set yrange [0:{1}]\n"
@@ -262,7 +272,7 @@ void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
         "set title {0} offset 0,-0.3\n"
         "set xrange [0:{1}]; set yrange [0:{2}]; set y2range [{3}:{4}]\n"
         "plot {5} binary array=({1},{2}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
-        gnuplot_quoted(field.label), bar_width, bar_height, range.lower, range.upper,
+        gnuplot_quoted(with_unit(field.label, field_unit.symbol)), bar_width, bar_height, range.lower, range.upper,
         gnuplot_quoted(bar_file.path().string()), tick);
   }
   script += "unset multiplot\n";
