@@ -32,7 +32,7 @@ BenchTable empty_scenes_table() {
 void draw(const RunPaths& paths, const std::string& name, const std::filesystem::path& folder,
           BenchObserver& observer) {
   try {
-    for (const auto& picture : plot_run({paths, {}, paths.plots()})) {
+    for (const auto& picture : plot_run({paths, {}, paths.plots()}).pictures) {
       std::filesystem::copy_file(picture, folder / (name + "_" + picture.filename().string()),
                                  std::filesystem::copy_options::overwrite_existing);
     }

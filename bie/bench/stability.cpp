@@ -158,8 +158,8 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
     if (task.output.plot) {
       const std::filesystem::path folder = task.output.directory / "shapes";
       make_directory(folder);
-      constexpr int shape_width = 120;
-      plot_shapes({paths, {}, folder, shape_width}, folder / (hard.name + ".png"));
+      constexpr double width = 300.0;
+      plot_shapes({paths, {}, folder, PictureFormat::png, {.width = width}}, {folder / (hard.name + ".png")});
       outcome.result.tables.back().rows.push_back(
           {hard.name, fmt::format("![{0}](images/hard_cases/{0}.png)", hard.name)});
     }

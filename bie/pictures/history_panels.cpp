@@ -1,0 +1,109 @@
+#include "bie/pictures/history_panels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// Drifts below this are of no interest to anybody: a tenth of what the verdict allows.
+constexpr double least_drift = 1e-7;
+
+bool has_numbers(const std::vector<double>& values) {
+  return std::ranges::count_if(values, [](double value) { return std::isfinite(value); }) > 1;
+}
+
+/// Files of earlier programs lack columns.
+std::optional<std::vector<double>> column_of(const HistoryTable& history, const std::string& name) {
+  try {
+    return history.column(name);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+class Panels {
+ public:
+  explicit Panels(const HistoryTable& history) : history_(history) {}
+
+  struct Wanted {
+    const char* column;
+    const char* label;
+    std::string_view dimension;
+  };
+
+  void add(const std::vector<Wanted>& wanted) {
+    HistoryPanel panel;
+    for (const Wanted& curve : wanted) {
+      if (auto values = column_of(history_, curve.column)) {
+        panel.curves.push_back({curve.label, curve.dimension, std::move(*values)});
+      }
+    }
+    add(std::move(panel));
+  }
+
+  void add(HistoryPanel panel) {
+    std::erase_if(panel.curves, [](const HistoryCurve& curve) { return !has_numbers(curve.values); });
+    if (!panel.curves.empty()) panels.push_back(std::move(panel));
+  }
+
+  std::vector<HistoryPanel> panels;
+
+ private:
+  const HistoryTable& history_;
+};
+
+/// Magnitudes, of which a logarithmic axis shows all but zero.
+HistoryPanel drift_panel(const HistoryTable& history) {
+  HistoryPanel panel{{}, "drift, strain"};
+  double largest = 0.0;
+  for (const auto& [column, label] : {std::pair{"area_drift", "area"}, std::pair{"volume_drift", "volume"},
+                                      std::pair{"strain_max", "local strain"}}) {
+    auto values = column_of(history, column);
+    if (!values) continue;
+    for (double& value : *values) {
+      value = value == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::abs(value);
+      if (std::isfinite(value)) largest = std::max(largest, value);
+    }
+    panel.curves.push_back({label, "1", std::move(*values)});
+  }
+  return largest >= least_drift ? panel : HistoryPanel{};
+}
+
+}  // namespace
+
+std::vector<double> aspect_ratio_of(const HistoryTable& history) {
+  if (auto column = column_of(history, "aspect_ratio")) return *column;
+  const auto x = column_of(history, "extent_x"), y = column_of(history, "extent_y"), z = column_of(history, "extent_z");
+  if (!x || !y || !z) return {};
+  std::vector<double> ratio;
+  for (std::size_t i = 0; i < x->size(); ++i) {
+    const auto [least, most] = std::minmax({(*x)[i], (*y)[i], (*z)[i]});
+    ratio.push_back(most / least);
+  }
+  return ratio;
+}
+
+std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
+  Panels panels(history);
+  panels.add({{"bending_energy_scaled", "bending energy ∫H^2 dγ", "1"},
+              {"tension_integral", "tension ∫λ dγ", "energy"}});
+  if (scene.electric) {
+    panels.add({{"Vm_north", "V_m at the north pole", "potential"}, {"q_north", "q at the north pole", "potential/length"}});
+  }
+  const HistoryCurve aspect{"aspect ratio", "1", aspect_ratio_of(history)};
+  HistoryPanel shape{{aspect}};
+  const auto inclination = column_of(history, "inclination_deg");
+  if (scene.flow && inclination) {
+    shape.curves.insert(shape.curves.begin(), {"inclination (degrees)", "1", *inclination});
+  }
+  panels.add(std::move(shape));
+  panels.add(drift_panel(history));
+  return std::move(panels.panels);
+}
+
+}  // namespace vehd

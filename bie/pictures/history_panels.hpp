@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bie/runs/history.hpp"
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// One quantity against time.
+struct HistoryCurve {
+  std::string label;
+  std::string_view dimension;  ///< by its name in scene/units.hpp; "1" of a pure number
+  std::vector<double> values;  ///< one for each row, NaN where there is none
+};
+
+/// One or two curves with an axis of their own each, or several of one logarithmic axis.
+struct HistoryPanel {
+  std::vector<HistoryCurve> curves;
+  std::string logarithmic{};  ///< label of the common axis; empty: linear axes
+};
+
+/// What tells something of a run: energy and tension; V_m and charge with a field; the inclination in a flow; the aspect
+/// ratio; the drifts where one of them comes near what the verdict allows. Curves that have no two numbers are left out,
+/// and panels without curves.
+std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history);
+
+/// Longest over shortest extent along the axes, row by row; the column "aspect_ratio" where there is one.
+std::vector<double> aspect_ratio_of(const HistoryTable& history);
+
+}  // namespace vehd
