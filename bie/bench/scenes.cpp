@@ -45,7 +45,7 @@ void draw(const RunPaths& paths, const std::string& name, const std::filesystem:
 
 BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const std::filesystem::path& pictures,
                          BenchObserver& observer) {
-  BenchResult result{"scenes", machine_record(), 1, {}, {empty_scenes_table()}, {}};
+  BenchResult result{"scenes", machine_record(), 1, {}, {empty_scenes_table()}};
   observer.heading(result.tables.front());
   const auto tell = [&observer](const RunStatus& status) { observer.status(status); };
   for (const auto& file : scenes) {

@@ -137,8 +137,7 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
        machine_record(),
        1,
        {{"brief", task.brief}},
-       {empty_stability_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}},
-       {}}};
+       {empty_stability_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}}}};
   BenchTable& table = outcome.result.tables.front();
   BenchTasks tasks(static_cast<int>(cases.size()), observer);
   observer.heading(table);
