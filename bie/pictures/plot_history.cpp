@@ -125,8 +125,8 @@ std::string linear_panel(const HistoryPanel& panel, Drawing& drawing) {
     const bool angle = curve.label.starts_with("inclination");
     constexpr double half_turn = 90.0;
     data += data_block(drawing.n_curves, drawing.times, values, angle ? half_turn : 0.0);
-    plot += fmt::format("{}$curve{} using 1:2 {} axes x1{}", i == 0 ? "plot " : ", ", drawing.n_curves++,
-                        drawing.line_style(i), name);
+    plot += fmt::format("{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
+                        drawing.line_style(i), i == 0 ? "x1y1" : "x1y2");
   }
   return data + settings + plot + "\n";
 }
