@@ -20,10 +20,14 @@ std::string hex(const Colour& colour) {
 }
 
 Image gradient(const ColourMap& colours, int height) {
-  Image image{1, height, {}};
+  // Gnuplot draws no picture of a single column.
+  constexpr int width = 2;
+  Image image{width, height, {}};
   for (int row = 0; row < height; ++row) {
-    for (const double component : colours.at(1.0 - (row + 0.5) / height)) {
-      image.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * component)));
+    for (int column = 0; column < width; ++column) {
+      for (const double component : colours.at(1.0 - (row + 0.5) / height)) {
+        image.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * component)));
+      }
     }
   }
   return image;

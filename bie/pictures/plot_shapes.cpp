@@ -71,13 +71,10 @@ void colour_shapes(ShapesPicture& picture, ShapeField field, const std::optional
 
 ShapesContent content_of(const ShapesPicture& picture, const std::vector<KeyItem>& items, double page_width) {
   ShapesContent content;
-  content.n_shapes = picture.shapes.size();
-  Eigen::Vector2d extent = Eigen::Vector2d::Zero();
   for (const Shape& shape : picture.shapes) {
-    extent = extent.cwiseMax(projected_extent(shape.mesh, picture.view));
+    const Eigen::Vector2d extent = cell_margin * projected_extent(shape.mesh, picture.view);
+    content.half_extents.push_back({extent.x(), extent.y()});
   }
-  content.half_width = cell_margin * extent.x();
-  content.half_height = cell_margin * extent.y();
   for (const std::string& text : picture.times) {
     content.label_width = std::max(content.label_width, time_size * text_width(text));
   }

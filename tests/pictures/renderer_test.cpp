@@ -64,8 +64,8 @@ BOOST_AUTO_TEST_CASE(a_cut_shows_the_inside_and_its_edge_is_a_circle) {
   BOOST_TEST(lines.rows() >= 64);
   double length = 0.0;
   for (Index i = 0; i < lines.rows(); ++i) {
-    BOOST_TEST(lines.block<1, 2>(i, 0).norm() == 2.0, boost::test_tools::tolerance(5e-3));
-    length += (lines.block<1, 2>(i, 0) - lines.block<1, 2>(i, 2)).norm();
+    BOOST_TEST(lines.row(i).head(2).norm() == 2.0, boost::test_tools::tolerance(5e-3));
+    length += (lines.row(i).head(2) - lines.row(i).tail(2)).norm();
   }
   BOOST_TEST(length == 4.0 * M_PI, boost::test_tools::tolerance(5e-3));
 }

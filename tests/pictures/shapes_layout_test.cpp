@@ -1,4 +1,7 @@
+#include <array>
 #include <boost/test/unit_test.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bie/pictures/shapes_layout.hpp"
@@ -35,8 +38,13 @@ BOOST_AUTO_TEST_CASE(no_part_meets_another_or_leaves_the_page) {
         for (const double bar_width : {0.0, 45.0}) {
           for (const auto& key : keys) {
             for (const double page_width : {300.0, 510.0}) {
-              const ShapesLayout layout =
-                  layout_of({n_shapes, half_width, half_height, label_width, key, 60.0, bar_width, page_width});
+              // Shapes become lower and wider, as those in a field do.
+              std::vector<std::array<double, 2>> extents;
+              for (std::size_t i = 0; i < n_shapes; ++i) {
+                const double change = 1.0 + 0.2 * static_cast<double>(i);
+                extents.push_back({half_width * change, half_height / change});
+              }
+              const ShapesLayout layout = layout_of({extents, label_width, key, 60.0, bar_width, page_width});
               BOOST_TEST_CONTEXT(n_shapes << " shapes of " << half_width << " x " << half_height << ", labels of "
                                           << label_width << ", bar " << bar_width << ", key of " << key.size()
                                           << ", page " << page_width) {
@@ -50,9 +58,9 @@ BOOST_AUTO_TEST_CASE(no_part_meets_another_or_leaves_the_page) {
                     BOOST_TEST(!box.meets(shrunk(parts[k].second)), parts[i].first + " meets " + parts[k].first);
                   }
                 }
-                for (const Box& cell : layout.cells) {
-                  BOOST_TEST(cell.width() >= 2.0 * half_width * layout.scale - 1.0);
-                  BOOST_TEST(cell.height() >= 2.0 * half_height * layout.scale - 1.0);
+                for (std::size_t i = 0; i < n_shapes; ++i) {
+                  BOOST_TEST(layout.cells[i].width() >= 2.0 * extents[i][0] * layout.scale - 1.0);
+                  BOOST_TEST(layout.cells[i].height() >= 2.0 * extents[i][1] * layout.scale - 1.0);
                 }
               }
             }
@@ -65,7 +73,8 @@ BOOST_AUTO_TEST_CASE(no_part_meets_another_or_leaves_the_page) {
 
 BOOST_AUTO_TEST_CASE(the_page_is_as_wide_as_it_may_be_at_most) {
   for (std::size_t n_shapes = 1; n_shapes <= 6; ++n_shapes) {
-    const ShapesLayout layout = layout_of({n_shapes, 2.0, 1.0, 40.0, {50.0, 46.0, 26.0}, 60.0, 45.0, 510.0});
+    const std::vector<std::array<double, 2>> extents(n_shapes, {2.0, 1.0});
+    const ShapesLayout layout = layout_of({extents, 40.0, {50.0, 46.0, 26.0}, 60.0, 45.0, 510.0});
     BOOST_TEST(layout.width <= 511.0);
     // Shapes, not white, fill it.
     BOOST_TEST(layout.cells.front().width() * static_cast<double>(n_shapes) > 0.2 * layout.width);
