@@ -1,6 +1,7 @@
 #include "bie/pictures/history_panels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,8 +11,14 @@
 namespace vehd {
 namespace {
 
-/// Drifts below this are of no interest to anybody: a tenth of what the verdict allows.
-constexpr double least_drift = 1e-7;
+/// What is worth showing: from a tenth of what the verdict allows.
+struct Drift {
+  const char* column;
+  const char* label;
+  double least;
+};
+constexpr std::array drifts = {Drift{"area_drift", "area", 1e-7}, Drift{"volume_drift", "volume", 1e-7},
+                               Drift{"strain_max", "local strain", 5e-3}};
 
 bool has_numbers(const std::vector<double>& values) {
   return std::ranges::count_if(values, [](double value) { return std::isfinite(value); }) > 1;
@@ -59,19 +66,27 @@ class Panels {
 
 /// Magnitudes, of which a logarithmic axis shows all but zero.
 HistoryPanel drift_panel(const HistoryTable& history) {
-  HistoryPanel panel{{}, "drift, strain"};
-  double largest = 0.0;
-  for (const auto& [column, label] : {std::pair{"area_drift", "area"}, std::pair{"volume_drift", "volume"},
-                                      std::pair{"strain_max", "local strain"}}) {
-    auto values = column_of(history, column);
+  HistoryPanel panel{{}, "drift", true};
+  bool matters = false;
+  for (const Drift& drift : drifts) {
+    auto values = column_of(history, drift.column);
     if (!values) continue;
     for (double& value : *values) {
       value = value == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::abs(value);
-      if (std::isfinite(value)) largest = std::max(largest, value);
+      matters = matters || value >= drift.least;
     }
-    panel.curves.push_back({label, "1", std::move(*values)});
+    panel.curves.push_back({drift.label, "1", std::move(*values)});
   }
-  return largest >= least_drift ? panel : HistoryPanel{};
+  return matters ? panel : HistoryPanel{};
+}
+
+HistoryPanel extent_panel(const HistoryTable& history) {
+  HistoryPanel panel{{}, "extent"};
+  for (const auto& [column, label] :
+       {std::pair{"extent_x", "x"}, std::pair{"extent_y", "y"}, std::pair{"extent_z", "z"}}) {
+    if (auto values = column_of(history, column)) panel.curves.push_back({label, "length", std::move(*values)});
+  }
+  return panel;
 }
 
 }  // namespace
@@ -103,6 +118,8 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
   }
   panels.add(std::move(shape));
   panels.add(drift_panel(history));
+  // Two stand side by side.
+  if (panels.panels.size() % 2 == 1) panels.add(extent_panel(history));
   return std::move(panels.panels);
 }
 

@@ -16,15 +16,16 @@ struct HistoryCurve {
   std::vector<double> values;  ///< one for each row, NaN where there is none
 };
 
-/// One or two curves with an axis of their own each, or several of one logarithmic axis.
+/// One or two curves with an axis of their own each, or several of one axis.
 struct HistoryPanel {
   std::vector<HistoryCurve> curves;
-  std::string logarithmic{};  ///< label of the common axis; empty: linear axes
+  std::string common_axis{};  ///< its label; empty: each curve has its own
+  bool logarithmic = false;   ///< the common axis
 };
 
 /// What tells something of a run: energy and tension; V_m and charge with a field; the inclination in a flow; the aspect
-/// ratio; the drifts where one of them comes near what the verdict allows. Curves that have no two numbers are left out,
-/// and panels without curves.
+/// ratio; the drifts where one of them comes near what the verdict allows; the extents where the page has room for them.
+/// Curves that have no two numbers are left out, and panels without curves.
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history);
 
 /// Longest over shortest extent along the axes, row by row; the column "aspect_ratio" where there is one.

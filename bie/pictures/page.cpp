@@ -37,7 +37,7 @@ double character_width(char32_t character) {
 
 std::string line_script(const PageLine& line, int tag, PictureFormat format) {
   std::string script;
-  const double width = gnuplot_line_width(format, line.width, pixels_per_point);
+  const double width = gnuplot_line_width(format, line.width, page_pixels);
   for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
     const bool last = i + 2 == line.points.size();
     script += fmt::format("set arrow {} from {:.3f},{:.3f} to {:.3f},{:.3f} {} front lw {:.3f} lc rgb '{}'\n",
@@ -52,7 +52,7 @@ std::string text_script(const PageText& text, PictureFormat format) {
   constexpr std::array anchors{"left", "center", "right"};
   return fmt::format("set label {} at {:.3f},{:.3f} {} front font ',{:.4g}' textcolor rgb '{}'\n",
                      gnuplot_quoted(text.text), text.at[0], text.at[1], anchors[static_cast<std::size_t>(text.anchor)],
-                     gnuplot_font_size(format, text.size, pixels_per_point), text.colour);
+                     gnuplot_font_size(format, text.size, page_pixels), text.colour);
 }
 
 std::string area_script(const PageArea& area) {
@@ -95,7 +95,7 @@ void draw_page(const Page& page, const PictureFile& picture) {
   const std::filesystem::path folder = std::filesystem::absolute(picture.path).parent_path();
   PictureFile target = picture;
   target.path = std::filesystem::absolute(picture.path);
-  std::string script = gnuplot_terminal(target, {page.width, page.height, 8.0, pixels_per_point});
+  std::string script = gnuplot_terminal(target, {page.width, page.height, 8.0, page_pixels});
   script += fmt::format(
       "unset border; unset tics; unset key\n"
       "set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1\n"

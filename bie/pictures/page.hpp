@@ -73,7 +73,7 @@ double text_width(std::string_view enhanced);
 Box box_of(const PageText& text);
 
 /// Pixels of a point: of images in every format, and of the whole picture as PNG.
-constexpr double pixels_per_point = 4.0;
+constexpr double page_pixels = 4.0;
 
 /// Draws the page through gnuplot.
 /// @throws InputError if gnuplot is missing or reports an error

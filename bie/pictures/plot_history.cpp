@@ -7,6 +7,7 @@
 
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/history_panels.hpp"
+#include "bie/pictures/page.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/shown_numbers.hpp"
 #include "bie/scene/reader.hpp"
@@ -19,7 +20,7 @@ constexpr std::array dashes = {"solid", "(12,6)", "(3,4)"};
 /// Of one panel with its texts, in points.
 constexpr double panel_width = 255.0, panel_height = 172.0;
 /// Around the axes of a panel.
-constexpr double panel_left = 52.0, panel_right = 50.0, panel_bottom = 34.0, panel_top = 10.0;
+constexpr double panel_left = 52.0, panel_right = 52.0, panel_bottom = 32.0, panel_top = 18.0;
 constexpr double letter_size = 8.0;
 constexpr double curve_width = 1.3;
 /// More points than this in a curve are thinned out.
@@ -29,6 +30,7 @@ struct Axis {
   double lower = 0.0, upper = 1.0;
   std::string ticks;  ///< in gnuplot's words
   std::string label;
+  std::vector<std::string> texts;  ///< of the ticks
 };
 
 Axis axis_of(const std::vector<double>& values, const std::string& label, double room) {
@@ -46,7 +48,7 @@ Axis axis_of(const std::vector<double>& values, const std::string& label, double
     lower -= about;
     upper += about;
   }
-  Axis axis{lower - room * (upper - lower), upper + room * (upper - lower), {}, label};
+  Axis axis{lower - room * (upper - lower), upper + room * (upper - lower), {}, label, {}};
   const std::vector<double> ticks = round_ticks(axis.lower, axis.upper, 4);
   int power = 0;
   const std::vector<std::string> texts = tick_texts(ticks, power);
@@ -55,6 +57,7 @@ Axis axis_of(const std::vector<double>& values, const std::string& label, double
     places.push_back(fmt::format("{} {:.12g}", gnuplot_quoted(texts[i]), ticks[i]));
   }
   axis.ticks = fmt::format("({})", fmt::join(places, ", "));
+  axis.texts = texts;
   if (power != 0) axis.label += fmt::format(" / 10^{{{}}}", power);
   return axis;
 }
@@ -105,58 +108,91 @@ struct Drawing {
   static constexpr double pixels = 4.0;
 };
 
-std::string linear_panel(const HistoryPanel& panel, Drawing& drawing) {
-  std::string data, settings = "unset y2label; unset y2tics; unset logscale y; unset key\n", plot;
-  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-    const HistoryCurve& curve = panel.curves[i];
-    double largest = 0.0;
+/// Ticks of an axis and its label beside them: gnuplot would take the room for each label from the bytes of its ticks.
+std::string axis_script(const Axis& axis, const char* name, const char* colour) {
+  constexpr double axes_width = panel_width - panel_left - panel_right;
+  double ticks_width = 0.0;
+  for (const std::string& text : axis.texts) ticks_width = std::max(ticks_width, letter_size * text_width(text));
+  const bool on_the_right = std::string_view(name) == "y2";
+  const double away = (ticks_width + 4.0 + 0.75 * letter_size) / axes_width;
+  return fmt::format(
+      "set {0}range [{1:.12g}:{2:.12g}]; set {0}tics {3} nomirror textcolor rgb '{4}'\n"
+      "set label {5} at graph {6:.5f},0.5 center rotate by 90 textcolor rgb '{4}'\n",
+      name, axis.lower, axis.upper, axis.ticks, colour, gnuplot_quoted(axis.label), on_the_right ? 1.0 + away : -away);
+}
+
+constexpr const char* fresh_panel =
+    "unset label; unset ytics; unset y2tics; unset logscale y; unset key; set format y '%g'\n";
+/// Above the axes.
+constexpr const char* key_above = "set key at graph 0.5,1.075 center center horizontal samplen 2 maxrows 1\n";
+
+double largest_of(const std::vector<HistoryCurve>& curves) {
+  double largest = 0.0;
+  for (const HistoryCurve& curve : curves) {
     for (const double value : curve.values) {
       if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
     }
-    const ShownUnit unit = shown_unit(drawing.units, curve.dimension, largest);
+  }
+  return largest;
+}
+
+std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
+  std::string data, settings = fresh_panel, plot;
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    const HistoryCurve& curve = panel.curves[i];
+    const ShownUnit unit = shown_unit(drawing.units, curve.dimension, largest_of({curve}));
     std::vector<double> values = curve.values;
     for (double& value : values) value *= unit.factor;
-    const Axis axis = axis_of(values, unit.label(curve.label), 0.06);
-    const std::string name = i == 0 ? "y" : "y2";
-    settings += fmt::format(
-        "set {0}range [{1:.12g}:{2:.12g}]; set {0}tics {3} nomirror textcolor rgb '{4}'\n"
-        "set {0}label {5} textcolor rgb '{4}'\n",
-        name, axis.lower, axis.upper, axis.ticks, curve_colours[i], gnuplot_quoted(axis.label));
-    const bool angle = curve.label.starts_with("inclination");
+    settings += axis_script(axis_of(values, unit.label(curve.label), 0.06), i == 0 ? "y" : "y2", curve_colours[i]);
     constexpr double half_turn = 90.0;
-    data += data_block(drawing.n_curves, drawing.times, values, angle ? half_turn : 0.0);
+    data += data_block(drawing.n_curves, drawing.times, values, curve.label.starts_with("inclination") ? half_turn : 0.0);
     plot += fmt::format("{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
                         drawing.line_style(i), i == 0 ? "x1y1" : "x1y2");
   }
   return data + settings + plot + "\n";
 }
 
-std::string logarithmic_panel(const HistoryPanel& panel, Drawing& drawing) {
+/// Whole powers of ten; what is far below the largest does not matter.
+std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std::string& label) {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  std::string data, plot;
-  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-    for (const double value : panel.curves[i].values) {
+  for (const HistoryCurve& curve : curves) {
+    for (const double value : curve.values) {
       if (!(value > 0.0)) continue;
       least = std::min(least, value);
       most = std::max(most, value);
     }
-    data += data_block(drawing.n_curves, drawing.times, panel.curves[i].values, 0.0);
+  }
+  constexpr double shown_powers = 9.0, fewest_powers = 2.0;
+  const double upper = std::ceil(std::log10(most) + 1e-9);
+  const double lower =
+      std::clamp(std::floor(std::log10(least)), upper - shown_powers, upper - fewest_powers);
+  std::vector<std::string> places;
+  Axis axis{std::pow(10.0, lower), std::pow(10.0, upper), {}, label, {}};
+  for (double power = upper; power >= lower; power -= upper - lower > 5.0 ? 2.0 : 1.0) {
+    places.push_back(fmt::format("'10^{{{0:.0f}}}' 1e{0:.0f}", power));
+    // As wide as it is shown: the power is smaller.
+    axis.texts.push_back("1e-12");
+  }
+  axis.ticks = fmt::format("({})", fmt::join(places, ", "));
+  return "set logscale y\n" + axis_script(axis, "y", "#000000");
+}
+
+std::string panel_of_common_axis(const HistoryPanel& panel, Drawing& drawing) {
+  const ShownUnit unit = shown_unit(drawing.units, panel.curves.front().dimension, largest_of(panel.curves));
+  std::vector<double> all;
+  std::string data, plot;
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    std::vector<double> values = panel.curves[i].values;
+    for (double& value : values) value *= unit.factor;
+    all.insert(all.end(), values.begin(), values.end());
+    data += data_block(drawing.n_curves, drawing.times, values, 0.0);
     plot += fmt::format("{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
                         drawing.line_style(i), gnuplot_quoted(panel.curves[i].label));
   }
-  // Whole powers of ten, with one more for the key; what is far below the largest does not matter.
-  constexpr double shown_powers = 9.0;
-  const double upper = std::ceil(std::log10(most) + 1e-9) + 1.0;
-  const double lower = std::max(upper - shown_powers - 1.0, std::min(upper - 3.0, std::floor(std::log10(least))));
-  const int step = upper - lower > 6.0 ? 2 : 1;
-  return data +
-         fmt::format(
-             "unset y2label; unset y2tics; set logscale y; set yrange [1e{:.0f}:1e{:.0f}]\n"
-             "set ytics 1e{} nomirror textcolor rgb 'black'; set format y '10^{{%L}}'; set ylabel {} textcolor rgb "
-             "'black'\n"
-             "set key top right horizontal samplen 2 spacing 1 maxrows 1\n",
-             lower, upper, step, gnuplot_quoted(panel.logarithmic)) +
-         plot + "\nset format y '%g'\n";
+  const std::string label = unit.label(panel.common_axis);
+  const std::string axis = panel.logarithmic ? logarithmic_axis(panel.curves, label)
+                                             : axis_script(axis_of(all, label, 0.06), "y", "#000000");
+  return data + fresh_panel + key_above + axis + plot + "\n";
 }
 
 }  // namespace
@@ -179,7 +215,7 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
       "set multiplot\n"
       "set border lw {0:.3g}\n"
       "set grid xtics ytics lc rgb '#e4e4e4' lt 1 lw {0:.3g}\n"
-      "set tics scale 0.6\n"
+      "set tics scale 0.6; set mytics 1\n"
       "set xrange [{1:.12g}:{2:.12g}]; set xtics {3} nomirror; set xlabel {4} offset 0,0.4\n",
       gnuplot_line_width(file.format, 0.5, Drawing::pixels), time_axis.lower, time_axis.upper, time_axis.ticks,
       gnuplot_quoted(time_axis.label));
@@ -192,7 +228,8 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
         "{:.5f}\n",
         (left + panel_left) / width, (left + panel_width - panel_right) / width,
         (top - panel_height + panel_bottom) / height, (top - panel_top) / height);
-    script += panels[i].logarithmic.empty() ? linear_panel(panels[i], drawing) : logarithmic_panel(panels[i], drawing);
+    script += panels[i].common_axis.empty() ? panel_of_own_axes(panels[i], drawing)
+                                           : panel_of_common_axis(panels[i], drawing);
   }
   run_gnuplot(script + "unset multiplot\n", target.path.parent_path());
   return true;

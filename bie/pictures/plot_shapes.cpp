@@ -104,9 +104,9 @@ Page page_of(const ShapesPicture& picture, const Scene& scene, const ShapesStyle
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < n_shapes; ++i) {
     const Box& cell = layout.cells[i];
-    RenderTask task{picture.view, layout.scale * pixels_per_point, 0, 0, style.section};
-    task.width = std::max(1, static_cast<int>(std::lround(cell.width() * pixels_per_point)));
-    task.height = std::max(1, static_cast<int>(std::lround(cell.height() * pixels_per_point)));
+    RenderTask task{picture.view, layout.scale * page_pixels, 0, 0, style.section};
+    task.width = std::max(1, static_cast<int>(std::lround(cell.width() * page_pixels)));
+    task.height = std::max(1, static_cast<int>(std::lround(cell.height() * page_pixels)));
     page.images[i] = {render(picture.shapes[i].mesh, picture.colours, task), cell};
   }
   for (std::size_t i = 0; i < picture.shapes.size(); ++i) {

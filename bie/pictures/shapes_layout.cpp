@@ -89,7 +89,7 @@ Arrangement best_arrangement(const ShapesContent& content) {
 }
 
 /// Images end on whole pixels.
-double on_pixels(double length) { return std::floor(length * pixels_per_point) / pixels_per_point; }
+double on_pixels(double length) { return std::floor(length * page_pixels) / page_pixels; }
 
 void place_shapes(const ShapesContent& content, const Arrangement& best, const Box& room, ShapesLayout& layout) {
   const double spare = (room.width() - best.shapes_width()) / static_cast<double>(best.columns());
@@ -107,7 +107,7 @@ void place_shapes(const ShapesContent& content, const Arrangement& best, const B
     const double width = on_pixels(2.0 * content.half_extents[i][0] * best.scale);
     const double height = on_pixels(2.0 * content.half_extents[i][1] * best.scale);
     // Rounding may move the image by a pixel: up, where one is left out for it.
-    constexpr double pixel = 1.0 / pixels_per_point;
+    constexpr double pixel = 1.0 / page_pixels;
     Box cell;
     cell.left = on_pixels(middle - 0.5 * width);
     cell.right = cell.left + width;
@@ -119,7 +119,7 @@ void place_shapes(const ShapesContent& content, const Arrangement& best, const B
 }
 
 void place_key(const ShapesContent& content, const Arrangement& best, const Box& room, ShapesLayout& layout) {
-  double left = margin, top = room.top - 0.5 * (room.height() - best.key_height());
+  double left = 0.5 * (layout.width - best.key_row_width()), top = room.top - 0.5 * (room.height() - best.key_height());
   for (const double height : content.key_heights) {
     if (best.key_below) {
       layout.key.push_back({left, margin, left + content.key_width, margin + height});

@@ -108,7 +108,8 @@ ShownUnit shown_unit(const std::optional<UnitsScene>& units, std::string_view di
   const Dimension* known = find_dimension(dimension);
   if (known == nullptr || !std::isfinite(scale)) return {};
   const std::string symbol(known->si_unit());
-  const double size = std::abs(largest) * scale;
+  // A number that is one but for rounding counts as one.
+  const double size = std::abs(largest) * scale * (1.0 + 1e-9);
   // Powers of units, areas for example, would count their prefix as often: they stay as they are.
   if (symbol.find('^') != std::string::npos || size == 0.0 || !std::isfinite(size)) return {scale, symbol};
   if (symbol.starts_with("1/")) {
