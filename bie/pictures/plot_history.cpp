@@ -114,7 +114,7 @@ std::string axis_script(const Axis& axis, const char* name, const char* colour) 
   double ticks_width = 0.0;
   for (const std::string& text : axis.texts) ticks_width = std::max(ticks_width, letter_size * text_width(text));
   const bool on_the_right = std::string_view(name) == "y2";
-  const double away = (ticks_width + 4.0 + 0.75 * letter_size) / axes_width;
+  const double away = (ticks_width + 6.5 + 0.75 * letter_size) / axes_width;
   return fmt::format(
       "set {0}range [{1:.12g}:{2:.12g}]; set {0}tics {3} nomirror textcolor rgb '{4}'\n"
       "set label {5} at graph {6:.5f},0.5 center rotate by 90 textcolor rgb '{4}'\n",

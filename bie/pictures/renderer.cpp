@@ -78,7 +78,9 @@ class Canvas {
         const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area;
         const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area;
         const double w = 1.0 - u - v;
-        if (u < 0.0 || v < 0.0 || w < 0.0) continue;
+        // Rounding must not leave a sample between two triangles to neither.
+        constexpr double rounding = -1e-9;
+        if (u < rounding || v < rounding || w < rounding) continue;
         const double depth = u * a.depth + v * b.depth + w * c.depth;
         const std::size_t sample = static_cast<std::size_t>(row) * width_ + column;
         if (depth <= depth_[sample] || depth > nearest_) continue;
