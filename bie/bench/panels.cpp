@@ -25,8 +25,9 @@ BenchCurve curve_of(const BenchRecord& record, const std::string& label, const C
 
 std::vector<BenchPanel> space_panels(const BenchRecord& record) {
   BenchPanel seconds{"seconds", "relative error, maximum over the nodes"};
-  seconds.curves = {curve_of(record, "q, Example 1", {"seconds", "error_q", "", "", "order"}, 0),
-                    curve_of(record, "f_E, Example 1", {"seconds", "error_force"}, 1),
+  // q and f_E have the same seconds: notes at the upper curve do for both.
+  seconds.curves = {curve_of(record, "q, Example 1", {"seconds", "error_q"}, 0),
+                    curve_of(record, "f_E, Example 1", {"seconds", "error_force", "", "", "order"}, 1),
                     curve_of(record, "v, prolate", {"seconds_velocity", "error_velocity", "", "", "order"}, 2)};
   BenchPanel degree{"degree p", ""};
   degree.straight_x = true;
@@ -92,15 +93,17 @@ std::vector<BenchPanel> parts_panels(const BenchRecord& record) {
   }
   if (!seconds.curves.empty()) {
     seconds.slopes = {slope_beside(seconds.curves.front(), 3.0, "p^3", 2.2),
-                      slope_beside(seconds.curves.front(), 5.0, "p^5", 2.2)};
+                      slope_beside(seconds.curves.front(), 5.0, "p^5", 2.2, 2)};
   }
   if (!memory.curves.empty()) memory.slopes = {slope_beside(memory.curves.front(), 4.0, "p^4", 2.2)};
   return {seconds, memory};
 }
 
 std::vector<BenchPanel> threads_panels(const BenchRecord& record) {
+  const std::vector<std::string> counts = record.different("threads");
   BenchPanel panel{"", "seconds of a step"};
-  for (const std::string& threads : record.different("threads")) {
+  if (counts.size() > 1) panel.x_label = fmt::format("×: how much faster {} are than {}", counts.back(), counts.front());
+  for (const std::string& threads : counts) {
     panel.bars.bars.push_back(threads == "1" ? "1 thread" : threads + " threads");
   }
   for (const std::string& part : record.different("part")) {

@@ -18,9 +18,11 @@ namespace {
 constexpr std::array colours{"#1f5fa8", "#c0392b", "#2c8a3d", "#8e44ad", "#d68910", "#17767d", "#555555", "#b03a7a"};
 /// Filled markers; the one before each is its outline.
 constexpr std::array markers{7, 5, 9, 13, 11, 15, 7, 5};
-/// In points: of one panel with its texts, around its axes, and of the column with the key.
-constexpr double panel_width = 240.0, panel_height = 205.0, key_width_of_bench = 118.0;
+/// In points: of one panel with its texts, and around its axes.
+constexpr double panel_width = 240.0, panel_height = 205.0;
 constexpr double around_left = 46.0, around_right = 8.0, around_bottom = 32.0, around_top = 8.0;
+/// Names of groups may have two lines.
+constexpr double around_bottom_of_bars = 46.0;
 constexpr double letters = 8.0, note_letters = 6.5;
 constexpr double pixels = 4.0;
 
@@ -113,11 +115,16 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
   const std::string label = power == 0 ? panel.y_label : fmt::format("{} / 10^{{{}}}", panel.y_label, power);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < bars.groups.size(); ++i) {
-    names.push_back(fmt::format("{} {}", gnuplot_quoted(bars.groups[i]), i));
+    // One word a line.
+    std::string name = bars.groups[i];
+    for (std::size_t at = name.find(' '); at != std::string::npos; at = name.find(' ')) name.replace(at, 1, "\\n");
+    names.push_back(fmt::format("\"{}\" {}", name, i));
   }
   script.text += fmt::format(
+      "set bmargin at screen {:.5f}\n", around_bottom_of_bars / panel_height);
+  script.text += fmt::format(
       "unset logscale; unset label; set xrange [-0.5:{}-0.5]; set yrange [0:{:.9g}]; set ytics ({}); set ylabel {}\n"
-      "set xtics ({}) scale 0; unset grid; set grid ytics lc rgb '#e4e4e4' lt 1\n",
+      "set xtics ({}) scale 0 offset 0,0.3; unset grid; set grid ytics lc rgb '#e4e4e4' lt 1\n",
       bars.groups.size(), top, fmt::join(places, ", "), gnuplot_quoted(label), fmt::join(names, ", "));
   const double width = 0.8 / static_cast<double>(bars.bars.size());
   std::string plot;
@@ -139,16 +146,29 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
   script.text += "plot " + plot + "NaN notitle\n";
 }
 
+/// Of the column with the key.
+double key_width_of(const std::vector<BenchPanel>& panels) {
+  constexpr double sample = 26.0;
+  double width = 0.0;
+  for (const BenchPanel& panel : panels) {
+    for (const BenchCurve& curve : panel.curves) width = std::max(width, letters * text_width(curve.label));
+    for (const std::string& bar : panel.bars.bars) width = std::max(width, letters * text_width(bar));
+  }
+  return width + sample;
+}
+
 }  // namespace
 
-BenchSlope slope_beside(const BenchCurve& curve, double exponent, const std::string& label, double factor) {
+BenchSlope slope_beside(const BenchCurve& curve, double exponent, const std::string& label, double factor,
+                        std::size_t n_points) {
   BenchSlope slope{label, exponent};
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (curve.y[i] > 0.0) known.push_back(i);
   }
   if (known.empty()) return slope;
-  const std::size_t first = known.size() > 3 ? known[known.size() - 3] : known.front(), last = known.back();
+  const std::size_t first = known.size() > n_points ? known[known.size() - n_points] : known.front();
+  const std::size_t last = known.back();
   slope.x_from = curve.x[first];
   slope.x_to = curve.x[last];
   const double y_to = factor * curve.y[last];
@@ -160,7 +180,7 @@ void draw_bench(const std::vector<BenchPanel>& panels, const std::filesystem::pa
   const bool has_bars = !panels.front().bars.groups.empty();
   // Names of groups need more room than numbers do.
   const double one = has_bars ? 1.6 * panel_width : panel_width;
-  const double width = one * static_cast<double>(panels.size()) + key_width_of_bench;
+  const double width = std::ceil(one * static_cast<double>(panels.size()) + key_width_of(panels));
   BenchScript script;
   script.text = gnuplot_terminal({std::filesystem::absolute(picture), PictureFormat::png},
                                  {width, panel_height, letters, pixels});

@@ -43,8 +43,9 @@ struct BenchPanel {
   BenchBars bars{};               ///< in place of curves
 };
 
-/// A line of this exponent beside the last points of a curve, at `factor` of them.
-BenchSlope slope_beside(const BenchCurve& curve, double exponent, const std::string& label, double factor);
+/// A line of this exponent beside the last points of a curve, at `factor` of the last.
+BenchSlope slope_beside(const BenchCurve& curve, double exponent, const std::string& label, double factor,
+                        std::size_t n_points = 3);
 
 /// Panels side by side and the key to their right, as a PNG. @throws InputError if gnuplot is missing or reports an error
 void draw_bench(const std::vector<BenchPanel>& panels, const std::filesystem::path& picture);

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace vehd {
 namespace {
 
 constexpr double marker_radius = 3.5;
-/// Between a point and its note.
-constexpr double distance = 5.0;
 
 struct Bounds {
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
@@ -48,18 +47,20 @@ std::vector<Box> taken_by(const BenchPanel& panel, const PlotAxes& axes) {
   return taken;
 }
 
-/// Middles of a box of this size around a point: above first.
-std::array<PagePoint, 8> places_around(double x, double y, double width, double height) {
-  const double across = 0.5 * width + distance, up = 0.5 * height + distance - 2.0;
-  const double near = 0.5 * width + 2.0;
-  return {{{x, y + up},
-           {x + near, y + up},
-           {x + across, y},
-           {x - near, y + up},
-           {x - across, y},
-           {x - near, y - up},
-           {x, y - up},
-           {x + near, y - up}}};
+/// Middles of a box of this size around a point: near ones first, among those the one above on the right first.
+std::vector<PagePoint> places_around(double x, double y, double width, double height) {
+  constexpr std::array distances{4.0, 6.0, 9.0, 12.0};
+  constexpr int n_directions = 16;
+  std::vector<PagePoint> places;
+  for (const double distance : distances) {
+    for (int i = 0; i < n_directions; ++i) {
+      // 3, 2, 4, 1, 5 … sixteenths of a turn.
+      const int turn = 3 + (i % 2 == 0 ? i / 2 : -(i + 1) / 2);
+      const double angle = 2.0 * std::numbers::pi * turn / n_directions;
+      places.push_back({x + (0.5 * width + distance) * std::cos(angle), y + (0.5 * height + distance) * std::sin(angle)});
+    }
+  }
+  return places;
 }
 
 class NotePlaces {
@@ -127,9 +128,10 @@ PlotAxes axes_of(const BenchPanel& panel, double width, double height) {
     axes.x.lower = x.lower / room;
     axes.x.upper = x.upper * room;
   }
-  constexpr double rounding = 1e-9;
-  axes.y.lower = std::pow(10.0, std::floor(std::log10(y.lower) + rounding));
-  axes.y.upper = std::pow(10.0, std::max(std::ceil(std::log10(y.upper) - rounding), std::log10(axes.y.lower) + 1.0));
+  // No point lies on the frame.
+  constexpr double room = 1.4;
+  axes.y.lower = std::pow(10.0, std::floor(std::log10(y.lower / room)));
+  axes.y.upper = std::pow(10.0, std::ceil(std::log10(y.upper * room)));
   return axes;
 }
 
