@@ -134,7 +134,7 @@ std::vector<BenchPanel> methods_panels(const BenchRecord& record) {
       const CurveKind kind = force ? CurveKind::dashed : CurveKind::line;
       seconds.curves.push_back(curve_of(record, name, {"seconds", error, "method", method}, colour, kind));
       unknowns.curves.push_back(curve_of(record, name, {"unknowns", error, "method", method}, colour, kind));
-      if (method == "fem_mesh" && !force) {
+      if (method == "fem_mesh" && force) {
         unknowns.slopes.push_back(slope_beside(unknowns.curves.back(), -0.75, "N^{\u22120.75}", 3.0));
       }
     }

@@ -124,8 +124,9 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
       "set bmargin at screen {:.5f}\n", around_bottom_of_bars / panel_height);
   script.text += fmt::format(
       "unset logscale; unset label; set xrange [-0.5:{}-0.5]; set yrange [0:{:.9g}]; set ytics ({}); set ylabel {}\n"
-      "set xtics ({}) scale 0 offset 0,0.3; unset grid; set grid ytics lc rgb '#e4e4e4' lt 1\n",
-      bars.groups.size(), top, fmt::join(places, ", "), gnuplot_quoted(label), fmt::join(names, ", "));
+      "set xlabel {} offset 0,-0.7; set xtics ({}) scale 0 offset 0,0.3; unset grid; set grid ytics lc rgb '#e4e4e4' lt 1\n",
+      bars.groups.size(), top, fmt::join(places, ", "), gnuplot_quoted(label),
+      gnuplot_quoted(panel.x_label), fmt::join(names, ", "));
   const double width = 0.8 / static_cast<double>(bars.bars.size());
   std::string plot;
   for (std::size_t k = 0; k < bars.bars.size(); ++k) {
