@@ -22,7 +22,7 @@ struct FlowSolution::Data {
 
 namespace {
 
-using Data = FlowSolution::Data;
+using FlowData = FlowSolution::Data;
 
 void require_valid(const Discretisation& discretisation, const FlowProblem& problem) {
   if (discretisation.degree() < 2) {
@@ -77,7 +77,7 @@ Vector values_at(const Space& space, const dealii::DoFHandler<3>& handler, const
 
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem) {
   require_valid(discretisation, problem);
-  const auto data = std::make_shared<Data>();
+  const auto data = std::make_shared<FlowData>();
   data->space = discretisation.space();
   data->gradient = problem.gradient;
   const Space& space = *data->space;

@@ -20,7 +20,7 @@ struct PotentialSolution::Data {
 
 namespace {
 
-using Data = PotentialSolution::Data;
+using PotentialData = PotentialSolution::Data;
 
 void require(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument(what);
@@ -126,13 +126,13 @@ Vector sheet_difference(const Space& space, const dealii::Vector<double>& nodal)
 }
 
 /// V_m = φ_i − ψ_e + E_∞·x.
-Vector membrane_voltage(const Data& data, const SurfacePoints& points) {
+Vector membrane_voltage(const PotentialData& data, const SurfacePoints& points) {
   return data.space->trace->evaluate(sheet_difference(*data.space, data.nodal), points) +
          points.position.transpose() * data.problem.field;
 }
 
 /// Makes the mean of V_m what it shall be by a constant inside.
-void shift_to_mean(Data& data, double mean) {
+void shift_to_mean(PotentialData& data, double mean) {
   const SurfacePoints& rule = data.space->trace->rule();
   const double shift = mean - rule.weight.dot(membrane_voltage(data, rule)) / rule.weight.sum();
   std::vector<bool> inner(data.nodal.size(), false);
@@ -151,7 +151,7 @@ void shift_to_mean(Data& data, double mean) {
 
 PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem) {
   require_valid(problem);
-  const auto data = std::make_shared<Data>();
+  const auto data = std::make_shared<PotentialData>();
   data->space = discretisation.space();
   data->problem = problem;
   const Space& space = *data->space;

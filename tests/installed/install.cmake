@@ -1,0 +1,19 @@
+# Installs a build, looks at what is there and builds a program that uses it:
+#   cmake -DBUILD=build -DSOURCE=source -DFOLDER=work -P install.cmake
+cmake_minimum_required(VERSION 3.25)
+include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
+
+set(prefix "${FOLDER}/prefix")
+file(REMOVE_RECURSE "${FOLDER}")
+expect("" "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
+
+expect("^vehd [0-9]+\\.[0-9]+\\.[0-9]+\n" "${prefix}/bin/vehd" --version)
+look_at_texts("${prefix}")
+expect("stokes_single" "${prefix}/bin/vehd" plan "${prefix}/share/vehd/scenes/figure5_no_field.toml")
+
+set(consumer "${FOLDER}/consumer")
+expect("" "${CMAKE_COMMAND}" -S "${SOURCE}/tests/installed/consumer" -B "${consumer}" "-DCMAKE_PREFIX_PATH=${prefix}"
+       -DCMAKE_BUILD_TYPE=Release)
+expect("" "${CMAKE_COMMAND}" --build "${consumer}")
+expect("relative errors" "${consumer}/prolate")
+expect("extent along z" "${consumer}/steps" "${prefix}/share/vehd/scenes/figure5_no_field.toml")

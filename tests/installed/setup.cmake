@@ -1,0 +1,49 @@
+# What bie/setup.cmake says and does about what is missing, in a folder that has nothing but it, a configuration that
+# misses a library, and an apt-get that only writes down how it is called:
+#   cmake -DSOURCE=source -DFOLDER=work -P setup.cmake
+cmake_minimum_required(VERSION 3.25)
+
+file(REMOVE_RECURSE "${FOLDER}")
+file(MAKE_DIRECTORY "${FOLDER}/bie" "${FOLDER}/bin")
+configure_file("${SOURCE}/bie/setup.cmake" "${FOLDER}/bie/setup.cmake" COPYONLY)
+file(WRITE "${FOLDER}/CMakeLists.txt" [=[
+cmake_minimum_required(VERSION 3.25)
+project(incomplete LANGUAGES NONE)
+if(NOT EXISTS "${CMAKE_SOURCE_DIR}/installed")
+  file(WRITE "${CMAKE_BINARY_DIR}/missing_packages.txt" "libimaginary-dev;librare-dev")
+  message(FATAL_ERROR "Not found: imaginary, rare")
+endif()
+add_custom_target(vehd COMMAND ${CMAKE_COMMAND} -E echo built)
+add_custom_target(everything ALL DEPENDS vehd)
+]=])
+file(WRITE "${FOLDER}/bin/apt-get" "#!/bin/sh\necho \"$*\" >> \"${FOLDER}/calls\"\ntouch \"${FOLDER}/installed\"\n")
+file(WRITE "${FOLDER}/bin/sudo" "#!/bin/sh\nexec \"$@\"\n")
+file(CHMOD "${FOLDER}/bin/apt-get" "${FOLDER}/bin/sudo" PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+
+function(run_setup result output)
+  execute_process(COMMAND "${CMAKE_COMMAND}" -E env "PATH=${FOLDER}/bin:$ENV{PATH}" "${CMAKE_COMMAND}" -DSTEP=build ${ARGN}
+                          -P "${FOLDER}/bie/setup.cmake"
+                  OUTPUT_VARIABLE text ERROR_VARIABLE text RESULT_VARIABLE status)
+  set(${result} "${status}" PARENT_SCOPE)
+  set(${output} "${text}" PARENT_SCOPE)
+endfunction()
+function(require text pattern)
+  if(NOT text MATCHES "${pattern}")
+    message(FATAL_ERROR "not printed: ${pattern}\n${text}")
+  endif()
+endfunction()
+
+run_setup(status text -DINSTALL=OFF)
+require("${text}" "Not installed: [^\n]*libimaginary-dev librare-dev[^\n]*apt-get install --no-install-recommends")
+if(status EQUAL 0 OR EXISTS "${FOLDER}/calls")
+  message(FATAL_ERROR "-DINSTALL=OFF installed, or went on without what is missing (${status}):\n${text}")
+endif()
+
+run_setup(status text)
+require("${text}" "Installing: [^\n]*libimaginary-dev librare-dev")
+require("${text}" "with: +[^\n]*apt-get install --no-install-recommends [^\n]*libimaginary-dev librare-dev")
+file(READ "${FOLDER}/calls" calls)
+require("${calls}" "install -q -y --no-install-recommends [^\n]*libimaginary-dev librare-dev")
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "with all installed the build failed (${status}):\n${text}")
+endif()
