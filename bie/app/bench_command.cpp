@@ -224,13 +224,13 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
 }
 
 void add_redraw(CLI::App& bench, ExitCode& exit_code) {
-  CLI::App* command = bench.add_subcommand("redraw", "Draw the pictures again from the tables of earlier benches");
+  CLI::App* command = bench.add_subcommand("redraw", "Draw the pictures again from what earlier benches have left");
   struct RedrawOptions {
     std::string directory = "out/bench", docs;
     CommonOptions common;
   };
   const auto options = std::make_shared<RedrawOptions>();
-  command->add_option("DIR", options->directory, "Folder of the tables (NAME.csv); pictures lie beside them")
+  command->add_option("DIR", options->directory, "Folder of their tables (NAME.csv); pictures lie beside them")
       ->check(CLI::ExistingDirectory)
       ->capture_default_str();
   command->add_option("--docs", options->docs, "Folder of pages whose pictures are renewed as well")

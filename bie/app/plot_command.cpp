@@ -70,10 +70,11 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
                    "Directory for the pictures, DIR/plots if not given; or a file of shapes, NAME.pdf for example")
       ->type_name("PLACE");
   command
-      ->add_option("--times", options->times,
-                   fmt::format("Times of the shapes, at most {}, the nearest snapshots are taken; without them as many, "
-                               "chosen by how much the shape changes",
-                               most_shapes))
+      ->add_option(
+          "--times", options->times,
+          fmt::format("Times of the shapes, at most {}, the nearest snapshots are taken; without them as many, "
+                      "chosen by how much the shape changes",
+                      most_shapes))
       ->delimiter(',')
       ->type_name("T,T,...")
       ->expected(1, most_shapes);

@@ -102,7 +102,8 @@ std::vector<BenchPanel> parts_panels(const BenchRecord& record) {
 std::vector<BenchPanel> threads_panels(const BenchRecord& record) {
   const std::vector<std::string> counts = record.different("threads");
   BenchPanel panel{"", "seconds of a step"};
-  if (counts.size() > 1) panel.x_label = fmt::format("×: how much faster {} are than {}", counts.back(), counts.front());
+  if (counts.size() > 1)
+    panel.x_label = fmt::format("×: how much faster {} are than {}", counts.back(), counts.front());
   for (const std::string& threads : counts) {
     panel.bars.bars.push_back(threads == "1" ? "1 thread" : threads + " threads");
   }
@@ -157,10 +158,10 @@ struct Maker {
   const char* bench;
   std::vector<BenchPanel> (*panels)(const BenchRecord& record);
 };
-constexpr std::array makers = {
-    Maker{"space", space_panels},       Maker{"time", time_panels},         Maker{"parts", parts_panels},
-    Maker{"threads", threads_panels},   Maker{"symmetry", symmetry_panels}, Maker{"methods", methods_panels},
-    Maker{"tolerances", tolerances_panels}};
+constexpr std::array makers = {Maker{"space", space_panels},          Maker{"time", time_panels},
+                               Maker{"parts", parts_panels},          Maker{"threads", threads_panels},
+                               Maker{"symmetry", symmetry_panels},    Maker{"methods", methods_panels},
+                               Maker{"tolerances", tolerances_panels}};
 
 }  // namespace
 

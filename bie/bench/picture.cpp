@@ -60,8 +60,8 @@ struct BenchScript {
 };
 
 std::string range_script(const BenchPanel& panel, const PlotAxes& axes) {
-  std::string script = panel.straight_x ? "unset logscale x; set format x '%g'\n"
-                                        : "set logscale x; set format x '10^{%L}'\n";
+  std::string script =
+      panel.straight_x ? "unset logscale x; set format x '%g'\n" : "set logscale x; set format x '10^{%L}'\n";
   script += fmt::format("set xrange [{:.9g}:{:.9g}]; set yrange [{:.9g}:{:.9g}]\n", axes.x.lower, axes.x.upper,
                         axes.y.lower, axes.y.upper);
   script += panel.x_ticks.empty() ? std::string("set xtics autofreq\n")
@@ -70,8 +70,8 @@ std::string range_script(const BenchPanel& panel, const PlotAxes& axes) {
 }
 
 void add_curves(const BenchPanel& panel, BenchScript& script) {
-  const PlotAxes axes = axes_of(panel, panel_width - around_left - around_right,
-                                panel_height - around_bottom - around_top);
+  const PlotAxes axes =
+      axes_of(panel, panel_width - around_left - around_right, panel_height - around_bottom - around_top);
   script.text += range_script(panel, axes);
   std::string plot;
   for (const BenchSlope& slope : panel.slopes) {
@@ -92,10 +92,10 @@ void add_curves(const BenchPanel& panel, BenchScript& script) {
   }
   script.text += "unset label\n";
   for (const PlacedNote& note : place_notes(panel, axes, note_letters)) {
-    script.text += fmt::format("set label {} at graph {:.5f},{:.5f} center front font ',{:.4g}' textcolor rgb '{}'\n",
-                               gnuplot_quoted(note.text), note.at[0] / axes.x.length, note.at[1] / axes.y.length,
-                               font_size(note_letters),
-                               note.colour < 0 ? "#777777" : colours[static_cast<std::size_t>(note.colour) % colours.size()]);
+    script.text += fmt::format(
+        "set label {} at graph {:.5f},{:.5f} center front font ',{:.4g}' textcolor rgb '{}'\n",
+        gnuplot_quoted(note.text), note.at[0] / axes.x.length, note.at[1] / axes.y.length, font_size(note_letters),
+        note.colour < 0 ? "#777777" : colours[static_cast<std::size_t>(note.colour) % colours.size()]);
   }
   script.text += "plot " + plot + "NaN notitle\n";
 }
@@ -120,13 +120,13 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
     for (std::size_t at = name.find(' '); at != std::string::npos; at = name.find(' ')) name.replace(at, 1, "\\n");
     names.push_back(fmt::format("\"{}\" {}", name, i));
   }
-  script.text += fmt::format(
-      "set bmargin at screen {:.5f}\n", around_bottom_of_bars / panel_height);
+  script.text += fmt::format("set bmargin at screen {:.5f}\n", around_bottom_of_bars / panel_height);
   script.text += fmt::format(
       "unset logscale; unset label; set xrange [-0.5:{}-0.5]; set yrange [0:{:.9g}]; set ytics ({}); set ylabel {}\n"
-      "set xlabel {} offset 0,-0.7; set xtics ({}) scale 0 offset 0,0.3; unset grid; set grid ytics lc rgb '#e4e4e4' lt 1\n",
-      bars.groups.size(), top, fmt::join(places, ", "), gnuplot_quoted(label),
-      gnuplot_quoted(panel.x_label), fmt::join(names, ", "));
+      "set xlabel {} offset 0,-0.7; set xtics ({}) scale 0 offset 0,0.3; unset grid; set grid ytics lc rgb '#e4e4e4' "
+      "lt 1\n",
+      bars.groups.size(), top, fmt::join(places, ", "), gnuplot_quoted(label), gnuplot_quoted(panel.x_label),
+      fmt::join(names, ", "));
   const double width = 0.8 / static_cast<double>(bars.bars.size());
   std::string plot;
   for (std::size_t k = 0; k < bars.bars.size(); ++k) {

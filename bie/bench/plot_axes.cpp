@@ -57,7 +57,8 @@ std::vector<PagePoint> places_around(double x, double y, double width, double he
       // 3, 2, 4, 1, 5 … sixteenths of a turn.
       const int turn = 3 + (i % 2 == 0 ? i / 2 : -(i + 1) / 2);
       const double angle = 2.0 * std::numbers::pi * turn / n_directions;
-      places.push_back({x + (0.5 * width + distance) * std::cos(angle), y + (0.5 * height + distance) * std::sin(angle)});
+      places.push_back(
+          {x + (0.5 * width + distance) * std::cos(angle), y + (0.5 * height + distance) * std::sin(angle)});
     }
   }
   return places;
@@ -74,7 +75,8 @@ class NotePlaces {
     for (const PagePoint& middle : places_around(x, y, width, height)) {
       const Box box{middle[0] - 0.5 * width, middle[1] - 0.5 * height, middle[0] + 0.5 * width,
                     middle[1] + 0.5 * height};
-      if (!inside_.holds(box) || std::ranges::any_of(taken_, [&](const Box& other) { return box.meets(other); })) continue;
+      if (!inside_.holds(box) || std::ranges::any_of(taken_, [&](const Box& other) { return box.meets(other); }))
+        continue;
       taken_.push_back(box);
       notes.push_back({text, middle, colour});
       return;

@@ -4,6 +4,7 @@
 
 #include "bie/bench/doc_tables.hpp"
 #include "bie/bench/panels.hpp"
+#include "bie/bench/stability.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -29,6 +30,16 @@ std::vector<fs::path> redraw(const fs::path& folder, const fs::path& docs) {
     if (docs.empty() || !pages_mention(docs, "images/" + name)) continue;
     pictures.push_back(docs / "images" / name);
     fs::copy_file(picture, pictures.back(), fs::copy_options::overwrite_existing);
+  }
+  const fs::path stability = folder / "stability", runs = stability / "runs";
+  if (fs::is_directory(runs)) {
+    for (const auto& entry : fs::directory_iterator(runs)) {
+      pictures.push_back(draw_case({entry.path()}, stability / "shapes"));
+      const fs::path shown = docs / "images/hard_cases" / pictures.back().filename();
+      if (docs.empty() || !fs::exists(shown)) continue;
+      fs::copy_file(pictures.back(), shown, fs::copy_options::overwrite_existing);
+      pictures.push_back(shown);
+    }
   }
   if (pictures.empty()) throw InputError(fmt::format("{}: has no table of a bench (NAME.csv)", folder.string()));
   return pictures;

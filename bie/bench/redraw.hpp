@@ -10,7 +10,8 @@ namespace vehd {
 /// @throws InputError if the file cannot be read, or if gnuplot is missing or reports an error
 std::filesystem::path draw_record(const std::filesystem::path& csv);
 
-/// Draws the pictures of all benches whose tables are in a folder, and renews those that pages show.
+/// Draws the pictures of all benches whose tables are in a folder, of the hard cases whose runs are in its
+/// stability/runs, and renews those that pages show.
 /// @param docs  folder of the pages; empty: none
 /// @return the pictures
 /// @throws InputError if there is no table in the folder, and as draw_record

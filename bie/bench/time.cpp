@@ -147,7 +147,8 @@ std::vector<BenchCell> row_of(const TimedRun& run, const References& references)
   // The reference has none that could be known.
   if (&run != &references.best) {
     error = std::ranges::max(errors);
-    if (const double* tolerance = std::get_if<double>(&run.tolerance)) over_tolerance = std::ranges::max(errors) / *tolerance;
+    if (const double* tolerance = std::get_if<double>(&run.tolerance))
+      over_tolerance = std::ranges::max(errors) / *tolerance;
   }
   // A tolerance has no degree of its own.
   if (references.same_degree != nullptr && references.same_degree != &run && std::holds_alternative<double>(run.dt)) {
@@ -255,8 +256,8 @@ BenchResult bench_time(const TimeTask& task, BenchObserver& observer) {
     runs.back().front().integrator = "reference (" + runs.back().front().integrator + ")";
   }
   const References references{runs.back().back(), task.tolerances.empty() ? &runs.back().back()
-                              : same_degree           ? &*same_degree
-                                                      : nullptr};
+                                                  : same_degree           ? &*same_degree
+                                                                          : nullptr};
   const TimedRun& reference = references.best;
 
   BenchResult result{"time", machine_record(), task.repeats, {}, {empty_time_table()}};

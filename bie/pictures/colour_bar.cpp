@@ -76,8 +76,7 @@ void draw_colour_bar(Page& page, const ColourBar& bar, const ColourMap& colours,
     const double share = (bar.ticks[i] - bar.range.lower) / (bar.range.upper - bar.range.lower);
     const double y = lower + share * (upper - lower);
     page.lines.push_back({{{right, y}, {right + tick_length, y}}, 0.5, "#000000", false});
-    page.texts.push_back(
-        {bar.texts[i], {right + tick_length + 2.0, y}, text_size, TextAnchor::left, "#000000"});
+    page.texts.push_back({bar.texts[i], {right + tick_length + 2.0, y}, text_size, TextAnchor::left, "#000000"});
   }
 }
 

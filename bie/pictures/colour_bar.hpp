@@ -11,10 +11,10 @@ namespace vehd {
 
 /// A colour bar that has its ticks but no place yet.
 struct ColourBar {
-  ColourRange range;                ///< in the unit that is shown
-  std::vector<double> ticks;        ///< at least three
-  std::vector<std::string> texts;   ///< one for each
-  std::vector<std::string> title;   ///< lines above the bar
+  ColourRange range;               ///< in the unit that is shown
+  std::vector<double> ticks;       ///< at least three
+  std::vector<std::string> texts;  ///< one for each
+  std::vector<std::string> title;  ///< lines above the bar
 };
 
 /// @param name  of the field; the unit and a power of ten follow on a line of their own

@@ -47,8 +47,8 @@ ColourRange robust_range(const std::vector<WeightedValues>& fields) {
 
   // Where one sign is hardly there, its colours would be lost.
   constexpr double other_sign = 0.1;
-  range.both_signs = range.lower < 0.0 && range.upper > 0.0 &&
-                     std::min(-range.lower, range.upper) >= other_sign * magnitude;
+  range.both_signs =
+      range.lower < 0.0 && range.upper > 0.0 && std::min(-range.lower, range.upper) >= other_sign * magnitude;
   if (range.both_signs) {
     range.upper = magnitude;
     range.lower = -magnitude;

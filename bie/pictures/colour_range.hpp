@@ -9,7 +9,7 @@ namespace vehd {
 /// The values that the ends of a colour bar stand for.
 struct ColourRange {
   double lower = 0.0, upper = 1.0;
-  bool both_signs = false;           ///< zero is in the middle, and colours diverge from there
+  bool both_signs = false;            ///< zero is in the middle, and colours diverge from there
   bool below = false, above = false;  ///< values beyond the ends have the colours of the ends
 };
 

@@ -105,10 +105,11 @@ std::vector<double> aspect_ratio_of(const HistoryTable& history) {
 
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
   Panels panels(history);
-  panels.add({{"bending_energy_scaled", "bending energy ∫H^2 dγ", "1"},
-              {"tension_integral", "tension ∫λ dγ", "energy"}});
+  panels.add(
+      {{"bending_energy_scaled", "bending energy ∫H^2 dγ", "1"}, {"tension_integral", "tension ∫λ dγ", "energy"}});
   if (scene.electric) {
-    panels.add({{"Vm_north", "V_m at the north pole", "potential"}, {"q_north", "q at the north pole", "potential/length"}});
+    panels.add(
+        {{"Vm_north", "V_m at the north pole", "potential"}, {"q_north", "q at the north pole", "potential/length"}});
   }
   const HistoryCurve aspect{"aspect ratio", "1", aspect_ratio_of(history)};
   HistoryPanel shape{{aspect}};

@@ -23,9 +23,9 @@ struct HistoryPanel {
   bool logarithmic = false;   ///< the common axis
 };
 
-/// What tells something of a run: energy and tension; V_m and charge with a field; the inclination in a flow; the aspect
-/// ratio; the drifts where one of them comes near what the verdict allows; the extents where the page has room for them.
-/// Curves that have no two numbers are left out, and panels without curves.
+/// What tells something of a run: energy and tension; V_m and charge with a field; the inclination in a flow; the
+/// aspect ratio; the drifts where one of them comes near what the verdict allows; the extents where the page has room
+/// for them. Curves that have no two numbers are left out, and panels without curves.
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history);
 
 /// Longest over shortest extent along the axes, row by row; the column "aspect_ratio" where there is one.

@@ -115,7 +115,8 @@ void draw_page(const Page& page, const PictureFile& picture) {
     write_raw(files.back()->path(), item.image);
     const double dx = item.box.width() / item.image.width, dy = item.box.height() / item.image.height;
     plot += fmt::format(
-        "{} binary array=({},{}) dx={:.9g} dy={:.9g} origin=({:.9g},{:.9g}) format='%uchar' using 1:2:3 with rgbimage, ",
+        "{} binary array=({},{}) dx={:.9g} dy={:.9g} origin=({:.9g},{:.9g}) format='%uchar' using 1:2:3 with "
+        "rgbimage, ",
         gnuplot_quoted(files.back()->path().string()), item.image.width, item.image.height, dx, dy,
         item.box.left + 0.5 * dx, item.box.bottom + 0.5 * dy);
   }

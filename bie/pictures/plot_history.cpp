@@ -101,8 +101,8 @@ struct Drawing {
   int n_curves = 0;  ///< so far
 
   [[nodiscard]] std::string line_style(std::size_t curve) const {
-    return fmt::format("with lines lw {:.3g} dashtype {} lc rgb '{}'",
-                       gnuplot_line_width(format, curve_width, pixels), dashes[curve], curve_colours[curve]);
+    return fmt::format("with lines lw {:.3g} dashtype {} lc rgb '{}'", gnuplot_line_width(format, curve_width, pixels),
+                       dashes[curve], curve_colours[curve]);
   }
 
   static constexpr double pixels = 4.0;
@@ -145,7 +145,8 @@ std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
     for (double& value : values) value *= unit.factor;
     settings += axis_script(axis_of(values, unit.label(curve.label), 0.06), i == 0 ? "y" : "y2", curve_colours[i]);
     constexpr double half_turn = 90.0;
-    data += data_block(drawing.n_curves, drawing.times, values, curve.label.starts_with("inclination") ? half_turn : 0.0);
+    data +=
+        data_block(drawing.n_curves, drawing.times, values, curve.label.starts_with("inclination") ? half_turn : 0.0);
     plot += fmt::format("{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
                         drawing.line_style(i), i == 0 ? "x1y1" : "x1y2");
   }
@@ -164,8 +165,7 @@ std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std:
   }
   constexpr double shown_powers = 9.0, fewest_powers = 2.0;
   const double upper = std::ceil(std::log10(most) + 1e-9);
-  const double lower =
-      std::clamp(std::floor(std::log10(least)), upper - shown_powers, upper - fewest_powers);
+  const double lower = std::clamp(std::floor(std::log10(least)), upper - shown_powers, upper - fewest_powers);
   std::vector<std::string> places;
   Axis axis{std::pow(10.0, lower), std::pow(10.0, upper), {}, label, {}};
   for (double power = upper; power >= lower; power -= upper - lower > 5.0 ? 2.0 : 1.0) {
@@ -224,12 +224,13 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
     const double left = panel_width * static_cast<double>(i % static_cast<std::size_t>(columns));
     const double top = height - panel_height * static_cast<double>(i / static_cast<std::size_t>(columns));
     script += fmt::format(
-        "set lmargin at screen {:.5f}; set rmargin at screen {:.5f}; set bmargin at screen {:.5f}; set tmargin at screen "
+        "set lmargin at screen {:.5f}; set rmargin at screen {:.5f}; set bmargin at screen {:.5f}; set tmargin at "
+        "screen "
         "{:.5f}\n",
         (left + panel_left) / width, (left + panel_width - panel_right) / width,
         (top - panel_height + panel_bottom) / height, (top - panel_top) / height);
     script += panels[i].common_axis.empty() ? panel_of_own_axes(panels[i], drawing)
-                                           : panel_of_common_axis(panels[i], drawing);
+                                            : panel_of_common_axis(panels[i], drawing);
   }
   run_gnuplot(script + "unset multiplot\n", target.path.parent_path());
   return true;

@@ -90,8 +90,7 @@ void add_cut(Page& page, const Shape& shape, const Matrix3& view, const Box& cel
   const double x = 0.5 * (cell.left + cell.right), y = 0.5 * (cell.bottom + cell.top);
   const Matrix cut = scale * cut_lines(shape.mesh, view);
   for (Index i = 0; i < cut.rows(); ++i) {
-    page.lines.push_back(
-        {{{x + cut(i, 0), y + cut(i, 1)}, {x + cut(i, 2), y + cut(i, 3)}}, 1.0, cut_colour, false});
+    page.lines.push_back({{{x + cut(i, 0), y + cut(i, 1)}, {x + cut(i, 2), y + cut(i, 3)}}, 1.0, cut_colour, false});
   }
 }
 
@@ -160,8 +159,8 @@ PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
     result.times.push_back(picture.shapes.back().time);
     if (!choice.note.empty()) result.notes.push_back(choice.note);
   }
-  picture.view = task.style.view.empty() ? default_view(scene, picture.shapes.front().gyration)
-                                         : parse_view(task.style.view);
+  picture.view =
+      task.style.view.empty() ? default_view(scene, picture.shapes.front().gyration) : parse_view(task.style.view);
   picture.times = time_texts(picture.shapes, scene.units);
   picture.length = shown_unit(scene.units, "length", std::sqrt(picture.shapes.front().gyration.trace()));
   colour_shapes(picture, field, scene.units);

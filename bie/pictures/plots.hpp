@@ -14,10 +14,10 @@ namespace vehd {
 
 /// How shapes are shown.
 struct ShapesStyle {
-  std::string view{};               ///< see parse_view; empty: across the plane of flow and field
+  std::string view{};                 ///< see parse_view; empty: across the plane of flow and field
   std::optional<ShapeField> field{};  ///< of the colours; absent: default_field
-  bool section = false;             ///< without the half towards the eye
-  double width = 510.0;             ///< of the page in points, at most
+  bool section = false;               ///< without the half towards the eye
+  double width = 510.0;               ///< of the page in points, at most
 };
 
 /// Which pictures are drawn, and where they go.
@@ -32,7 +32,7 @@ struct PlotTask {
 /// What plot_run has drawn.
 struct PlotResult {
   std::vector<std::filesystem::path> pictures;
-  std::vector<double> times;        ///< of the shapes
+  std::vector<double> times;         ///< of the shapes
   std::vector<std::string> notes{};  ///< times that were asked for and have no snapshot of their own
 };
 

@@ -64,8 +64,7 @@ class Canvas {
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 
-  void triangle(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c,
-                const ColourMap& colours) {
+  void triangle(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c, const ColourMap& colours) {
     const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if (area == 0.0) return;
     const int left = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x}))));

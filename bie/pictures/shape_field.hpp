@@ -32,9 +32,9 @@ void require_field(const RunReader& run, std::size_t snapshot, ShapeField field)
 struct Shape {
   double time = 0.0;
   RenderMesh mesh;
-  Vector values;      ///< of the field, in numbers of the scene; zero without one
-  Vector weights;     ///< area that each value stands for
-  Matrix3 gyration;   ///< mean of x x^T over the area
+  Vector values;     ///< of the field, in numbers of the scene; zero without one
+  Vector weights;    ///< area that each value stands for
+  Matrix3 gyration;  ///< mean of x x^T over the area
 };
 
 /// @param grid_order  degree of the grid that is drawn, at least that of the snapshot

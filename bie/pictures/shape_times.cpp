@@ -41,7 +41,8 @@ Vector outline_of(const RunReader& run, std::size_t snapshot) {
 
 std::vector<std::size_t> spread_by_change(const std::vector<double>& times, const Matrix& rows, std::size_t most) {
   const std::size_t n = times.size();
-  if (n <= 2 || most <= 1) return n == 1 || most <= 1 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, n - 1};
+  if (n <= 2 || most <= 1)
+    return n == 1 || most <= 1 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, n - 1};
   std::vector<double> way(n, 0.0);
   for (std::size_t i = 1; i < n; ++i) {
     way[i] = way[i - 1] + (rows.row(static_cast<Index>(i)) - rows.row(static_cast<Index>(i) - 1)).norm();

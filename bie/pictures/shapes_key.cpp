@@ -116,7 +116,7 @@ void draw_profile(Page& page, const Plane& centre, const FlowScene& flow, const 
 /// Arrows around a circle in the plane of the picture; false if nothing moves there within the plane.
 bool draw_ring(Page& page, const Plane& centre, const FlowScene& flow, const Matrix3& view) {
   constexpr int n = 8;
-  constexpr double radius = 12.0, longest = 9.5;
+  constexpr double radius = 13.0, longest = 9.0;
   std::array<Plane, n> places, arrows;
   double fastest = 0.0, fastest_seen = 0.0;
   for (int i = 0; i < n; ++i) {
@@ -131,9 +131,9 @@ bool draw_ring(Page& page, const Plane& centre, const FlowScene& flow, const Mat
   for (int i = 0; i < n; ++i) {
     const Plane arrow = longest / fastest_seen * arrows[i];
     if (arrow.norm() < 0.2 * longest) continue;
-    // Inward arrows end on the circle, outward ones begin there.
-    const bool inward = arrow.dot(places[i]) < -1e-9;
-    const Plane start = centre + radius * places[i] - (inward ? arrow : Plane(Plane::Zero()));
+    // Inward arrows end on the circle, outward ones begin there, those along it have their middle there.
+    const double outward = arrow.dot(places[i]) / arrow.norm();
+    const Plane start = centre + radius * places[i] - 0.5 * (1.0 - outward) * arrow;
     add_arrow(page, start, start + arrow, flow_colour);
   }
   return true;
@@ -158,8 +158,7 @@ void draw_scale_bar(Page& page, const Box& box, const KeyTask& task) {
   const double length = number / task.length.factor * task.scale;
   const Plane middle = middle_of(box);
   const double y = box.bottom + 7.0;
-  page.lines.push_back(
-      {{{middle.x() - 0.5 * length, y}, {middle.x() + 0.5 * length, y}}, thickness, "#000000", false});
+  page.lines.push_back({{{middle.x() - 0.5 * length, y}, {middle.x() + 0.5 * length, y}}, thickness, "#000000", false});
   const std::string text = distinct_texts({number}).front();
   page.texts.push_back({task.length.unit.empty() ? text : text + " " + task.length.unit,
                         {middle.x(), y + 9.0},
@@ -168,9 +167,7 @@ void draw_scale_bar(Page& page, const Box& box, const KeyTask& task) {
                         "#000000"});
 }
 
-bool alternates(const std::optional<WaveformScene>& waveform) {
-  return waveform && waveform->kind == WaveformKind::ac;
-}
+bool alternates(const std::optional<WaveformScene>& waveform) { return waveform && waveform->kind == WaveformKind::ac; }
 
 }  // namespace
 

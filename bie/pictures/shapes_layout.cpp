@@ -35,8 +35,8 @@ struct Arrangement {
       largest = std::max({largest, 2.0 * half_width, 2.0 * half_height});
     }
     const double across = content.page_width - 2.0 * margin - beside() - static_cast<double>(columns()) * gap;
-    const double down = tallest * content.page_width - 2.0 * margin - key_row() -
-                        static_cast<double>(n_rows) * shape_label_height;
+    const double down =
+        tallest * content.page_width - 2.0 * margin - key_row() - static_cast<double>(n_rows) * shape_label_height;
     scale = std::min({across / sum_of(widths), down / sum_of(heights), largest_cell / largest});
   }
 
@@ -71,7 +71,8 @@ struct Arrangement {
     const bool fits = 2.0 * margin + beside() + shapes_width() <= content.page_width + rounding &&
                       (!key_below || key_row_width() + 2.0 * margin <= content.page_width);
     // A key that is higher than the shapes leaves the page empty beside it.
-    const double rows_filled = static_cast<double>(content.half_extents.size()) / static_cast<double>(n_rows * columns());
+    const double rows_filled =
+        static_cast<double>(content.half_extents.size()) / static_cast<double>(n_rows * columns());
     const double share = key_below ? 1.0 : std::min(1.0, shapes_height() / std::max(key_height(), 1.0));
     return scale * (least_filled + (1.0 - least_filled) * share) * rows_filled *
            std::pow(worth_a_row, 1.0 - static_cast<double>(n_rows)) * (fits ? 1.0 : too_wide);

@@ -27,7 +27,7 @@ struct Prefix {
   std::string_view letter;
   double size;
 };
-constexpr std::array prefixes = {Prefix{"G", 1e9},  Prefix{"M", 1e6},   Prefix{"k", 1e3},  Prefix{"", 1.0},
+constexpr std::array prefixes = {Prefix{"G", 1e9},  Prefix{"M", 1e6},  Prefix{"k", 1e3},  Prefix{"", 1.0},
                                  Prefix{"m", 1e-3}, Prefix{"µ", 1e-6}, Prefix{"n", 1e-9}, Prefix{"p", 1e-12}};
 
 }  // namespace
@@ -118,7 +118,8 @@ ShownUnit shown_unit(const std::optional<UnitsScene>& units, std::string_view di
         std::find_if(prefixes.rbegin(), prefixes.rend() - 1, [&](const Prefix& p) { return size * p.size >= least; });
     return {scale * prefix->size, fmt::format("1/{}{}", prefix->letter, symbol.substr(2))};
   }
-  const auto prefix = std::find_if(prefixes.begin(), prefixes.end() - 1, [&](const Prefix& p) { return size >= p.size; });
+  const auto prefix =
+      std::find_if(prefixes.begin(), prefixes.end() - 1, [&](const Prefix& p) { return size >= p.size; });
   return {scale / prefix->size, std::string(prefix->letter) + symbol};
 }
 

@@ -35,8 +35,8 @@ struct ShownUnit {
   [[nodiscard]] std::string label(std::string_view name) const;
 };
 
-/// The unit of a dimension, by its name in scene/units.hpp, with the prefix that suits a largest magnitude in numbers of
-/// the scene; without one where the scene does not say what 1 is.
+/// The unit of a dimension, by its name in scene/units.hpp, with the prefix that suits a largest magnitude in numbers
+/// of the scene; without one where the scene does not say what 1 is.
 ShownUnit shown_unit(const std::optional<UnitsScene>& units, std::string_view dimension, double largest);
 
 }  // namespace vehd

@@ -37,8 +37,8 @@ std::vector<Word> words_of(const std::string& pdf) {
   const std::regex pattern("<word xMin=\"([^\"]+)\" yMin=\"([^\"]+)\" xMax=\"([^\"]+)\" yMax=\"([^\"]+)\">([^<]*)<");
   std::vector<Word> words;
   for (std::sregex_iterator word(result.output.begin(), result.output.end(), pattern), end; word != end; ++word) {
-    words.push_back({(*word)[5], std::stod((*word)[1]), std::stod((*word)[2]), std::stod((*word)[3]),
-                     std::stod((*word)[4])});
+    words.push_back(
+        {(*word)[5], std::stod((*word)[1]), std::stod((*word)[2]), std::stod((*word)[3]), std::stod((*word)[4])});
   }
   return words;
 }
@@ -84,8 +84,8 @@ BOOST_FIXTURE_TEST_CASE(no_word_of_a_picture_lies_over_another, PlottedRun) {
 BOOST_FIXTURE_TEST_CASE(files_are_of_the_kind_that_was_asked_for, PlottedRun) {
   BOOST_TEST(plot({"-o", directory / "one/shape.svg"}).exit_code == 0);
   const std::string svg = directory / "one/shape.svg";
-  const ProgramResult parsed =
-      run_command({"python3", "-c", "import sys, xml.etree.ElementTree as t; print(t.parse(sys.argv[1]).getroot().tag)", svg});
+  const ProgramResult parsed = run_command(
+      {"python3", "-c", "import sys, xml.etree.ElementTree as t; print(t.parse(sys.argv[1]).getroot().tag)", svg});
   BOOST_TEST(parsed.exit_code == 0, parsed.errors);
   BOOST_TEST(parsed.output == "{http://www.w3.org/2000/svg}svg\n");
   // Alone in its folder: pictures are within it, not beside it.
@@ -94,7 +94,8 @@ BOOST_FIXTURE_TEST_CASE(files_are_of_the_kind_that_was_asked_for, PlottedRun) {
 
   BOOST_TEST(plot({"-o", directory / "one/shape.pdf"}).exit_code == 0);
   BOOST_TEST(file_text(directory / "one/shape.pdf").starts_with("%PDF-"));
-  BOOST_TEST(run_command({"pdfinfo", directory / "one/shape.pdf"}).output.find("Pages:           1") != std::string::npos);
+  BOOST_TEST(run_command({"pdfinfo", directory / "one/shape.pdf"}).output.find("Pages:           1") !=
+             std::string::npos);
   BOOST_TEST(plot({"-o", directory / "many", "--format", "svg"}).exit_code == 0);
   BOOST_TEST(std::filesystem::exists(directory / "many/history.svg"));
 
@@ -114,7 +115,8 @@ BOOST_FIXTURE_TEST_CASE(times_are_chosen_from_the_first_to_the_last, PlottedRun)
 
 BOOST_FIXTURE_TEST_CASE(every_field_and_view_is_drawn_and_others_are_refused, PlottedRun) {
   for (const char* field : {"V_m", "q", "tension", "force", "curvature", "none"}) {
-    const ProgramResult result = plot({"-o", directory / "shapes.png", "--field", field, "--view", "1,-1,0.5", "--times", "3"});
+    const ProgramResult result =
+        plot({"-o", directory / "shapes.png", "--field", field, "--view", "1,-1,0.5", "--times", "3"});
     BOOST_TEST(result.exit_code == 0, field + result.errors);
   }
   const ProgramResult view = plot({"--view", "sideways"});

@@ -36,7 +36,8 @@ BOOST_AUTO_TEST_SUITE(plot_axes)
 BOOST_AUTO_TEST_CASE(notes_meet_neither_each_other_nor_points_nor_the_frame) {
   constexpr double font = 6.5;
   BenchPanel panel = crowded();
-  panel.slopes = {slope_beside(panel.curves[0], -1.0, "N^{-1}", 0.5), slope_beside(panel.curves[1], -2.0, "N^{-2}", 0.5)};
+  panel.slopes = {slope_beside(panel.curves[0], -1.0, "N^{-1}", 0.5),
+                  slope_beside(panel.curves[1], -2.0, "N^{-2}", 0.5)};
   const PlotAxes axes = axes_of(panel, 186.0, 165.0);
   const std::vector<PlacedNote> notes = place_notes(panel, axes, font);
   // Most have found a place.

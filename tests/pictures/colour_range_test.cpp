@@ -53,7 +53,8 @@ BOOST_AUTO_TEST_CASE(constants_have_a_range_too) {
 }
 
 BOOST_AUTO_TEST_CASE(every_colour_bar_has_three_ticks_and_texts_that_keep_apart) {
-  for (const auto& [lower, upper] : {std::pair{-0.24, 0.24}, {-12.7, 3.1e3}, {1e-9, 2.7e-9}, {-1.003, -0.998}, {0.0, 5.0}}) {
+  for (const auto& [lower, upper] :
+       {std::pair{-0.24, 0.24}, {-12.7, 3.1e3}, {1e-9, 2.7e-9}, {-1.003, -0.998}, {0.0, 5.0}}) {
     const ColourBar bar = colour_bar({lower, upper}, "tension λ", "µN/m");
     BOOST_TEST(bar.ticks.size() >= 3);
     Page page;

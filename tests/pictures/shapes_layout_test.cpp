@@ -1,10 +1,10 @@
+#include "bie/pictures/shapes_layout.hpp"
+
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "bie/pictures/shapes_layout.hpp"
 
 using namespace vehd;
 
@@ -31,9 +31,11 @@ Box shrunk(const Box& box) { return {box.left + 1e-6, box.bottom + 1e-6, box.rig
 BOOST_AUTO_TEST_SUITE(shapes_layout)
 
 BOOST_AUTO_TEST_CASE(no_part_meets_another_or_leaves_the_page) {
-  const std::vector<std::vector<double>> keys = {{}, {50.0, 26.0}, {50.0, 46.0, 62.0, 26.0}, {50.0, 46.0, 46.0, 62.0, 26.0}};
+  const std::vector<std::vector<double>> keys = {
+      {}, {50.0, 26.0}, {50.0, 46.0, 62.0, 26.0}, {50.0, 46.0, 46.0, 62.0, 26.0}};
   for (std::size_t n_shapes = 1; n_shapes <= 6; ++n_shapes) {
-    for (const auto& [half_width, half_height] : {std::pair{1.0, 1.0}, {5.0, 1.0}, {1.0, 5.0}, {1e-6, 1.2e-6}, {20.0, 0.1}}) {
+    for (const auto& [half_width, half_height] :
+         {std::pair{1.0, 1.0}, {5.0, 1.0}, {1.0, 5.0}, {1e-6, 1.2e-6}, {20.0, 0.1}}) {
       for (const double label_width : {20.0, 95.0}) {
         for (const double bar_width : {0.0, 45.0}) {
           for (const auto& key : keys) {

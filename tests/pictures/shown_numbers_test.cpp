@@ -11,7 +11,8 @@ BOOST_AUTO_TEST_SUITE(shown_numbers)
 
 BOOST_AUTO_TEST_CASE(every_scale_has_three_round_ticks_at_least) {
   for (const double size : {1e-12, 3.3e-7, 0.017, 0.5, 1.0, 7.7, 1234.5, 8.1e11}) {
-    for (const auto& [lower, upper] : {std::pair{-1.0, 1.0}, {0.0, 1.0}, {-5.03, -4.96}, {0.9999, 1.0001}, {-1.0, 17.0}}) {
+    for (const auto& [lower, upper] :
+         {std::pair{-1.0, 1.0}, {0.0, 1.0}, {-5.03, -4.96}, {0.9999, 1.0001}, {-1.0, 17.0}}) {
       const std::vector<double> ticks = round_ticks(size * lower, size * upper);
       BOOST_TEST(ticks.size() >= 3);
       BOOST_TEST(ticks.size() <= 12);
