@@ -91,16 +91,16 @@ HistoryPanel extent_panel(const HistoryTable& history) {
 
 }  // namespace
 
-std::vector<double> aspect_ratio_of(const HistoryTable& history) {
-  if (auto column = column_of(history, "aspect_ratio")) return *column;
+HistoryCurve aspect_curve(const HistoryTable& history) {
+  if (auto column = column_of(history, "aspect_ratio")) return {"aspect ratio", "1", std::move(*column)};
+  HistoryCurve curve{"longest / shortest extent", "1", {}};
   const auto x = column_of(history, "extent_x"), y = column_of(history, "extent_y"), z = column_of(history, "extent_z");
-  if (!x || !y || !z) return {};
-  std::vector<double> ratio;
+  if (!x || !y || !z) return curve;
   for (std::size_t i = 0; i < x->size(); ++i) {
     const auto [least, most] = std::minmax({(*x)[i], (*y)[i], (*z)[i]});
-    ratio.push_back(most / least);
+    curve.values.push_back(most / least);
   }
-  return ratio;
+  return curve;
 }
 
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
@@ -111,8 +111,7 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
     panels.add(
         {{"Vm_north", "V_m at the north pole", "potential"}, {"q_north", "q at the north pole", "potential/length"}});
   }
-  const HistoryCurve aspect{"aspect ratio", "1", aspect_ratio_of(history)};
-  HistoryPanel shape{{aspect}};
+  HistoryPanel shape{{aspect_curve(history)}};
   const auto inclination = column_of(history, "inclination_deg");
   if (scene.flow && inclination) {
     shape.curves.insert(shape.curves.begin(), {"inclination (degrees)", "1", *inclination});

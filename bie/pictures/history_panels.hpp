@@ -28,7 +28,8 @@ struct HistoryPanel {
 /// for them. Curves that have no two numbers are left out, and panels without curves.
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history);
 
-/// Longest over shortest extent along the axes, row by row; the column "aspect_ratio" where there is one.
-std::vector<double> aspect_ratio_of(const HistoryTable& history);
+/// The column "aspect_ratio"; where there is none the longest over the shortest extent along the axes x, y and z, which
+/// is called so: of an inclined shape it is something else.
+HistoryCurve aspect_curve(const HistoryTable& history);
 
 }  // namespace vehd
