@@ -46,7 +46,8 @@ BOOST_AUTO_TEST_CASE(columns_without_numbers_are_left_out) {
 }
 
 BOOST_AUTO_TEST_CASE(drifts_are_shown_where_they_matter) {
-  const std::string start = "0,0,15,1,nan,nan,2,2,4,90,0,0,0\n1,1,14,1,nan,nan,2,2,3,90,";
+  const std::string start =
+      "0,0,15,1,nan,nan,2,2,4,90,0,0,0\n1,1,14,1,nan,nan,2,2,3,90,1e-9,1e-9,1e-9\n2,1,14,1,nan,nan,2,2,3,90,";
   BOOST_TEST(!shows(panels(Scene(), start + "1e-9,1e-9,1e-4\n"), "area"));
   BOOST_TEST(shows(panels(Scene(), start + "-2e-6,1e-9,1e-4\n"), "area"));
   BOOST_TEST(shows(panels(Scene(), start + "1e-9,1e-9,0.02\n"), "local strain"));
