@@ -147,6 +147,7 @@ std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader
 }
 
 PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
+  require_run(task.paths);
   const RunReader run(task.paths.snapshots());
   const Scene scene = read_scene(task.paths.scene());
   const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);

@@ -7,10 +7,14 @@
 
 namespace vehd {
 
-PlotResult plot_run(const PlotTask& task) {
-  if (!std::filesystem::exists(task.paths.snapshots())) {
-    throw InputError(fmt::format("{}: holds no run (no run.h5)", task.paths.directory.string()));
+void require_run(const RunPaths& paths) {
+  if (!std::filesystem::exists(paths.snapshots())) {
+    throw InputError(fmt::format("{}: holds no run (no run.h5)", paths.directory.string()));
   }
+}
+
+PlotResult plot_run(const PlotTask& task) {
+  require_run(task.paths);
   make_directory(task.output);
   const auto file = [&](const char* stem) {
     return PictureFile{task.output / fmt::format("{}.{}", stem, name_of(task.format)), task.format};

@@ -36,6 +36,9 @@ struct PlotResult {
   std::vector<std::string> notes{};  ///< times that were asked for and have no snapshot of their own
 };
 
+/// @throws InputError if the directory holds no run
+void require_run(const RunPaths& paths);
+
 /// Draws the pictures of a run through gnuplot, OUTPUT/shapes.FORMAT and OUTPUT/history.FORMAT; needs no display.
 /// @throws InputError if the run cannot be read or gnuplot is missing
 PlotResult plot_run(const PlotTask& task);
