@@ -63,6 +63,16 @@ BOOST_FIXTURE_TEST_CASE(threads_are_bars, Tables) {
   BOOST_TEST(drawn[0].bars.notes == (std::vector<std::string>{"× 2.00", "× 1.25"}));
 }
 
+BOOST_FIXTURE_TEST_CASE(names_of_methods_may_have_commas, Tables) {
+  const auto drawn = panels("methods",
+                            "method,label,unknowns,seconds,error_q,error_force\n"
+                            "fem_mesh,\"FEM, mesh refined, k = 2\",1000,1,1e-2,2e-2\n"
+                            "fem_mesh,\"FEM, mesh refined, k = 2\",9000,9,1e-3,2e-3\n");
+  BOOST_REQUIRE(drawn.size() == 2);
+  BOOST_TEST(drawn[1].curves.front().label == "FEM, mesh refined, k = 2: q");
+  BOOST_TEST(drawn[1].slopes.front().exponent == -0.75);
+}
+
 BOOST_FIXTURE_TEST_CASE(pictures_are_drawn_again_from_tables_alone, Tables) {
   write_text(directory / "time.csv", time_table);
   write_text(directory / "scenes.csv", "scene\na\n");
