@@ -103,6 +103,8 @@ if(STEP MATCHES "^(test|sanitize)$")
   need_program(xauth xauth)
   need_program(help2man help2man)
   need_program(zsh zsh)
+  # They read the words of pictures back.
+  need_program(poppler-utils pdftotext)
 endif()
 if(STEP STREQUAL "package" OR (STEP STREQUAL "test" AND VEHD_ARCHITECTURE STREQUAL "levels"))
   need_program(help2man help2man)

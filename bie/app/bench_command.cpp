@@ -8,6 +8,7 @@
 #include "bie/bench/all.hpp"
 #include "bie/bench/methods.hpp"
 #include "bie/bench/parts.hpp"
+#include "bie/bench/redraw.hpp"
 #include "bie/bench/scenes.hpp"
 #include "bie/bench/space.hpp"
 #include "bie/bench/stability.hpp"
@@ -228,6 +229,31 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
   });
 }
 
+void add_redraw(CLI::App& bench, ExitCode& exit_code) {
+  CLI::App* command = bench.add_subcommand("redraw", "Draw the pictures again from what earlier benches have left");
+  struct RedrawOptions {
+    std::string directory = "out/bench", docs;
+    CommonOptions common;
+  };
+  const auto options = std::make_shared<RedrawOptions>();
+  command->add_option("DIR", options->directory, "Folder of their tables (NAME.csv); pictures lie beside them")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
+  command->add_option("--docs", options->docs, "Folder of pages whose pictures are renewed as well")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    nlohmann::json result;
+    for (const auto& picture : redraw(options->directory, options->docs)) {
+      fmt::print("{}\n", picture.string());
+      result["pictures"].push_back(picture.string());
+    }
+    write_json(options->common, result);
+    exit_code = ExitCode::done;
+  });
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& program, ExitCode& exit_code) {
@@ -245,6 +271,7 @@ void add_bench_command(CLI::App& program, ExitCode& exit_code) {
   add_methods(*command, exit_code);
   add_stability(*command, exit_code);
   add_all(*command, exit_code);
+  add_redraw(*command, exit_code);
 }
 
 }  // namespace vehd

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
 #include "bie/app/commands.hpp"
 #include "bie/pictures/plots.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -11,22 +14,44 @@ namespace {
 struct PlotOptions {
   std::string directory;
   std::string output;
+  std::string format;
+  std::string field;
   std::vector<double> times;
+  ShapesStyle style;
   CommonOptions common;
 };
 
-ExitCode plot(const PlotOptions& options) {
+template <typename Enumeration, typename Names>
+Enumeration named(const std::string& name, const Names& names) {
+  return static_cast<Enumeration>(std::ranges::find(names, name) - names.begin());
+}
+
+PlotTask task_of(const PlotOptions& options) {
   const RunPaths paths{options.directory};
-  const PlotTask task{paths, options.times,
-                      options.output.empty() ? paths.plots() : std::filesystem::path(options.output)};
-  const auto pictures = plot_run(task);
-  nlohmann::json result;
-  const RunReader run(paths.snapshots());
-  for (const SnapshotChoice& shape : shapes_to_plot(task, run)) {
-    if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
-    result["times"].push_back(run.times()[shape.snapshot]);
+  PlotTask task{paths, options.times, options.output.empty() ? paths.plots() : std::filesystem::path(options.output)};
+  task.style = options.style;
+  if (!options.field.empty()) task.style.field = named<ShapeField>(options.field, shape_field_names);
+  if (!options.format.empty()) task.format = named<PictureFormat>(options.format, picture_formats);
+  return task;
+}
+
+/// The shapes alone, as a file of that name.
+PlotResult plot_file(const PlotOptions& options, const PlotTask& task, PictureFormat format) {
+  if (!options.format.empty() && task.format != format) {
+    throw InputError(fmt::format("--format {}: -o {} is of another", options.format, options.output));
   }
-  for (const auto& picture : pictures) {
+  const auto folder = task.output.parent_path();
+  if (!folder.empty()) make_directory(folder);
+  return plot_shapes(task, {task.output, format});
+}
+
+ExitCode plot(const PlotOptions& options) {
+  const PlotTask task = task_of(options);
+  const auto format = format_of(options.output);
+  const PlotResult drawn = format ? plot_file(options, task, *format) : plot_run(task);
+  for (const std::string& note : drawn.notes) fmt::print(stderr, "{}\n", note);
+  nlohmann::json result{{"times", drawn.times}};
+  for (const auto& picture : drawn.pictures) {
     fmt::print("{}\n", picture.string());
     result["pictures"].push_back(picture.string());
   }
@@ -37,17 +62,38 @@ ExitCode plot(const PlotOptions& options) {
 }  // namespace
 
 void add_plot_command(CLI::App& program, ExitCode& exit_code) {
-  CLI::App* command = program.add_subcommand("plot", "Draw pictures (PNG) of a run");
+  CLI::App* command = program.add_subcommand("plot", "Draw pictures of a run: shapes, and histories against time");
   const auto options = std::make_shared<PlotOptions>();
   command->add_option("DIR", options->directory, "Directory of the run")->required();
-  command->add_option("-o,--output", options->output, "Directory for the pictures; DIR/plots if not given")
-      ->type_name("DIR");
   command
-      ->add_option("--times", options->times,
-                   "Times of the shapes, at most 6, or evenly spread; the nearest snapshots are taken")
+      ->add_option("-o,--output", options->output,
+                   "Directory for the pictures, DIR/plots if not given; or a file of shapes, NAME.pdf for example")
+      ->type_name("PLACE");
+  command
+      ->add_option(
+          "--times", options->times,
+          fmt::format("Times of the shapes, at most {}, the nearest snapshots are taken; without them as many, "
+                      "chosen by how much the shape changes",
+                      most_shapes))
       ->delimiter(',')
       ->type_name("T,T,...")
-      ->expected(1, 6);
+      ->expected(1, most_shapes);
+  command
+      ->add_option("--view", options->style.view,
+                   "Where one looks from: along x, y or z, or a direction towards the eye as 1,1,0.5; across the plane "
+                   "of flow and field if not given")
+      ->type_name("VIEW");
+  command
+      ->add_option("--field", options->field,
+                   "Colours of the shapes; V_m, without it the tension, if not given; force: its magnitude")
+      ->type_name("FIELD")
+      ->check(CLI::IsMember(std::vector<std::string>(shape_field_names.begin(), shape_field_names.end())));
+  command->add_flag("--section", options->style.section,
+                    "Leave out the half towards the eye: the cut and the inside of the membrane show");
+  command->add_option("--format", options->format, "Of the pictures; png if not given")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember(std::vector<std::string>(picture_formats.begin(), picture_formats.end())));
+  command->footer("See docs/pictures.md.");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] { exit_code = plot(*options); });
 }

@@ -55,7 +55,9 @@ void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
 /// A missing picture must not spoil a finished run.
 void plot_if_possible(const RunPaths& paths) {
   try {
-    for (const auto& picture : plot_run({paths, {}, paths.plots()})) fmt::print("picture: {}\n", picture.string());
+    for (const auto& picture : plot_run({paths, {}, paths.plots()}).pictures) {
+      fmt::print("picture: {}\n", picture.string());
+    }
   } catch (const std::exception& error) {
     spdlog::warn("no pictures: {}", error.what());
   }

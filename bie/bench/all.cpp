@@ -174,8 +174,7 @@ class AllBenches {
                        {"order", "highest degree"},
                        {"error_over_tolerance", "error/tolerance", "{:.2f}"},
                        {"seconds", "seconds", "{:.2g}", true},
-                       {"predicted", "predicted", "{:.2g}"}}}},
-                    {}};
+                       {"predicted", "predicted", "{:.2g}"}}}}};
     for (const fs::path& file : scenes_) {
       observer_.section("tolerances: " + file.filename().string());
       const Affordable asked = affordable(read_scene(file));
@@ -199,18 +198,6 @@ class AllBenches {
         if (!asked.costs.empty()) cells.back() = asked.costs[row].seconds;
         all.tables.front().rows.push_back(std::move(cells));
       }
-    }
-    all.panels = {
-        {.x_label = "seconds", .y_label = "error over tolerance", .curves = {}, .key_place = "outside right top"}};
-    for (std::size_t i = 0; i < scenes_.size(); ++i) {
-      const std::string name = scenes_[i].filename().string();
-      all.panels.front().curves.push_back({.label = name,
-                                           .x = "seconds",
-                                           .y = "error_over_tolerance",
-                                           .key = "scene",
-                                           .value = name,
-                                           .note = "tolerance",
-                                           .colour = static_cast<int>(i)});
     }
     keep(all);
   }

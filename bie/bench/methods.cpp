@@ -131,24 +131,6 @@ std::vector<BenchCell> row_of(const MethodLevel& level) {
           level.force_max};
 }
 
-BenchPanel panel_of(const std::string& column, const std::string& label) {
-  BenchPanel panel{label, "relative error, L2 over the membrane", {}};
-  int colour = 0;
-  for (const MethodCurve& curve : {bie, fem_degree, fem_mesh}) {
-    for (const bool force : {false, true}) {
-      panel.curves.push_back({.label = curve.label + (force ? ": f_E" : ": q"),
-                              .x = column,
-                              .y = force ? "error_force" : "error_q",
-                              .key = "method",
-                              .value = curve.name,
-                              .colour = colour,
-                              .dashed = force});
-    }
-    ++colour;
-  }
-  return panel;
-}
-
 }  // namespace
 
 BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder, BenchObserver& observer) {
@@ -160,7 +142,7 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
 
   observer.note(
       fmt::format("Example 1 on shape (33), seconds of one core, up to {} repeats; errors: relative L2", task.repeats));
-  BenchResult result{"methods", machine_record(), task.repeats, {}, {empty_methods_table()}, {}};
+  BenchResult result{"methods", machine_record(), task.repeats, {}, {empty_methods_table()}};
   BenchTable& table = result.tables.front();
   BenchTasks tasks(static_cast<int>(plan.orders.size() + plan.element_degree.size() + plan.cells_per_edge.size() + 1),
                    observer);
@@ -195,10 +177,6 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
                   {"truncation_radius", radius},
                   {"truncation_radius_second", fem.outer_radius},
                   {"truncation_change_q", change}};
-  result.panels = {panel_of("seconds", "seconds of one core"), panel_of("unknowns", "unknowns")};
-  // Only finite elements have that many unknowns, and none of them so small an error: there the second panel is empty.
-  result.panels.front().key_place.clear();
-  result.panels.back().key_place = "bottom right";
   return result;
 }
 

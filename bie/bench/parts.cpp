@@ -66,25 +66,6 @@ BenchTable growth_table(const std::vector<std::string>& parts, const std::map<st
   return table;
 }
 
-std::vector<BenchPanel> panels_of(const std::vector<std::string>& parts, const std::vector<int>& orders) {
-  const std::vector<double> ticks(orders.begin(), orders.end());
-  BenchPanel seconds{
-      .x_label = "degree p", .y_label = "seconds of a step", .curves = {}, .x_ticks = ticks, .key_place = "top left"};
-  BenchPanel memory{.x_label = "degree p", .y_label = "memory, bytes", .curves = {}, .x_ticks = ticks, .key_place = ""};
-  int colour = 0;
-  for (const std::string& part : parts) {
-    const bool whole = part == "step";
-    seconds.curves.push_back(
-        {.label = part, .x = "order", .y = "seconds_" + key_of(part), .colour = colour, .dashed = !whole});
-    if (part != "other") {
-      memory.curves.push_back(
-          {.label = part, .x = "order", .y = "bytes_" + key_of(part), .colour = colour, .dashed = !whole});
-    }
-    ++colour;
-  }
-  return {seconds, memory};
-}
-
 }  // namespace
 
 BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer) {
@@ -92,7 +73,7 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
   require_ascending("--degrees", orders);
   const MachineRecord machine = machine_record();
   const double peak = measured_peak(machine.threads);
-  BenchResult result{"parts", machine, repeats, {}, {}, {}};
+  BenchResult result{"parts", machine, repeats, {}, {}};
   result.facts = {{"dt", *scene.numerics.dt},
                   {"time_order", scene.numerics.time_order},
                   {"peak_operations_per_second", peak},
@@ -146,7 +127,6 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
     add_row(result.tables.front(), std::move(row), observer);
   }
   result.tables.push_back(growth_table(parts, curves, peak, observer));
-  result.panels = panels_of(parts, orders);
   return result;
 }
 

@@ -6,27 +6,49 @@
 
 namespace vehd {
 
-/// Column y against column x of a CSV file.
+/// How a curve is drawn: a whole over its parts is wide and pale and lies below them, so that it hides none.
+enum class CurveKind { line, dashed, wide };
+
+/// Points joined by a line.
 struct BenchCurve {
-  std::string label;
-  std::string x, y;
-  std::string key{}, value{};  ///< only rows whose column `key` holds `value`; empty key: all rows
-  std::string note{};          ///< column that is written beside each point; empty: none
+  std::string label;  ///< in the key, once for all panels
+  std::vector<double> x, y;
+  std::vector<std::string> notes{};  ///< beside the points; empty: none
   int colour = 0;
-  bool dashed = false;
+  CurveKind kind = CurveKind::line;
 };
 
-/// Axes are logarithmic but for the x of a straight panel.
+/// A thin line y = a x^exponent, from one x to another.
+struct BenchSlope {
+  std::string label;
+  double exponent = 1.0;
+  double x_from = 1.0, x_to = 10.0;
+  double y_from = 1.0;
+};
+
+/// Groups of bars.
+struct BenchBars {
+  std::vector<std::string> groups, bars;    ///< names; those of bars are in the key
+  std::vector<std::vector<double>> values;  ///< of each group, for each bar
+  std::vector<std::string> notes;           ///< above each group
+};
+
+/// Axes are logarithmic but for the x of a straight panel and for bars.
 struct BenchPanel {
   std::string x_label, y_label;
-  std::vector<BenchCurve> curves;
+  std::vector<BenchCurve> curves{};
+  std::vector<BenchSlope> slopes{};
   bool straight_x = false;
-  std::vector<double> x_ticks{};          ///< ascending; they bound the axis; empty: gnuplot's choice
-  std::string key_place = "bottom left";  ///< in gnuplot's words; empty: no key
+  std::vector<double> x_ticks{};  ///< ascending; empty: powers of ten
+  BenchBars bars{};               ///< in place of curves
 };
 
-/// Panels side by side as a PNG. @throws InputError if gnuplot is missing or reports an error
-void draw_bench(const std::filesystem::path& csv, const std::vector<BenchPanel>& panels,
-                const std::filesystem::path& picture);
+/// A line of this exponent beside the last points of a curve, at `factor` of the last.
+BenchSlope slope_beside(const BenchCurve& curve, double exponent, const std::string& label, double factor,
+                        std::size_t n_points = 3);
+
+/// Panels side by side and the key to their right, as a PNG. @throws InputError if gnuplot is missing or reports an
+/// error
+void draw_bench(const std::vector<BenchPanel>& panels, const std::filesystem::path& picture);
 
 }  // namespace vehd

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bie/bench/redraw.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -28,9 +29,9 @@ nlohmann::ordered_json write_bench(const BenchResult& result, const BenchOutput&
     replace_file(file(i == 0 ? ".csv" : "_" + result.tables[i].name + ".csv"), csv_of(result.tables[i]));
   }
   observer.note("files: " + file(".*").string());
-  if (!output.plot || result.panels.empty()) return json;
+  if (!output.plot || result.tables.empty()) return json;
   try {
-    draw_bench(file(".csv"), result.panels, file(".png"));
+    draw_record(file(".csv"));
   } catch (const std::exception& problem) {
     observer.warn(fmt::format("no picture: {}", problem.what()));
   }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bie/bench/observer.hpp"
-#include "bie/bench/picture.hpp"
 #include "bie/bench/table.hpp"
 #include "bie/files/machine_record.hpp"
 
@@ -24,7 +23,6 @@ struct BenchResult {
   int repeats = 1;               ///< of each timing, at most
   nlohmann::ordered_json facts;  ///< what else the numbers hold for, under its keys
   std::vector<BenchTable> tables;
-  std::vector<BenchPanel> panels;  ///< of the first table
 };
 
 /// Adds a row and tells of it.
@@ -33,8 +31,8 @@ void add_row(BenchTable& table, std::vector<BenchCell> row, BenchObserver& obser
 /// The whole as JSON: name, machine, repeats, facts, and the rows of every table under its name.
 nlohmann::ordered_json json_of(const BenchResult& result);
 
-/// Writes NAME.json, NAME.csv with the first table, NAME_TABLE.csv with each further one, and NAME.png; tells where. A
-/// picture that cannot be drawn is a warning.
+/// Writes NAME.json, NAME.csv with the first table, NAME_TABLE.csv with each further one, and NAME.png, drawn from
+/// NAME.csv; tells where. A picture that cannot be drawn is a warning.
 /// @return json_of
 /// @throws OutputError
 nlohmann::ordered_json write_bench(const BenchResult& result, const BenchOutput& output, BenchObserver& observer);

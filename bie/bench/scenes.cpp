@@ -39,7 +39,7 @@ double last_number(const HistoryTable& history, const Scene& scene, std::string_
 void draw(const RunPaths& paths, const std::string& name, const std::filesystem::path& folder,
           BenchObserver& observer) {
   try {
-    for (const auto& picture : plot_run({paths, {}, paths.plots()})) {
+    for (const auto& picture : plot_run({paths, {}, paths.plots()}).pictures) {
       std::filesystem::copy_file(picture, folder / (name + "_" + picture.filename().string()),
                                  std::filesystem::copy_options::overwrite_existing);
     }
@@ -52,7 +52,7 @@ void draw(const RunPaths& paths, const std::string& name, const std::filesystem:
 
 BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const std::filesystem::path& pictures,
                          BenchObserver& observer) {
-  BenchResult result{"scenes", machine_record(), 1, {}, {empty_scenes_table()}, {}};
+  BenchResult result{"scenes", machine_record(), 1, {}, {empty_scenes_table()}};
   observer.heading(result.tables.front());
   const auto tell = [&observer](const RunStatus& status) { observer.status(status); };
   for (const auto& file : scenes) {

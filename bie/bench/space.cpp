@@ -36,7 +36,7 @@ BenchTable empty_space_table() {
 }  // namespace
 
 BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserver& observer) {
-  BenchResult result{"space", machine_record(), repeats, {}, {empty_space_table()}, {}};
+  BenchResult result{"space", machine_record(), repeats, {}, {empty_space_table()}};
   result.facts = {{"charge_problem", "Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources"},
                   {"velocity_problem", "2:1 prolate pulled along and across its axis, poles of the grid off the axis"},
                   {"seconds_are", "from the shape to the fields, tables of the degree excluded"}};
@@ -65,18 +65,6 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserv
              stokes.error, spread_of(stokes_seconds)},
             observer);
   }
-  const std::vector<BenchCurve> against_seconds{
-      {.label = "q, Example 1", .x = "seconds", .y = "error_q", .note = "order", .colour = 0},
-      {.label = "f_E, Example 1", .x = "seconds", .y = "error_force", .colour = 1},
-      {.label = "v, prolate", .x = "seconds_velocity", .y = "error_velocity", .note = "order", .colour = 2}};
-  std::vector<BenchCurve> against_degree = against_seconds;
-  for (BenchCurve& curve : against_degree) {
-    curve.x = "order";
-    curve.note.clear();
-  }
-  result.panels = {
-      {"seconds", "relative error, maximum over the nodes", against_seconds},
-      {.x_label = "degree p", .y_label = "", .curves = against_degree, .straight_x = true, .key_place = ""}};
   return result;
 }
 

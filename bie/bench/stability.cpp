@@ -123,6 +123,14 @@ std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, con
 
 }  // namespace
 
+std::filesystem::path draw_case(const RunPaths& paths, const std::filesystem::path& folder) {
+  make_directory(folder);
+  constexpr double width = 300.0;
+  const std::filesystem::path picture = folder / (paths.directory.filename().string() + ".png");
+  plot_shapes({paths, {}, folder, PictureFormat::png, {.width = width}}, {picture});
+  return picture;
+}
+
 StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption, BenchObserver& observer) {
   std::vector<StabilityCase> cases;
   for (const std::filesystem::path& path : task.scenes) {
@@ -139,8 +147,7 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
        machine_record(),
        1,
        {{"brief", task.brief}},
-       {empty_stability_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}},
-       {}}};
+       {empty_stability_table(), {"pictures", {{"case", "case", "{}"}, {"shapes", "first and last shape", "{}"}}}}}};
   BenchTable& table = outcome.result.tables.front();
   BenchTasks tasks(static_cast<int>(cases.size()), observer);
   observer.heading(table);
@@ -158,10 +165,7 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
     add_row(table, row, observer);
     outcome.n_failed += failed ? 1 : 0;
     if (task.output.plot) {
-      const std::filesystem::path folder = task.output.directory / "shapes";
-      make_directory(folder);
-      constexpr int shape_width = 120;
-      plot_shapes({paths, {}, folder, shape_width}, folder / (hard.name + ".png"));
+      draw_case(paths, task.output.directory / "shapes");
       outcome.result.tables.back().rows.push_back(
           {hard.name, fmt::format("![{0}](images/hard_cases/{0}.png)", hard.name)});
     }

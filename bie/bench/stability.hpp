@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bie/bench/result.hpp"
+#include "bie/runs/run_directory.hpp"
 #include "bie/support/interruption.hpp"
 
 namespace vehd {
@@ -21,6 +22,12 @@ struct StabilityOutcome {
   BenchResult result;
   int n_failed = 0;
 };
+
+/// Draws the shapes of one case, small, in a folder.
+/// @param paths  of its run, in a folder with the name of the case
+/// @return the picture
+/// @throws InputError if the run cannot be read or gnuplot is missing
+std::filesystem::path draw_case(const RunPaths& paths, const std::filesystem::path& folder);
 
 /// Runs every case as `vehd run` would and prints, for each, the criterion that came closest to its bound. The further
 /// table "pictures" shows the shapes to the pages, which look for them in images/hard_cases.

@@ -34,7 +34,7 @@ BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repe
   if (!problem_of(with_symmetry(scene, SymmetryUse::automatic)).symmetry.any()) {
     throw InputError("bench symmetry needs a scene that has one");
   }
-  BenchResult result{"symmetry", machine_record(), repeats, {}, {empty_symmetry_table()}, {}};
+  BenchResult result{"symmetry", machine_record(), repeats, {}, {empty_symmetry_table()}};
   result.facts = {{"dt", *scene.numerics.dt},
                   {"difference_is", "of x and V_m after the same steps, over the largest coefficient"}};
   BenchTable& table = result.tables.front();
@@ -56,14 +56,6 @@ BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repe
              state_difference(reduced.state(), full.state())},
             observer);
   }
-  BenchPanel panel{.x_label = "degree p",
-                   .y_label = "seconds of a step",
-                   .curves = {},
-                   .x_ticks = {orders.begin(), orders.end()},
-                   .key_place = "top left"};
-  panel.curves = {{.label = "full solver", .x = "order", .y = "seconds_full", .colour = 0},
-                  {.label = "with symmetry", .x = "order", .y = "seconds", .colour = 1}};
-  result.panels = {panel};
   return result;
 }
 

@@ -52,19 +52,13 @@ BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repea
     }
   }
 
-  BenchResult result{"threads", machine_record(), repeats, {}, {empty_threads_table(counts.front())}, {}};
+  BenchResult result{"threads", machine_record(), repeats, {}, {empty_threads_table(counts.front())}};
   result.facts = {{"order", scene.numerics.order},
                   {"dt", *scene.numerics.dt},
                   {"difference_is", "of x and V_m after the same steps from the first count, over the largest"}};
   BenchTable& table = result.tables.front();
-  BenchPanel panel{.x_label = "threads",
-                   .y_label = fmt::format("seconds of a step at p = {}", scene.numerics.order),
-                   .curves = {},
-                   .x_ticks = {counts.begin(), counts.end()},
-                   .key_place = "outside right top"};
   observer.note(fmt::format("p = {}", scene.numerics.order));
   observer.heading(table);
-  int colour = 0;
   const auto add_part = [&](const std::string& part) {
     const double first = spread_of(timers.front()->seconds().at(part)).median;
     for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -76,16 +70,8 @@ BenchResult bench_threads(Scene scene, const std::vector<int>& counts, int repea
               {part, std::int64_t{counts[k]}, seconds, speed_up, speed_up * counts.front() / counts[k], deviation},
               observer);
     }
-    panel.curves.push_back({.label = part,
-                            .x = "threads",
-                            .y = "seconds",
-                            .key = "part",
-                            .value = part,
-                            .colour = colour++,
-                            .dashed = part != "step"});
   };
   for (const std::string& part : timers.front()->parts()) add_part(part);
-  result.panels = {panel};
   return result;
 }
 

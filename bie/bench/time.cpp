@@ -118,6 +118,7 @@ BenchTable empty_time_table() {
                     {"steps", "steps"},
                     {"order", "degree"},
                     {"error", "error", "{:.1e}"},
+                    {"error_in_time", "in time alone", "{:.1e}"},
                     {"error_over_tolerance", "error/tolerance", "{:.2f}"},
                     {"raw_drift", "raw drift", "{:.1e}"}}};
   for (const Quantity& quantity : kQuantities) table.columns.push_back({std::string("error_") + quantity.name, ""});
@@ -125,19 +126,33 @@ BenchTable empty_time_table() {
   return table;
 }
 
-std::vector<BenchCell> row_of(const TimedRun& run, const TimedRun& reference) {
-  double largest = 0.0;
-  std::vector<BenchCell> errors;
+/// Of all quantities, in their order.
+std::vector<double> errors_of(const TimedRun& run, const TimedRun& reference) {
+  std::vector<double> errors;
   for (const Quantity& quantity : kQuantities) {
-    const double error = relative_error(quantity, run.diagnostics, reference.diagnostics);
-    largest = std::max(largest, error);
-    errors.emplace_back(error);
+    errors.push_back(relative_error(quantity, run.diagnostics, reference.diagnostics));
   }
-  BenchCell error, over_tolerance;
+  return errors;
+}
+
+/// What errors are taken from.
+struct References {
+  const TimedRun& best;
+  const TimedRun* same_degree;  ///< with steps far smaller; nullptr: none
+};
+
+std::vector<BenchCell> row_of(const TimedRun& run, const References& references) {
+  const std::vector<double> errors = errors_of(run, references.best);
+  BenchCell error, in_time, over_tolerance;
   // The reference has none that could be known.
-  if (&run != &reference) {
-    error = largest;
-    if (const double* tolerance = std::get_if<double>(&run.tolerance)) over_tolerance = largest / *tolerance;
+  if (&run != &references.best) {
+    error = std::ranges::max(errors);
+    if (const double* tolerance = std::get_if<double>(&run.tolerance))
+      over_tolerance = std::ranges::max(errors) / *tolerance;
+  }
+  // A tolerance has no degree of its own.
+  if (references.same_degree != nullptr && references.same_degree != &run && std::holds_alternative<double>(run.dt)) {
+    in_time = std::ranges::max(errors_of(run, *references.same_degree));
   }
   std::vector<BenchCell> row{run.integrator,
                              run.setting,
@@ -147,6 +162,7 @@ std::vector<BenchCell> row_of(const TimedRun& run, const TimedRun& reference) {
                              run.n_steps,
                              std::int64_t{run.highest_order},
                              error,
+                             in_time,
                              over_tolerance,
                              run.raw_drift};
   row.insert(row.end(), errors.begin(), errors.end());
@@ -215,28 +231,6 @@ TimedRun reference_of_steps(const TimeTask& task, const std::vector<int>& time_o
   return fixed_run(task.scene, dt, highest_time_order, task.at, 1, observer);
 }
 
-std::vector<BenchPanel> panels_of(const std::vector<std::string>& integrators) {
-  BenchPanel seconds{"seconds", "largest relative error of the history quantities", {}};
-  for (const std::string& integrator : integrators) {
-    seconds.curves.push_back({.label = integrator,
-                              .x = "seconds",
-                              .y = "error",
-                              .key = "integrator",
-                              .value = integrator,
-                              .note = "setting",
-                              .colour = static_cast<int>(seconds.curves.size())});
-  }
-  BenchPanel steps = seconds;
-  steps.x_label = "steps";
-  steps.y_label.clear();
-  steps.key_place.clear();
-  for (BenchCurve& curve : steps.curves) {
-    curve.x = "steps";
-    curve.note.clear();
-  }
-  return {seconds, steps};
-}
-
 }  // namespace
 
 BenchResult bench_time(const TimeTask& task, BenchObserver& observer) {
@@ -245,40 +239,41 @@ BenchResult bench_time(const TimeTask& task, BenchObserver& observer) {
   if (time_orders.empty()) time_orders.push_back(task.scene.numerics.time_order);
   if (task.steps.empty()) time_orders.clear();
   std::vector<std::vector<TimedRun>> runs;
-  std::vector<std::string> integrators;
   for (const int order : time_orders) {
     std::vector<TimedRun>& of_order = runs.emplace_back();
     for (const double dt : task.steps)
       of_order.push_back(fixed_run(task.scene, dt, order, task.at, task.repeats, observer));
-    integrators.push_back(of_order.front().integrator);
   }
+  std::optional<TimedRun> same_degree;
+  if (!task.steps.empty()) same_degree = reference_of_steps(task, time_orders, observer);
   if (!task.tolerances.empty()) {
     std::vector<TimedRun>& adaptive = runs.emplace_back();
     for (const double tolerance : task.tolerances) {
       adaptive.push_back(adaptive_run(task, tolerance, observer));
     }
-    integrators.push_back(adaptive.front().integrator);
   } else {
-    runs.push_back({reference_of_steps(task, time_orders, observer)});
+    runs.push_back({*same_degree});
     runs.back().front().integrator = "reference (" + runs.back().front().integrator + ")";
   }
-  const TimedRun& reference = runs.back().back();
+  const References references{runs.back().back(), task.tolerances.empty() ? &runs.back().back()
+                                                  : same_degree           ? &*same_degree
+                                                                          : nullptr};
+  const TimedRun& reference = references.best;
 
-  BenchResult result{"time", machine_record(), task.repeats, {}, {empty_time_table()}, {}};
+  BenchResult result{"time", machine_record(), task.repeats, {}, {empty_time_table()}};
   result.facts = {{"time", task.at},
                   {"order", task.scene.numerics.order},
                   {"reference", reference.integrator + " " + reference.setting}};
   observer.note(fmt::format("time {}, errors against {} {}", task.at, reference.integrator, reference.setting));
   observer.heading(result.tables.front());
   for (const auto& of_integrator : runs) {
-    for (const TimedRun& run : of_integrator) add_row(result.tables.front(), row_of(run, reference), observer);
+    for (const TimedRun& run : of_integrator) add_row(result.tables.front(), row_of(run, references), observer);
   }
   if (!task.steps.empty()) {
     result.tables.push_back(values_table());
     observer.heading(result.tables.back());
     for (std::size_t i = 0; i < time_orders.size(); ++i) add_values(result.tables.back(), runs[i], observer);
   }
-  result.panels = panels_of(integrators);
   return result;
 }
 

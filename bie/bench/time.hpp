@@ -22,7 +22,9 @@ struct TimeTask {
 /// Error of the history quantities against the step size, the steps and the seconds, for each integrator and for a
 /// tolerance; with fixed steps also the values, the order observed from the last three and the limit that follows.
 /// The reference is the last tolerance; without any, a run of the highest order with half the smallest step where
-/// orders above 2 are compared, otherwise with the middle one. Errors are relative, those of angles in radians.
+/// orders above 2 are compared, otherwise with the middle one. Errors are relative, those of angles in radians. Beside
+/// a tolerance, whose degree is its own, errors of fixed steps are also taken from that run of their own degree: the
+/// errors of the steps alone.
 /// @throws InputError, ConvergenceError
 BenchResult bench_time(const TimeTask& task, BenchObserver& observer);
 

@@ -1,97 +1,222 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <string>
-#include <vector>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "bie/pictures/gnuplot.hpp"
+#include "bie/pictures/history_panels.hpp"
+#include "bie/pictures/page.hpp"
 #include "bie/pictures/plots.hpp"
-#include "bie/runs/history.hpp"
+#include "bie/pictures/shown_numbers.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/reader.hpp"
 
 namespace vehd {
 namespace {
 
-constexpr const char* first_colour = "#1f5fa8";
-constexpr const char* second_colour = "#2c8a3d";
-constexpr int panel_width = 900;
-constexpr int panel_height = 640;
+constexpr std::array curve_colours = {"#1f5fa8", "#2c8a3d", "#c0392b"};
+constexpr std::array dashes = {"solid", "(12,6)", "(3,4)"};
+/// Of one panel with its texts, in points.
+constexpr double panel_width = 255.0, panel_height = 172.0;
+/// Around the axes of a panel.
+constexpr double panel_left = 52.0, panel_right = 52.0, panel_bottom = 32.0, panel_top = 18.0;
+constexpr double letter_size = 8.0;
+constexpr double curve_width = 1.3;
+/// More points than this in a curve are thinned out.
+constexpr std::size_t most_points = 3000;
 
-struct Curve {
-  std::string column;
+struct Axis {
+  double lower = 0.0, upper = 1.0;
+  std::string ticks;  ///< in gnuplot's words
   std::string label;
+  std::vector<std::string> texts;  ///< of the ticks
 };
 
-/// One or two curves against time; the second has the right axis.
-struct Panel {
-  std::vector<Curve> curves;
-};
-
-std::vector<Panel> panels_of(const Scene& scene) {
-  std::vector<Panel> panels;
-  panels.push_back({{{"bending_energy_scaled", "bending energy ∫ H^2 dγ"}, {"tension_integral", "tension ∫ λ dγ"}}});
-  if (scene.electric) {
-    panels.push_back({{{"Vm_north", "V_m at the north pole"}, {"q_north", "q at the north pole"}}});
-  } else {
-    panels.push_back({{{"extent_x", "extent along x"}, {"extent_z", "extent along z"}}});
+Axis axis_of(const std::vector<double>& values, const std::string& label, double room) {
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    lower = std::min(lower, value);
+    upper = std::max(upper, value);
   }
-  if (scene.flow) panels.push_back({{{"inclination_deg", "inclination (degrees)"}}});
-  return panels;
+  // Rounding of a constant is no change.
+  constexpr double rounding = 1e-9;
+  const double size = std::max(std::abs(lower), std::abs(upper));
+  if (upper - lower <= rounding * size) {
+    const double about = size > 0.0 ? 0.1 * size : 1.0;
+    lower -= about;
+    upper += about;
+  }
+  Axis axis{lower - room * (upper - lower), upper + room * (upper - lower), {}, label, {}};
+  const std::vector<double> ticks = round_ticks(axis.lower, axis.upper, 4);
+  int power = 0;
+  const std::vector<std::string> texts = tick_texts(ticks, power);
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    places.push_back(fmt::format("{} {:.12g}", gnuplot_quoted(texts[i]), ticks[i]));
+  }
+  axis.ticks = fmt::format("({})", fmt::join(places, ", "));
+  axis.texts = texts;
+  if (power != 0) axis.label += fmt::format(" / 10^{{{}}}", power);
+  return axis;
 }
 
-std::string panel_script(const Panel& panel, const HistoryTable& table, const std::string& history, double left,
-                         double right) {
-  const auto label = [&](const Curve& curve) {
-    return gnuplot_quoted(with_unit(curve.label, table.unit(curve.column)));
-  };
-  std::string script = fmt::format(
-      "set lmargin at screen {}; set rmargin at screen {}\n"
-      "set ylabel {} textcolor rgb '{}' offset 0.5,0\n"
-      "set ytics nomirror textcolor rgb '{}'\n",
-      left, right, label(panel.curves[0]), first_colour, first_colour);
-  if (panel.curves.size() > 1) {
-    script += fmt::format("set y2label {} textcolor rgb '{}' offset -0.5,0\nset y2tics nomirror textcolor rgb '{}'\n",
-                          label(panel.curves[1]), second_colour, second_colour);
-  } else {
-    script += "unset y2label; unset y2tics\n";
+/// Rows of a curve: of many, the least and the greatest of every stretch.
+std::vector<std::size_t> shown_rows(const std::vector<double>& values) {
+  std::vector<std::size_t> rows;
+  const std::size_t n = values.size();
+  const std::size_t stretch = n <= most_points ? 1 : 2 * n / most_points + 1;
+  for (std::size_t begin = 0; begin < n; begin += stretch) {
+    const std::size_t end = std::min(n, begin + stretch);
+    std::size_t least = begin, most = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!(values[i] >= values[least])) least = i;
+      if (!(values[i] <= values[most])) most = i;
+    }
+    rows.push_back(std::min(least, most));
+    if (least != most) rows.push_back(std::max(least, most));
   }
-  script +=
-      fmt::format("plot {} using (column('{}')):(column('{}')) with lines lw 3 lc rgb '{}' axes x1y1",
-                  gnuplot_quoted(history), table.header("time"), table.header(panel.curves[0].column), first_colour);
-  if (panel.curves.size() > 1) {
-    script +=
-        fmt::format(", '' using (column('{}')):(column('{}')) with lines lw 3 dashtype (12,6) lc rgb '{}' axes x1y2",
-                    table.header("time"), table.header(panel.curves[1].column), second_colour);
+  if (rows.back() != n - 1) rows.push_back(n - 1);
+  return rows;
+}
+
+/// Data of a curve; a line ends where the angle of an axis comes round from one side to the other.
+std::string data_block(int number, const std::vector<double>& times, const std::vector<double>& values,
+                       double half_turn) {
+  std::string block = fmt::format("$curve{} << END\n", number);
+  double before = values.front();
+  for (const std::size_t row : shown_rows(values)) {
+    if (half_turn > 0.0 && std::abs(values[row] - before) > half_turn) block += "\n";
+    before = values[row];
+    block += fmt::format("{:.9g} {:.9g}\n", times[row], values[row]);
   }
-  return script + "\n";
+  return block + "END\n";
+}
+
+struct Drawing {
+  const std::vector<double>& times;
+  PictureFormat format;
+  int n_curves = 0;  ///< so far
+
+  [[nodiscard]] std::string line_style(std::size_t curve) const {
+    return fmt::format("with lines lw {:.3g} dashtype {} lc rgb '{}'", gnuplot_line_width(format, curve_width, pixels),
+                       dashes[curve], curve_colours[curve]);
+  }
+
+  static constexpr double pixels = 4.0;
+};
+
+/// Ticks of an axis and its label beside them: gnuplot would take the room for each label from the bytes of its ticks.
+std::string axis_script(const Axis& axis, const char* name, const char* colour) {
+  constexpr double axes_width = panel_width - panel_left - panel_right;
+  double ticks_width = 0.0;
+  for (const std::string& text : axis.texts) ticks_width = std::max(ticks_width, letter_size * text_width(text));
+  const bool on_the_right = std::string_view(name) == "y2";
+  const double away = (ticks_width + 6.5 + 0.75 * letter_size) / axes_width;
+  return fmt::format(
+      "set {0}range [{1:.12g}:{2:.12g}]; set {0}tics {3} nomirror textcolor rgb '{4}'\n"
+      "set label {5} at graph {6:.5f},0.5 center rotate by 90 textcolor rgb '{4}'\n",
+      name, axis.lower, axis.upper, axis.ticks, colour, gnuplot_quoted(axis.label), on_the_right ? 1.0 + away : -away);
+}
+
+constexpr const char* fresh_panel =
+    "unset label; unset ytics; unset y2tics; unset logscale y; unset key; set format y '%g'\n";
+/// Above the axes.
+constexpr const char* key_above = "set key at graph 0.5,1.075 center center horizontal samplen 2 maxrows 1\n";
+
+std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
+  std::string data, settings = fresh_panel, plot;
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    const HistoryCurve& curve = panel.curves[i];
+    settings += axis_script(axis_of(curve.values, with_unit(curve.label, curve.unit), 0.06), i == 0 ? "y" : "y2", curve_colours[i]);
+    constexpr double half_turn = 90.0;
+    data +=
+        data_block(drawing.n_curves, drawing.times, curve.values, curve.label.starts_with("inclination") ? half_turn : 0.0);
+    plot += fmt::format("{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
+                        drawing.line_style(i), i == 0 ? "x1y1" : "x1y2");
+  }
+  return data + settings + plot + "\n";
+}
+
+/// Whole powers of ten; what is far below the largest does not matter.
+std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std::string& label) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const HistoryCurve& curve : curves) {
+    for (const double value : curve.values) {
+      if (!(value > 0.0)) continue;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  constexpr double shown_powers = 9.0, fewest_powers = 2.0;
+  const double upper = std::ceil(std::log10(most) + 1e-9);
+  const double lower = std::clamp(std::floor(std::log10(least)), upper - shown_powers, upper - fewest_powers);
+  std::vector<std::string> places;
+  Axis axis{std::pow(10.0, lower), std::pow(10.0, upper), {}, label, {}};
+  for (double power = upper; power >= lower; power -= upper - lower > 5.0 ? 2.0 : 1.0) {
+    places.push_back(fmt::format("'10^{{{0:.0f}}}' 1e{0:.0f}", power));
+    // As wide as it is shown: the power is smaller.
+    axis.texts.push_back("1e-12");
+  }
+  axis.ticks = fmt::format("({})", fmt::join(places, ", "));
+  return "set logscale y\n" + axis_script(axis, "y", "#000000");
+}
+
+std::string panel_of_common_axis(const HistoryPanel& panel, Drawing& drawing) {
+  std::vector<double> all;
+  std::string data, plot;
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    const std::vector<double>& values = panel.curves[i].values;
+    all.insert(all.end(), values.begin(), values.end());
+    data += data_block(drawing.n_curves, drawing.times, values, 0.0);
+    plot += fmt::format("{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
+                        drawing.line_style(i), gnuplot_quoted(panel.curves[i].label));
+  }
+  const std::string label = with_unit(panel.common_axis, panel.curves.front().unit);
+  const std::string axis = panel.logarithmic ? logarithmic_axis(panel.curves, label)
+                                             : axis_script(axis_of(all, label, 0.06), "y", "#000000");
+  return data + fresh_panel + key_above + axis + plot + "\n";
 }
 
 }  // namespace
 
-void plot_history(const PlotTask& task, const std::filesystem::path& picture) {
-  const std::vector<Panel> panels = panels_of(read_scene(task.paths.scene()));
-  const HistoryTable table(task.paths.history());
-  const int width = panel_width * static_cast<int>(panels.size());
-  std::string script = fmt::format(
-      "set terminal pngcairo size {},{} enhanced font 'Sans,19' background rgb 'white'\n"
-      "set output {}\n"
+bool plot_history(const PlotTask& task, const PictureFile& file) {
+  const Scene scene = read_scene(task.paths.scene());
+  const HistoryTable history(task.paths.history());
+  const std::vector<HistoryPanel> panels = panels_of(scene, history);
+  if (panels.empty()) return false;
+  const std::vector<double>& times = history.column("time");
+  const Axis time_axis = axis_of(times, with_unit("time", history.unit("time")), 0.0);
+
+  const int columns = panels.size() > 1 ? 2 : 1, rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+  const double width = columns * panel_width, height = rows * panel_height;
+  const PictureFile target{std::filesystem::absolute(file.path), file.format};
+  std::string script = gnuplot_terminal(target, {width, height, letter_size, Drawing::pixels});
+  script += fmt::format(
       "set multiplot\n"
-      "set datafile separator ','\n"
-      "set datafile columnheaders\n"
-      "set key off\n"
-      "set border lw 1.2\n"
-      "set grid xtics ytics lc rgb '#e4e4e4' lt 1 lw 1\n"
-      "set xlabel {}\n"
-      "set xrange [*:*] noextend\n"
-      "set offsets 0,0,graph 0.06,graph 0.06\n"
-      "set bmargin at screen 0.15; set tmargin at screen 0.95\n",
-      width, panel_height, gnuplot_quoted(picture.string()), gnuplot_quoted(with_unit("time", table.unit("time"))));
+      "set border lw {0:.3g}\n"
+      "set grid xtics ytics lc rgb '#e4e4e4' lt 1 lw {0:.3g}\n"
+      "set tics scale 0.6; set mytics 1\n"
+      "set xrange [{1:.12g}:{2:.12g}]; set xtics {3} nomirror; set xlabel {4} offset 0,0.4\n",
+      gnuplot_line_width(file.format, 0.5, Drawing::pixels), time_axis.lower, time_axis.upper, time_axis.ticks,
+      gnuplot_quoted(time_axis.label));
+  Drawing drawing{times, file.format};
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const double cell = 1.0 / static_cast<double>(panels.size());
-    script += panel_script(panels[i], table, task.paths.history().string(), (static_cast<double>(i) + 0.165) * cell,
-                           (static_cast<double>(i) + 0.83) * cell);
+    const double left = panel_width * static_cast<double>(i % static_cast<std::size_t>(columns));
+    const double top = height - panel_height * static_cast<double>(i / static_cast<std::size_t>(columns));
+    script += fmt::format(
+        "set lmargin at screen {:.5f}; set rmargin at screen {:.5f}; set bmargin at screen {:.5f}; set tmargin at "
+        "screen "
+        "{:.5f}\n",
+        (left + panel_left) / width, (left + panel_width - panel_right) / width,
+        (top - panel_height + panel_bottom) / height, (top - panel_top) / height);
+    script += panels[i].common_axis.empty() ? panel_of_own_axes(panels[i], drawing)
+                                            : panel_of_common_axis(panels[i], drawing);
   }
-  run_gnuplot(script + "unset multiplot\n", task.output);
+  run_gnuplot(script + "unset multiplot\n", target.path.parent_path());
+  return true;
 }
 
 }  // namespace vehd

@@ -1,211 +1,126 @@
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "bie/files/run_reader.hpp"
-#include "bie/pictures/gnuplot.hpp"
+#include "bie/pictures/colour_bar.hpp"
 #include "bie/pictures/plots.hpp"
-#include "bie/pictures/renderer.hpp"
+#include "bie/pictures/shape_times.hpp"
+#include "bie/pictures/shapes_key.hpp"
+#include "bie/pictures/shapes_layout.hpp"
+#include "bie/pictures/view.hpp"
 #include "bie/runs/run_units.hpp"
-#include "bie/scene/output_units.hpp"
-#include "bie/sphere/harmonics.hpp"
-#include "bie/sphere/surface_mesh.hpp"
-#include "bie/sphere/transform.hpp"
+#include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
-#include "bie/support/file_system.hpp"
-#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {
 
-constexpr std::size_t most_shapes = 6;
 constexpr int picture_grid_order = 95;
-constexpr int widest_picture = 2400;
-constexpr int label_height = 56;
-constexpr int bar_room = 190;
-constexpr int bar_width = 28;
-constexpr double cell_margin = 1.08;
-constexpr double cell_margin_up = 1.03;
+/// Room around the largest shape, as a share of it.
+constexpr double cell_margin = 1.03;
+constexpr double time_size = 8.5;
+constexpr const char* cut_colour = "#202020";
 
-/// From the front, slightly right and above: the x-z plane of flow and field stays recognisable.
-Camera camera_for(double radius) { return {14.0, 16.0, 5.0 * radius}; }
-
-struct Field {
-  std::string name;   ///< in run.h5; empty if there is none to show
-  std::string label;  ///< for gnuplot
-  std::string dimension{};
+/// Everything that is known about a picture before its parts have places.
+struct ShapesPicture {
+  std::vector<Shape> shapes;
+  std::vector<std::string> times;
+  Matrix3 view;
+  ShownUnit length;
+  std::optional<ColourBar> bar;
+  ColourMap colours = ColourMap::sequential();
 };
 
-struct ColourRange {
-  double lower = 0.0, upper = 1.0;
-  bool both_signs = false;
-};
-
-struct Shape {
-  double time = 0.0;
-  RenderMesh mesh;
-  Vector values;
-};
-
-Field field_to_show(const RunReader& run, std::size_t snapshot) {
-  if (run.has_field(snapshot, "Vm")) return {"Vm", "V_m", "potential"};
-  if (run.has_field(snapshot, "tension")) return {"tension", "tension λ", "force/length"};
-  return {};
+std::vector<std::string> time_texts(const std::vector<Shape>& shapes, const OutputUnits& units) {
+  const ShownUnit unit = shown_unit(units, "time");
+  std::vector<double> times;
+  for (const Shape& shape : shapes) times.push_back(shape.time * unit.factor);
+  std::vector<std::string> texts;
+  for (const std::string& text : distinct_texts(times)) {
+    texts.push_back(fmt::format("t = {}{}{}", text, unit.unit.empty() ? "" : " ", unit.unit));
+  }
+  return texts;
 }
 
-Matrix normals_of(const SphereDerivatives& position) {
-  Matrix normals(position.d1.rows() + 2, 3);
-  for (Index i = 0; i < position.d1.rows(); ++i) {
-    normals.row(i) = Vector3(position.d1.row(i)).cross(Vector3(position.d2.row(i))).normalized();
+void colour_shapes(ShapesPicture& picture, ShapeField field, const OutputUnits& units) {
+  if (field == ShapeField::none) {
+    // The middle of the diverging colours: white.
+    picture.colours = ColourMap::diverging();
+    for (Shape& shape : picture.shapes) shape.mesh.shade = Vector::Constant(shape.values.size(), 0.5);
+    return;
   }
-  return normals;
-}
-
-Shape shape_of(const RunReader& run, std::size_t snapshot, const Field& field) {
-  Shape shape;
-  shape.time = run.times()[snapshot];
-  const Matrix position = run.coefficients(snapshot, "x");
-  const int order = order_of(position.rows());
-  const SphereTransform transform(order, make_grid(std::max(picture_grid_order, order)));
-  const SphereGrid& grid = transform.grid();
-  const SphereDerivatives derivatives = transform.synthesize_gradient(position);
-  shape.mesh.points = with_poles(derivatives.value, position);
-  shape.mesh.points.rowwise() -= shape.mesh.points.colwise().mean();
-  shape.mesh.normals = normals_of(derivatives);
-  const Index n = grid.n_points();
-  shape.mesh.normals.row(n) = shape.mesh.normals.topRows(grid.n_phi).colwise().mean().normalized();
-  shape.mesh.normals.row(n + 1) =
-      shape.mesh.normals.middleRows(n - grid.n_phi, grid.n_phi).colwise().mean().normalized();
-  shape.mesh.triangles = closed_triangles(grid);
-  if (field.name.empty()) {
-    shape.values = Vector::Zero(n + 2);
-  } else {
-    const Matrix coefficients = run.coefficients(snapshot, field.name);
-    shape.values = with_poles(transform.synthesize(coefficients), coefficients).col(0);
-  }
-  return shape;
-}
-
-/// Rounded away from zero to two digits, for an end of the colour bar.
-double rounded_up(double value) {
-  if (value == 0.0) return 0.0;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
-  return std::copysign(std::ceil(std::abs(value) / unit - 1e-9) * unit, value);
-}
-
-ColourRange range_of(const std::vector<Shape>& shapes, const Field& field) {
-  ColourRange range;
-  double lower = shapes.front().values.minCoeff(), upper = shapes.front().values.maxCoeff();
-  for (const Shape& shape : shapes) {
-    lower = std::min(lower, shape.values.minCoeff());
-    upper = std::max(upper, shape.values.maxCoeff());
-  }
-  range.both_signs = field.name == "Vm";
-  if (range.both_signs) {
-    range.upper = rounded_up(std::max(std::abs(lower), std::abs(upper)));
-    range.lower = -range.upper;
-  } else {
-    range.lower = lower;
-    range.upper = upper;
-  }
-  // A constant field, also one that is constant up to rounding, has no scale of its own.
-  const double magnitude = std::max(std::abs(range.lower), std::abs(range.upper));
-  if (range.upper - range.lower <= 1e-9 * magnitude || magnitude < 1e-14) {
-    range.lower -= std::max(1.0, magnitude);
-    range.upper += std::max(1.0, magnitude);
-  }
-  return range;
-}
-
-/// Raw RGB file for gnuplot, rows from the bottom.
-void write_raw(const std::filesystem::path& path, const Image& image) {
-  std::string bytes;
-  bytes.reserve(image.rgb.size());
-  for (int row = image.height - 1; row >= 0; --row) {
-    const auto begin = image.rgb.begin() + std::ptrdiff_t{row} * image.width * 3;
-    bytes.append(begin, begin + std::ptrdiff_t{image.width} * 3);
-  }
-  replace_file(path, bytes);
-}
-
-void paste(Image& target, const Image& part, int left) {
-  for (int row = 0; row < part.height; ++row) {
-    const auto begin = part.rgb.begin() + std::ptrdiff_t{row} * part.width * 3;
-    std::copy(begin, begin + std::ptrdiff_t{part.width} * 3,
-              target.rgb.begin() + (std::ptrdiff_t{row} * target.width + left) * 3);
+  std::vector<WeightedValues> values;
+  for (const Shape& shape : picture.shapes) values.push_back({shape.values, shape.weights});
+  const ColourRange range = robust_range(values);
+  const FieldLabel label = label_of(field);
+  const ShownUnit unit = shown_unit(units, label.dimension);
+  ColourRange shown = range;
+  shown.lower *= unit.factor;
+  shown.upper *= unit.factor;
+  picture.bar = colour_bar(shown, std::string(label.text), unit.unit);
+  picture.colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
+  for (Shape& shape : picture.shapes) {
+    shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
   }
 }
 
-Image colour_bar(const ColourMap& colours, int height) {
-  Image image{bar_width, height, {}};
-  for (int row = 0; row < height; ++row) {
-    const Colour colour = colours.at(1.0 - (row + 0.5) / height);
-    for (int column = 0; column < bar_width; ++column) {
-      for (const double component : colour) {
-        image.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * component)));
-      }
-    }
+ShapesContent content_of(const ShapesPicture& picture, const std::vector<KeyItem>& items, double page_width) {
+  ShapesContent content;
+  for (const Shape& shape : picture.shapes) {
+    const Eigen::Vector2d extent = cell_margin * projected_extent(shape.mesh, picture.view);
+    content.half_extents.push_back({extent.x(), extent.y()});
   }
-  return image;
+  for (const std::string& text : picture.times) {
+    content.label_width = std::max(content.label_width, time_size * text_width(text));
+  }
+  for (const KeyItem item : items) content.key_heights.push_back(key_height(item));
+  content.key_width = key_width;
+  content.bar_width = picture.bar ? width_of(*picture.bar) : 0.0;
+  content.page_width = page_width;
+  return content;
 }
 
-/// All shapes side by side at one scale.
-struct Row {
-  Image image;
-  int cell_width = 0;
-};
+/// The edge of a cut membrane.
+void add_cut(Page& page, const Shape& shape, const Matrix3& view, const Box& cell, double scale) {
+  const double x = 0.5 * (cell.left + cell.right), y = 0.5 * (cell.bottom + cell.top);
+  const Matrix cut = scale * cut_lines(shape.mesh, view);
+  for (Index i = 0; i < cut.rows(); ++i) {
+    page.lines.push_back({{{x + cut(i, 0), y + cut(i, 1)}, {x + cut(i, 2), y + cut(i, 3)}}, 1.0, cut_colour, false});
+  }
+}
 
-Row render_row(const std::vector<Shape>& shapes, const ColourMap& colours, int shape_width) {
-  double radius = 0.0;
-  for (const Shape& shape : shapes) radius = std::max(radius, shape.mesh.points.rowwise().norm().maxCoeff());
-  const Camera camera = camera_for(radius);
-  Eigen::Vector2d extent = Eigen::Vector2d::Zero();
-  for (const Shape& shape : shapes) extent = extent.cwiseMax(projected_extent(shape.mesh, camera));
-  const int n_shapes = static_cast<int>(shapes.size());
-  Row row;
-  row.cell_width = std::min(shape_width, (widest_picture - bar_room) / n_shapes);
-  const double scale = row.cell_width / (2.0 * cell_margin * extent.x());
-  const int height = static_cast<int>(std::ceil(2.0 * cell_margin_up * extent.y() * scale));
-  row.image = {row.cell_width * n_shapes, height, {}};
-  row.image.rgb.assign(static_cast<std::size_t>(row.image.width) * height * 3, 255);
+Page page_of(const ShapesPicture& picture, const Scene& scene, const ShapesStyle& style) {
+  const std::vector<KeyItem> items = key_items(scene);
+  const ShapesLayout layout = layout_of(content_of(picture, items, style.width));
+  Page page{layout.width, layout.height};
+  const int n_shapes = static_cast<int>(picture.shapes.size());
+  page.images.resize(picture.shapes.size());
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < n_shapes; ++i) {
-    paste(row.image, render(shapes[i].mesh, camera, colours, scale, row.cell_width, height), i * row.cell_width);
+    const Box& cell = layout.cells[i];
+    RenderTask task{picture.view, layout.scale * page_pixels, 0, 0, style.section};
+    task.width = std::max(1, static_cast<int>(std::lround(cell.width() * page_pixels)));
+    task.height = std::max(1, static_cast<int>(std::lround(cell.height() * page_pixels)));
+    page.images[i] = {render(picture.shapes[i].mesh, picture.colours, task), cell};
   }
-  return row;
+  for (std::size_t i = 0; i < picture.shapes.size(); ++i) {
+    if (style.section) add_cut(page, picture.shapes[i], picture.view, layout.cells[i], layout.scale);
+    page.texts.push_back({picture.times[i], layout.labels[i], time_size, TextAnchor::centre, "#000000"});
+  }
+  const KeyTask key{scene, picture.view, layout.scale, picture.length};
+  for (std::size_t i = 0; i < items.size(); ++i) draw_key_item(page, items[i], layout.key[i], key);
+  if (picture.bar) draw_colour_bar(page, *picture.bar, picture.colours, layout.bar);
+  return page;
 }
 
-/// The round number (1, 2 or 5 times a power of ten) that puts at most `most` labels on a scale of this length.
-double tick_spacing(double length, double most) {
-  const double least = length / std::max(most, 2.0);
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= least) return factor * power;
-  }
-  return 10.0 * power;
-}
-
-}  // namespace
-
-std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader& run) {
-  if (task.times.size() > most_shapes) {
-    throw InputError(fmt::format("{} times are too many for one row of shapes; accepted: at most {}", task.times.size(),
-                                 most_shapes));
-  }
-  std::vector<SnapshotChoice> all;
-  for (const double time : task.times) all.push_back(choose_snapshot(run, task.paths.snapshots(), time));
-  const double start = run.times().front(), end = run.times().back();
-  for (std::size_t i = 0; task.times.empty() && i < most_shapes; ++i) {
-    all.push_back({run.nearest(start + (end - start) * i / (most_shapes - 1.0)), ""});
-  }
+std::vector<SnapshotChoice> without_repeats(const std::vector<SnapshotChoice>& all) {
   std::vector<SnapshotChoice> shapes;
-  for (SnapshotChoice& choice : all) {
-    const auto same = std::find_if(shapes.begin(), shapes.end(),
-                                   [&](const SnapshotChoice& other) { return other.snapshot == choice.snapshot; });
+  for (const SnapshotChoice& choice : all) {
+    const auto same = std::ranges::find(shapes, choice.snapshot, &SnapshotChoice::snapshot);
     if (same == shapes.end()) {
-      shapes.push_back(std::move(choice));
+      shapes.push_back(choice);
     } else if (!choice.note.empty()) {
       same->note += (same->note.empty() ? "" : "\n") + choice.note;
     }
@@ -213,70 +128,43 @@ std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader
   return shapes;
 }
 
-void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
+}  // namespace
+
+std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader& run) {
+  if (task.times.size() > most_shapes) {
+    throw InputError(
+        fmt::format("{} times are too many for one picture; accepted: at most {}", task.times.size(), most_shapes));
+  }
+  std::vector<SnapshotChoice> all;
+  for (const double time : task.times) all.push_back(choose_snapshot(run, task.paths.snapshots(), time));
+  if (task.times.empty()) {
+    for (const std::size_t snapshot : snapshots_by_change(run, most_shapes)) all.push_back({snapshot, ""});
+  }
+  return without_repeats(all);
+}
+
+PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
+  require_run(task.paths);
   const RunReader run(task.paths.snapshots());
-  const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
-  const Field field = field_to_show(run, choices.front().snapshot);
-  std::vector<Shape> shapes;
+  const Scene scene = read_scene(task.paths.scene());
   const OutputUnits units = units_of_run(task.paths);
-  const OutputUnit field_unit = units.of(field.dimension), time_unit = units.of("time");
+  const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
+  const ShapeField field = task.style.field.value_or(default_field(run, choices.front().snapshot));
+  PlotResult result{{file.path}, {}, {}};
+  ShapesPicture picture;
   for (const SnapshotChoice& choice : choices) {
-    shapes.push_back(shape_of(run, choice.snapshot, field));
-    shapes.back().values *= field_unit.factor;
+    require_field(run, choice.snapshot, field);
+    picture.shapes.push_back(shape_of(run, choice.snapshot, field, picture_grid_order));
+    result.times.push_back(picture.shapes.back().time);
+    if (!choice.note.empty()) result.notes.push_back(choice.note);
   }
-  const ColourRange range = range_of(shapes, field);
-  for (Shape& shape : shapes) {
-    shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
-  }
-  const ColourMap colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
-  const Row row = render_row(shapes, colours, task.shape_width);
-
-  const TemporaryFile row_file(task.output / ".shapes.rgb");
-  const TemporaryFile bar_file(task.output / ".colours.rgb");
-  write_raw(row_file.path(), row.image);
-  const int bar_height = std::clamp(row.image.height - 120, 60, 420);
-  write_raw(bar_file.path(), colour_bar(colours, bar_height));
-
-  const int width = row.image.width + (field.name.empty() ? 0 : bar_room);
-  const int height = row.image.height + label_height;
-  const auto across = [&](double pixels) { return pixels / width; };
-  const auto upward = [&](double pixels) { return pixels / height; };
-  std::string script = fmt::format(
-      "set terminal pngcairo size {},{} enhanced font 'Sans,20' background rgb 'white'\n"
-      "set output {}\n"
-      "set multiplot\n"
-      "unset border; unset tics; unset key\n"
-      "set lmargin at screen 0; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen 1\n",
-      width, height, gnuplot_quoted(picture.string()), across(row.image.width), upward(label_height));
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    script +=
-        fmt::format("set label {} 't = {:.4g}{}' at screen {},{} center\n", i + 1, shapes[i].time * time_unit.factor,
-                    time_unit.is_si() ? " " + printed_unit(time_unit.symbol) : "",
-                    across((static_cast<double>(i) + 0.5) * row.cell_width), upward(label_height / 2.0));
-  }
-  script += fmt::format(
-      "set xrange [0:{0}]; set yrange [0:{1}]\n"
-      "plot {2} binary array=({0},{1}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
-      row.image.width, row.image.height, gnuplot_quoted(row_file.path().string()));
-  if (!field.name.empty()) {
-    const double middle = label_height + row.image.height / 2.0;
-    script += fmt::format(
-        "unset label\n"
-        "set lmargin at screen {}; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen {}\n",
-        across(row.image.width + 24), across(row.image.width + 24 + bar_width), upward(middle - bar_height / 2.0),
-        upward(middle + bar_height / 2.0));
-    // About one label for every 30 pixels of the bar.
-    const double tick = tick_spacing(range.upper - range.lower, bar_height / 30.0);
-    script += fmt::format(
-        "set border lw 1; set y2tics {6} out nomirror scale 0.6 font ',17'; set format y2 '%.3g'\n"
-        "set title {0} offset 0,-0.3\n"
-        "set xrange [0:{1}]; set yrange [0:{2}]; set y2range [{3}:{4}]\n"
-        "plot {5} binary array=({1},{2}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
-        gnuplot_quoted(with_unit(field.label, field_unit.symbol)), bar_width, bar_height, range.lower, range.upper,
-        gnuplot_quoted(bar_file.path().string()), tick);
-  }
-  script += "unset multiplot\n";
-  run_gnuplot(script, task.output);
+  picture.view =
+      task.style.view.empty() ? default_view(scene, picture.shapes.front().gyration) : parse_view(task.style.view);
+  picture.times = time_texts(picture.shapes, units);
+  picture.length = shown_unit(units, "length");
+  colour_shapes(picture, field, units);
+  draw_page(page_of(picture, scene, task.style), file);
+  return result;
 }
 
 }  // namespace vehd

@@ -2,24 +2,26 @@
 
 #include <fmt/format.h>
 
-#include "bie/runs/history.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
 
-std::vector<std::filesystem::path> plot_run(const PlotTask& task) {
-  if (!std::filesystem::exists(task.paths.snapshots())) {
-    throw InputError(fmt::format("{}: holds no run (no run.h5)", task.paths.directory.string()));
+void require_run(const RunPaths& paths) {
+  if (!std::filesystem::exists(paths.snapshots())) {
+    throw InputError(fmt::format("{}: holds no run (no run.h5)", paths.directory.string()));
   }
+}
+
+PlotResult plot_run(const PlotTask& task) {
+  require_run(task.paths);
   make_directory(task.output);
-  std::vector<std::filesystem::path> pictures = {task.output / "shapes.png"};
-  plot_shapes(task, pictures.back());
-  if (HistoryTable(task.paths.history()).n_rows() > 1) {
-    pictures.push_back(task.output / "history.png");
-    plot_history(task, pictures.back());
-  }
-  return pictures;
+  const auto file = [&](const char* stem) {
+    return PictureFile{task.output / fmt::format("{}.{}", stem, name_of(task.format)), task.format};
+  };
+  PlotResult result = plot_shapes(task, file("shapes"));
+  if (plot_history(task, file("history"))) result.pictures.push_back(file("history").path);
+  return result;
 }
 
 }  // namespace vehd

@@ -1,34 +1,62 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "bie/files/snapshot_choice.hpp"
+#include "bie/pictures/picture_format.hpp"
+#include "bie/pictures/shape_field.hpp"
 #include "bie/runs/run_directory.hpp"
 
 namespace vehd {
 
+/// How shapes are shown.
+struct ShapesStyle {
+  std::string view{};                 ///< see parse_view; empty: across the plane of flow and field
+  std::optional<ShapeField> field{};  ///< of the colours; absent: default_field
+  bool section = false;               ///< without the half towards the eye
+  double width = 510.0;               ///< of the page in points, at most
+};
+
 /// Which pictures are drawn, and where they go.
 struct PlotTask {
   RunPaths paths;
-  std::vector<double> times;     ///< of the shapes; empty: evenly spread
+  std::vector<double> times;     ///< of the shapes; empty: chosen by how much the shape changes
   std::filesystem::path output;  ///< directory for the pictures
-  int shape_width = 520;         ///< pixels of one shape, at most
+  PictureFormat format = PictureFormat::png;
+  ShapesStyle style{};
 };
 
-/// Draws all pictures of a run through gnuplot; needs no display.
-/// @return the pictures
-/// @throws InputError if the run cannot be read or gnuplot is missing
-std::vector<std::filesystem::path> plot_run(const PlotTask& task);
+/// What plot_run has drawn.
+struct PlotResult {
+  std::vector<std::filesystem::path> pictures;
+  std::vector<double> times;         ///< of the shapes
+  std::vector<std::string> notes{};  ///< times that were asked for and have no snapshot of their own
+};
 
-/// The snapshots of the row of shapes, each once; those of given times with a note where they have another time.
+/// @throws InputError if the directory holds no run
+void require_run(const RunPaths& paths);
+
+/// Draws the pictures of a run through gnuplot, OUTPUT/shapes.FORMAT and OUTPUT/history.FORMAT; needs no display.
+/// @throws InputError if the run cannot be read or gnuplot is missing
+PlotResult plot_run(const PlotTask& task);
+
+/// The snapshots of the picture of shapes, each once, in the order of given times; those with a note have another time.
 /// @throws InputError if there are too many times or one of them is none of the run
 std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader& run);
 
-/// One row of shapes in perspective, coloured by V_m, or by tension without one.
-void plot_shapes(const PlotTask& task, const std::filesystem::path& picture);
+/// Shapes at one scale in parallel projection, with axes, arrows of flow and field, a scale bar and colours.
+/// @throws InputError
+PlotResult plot_shapes(const PlotTask& task, const PictureFile& picture);
 
-/// Energy and tension, V_m and charge at the north pole (or extents), inclination in flow, against time.
-void plot_history(const PlotTask& task, const std::filesystem::path& picture);
+/// Panels of the history against time: those that tell something of this run.
+/// @return false if none does
+/// @throws InputError
+bool plot_history(const PlotTask& task, const PictureFile& picture);
+
+/// Most shapes in one picture.
+constexpr std::size_t most_shapes = 6;
 
 }  // namespace vehd

@@ -2,9 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace vehd {
 namespace {
@@ -17,10 +17,9 @@ double to_linear(double displayed) { return std::pow(displayed, 2.2); }
 double to_displayed(double linear) { return std::pow(std::clamp(linear, 0.0, 1.0), 1.0 / 2.2); }
 
 struct ProjectedPoint {
-  double x, y;              ///< in samples, y downwards
-  double inverse_distance;  ///< to the eye plane; linear over a projected triangle
-  Vector3 normal;           ///< in the camera frame
-  Vector3 position;         ///< in the camera frame
+  double x, y;     ///< in samples, y downwards
+  double depth;    ///< towards the eye
+  Vector3 normal;  ///< in the frame of the view
   double shade;
 };
 
@@ -31,7 +30,8 @@ double power_of_36(double base) {
 
 /// Colour of a surface point: soft key light from the upper left, weak fill light, a highlight and a slightly darker
 /// rim that separates the shape from the white paper.
-Colour lit_colour(const Colour& base, const Vector3& normal, const Vector3& to_eye) {
+Colour lit_colour(const Colour& base, const Vector3& normal) {
+  const Vector3 to_eye = Vector3::UnitZ();
   const Vector3 key = Vector3(-0.45, 0.62, 0.64).normalized();
   const Vector3 fill = Vector3(0.75, -0.15, 0.64).normalized();
   const double facing = std::clamp(normal.dot(to_eye), 0.0, 1.0);
@@ -44,19 +44,27 @@ Colour lit_colour(const Colour& base, const Vector3& normal, const Vector3& to_e
   return colour;
 }
 
+/// The inside of a cut membrane: paler, so that it is not taken for the outside.
+Colour inside_colour(const Colour& base) {
+  constexpr double kept = 0.6;
+  Colour colour{};
+  for (int c = 0; c < 3; ++c) colour[c] = kept * base[c] + (1.0 - kept) * 0.93;
+  return colour;
+}
+
 class Canvas {
  public:
-  Canvas(int width, int height)
+  Canvas(int width, int height, double nearest)
       : width_(width * oversampling),
         height_(height * oversampling),
-        depth_(static_cast<std::size_t>(width_) * height_, 0.0),
+        nearest_(nearest),
+        depth_(static_cast<std::size_t>(width_) * height_, -std::numeric_limits<double>::infinity()),
         colour_(depth_.size(), Colour{1.0, 1.0, 1.0}) {}
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 
-  void triangle(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c, double eye_distance,
-                const ColourMap& colours) {
+  void triangle(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c, const ColourMap& colours) {
     const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if (area == 0.0) return;
     const int left = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x}))));
@@ -69,15 +77,17 @@ class Canvas {
         const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area;
         const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area;
         const double w = 1.0 - u - v;
-        if (u < 0.0 || v < 0.0 || w < 0.0) continue;
-        const double nearness = u * a.inverse_distance + v * b.inverse_distance + w * c.inverse_distance;
+        // Rounding must not leave a sample between two triangles to neither.
+        constexpr double rounding = -1e-9;
+        if (u < rounding || v < rounding || w < rounding) continue;
+        const double depth = u * a.depth + v * b.depth + w * c.depth;
         const std::size_t sample = static_cast<std::size_t>(row) * width_ + column;
-        if (nearness <= depth_[sample]) continue;
-        depth_[sample] = nearness;
+        if (depth <= depth_[sample] || depth > nearest_) continue;
+        depth_[sample] = depth;
         const Vector3 normal = (u * a.normal + v * b.normal + w * c.normal).normalized();
-        const Vector3 position = u * a.position + v * b.position + w * c.position;
-        const Vector3 to_eye = (Vector3(0.0, 0.0, eye_distance) - position).normalized();
-        colour_[sample] = lit_colour(colours.at(u * a.shade + v * b.shade + w * c.shade), normal, to_eye);
+        const Colour base = colours.at(u * a.shade + v * b.shade + w * c.shade);
+        const bool inside = std::isfinite(nearest_) && normal.z() < 0.0;
+        colour_[sample] = inside ? lit_colour(inside_colour(base), -normal) : lit_colour(base, normal);
       }
     }
   }
@@ -107,55 +117,55 @@ class Canvas {
   }
 
   int width_, height_;
+  double nearest_;  ///< what is nearer is left out
   std::vector<double> depth_;
   std::vector<Colour> colour_;
 };
 
 }  // namespace
 
-Matrix3 camera_frame(const Camera& camera) {
-  const double azimuth = camera.azimuth_deg * std::numbers::pi / 180.0;
-  const double elevation = camera.elevation_deg * std::numbers::pi / 180.0;
-  const Vector3 eye(std::sin(azimuth) * std::cos(elevation), -std::cos(azimuth) * std::cos(elevation),
-                    std::sin(elevation));
-  const Vector3 right(std::cos(azimuth), std::sin(azimuth), 0.0);
-  Matrix3 frame;
-  frame.row(0) = right;
-  frame.row(1) = eye.cross(right);
-  frame.row(2) = eye;
-  return frame;
+Eigen::Vector2d projected_extent(const RenderMesh& mesh, const Matrix3& view) {
+  return (mesh.points * view.topRows<2>().transpose()).cwiseAbs().colwise().maxCoeff().transpose();
 }
 
-Eigen::Vector2d projected_extent(const RenderMesh& mesh, const Camera& camera) {
-  const Matrix points = mesh.points * camera_frame(camera).transpose();
-  Eigen::Vector2d extent = Eigen::Vector2d::Zero();
-  for (Index i = 0; i < points.rows(); ++i) {
-    const double magnification = camera.distance / (camera.distance - points(i, 2));
-    extent.x() = std::max(extent.x(), magnification * std::abs(points(i, 0)));
-    extent.y() = std::max(extent.y(), magnification * std::abs(points(i, 1)));
-  }
-  return extent;
-}
-
-Image render(const RenderMesh& mesh, const Camera& camera, const ColourMap& colours, double scale, int width,
-             int height) {
-  Canvas canvas(width, height);
-  const Matrix3 frame = camera_frame(camera);
+Image render(const RenderMesh& mesh, const ColourMap& colours, const RenderTask& task) {
+  Canvas canvas(task.width, task.height, task.cut ? 0.0 : std::numeric_limits<double>::infinity());
+  const double samples = task.scale * oversampling;
   std::vector<ProjectedPoint> points;
   points.reserve(static_cast<std::size_t>(mesh.points.rows()));
   for (Index i = 0; i < mesh.points.rows(); ++i) {
-    const Vector3 position = frame * mesh.points.row(i).transpose();
-    const double inverse_distance = 1.0 / (camera.distance - position.z());
-    const double magnification = camera.distance * inverse_distance * scale * oversampling;
-    points.push_back({0.5 * canvas.width() + magnification * position.x(),
-                      0.5 * canvas.height() - magnification * position.y(), inverse_distance,
-                      frame * mesh.normals.row(i).transpose(), position, mesh.shade(i)});
+    const Vector3 position = task.view * mesh.points.row(i).transpose();
+    points.push_back({0.5 * canvas.width() + samples * position.x(), 0.5 * canvas.height() - samples * position.y(),
+                      position.z(), task.view * mesh.normals.row(i).transpose(), mesh.shade(i)});
   }
   for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-    canvas.triangle(points[mesh.triangles[i]], points[mesh.triangles[i + 1]], points[mesh.triangles[i + 2]],
-                    camera.distance, colours);
+    canvas.triangle(points[mesh.triangles[i]], points[mesh.triangles[i + 1]], points[mesh.triangles[i + 2]], colours);
   }
   return canvas.downsampled();
+}
+
+Matrix cut_lines(const RenderMesh& mesh, const Matrix3& view) {
+  const Matrix points = mesh.points * view.transpose();
+  std::vector<std::array<double, 4>> lines;
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    std::array<double, 4> line{};
+    std::size_t n_crossed = 0;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      const auto a = points.row(mesh.triangles[i + edge]), b = points.row(mesh.triangles[i + (edge + 1) % 3]);
+      // A point in the plane is behind it, for every triangle that has it.
+      if ((a(2) > 0.0) == (b(2) > 0.0)) continue;
+      const double t = a(2) / (a(2) - b(2));
+      line[2 * n_crossed] = a(0) + t * (b(0) - a(0));
+      line[2 * n_crossed + 1] = a(1) + t * (b(1) - a(1));
+      ++n_crossed;
+    }
+    if (n_crossed == 2) lines.push_back(line);
+  }
+  Matrix result(static_cast<Index>(lines.size()), 4);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    result.row(static_cast<Index>(i)) = Eigen::Map<const Eigen::RowVector4d>(lines[i].data());
+  }
+  return result;
 }
 
 }  // namespace vehd

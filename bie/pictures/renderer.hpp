@@ -23,22 +23,22 @@ struct RenderMesh {
   std::vector<std::int64_t> triangles;
 };
 
-/// Looks at the origin from a point at the given distance; +z of the world is up.
-struct Camera {
-  double azimuth_deg = 0.0;    ///< of the eye, from the -y axis towards +x
-  double elevation_deg = 0.0;  ///< of the eye above the x-y plane
-  double distance = 10.0;
+/// What is seen, and how.
+struct RenderTask {
+  Matrix3 view = Matrix3::Identity();  ///< rows: right, up, towards the eye
+  double scale = 1.0;                  ///< pixels per unit of length
+  int width = 0, height = 0;           ///< pixels; the origin is in the middle
+  bool cut = false;                    ///< leaves out what is nearer to the eye than the origin: the inside shows
 };
 
-/// World coordinates to (right, up, towards the eye) of the camera.
-Matrix3 camera_frame(const Camera& camera);
+/// Half width and half height that the mesh covers about the origin in a view, in units of length.
+Eigen::Vector2d projected_extent(const RenderMesh& mesh, const Matrix3& view);
 
-/// Half width and half height that the mesh covers in the plane through the origin, in units of length.
-Eigen::Vector2d projected_extent(const RenderMesh& mesh, const Camera& camera);
+/// Parallel projection on white, lit from the upper left, antialiased; the inside is paler than the outside.
+Image render(const RenderMesh& mesh, const ColourMap& colours, const RenderTask& task);
 
-/// Perspective picture on white, lit from the upper left, antialiased.
-/// @param scale  pixels per unit of length at the origin
-Image render(const RenderMesh& mesh, const Camera& camera, const ColourMap& colours, double scale, int width,
-             int height);
+/// Where the mesh meets the plane through the origin across the view: pieces of line in (right, up), each
+/// [x1, y1, x2, y2].
+Matrix cut_lines(const RenderMesh& mesh, const Matrix3& view);
 
 }  // namespace vehd

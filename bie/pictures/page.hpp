@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bie/pictures/picture_format.hpp"
+#include "bie/pictures/renderer.hpp"
+
+/// A picture whose every part has a known place, in points (1/72 inch) from the lower left corner.
+namespace vehd {
+
+/// Sides of an upright rectangle.
+struct Box {
+  double left = 0.0, bottom = 0.0, right = 0.0, top = 0.0;
+
+  [[nodiscard]] double width() const { return right - left; }
+  [[nodiscard]] double height() const { return top - bottom; }
+  [[nodiscard]] bool meets(const Box& other) const {
+    return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+  }
+  [[nodiscard]] bool holds(const Box& other) const {
+    return left <= other.left && other.right <= right && bottom <= other.bottom && other.top <= top;
+  }
+};
+
+using PagePoint = std::array<double, 2>;
+
+enum class TextAnchor { left, centre, right };
+
+/// One line, in gnuplot's enhanced notation (a_m, 10^{-3}); y is its middle.
+struct PageText {
+  std::string text;
+  PagePoint at{};
+  double size = 8.0;  ///< of the font
+  TextAnchor anchor = TextAnchor::left;
+  std::string colour = "#000000";
+};
+
+/// A path of straight lines, with a head at its end or not.
+struct PageLine {
+  std::vector<PagePoint> points;
+  double width = 0.75;
+  std::string colour = "#000000";
+  bool head = false;
+};
+
+/// A filled polygon.
+struct PageArea {
+  std::vector<PagePoint> points;
+  std::string colour;
+};
+
+struct PageImage {
+  Image image;
+  Box box;
+};
+
+struct Page {
+  double width = 0.0, height = 0.0;
+  std::vector<PageImage> images{};
+  std::vector<PageArea> areas{};
+  std::vector<PageLine> lines{};
+  std::vector<PageText> texts{};
+};
+
+/// Room that a line of text takes at most in the font of the pictures (DejaVu Sans), in units of its size.
+double text_width(std::string_view enhanced);
+
+/// What a text covers.
+Box box_of(const PageText& text);
+
+/// Pixels of a point: of images in every format, and of the whole picture as PNG.
+constexpr double page_pixels = 4.0;
+
+/// Draws the page through gnuplot.
+/// @throws InputError if gnuplot is missing or reports an error
+void draw_page(const Page& page, const PictureFile& picture);
+
+}  // namespace vehd

@@ -1,0 +1,90 @@
+#include "bie/pictures/shape_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bie/pictures/shape_field.hpp"
+
+namespace vehd {
+namespace {
+
+/// Of the grid on which shapes are compared: no picture needs finer differences.
+constexpr int outline_order = 16;
+/// Directions from which a shape is measured, over a half sphere.
+constexpr int n_directions = 16;
+/// More snapshots than this are not all read.
+constexpr std::size_t most_read = 240;
+
+/// Evenly over the half sphere above z = 0 (a Fibonacci spiral).
+Vector3 direction_number(int i) {
+  const double z = (i + 0.5) / n_directions, radius = std::sqrt(1.0 - z * z);
+  const double angle = 2.0 * std::numbers::pi * i / std::numbers::phi;
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+}  // namespace
+
+Vector outline_of(const RunReader& run, std::size_t snapshot) {
+  const Shape shape = shape_of(run, snapshot, ShapeField::none, outline_order);
+  const Vector shares = shape.weights / shape.weights.sum();
+  Vector outline(4 * n_directions);
+  for (int i = 0; i < n_directions; ++i) {
+    // Extents see the hull alone; the moments see dimples as well.
+    const Vector heights = shape.mesh.points * direction_number(i);
+    const Vector squares = heights.cwiseAbs2();
+    outline.segment<4>(4 * i) << heights.maxCoeff(), heights.minCoeff(), std::sqrt(squares.dot(shares)),
+        std::pow(squares.cwiseAbs2().dot(shares), 0.25);
+  }
+  return outline;
+}
+
+std::vector<std::size_t> spread_by_change(const std::vector<double>& times, const Matrix& rows, std::size_t most) {
+  const std::size_t n = times.size();
+  if (n <= 2 || most <= 1)
+    return n == 1 || most <= 1 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, n - 1};
+  std::vector<double> way(n, 0.0);
+  for (std::size_t i = 1; i < n; ++i) {
+    way[i] = way[i - 1] + (rows.row(static_cast<Index>(i)) - rows.row(static_cast<Index>(i) - 1)).norm();
+  }
+  const double length = way.back(), duration = times.back() - times.front();
+  const double time_share = length > 1e-6 * rows.row(0).norm() ? 0.1 : 1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    way[i] = time_share * (duration > 0.0 ? (times[i] - times.front()) / duration : 0.0) +
+             (length > 0.0 ? (1.0 - time_share) * way[i] / length : 0.0);
+  }
+  std::vector<std::size_t> chosen{0};
+  for (std::size_t k = 1; k + 1 < most; ++k) {
+    const double wanted = way.back() * static_cast<double>(k) / static_cast<double>(most - 1);
+    const auto distance = [&](std::size_t i) { return std::abs(way[i] - wanted); };
+    std::size_t best = chosen.back();
+    for (std::size_t i = chosen.back() + 1; i + 1 < n; ++i) {
+      if (best == chosen.back() || distance(i) < distance(best)) best = i;
+    }
+    // Each once, and in order: what the one before has taken is not taken again.
+    if (best != chosen.back()) chosen.push_back(best);
+  }
+  chosen.push_back(n - 1);
+  return chosen;
+}
+
+std::vector<std::size_t> snapshots_by_change(const RunReader& run, std::size_t most) {
+  const std::size_t n = run.times().size();
+  const std::size_t n_read = std::min(n, most_read);
+  std::vector<std::size_t> read(n_read);
+  std::vector<double> times(n_read);
+  for (std::size_t i = 0; i < n_read; ++i) {
+    read[i] = n_read == 1 ? 0 : i * (n - 1) / (n_read - 1);
+    times[i] = run.times()[read[i]];
+  }
+  if (n_read <= 2) return read;
+  Matrix outlines(static_cast<Index>(n_read), 4 * n_directions);
+  for (std::size_t i = 0; i < n_read; ++i) {
+    outlines.row(static_cast<Index>(i)) = outline_of(run, read[i]).transpose();
+  }
+  std::vector<std::size_t> chosen;
+  for (const std::size_t i : spread_by_change(times, outlines, most)) chosen.push_back(read[i]);
+  return chosen;
+}
+
+}  // namespace vehd

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bie/scene/output_units.hpp"
+
+/// Numbers as pictures show them: round ticks, few digits, units.
+namespace vehd {
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above a positive length.
+double round_below(double length);
+
+/// Multiples of the largest round step that has at least `least` of them on a scale; ascending.
+std::vector<double> round_ticks(double lower, double upper, int least = 3);
+
+/// One text for each number, all with as many digits as their step needs; a power of ten that they share is left out
+/// and given back by `power`.
+std::vector<std::string> tick_texts(const std::vector<double>& ticks, int& power);
+
+/// A number with this many digits: "0.25", "1.56 × 10^{-5}".
+std::string number_text(double value, int digits);
+
+/// Texts of the same number of digits, as many as make different numbers differ, three at least.
+std::vector<std::string> distinct_texts(const std::vector<double>& values);
+
+/// How numbers of a scene are shown: times `factor`, in `unit`.
+struct ShownUnit {
+  double factor = 1.0;
+  std::string unit{};  ///< empty: dimensionless
+
+  /// "time" or "time (ms)".
+  [[nodiscard]] std::string label(std::string_view name) const;
+};
+
+/// The unit of a dimension, by its name in scene/units.hpp, among those of a run; that of 1/length follows the length.
+ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension);
+
+}  // namespace vehd

@@ -1,0 +1,128 @@
+#include "bie/pictures/view.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "bie/support/csv.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+Matrix3 view_of_axis(int axis) {
+  // Along y from the front, so that x is to the right.
+  return view_along(axis == 1 ? Vector3(-Vector3::UnitY()) : Vector3(Vector3::Unit(axis)));
+}
+
+Matrix3 gradient_of(const FlowScene& flow) {
+  Matrix3 gradient;
+  for (int j = 0; j < 3; ++j) {
+    gradient.col(j) = 0.5 * (flow_velocity(flow, Vector3::Unit(j)) - flow_velocity(flow, -Vector3::Unit(j)));
+  }
+  return gradient;
+}
+
+/// How much of what a picture should show has each direction: a^T M a for a unit vector a.
+Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
+  Matrix3 weights = Matrix3::Zero();
+  const auto add_direction = [&weights](const Vector3& direction) {
+    if (direction.squaredNorm() > 0.0) weights += direction * direction.transpose() / direction.squaredNorm();
+  };
+  if (scene.electric) add_direction(vector_of(scene.electric->field));
+  if (scene.gravity) add_direction(vector_of(scene.gravity->acceleration));
+  if (scene.flow && scene.flow->kind == FlowKind::poiseuille) add_direction(Vector3::UnitX());
+  if (scene.flow && scene.flow->kind != FlowKind::poiseuille) {
+    const Matrix3 gradient = gradient_of(*scene.flow);
+    const double size = gradient.squaredNorm();
+    if (size > 0.0) weights += (gradient * gradient.transpose() + gradient.transpose() * gradient) / size;
+  }
+  // The one axis that differs most from the two others; its share decides only where nothing else does.
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
+  const Vector3 moments = solver.eigenvalues();
+  const bool prolate = moments[2] - moments[1] > moments[1] - moments[0];
+  constexpr double share = 0.01;
+  const double difference = prolate ? moments[2] - moments[1] : moments[1] - moments[0];
+  if (moments.sum() > 0.0 && difference > 1e-6 * moments.sum()) {
+    const Vector3 axis = solver.eigenvectors().col(prolate ? 2 : 0);
+    weights += share * axis * axis.transpose();
+  }
+  return weights;
+}
+
+}  // namespace
+
+Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
+
+Matrix3 view_along(const Vector3& to_eye) {
+  const Vector3 eye = to_eye.normalized();
+  constexpr double steep = 0.99;
+  const Vector3 upward = std::abs(eye.z()) > steep ? Vector3::UnitY() : Vector3::UnitZ();
+  const Vector3 right = upward.cross(eye).normalized();
+  Matrix3 frame;
+  frame.row(0) = right;
+  frame.row(1) = eye.cross(right);
+  frame.row(2) = eye;
+  return frame;
+}
+
+Matrix3 parse_view(const std::string& text) {
+  constexpr std::array names{"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (text == names[static_cast<std::size_t>(axis)]) return view_of_axis(axis);
+  }
+  std::istringstream stream(text);
+  Vector3 direction;
+  char comma = ',';
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) stream >> comma;
+    if (comma != ',' || !(stream >> direction[i])) stream.setstate(std::ios::failbit);
+  }
+  if (!stream || !(stream >> std::ws).eof() || !direction.allFinite() || direction.norm() == 0.0) {
+    throw InputError(
+        fmt::format("--view: \"{}\" is no direction; accepted: x, y, z or three numbers, as 1,1,0.5", text));
+  }
+  return view_along(direction);
+}
+
+Vector3 flow_velocity(const FlowScene& flow, const Vector3& x) {
+  switch (flow.kind) {
+    case FlowKind::shear:
+      return flow.rate * Vector3(x.z(), 0.0, 0.0);
+    case FlowKind::planar_extension:
+      return flow.rate * Vector3(x.x(), 0.0, -x.z());
+    case FlowKind::axisymmetric_extension:
+      return flow.rate * Vector3(-0.5 * x.x(), -0.5 * x.y(), x.z());
+    case FlowKind::poiseuille:
+      return flow.centre_velocity * (1.0 - (x.y() * x.y() + x.z() * x.z()) / (flow.radius * flow.radius)) *
+             Vector3::UnitX();
+    case FlowKind::gradient:
+      break;
+  }
+  Vector3 velocity;
+  for (int i = 0; i < 3; ++i) velocity[i] = vector_of(flow.gradient[static_cast<std::size_t>(i)]).dot(x);
+  return velocity;
+}
+
+Matrix3 default_view(const Scene& scene, const Matrix3& gyration) {
+  const Matrix3 weights = weights_of(scene, gyration);
+  // Rounding of a direction does not decide among the axes.
+  constexpr double rounding = 1e-6;
+  int best = 1;
+  for (const int axis : {2, 0}) {
+    if (weights(axis, axis) < weights(best, best) - rounding) best = axis;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(weights);
+  constexpr double oblique = 0.02;
+  if (weights(best, best) < oblique || solver.eigenvalues()[0] > 0.5 * weights(best, best)) return view_of_axis(best);
+  Vector3 eye = solver.eigenvectors().col(0);
+  // From the front or from above.
+  if (eye.y() > rounding || (std::abs(eye.y()) <= rounding && eye.z() < 0.0)) eye = -eye;
+  return view_along(eye);
+}
+
+}  // namespace vehd

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bie/scene/scene.hpp"
+#include "bie/support/types.hpp"
+
+/// Parallel projections: what is to the right, upwards and towards the eye in a picture.
+namespace vehd {
+
+/// The same three numbers.
+Vector3 vector_of(const Triple& triple);
+
+/// Seen from far off in the direction `to_eye`: z points upwards, y where one looks along z.
+/// @return rows: right, up, towards the eye; world coordinates become those of the picture
+Matrix3 view_along(const Vector3& to_eye);
+
+/// "x" (y to the right, z upwards), "y" (x to the right, z upwards), "z" (x to the right, y upwards) or a direction
+/// towards the eye, "1,1,0.5".
+/// @throws InputError for anything else
+Matrix3 parse_view(const std::string& text);
+
+/// v_∞ of a scene at a place, without its waveform.
+Vector3 flow_velocity(const FlowScene& flow, const Vector3& place);
+
+/// Across the plane of flow and field: along the axis of which field, gravity and flow have the least, along y where
+/// several have none. Where none decides, the axis of a shape of revolution lies in the plane.
+/// @param gyration  of the first shape, any scale
+Matrix3 default_view(const Scene& scene, const Matrix3& gyration);
+
+}  // namespace vehd
