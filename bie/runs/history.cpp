@@ -162,6 +162,8 @@ double HistoryTable::largest_magnitude(const std::string& name) const {
   return largest;
 }
 
+bool HistoryTable::has(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
+
 const std::vector<double>& HistoryTable::column(const std::string& name) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (names_[i] == name) return columns_[i];
