@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
+#include "bie/pictures/movie.hpp"
 #include "bie/pictures/plots.hpp"
 
 namespace vehd {
@@ -12,6 +13,7 @@ struct PlotOptions {
   std::string directory;
   std::string output;
   std::vector<double> times;
+  bool movie = false;
   CommonOptions common;
 };
 
@@ -29,6 +31,13 @@ ExitCode plot(const PlotOptions& options) {
   for (const auto& picture : pictures) {
     fmt::print("{}\n", picture.string());
     result["pictures"].push_back(picture.string());
+  }
+  if (options.movie) {
+    Progress progress(Progress::suitable_style());
+    const std::filesystem::path movie = plot_movie(task, progress);
+    progress.clear();
+    fmt::print("{}\n", movie.string());
+    result["movie"] = movie.string();
   }
   write_json(options.common, result);
   return ExitCode::done;
@@ -48,6 +57,7 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
       ->delimiter(',')
       ->type_name("T,T,...")
       ->expected(1, 6);
+  command->add_flag("--movie", options->movie, "Also write movie.mp4, a picture for each snapshot; needs ffmpeg");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] { exit_code = plot(*options); });
 }

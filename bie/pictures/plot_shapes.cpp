@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/gnuplot.hpp"
@@ -92,13 +93,19 @@ double rounded_up(double value) {
   return std::copysign(std::ceil(std::abs(value) / unit - 1e-9) * unit, value);
 }
 
-ColourRange range_of(const std::vector<Shape>& shapes, const Field& field) {
-  ColourRange range;
-  double lower = shapes.front().values.minCoeff(), upper = shapes.front().values.maxCoeff();
-  for (const Shape& shape : shapes) {
+/// Least and largest value of a field, over one shape or many.
+struct Extremes {
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+
+  void add(const Shape& shape) {
     lower = std::min(lower, shape.values.minCoeff());
     upper = std::max(upper, shape.values.maxCoeff());
   }
+};
+
+ColourRange range_of(const Extremes& extremes, const Field& field) {
+  const auto& [lower, upper] = extremes;
+  ColourRange range;
   range.both_signs = field.name == "Vm";
   if (range.both_signs) {
     range.upper = rounded_up(std::max(std::abs(lower), std::abs(upper)));
@@ -148,6 +155,18 @@ Image colour_bar(const ColourMap& colours, int height) {
   return image;
 }
 
+/// What colours stand for.
+struct ColourScale {
+  Field field;
+  ColourRange range;
+  ColourMap colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
+
+  /// Gives the shape its colours.
+  void apply(Shape& shape) const {
+    shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
+  }
+};
+
 /// All shapes side by side at one scale.
 struct Row {
   Image image;
@@ -184,6 +203,57 @@ double tick_spacing(double length, double most) {
   return 10.0 * power;
 }
 
+/// The row with times below and a colour bar beside it.
+void draw_row(const Row& row, const std::vector<double>& times, const ColourScale& scale,
+              const std::filesystem::path& picture) {
+  const std::filesystem::path folder = picture.parent_path();
+  const ColourRange& range = scale.range;
+  const TemporaryFile row_file(folder / ".shapes.rgb");
+  const TemporaryFile bar_file(folder / ".colours.rgb");
+  write_raw(row_file.path(), row.image);
+  const int bar_height = std::clamp(row.image.height - 120, 60, 420);
+  write_raw(bar_file.path(), colour_bar(scale.colours, bar_height));
+
+  const int width = row.image.width + (scale.field.name.empty() ? 0 : bar_room);
+  const int height = row.image.height + label_height;
+  const auto across = [&](double pixels) { return pixels / width; };
+  const auto upward = [&](double pixels) { return pixels / height; };
+  std::string script = fmt::format(
+      "set terminal pngcairo size {},{} enhanced font 'Sans,20' background rgb 'white'\n"
+      "set output {}\n"
+      "set multiplot\n"
+      "unset border; unset tics; unset key\n"
+      "set lmargin at screen 0; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen 1\n",
+      width, height, gnuplot_quoted(picture.string()), across(row.image.width), upward(label_height));
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    script += fmt::format("set label {} 't = {:.4g}' at screen {},{} center\n", i + 1, times[i],
+                          across((static_cast<double>(i) + 0.5) * row.cell_width), upward(label_height / 2.0));
+  }
+  script += fmt::format(
+      "set xrange [0:{0}]; set yrange [0:{1}]\n"
+      "plot {2} binary array=({0},{1}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
+      row.image.width, row.image.height, gnuplot_quoted(row_file.path().string()));
+  if (!scale.field.name.empty()) {
+    const double middle = label_height + row.image.height / 2.0;
+    script += fmt::format(
+        "unset label\n"
+        "set lmargin at screen {}; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen {}\n",
+        across(row.image.width + 24), across(row.image.width + 24 + bar_width), upward(middle - bar_height / 2.0),
+        upward(middle + bar_height / 2.0));
+    // About one label for every 30 pixels of the bar.
+    const double tick = tick_spacing(range.upper - range.lower, bar_height / 30.0);
+    script += fmt::format(
+        "set border lw 1; set y2tics {6} out nomirror scale 0.6 font ',17'; set format y2 '%.3g'\n"
+        "set title {0} offset 0,-0.3\n"
+        "set xrange [0:{1}]; set yrange [0:{2}]; set y2range [{3}:{4}]\n"
+        "plot {5} binary array=({1},{2}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
+        gnuplot_quoted(scale.field.label), bar_width, bar_height, range.lower, range.upper,
+        gnuplot_quoted(bar_file.path().string()), tick);
+  }
+  script += "unset multiplot\n";
+  run_gnuplot(script, folder);
+}
+
 }  // namespace
 
 std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader& run) {
@@ -215,58 +285,36 @@ void plot_shapes(const PlotTask& task, const std::filesystem::path& picture) {
   const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
   const Field field = field_to_show(run, choices.front().snapshot);
   std::vector<Shape> shapes;
-  for (const SnapshotChoice& choice : choices) shapes.push_back(shape_of(run, choice.snapshot, field));
-  const ColourRange range = range_of(shapes, field);
-  for (Shape& shape : shapes) {
-    shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
+  std::vector<double> times;
+  Extremes extremes;
+  for (const SnapshotChoice& choice : choices) {
+    shapes.push_back(shape_of(run, choice.snapshot, field));
+    times.push_back(shapes.back().time);
+    extremes.add(shapes.back());
   }
-  const ColourMap colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
-  const Row row = render_row(shapes, colours, task.shape_width);
+  const ColourScale scale{field, range_of(extremes, field)};
+  for (Shape& shape : shapes) scale.apply(shape);
+  draw_row(render_row(shapes, scale.colours, task.shape_width), times, scale, picture);
+}
 
-  const TemporaryFile row_file(task.output / ".shapes.rgb");
-  const TemporaryFile bar_file(task.output / ".colours.rgb");
-  write_raw(row_file.path(), row.image);
-  const int bar_height = std::clamp(row.image.height - 120, 60, 420);
-  write_raw(bar_file.path(), colour_bar(colours, bar_height));
-
-  const int width = row.image.width + (field.name.empty() ? 0 : bar_room);
-  const int height = row.image.height + label_height;
-  const auto across = [&](double pixels) { return pixels / width; };
-  const auto upward = [&](double pixels) { return pixels / height; };
-  std::string script = fmt::format(
-      "set terminal pngcairo size {},{} enhanced font 'Sans,20' background rgb 'white'\n"
-      "set output {}\n"
-      "set multiplot\n"
-      "unset border; unset tics; unset key\n"
-      "set lmargin at screen 0; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen 1\n",
-      width, height, gnuplot_quoted(picture.string()), across(row.image.width), upward(label_height));
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    script += fmt::format("set label {} 't = {:.4g}' at screen {},{} center\n", i + 1, shapes[i].time,
-                          across((static_cast<double>(i) + 0.5) * row.cell_width), upward(label_height / 2.0));
+FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::vector<std::size_t>& snapshots) {
+  const Field field = field_to_show(run, snapshots.front());
+  Extremes extremes;
+  double radius = 0.0;
+  for (const std::size_t snapshot : snapshots) {
+    const Shape shape = shape_of(run, snapshot, field);
+    extremes.add(shape);
+    radius = std::max(radius, shape.mesh.points.rowwise().norm().maxCoeff());
   }
-  script += fmt::format(
-      "set xrange [0:{0}]; set yrange [0:{1}]\n"
-      "plot {2} binary array=({0},{1}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
-      row.image.width, row.image.height, gnuplot_quoted(row_file.path().string()));
-  if (!field.name.empty()) {
-    const double middle = label_height + row.image.height / 2.0;
-    script += fmt::format(
-        "unset label\n"
-        "set lmargin at screen {}; set rmargin at screen {}; set bmargin at screen {}; set tmargin at screen {}\n",
-        across(row.image.width + 24), across(row.image.width + 24 + bar_width), upward(middle - bar_height / 2.0),
-        upward(middle + bar_height / 2.0));
-    // About one label for every 30 pixels of the bar.
-    const double tick = tick_spacing(range.upper - range.lower, bar_height / 30.0);
-    script += fmt::format(
-        "set border lw 1; set y2tics {6} out nomirror scale 0.6 font ',17'; set format y2 '%.3g'\n"
-        "set title {0} offset 0,-0.3\n"
-        "set xrange [0:{1}]; set yrange [0:{2}]; set y2range [{3}:{4}]\n"
-        "plot {5} binary array=({1},{2}) format='%uchar' origin=(0.5,0.5) using 1:2:3 with rgbimage\n",
-        gnuplot_quoted(field.label), bar_width, bar_height, range.lower, range.upper,
-        gnuplot_quoted(bar_file.path().string()), tick);
-  }
-  script += "unset multiplot\n";
-  run_gnuplot(script, task.output);
+  const ColourScale scale{field, range_of(extremes, field)};
+  return [=, &run, width = task.shape_width](std::size_t snapshot, const std::filesystem::path& picture) {
+    Shape shape = shape_of(run, snapshot, field);
+    scale.apply(shape);
+    // The ball that holds every shape fits into the picture.
+    const Image image =
+        render(shape.mesh, camera_for(radius), scale.colours, width / (2.0 * cell_margin * radius), width, width);
+    draw_row({image, width}, {shape.time}, scale, picture);
+  };
 }
 
 }  // namespace vehd

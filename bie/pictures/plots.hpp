@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "bie/files/snapshot_choice.hpp"
@@ -27,6 +28,14 @@ std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader
 
 /// One row of shapes in perspective, coloured by V_m, or by tension without one.
 void plot_shapes(const PlotTask& task, const std::filesystem::path& picture);
+
+/// Draws the picture of a snapshot to a PNG file.
+using FrameDrawer = std::function<void(std::size_t snapshot, const std::filesystem::path& picture)>;
+
+/// Pictures of single shapes as those of `plot_shapes`, all at one scale and with the same colours.
+/// @param run        must outlive what is returned
+/// @param snapshots  that will be drawn
+FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::vector<std::size_t>& snapshots);
 
 /// Energy and tension, V_m and charge at the north pole (or extents), inclination in flow, against time.
 void plot_history(const PlotTask& task, const std::filesystem::path& picture);
