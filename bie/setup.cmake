@@ -12,6 +12,8 @@
 #   cmake -DSTEP=fuzz -P bie/setup.cmake      installs clang, fuzzes each reader of files for 10 minutes; -DSECONDS=60
 #                                             before -P for another time
 #   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture and table of the pages that the program measures itself
+#   cmake -DSTEP=site -P bie/setup.cmake   makes one site of the pages and the interfaces of all headers, in build/site;
+#                                          compiles nothing
 #   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64, in build-levels
 # Before -P, for every step:
 #   -DINSTALL=OFF                   installs nothing: says what is missing, and goes on where it can do without
@@ -23,7 +25,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
-set(steps run test build check package callgrind faults sanitize fuzz docs)
+set(steps run test build check package callgrind faults sanitize fuzz docs site)
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
@@ -80,13 +82,19 @@ macro(need_python_module package module)
   endif()
 endmacro()
 
-need_program(ninja-build ninja)
-need_program(pkg-config pkg-config pkgconf)
-need_program(gnuplot-nox gnuplot)
-find_file(dejavu DejaVuSans.ttf PATHS /usr/share/fonts /usr/local/share/fonts PATH_SUFFIXES truetype/dejavu TTF dejavu
-          dejavu-sans-fonts NO_CACHE)
-if(NOT dejavu)
-  list(APPEND missing fonts-dejavu-core)
+if(STEP STREQUAL "site")
+  # The site needs nothing of what compiles and draws.
+  include("${CMAKE_CURRENT_LIST_DIR}/cmake/site_tools.cmake")
+  list(APPEND missing ${missing_site_tools})
+else()
+  need_program(ninja-build ninja)
+  need_program(pkg-config pkg-config pkgconf)
+  need_program(gnuplot-nox gnuplot)
+  find_file(dejavu DejaVuSans.ttf PATHS /usr/share/fonts /usr/local/share/fonts PATH_SUFFIXES truetype/dejavu TTF dejavu
+            dejavu-sans-fonts NO_CACHE)
+  if(NOT dejavu)
+    list(APPEND missing fonts-dejavu-core)
+  endif()
 endif()
 if(STEP MATCHES "^(test|sanitize)$")
   # The tests open run.xdmf as ParaView does and render it on a virtual display.
@@ -152,6 +160,10 @@ endfunction()
 
 if(missing)
   install_packages(${missing})
+endif()
+if(STEP STREQUAL "site")
+  run_or_stop("${CMAKE_COMMAND}" -DSITE=${source}/build/site -P bie/cmake/site.cmake)
+  return()
 endif()
 if(NOT DEFINED VEHD_FEM_CHECK)
   set(VEHD_FEM_CHECK OFF)

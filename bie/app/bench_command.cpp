@@ -4,6 +4,7 @@
 
 #include "bie/app/bench_printer.hpp"
 #include "bie/app/commands.hpp"
+#include "bie/app/scene_choice.hpp"
 #include "bie/bench/all.hpp"
 #include "bie/bench/methods.hpp"
 #include "bie/bench/parts.hpp"
@@ -65,7 +66,7 @@ void add_scene(CLI::App& command, SceneOptions& options) {
 
 void add_orders(CLI::App& command, SceneOptions& options, std::vector<int> orders) {
   options.orders = std::move(orders);
-  command.add_option("--orders", options.orders, "Degrees p, ascending")
+  command.add_option("--degrees,--orders", options.orders, "Degrees p, ascending")
       ->delimiter(',')
       ->check(CLI::Range(lowest_order, highest_order))
       ->capture_default_str();
@@ -76,6 +77,8 @@ template <typename Measure>
 void add_bench(CLI::App& command, const std::shared_ptr<SceneOptions>& options, ExitCode& exit_code,
                const Measure& measure) {
   add_output_options(command, options->bench);
+  // That of threads takes several numbers of them.
+  if (command.get_option_no_throw("--threads") == nullptr) add_threads_option(command);
   command.callback([options, &exit_code, measure] {
     BenchPrinter printer;
     // Before anything is measured: a place that cannot be written is said at once.
@@ -111,7 +114,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
   command->add_option("--time-orders", options->time_orders, "Integrators for --dt; that of the scene if not given")
       ->delimiter(',')
       ->check(CLI::Range(1, highest_time_order));
-  command->add_option("--order", options->order, "Degree p for --dt; that of the scene if not given")
+  command->add_option("--degree,--order", options->order, "Degree p for --dt; that of the scene if not given")
       ->check(CLI::Range(4, 64));
   command->add_option("--at", options->at, "Time at which the values are taken")
       ->required()
@@ -159,7 +162,7 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--order", options->order, "Degree p; that of the scene if not given")->check(CLI::Range(4, 64));
+  command->add_option("--degree,--order", options->order, "Degree p; that of the scene if not given")->check(CLI::Range(4, 64));
   add_repeats(*command, options->bench, 5);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
     Scene scene = read_scene(o.scene_file);
@@ -193,6 +196,7 @@ void add_all(CLI::App& bench, ExitCode& exit_code) {
       ->delimiter(',')
       ->check(CLI::IsMember(names_of_benches()));
   add_output_options(*command, options->bench);
+  add_threads_option(*command);
   command->callback([options, &exit_code] {
     BenchPrinter printer;
     write_json(options->bench.common,
@@ -210,6 +214,7 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_flag("--quick", options->quick, "The short form of every case");
   add_output_options(*command, options->bench);
+  add_threads_option(*command);
   command->footer("Exit code 4 if a criterion does not hold. See docs/hard_cases.md.");
   command->callback([options, &exit_code] {
     Interruption interruption;

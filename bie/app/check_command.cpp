@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bie/app/commands.hpp"
+#include "bie/app/scene_choice.hpp"
 #include "bie/comparison/check.hpp"
 #include "bie/pictures/differences.hpp"
 
@@ -19,7 +20,7 @@ constexpr int most_default_ranks = 8;
 int default_ranks() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_default_ranks); }
 
 struct CheckOptions {
-  std::string file;
+  SceneChoice scene;  ///< or a run.h5
   std::optional<double> time;
   std::string directory;
   bool quick = false;
@@ -30,8 +31,8 @@ struct CheckOptions {
 
 std::filesystem::path directory_of(const CheckOptions& options) {
   if (!options.directory.empty()) return options.directory;
-  const std::filesystem::path file = options.file;
-  if (file.extension() == ".toml") return std::filesystem::path("out") / (file.stem().string() + "_check");
+  const std::filesystem::path& file = options.scene.source.file;
+  if (file.extension() == ".toml") return default_directory(file) += "_check";
   return file.parent_path() / "check";
 }
 
@@ -46,13 +47,13 @@ void draw_if_possible(const std::filesystem::path& directory) {
 
 /// Called once for each of two degrees.
 void print_solved(const CheckFields& fields, bool first) {
-  fmt::print(stderr, "{}order {} in {:.1f} s{}", first ? "boundary integrals: " : ", ", fields.order, fields.seconds,
+  fmt::print(stderr, "{}degree {} in {:.1f} s{}", first ? "boundary integrals: " : ", ", fields.order, fields.seconds,
              first ? "" : "\n");
 }
 
 ExitCode check(const CheckOptions& options) {
   const FemProgram fem;
-  CheckTask task{.frozen = read_frozen_state(options.file, options.time),
+  CheckTask task{.frozen = read_frozen_state(options.scene.source, options.time),
                  .directory = directory_of(options),
                  .quick = options.quick,
                  .n_ranks = options.ranks};
@@ -70,7 +71,10 @@ ExitCode check(const CheckOptions& options) {
 void add_check_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("check", "Compare the fields of a frozen shape with finite elements");
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("FILE", options->file, "run.h5 of a run, or a scene (.toml) for its initial state")->required();
+  command
+      ->add_option("FILE", options->scene.source.file, "run.h5 of a run, or a scene (.toml) for its initial state")
+      ->required();
+  add_settings(*command, options->scene);
   command->add_option("--time", options->time, "Time; the nearest snapshot is taken, the last one if left out");
   command
       ->add_option("-o,--output", options->directory,
@@ -81,6 +85,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_flag("--no-plot", options->no_plot, "Draw no picture");
+  add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(
       "Compares q, V_m, the electric force and the velocity, each with both methods' own error estimates.\n"

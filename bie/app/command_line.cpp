@@ -17,7 +17,7 @@ constexpr const char* footer =
     "Exit codes: 0 done, 1 wrong input or usage, 2 internal error,\n"
     "            3 the run stopped early and can be continued with --resume,\n"
     "            4 done, and what was asked does not hold.\n"
-    "Scene files to start from: docs/scenes/*.toml; their keys: vehd help scene";
+    "Scene files to start from: vehd examples; their keys: vehd help scene";
 
 void send_messages_to_standard_error() {
   auto logger = spdlog::stderr_color_mt("vehd");
@@ -93,8 +93,9 @@ int run_program(int argc, char** argv) {
   add_mesh_command(program, exit_code);
   add_check_command(program, exit_code);
   add_bench_command(program, exit_code);
-  add_help_command(program, exit_code);
+  add_examples_command(program, exit_code);
   add_completion_command(program, exit_code);
+  add_help_command(program, exit_code);
   return static_cast<int>(parse_and_run(program, argc, argv, exit_code));
 }
 

@@ -26,7 +26,9 @@ void add_mesh_command(CLI::App& program, ExitCode& exit_code);
 void add_check_command(CLI::App& program, ExitCode& exit_code);
 /// vehd bench: what accuracy costs.
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
-/// vehd help: reference of the scene keys.
+/// vehd examples: the scenes that come with the program.
+void add_examples_command(CLI::App& program, ExitCode& exit_code);
+/// vehd help: reference of the scene keys; comes last, as it knows the help of every command before it.
 void add_help_command(CLI::App& program, ExitCode& exit_code);
 /// `vehd completion SHELL`: a script that completes commands and options, made from what the help is printed from.
 void add_completion_command(CLI::App& program, ExitCode& exit_code);

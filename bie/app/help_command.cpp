@@ -72,15 +72,45 @@ void add_groups_topic(CLI::App& help, ExitCode& exit_code) {
   });
 }
 
+/// `help NAME ...` for every command below `owner`: what the command prints with --help.
+/// @param call  of the owner
+void add_command_topics(CLI::App& help, const CLI::App& owner, const std::string& call, ExitCode& exit_code) {
+  for (const CLI::App* command : owner.get_subcommands([](const CLI::App*) { return true; })) {
+    // A group of options is a command without a name.
+    if (command == &help || command->get_name().empty()) continue;
+    CLI::App* topic = help.add_subcommand(command->get_name(), command->get_description());
+    topic->group("Help on a command");
+    topic->require_subcommand(0, 1);
+    const auto options = std::make_shared<HelpOptions>();
+    add_common_options(*topic, options->common);
+    topic->callback([topic, command, call, options, &exit_code] {
+      if (!topic->get_subcommands().empty()) return;
+      const std::string text = command->help(call);
+      fmt::print("{}", text);
+      write_json(options->common, {{"command", command->get_name()}, {"help", text}});
+      exit_code = ExitCode::done;
+    });
+    add_command_topics(*topic, *command, call + " " + command->get_name(), exit_code);
+  }
+}
+
 }  // namespace
 
 void add_help_command(CLI::App& program, ExitCode& exit_code) {
-  CLI::App* command = program.add_subcommand("help", "What a scene file may say, and what a scene amounts to");
+  CLI::App* command =
+      program.add_subcommand("help", "What a scene file may say, what a scene amounts to, and what a command does");
   command->require_subcommand(0, 1);
   add_scene_topic(*command, exit_code);
   add_groups_topic(*command, exit_code);
-  command->callback([command, &exit_code] {
-    if (command->get_subcommands().empty()) fmt::print("{}", command->help("vehd"));
+  add_command_topics(*command, program, "vehd", exit_code);
+  const auto options = std::make_shared<HelpOptions>();
+  add_common_options(*command, options->common);
+  command->callback([command, options, &exit_code] {
+    if (command->get_subcommands().empty()) {
+      const std::string text = command->help("vehd");
+      fmt::print("{}", text);
+      write_json(options->common, {{"command", command->get_name()}, {"help", text}});
+    }
     exit_code = ExitCode::done;
   });
 }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
+#include "bie/app/scene_choice.hpp"
 #include "bie/estimate/cost_table.hpp"
 #include "bie/estimate/plan_cost.hpp"
 #include "bie/runs/resumption.hpp"
@@ -15,7 +16,7 @@ namespace vehd {
 namespace {
 
 struct PlanOptions {
-  std::string scene_file;
+  SceneChoice scene;
   bool costs = false;
   bool fresh = false;
   CommonOptions common;
@@ -67,7 +68,7 @@ void print(const RunPlan& plan) {
 
 /// A plan of steps that cannot be taken is none.
 ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
-  fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene_file, what);
+  fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene.source.file.string(), what);
   return ExitCode::does_not_hold;
 }
 
@@ -97,7 +98,7 @@ ExitCode print_costs(const PlanOptions& options, const Scene& scene, CostCache& 
 }
 
 ExitCode plan(const PlanOptions& options) {
-  const Scene scene = read_scene(options.scene_file);
+  const Scene scene = read_scene(options.scene.source);
   CostCache cache;
   if (options.fresh) cache.forget();
   if (options.costs) return print_costs(options, scene, cache);
@@ -114,9 +115,10 @@ ExitCode plan(const PlanOptions& options) {
 void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "Say what a run of a scene will do and cost");
   const auto options = std::make_shared<PlanOptions>();
-  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
+  add_scene_choice(*command, options->scene);
   command->add_flag("--menu", options->costs, "Only a table of what each tolerance from 1e-1 to 1e-7 would cost");
   command->add_flag("--fresh", options->fresh, "Measure again what is kept from former calls");
+  add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(
       "Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.\n"

@@ -7,6 +7,7 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/app/run_progress.hpp"
+#include "bie/app/scene_choice.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/session.hpp"
@@ -16,7 +17,7 @@ namespace vehd {
 namespace {
 
 struct RunOptions {
-  std::string scene_file;
+  SceneChoice scene;
   std::string directory;
   bool resume = false;
   bool no_plot = false;
@@ -24,12 +25,18 @@ struct RunOptions {
   CommonOptions common;
 };
 
+std::filesystem::path directory_of(const RunOptions& options) {
+  return options.directory.empty() ? default_directory(options.scene.source.file)
+                                   : std::filesystem::path(options.directory);
+}
+
 /// What to do about a run that has stopped.
 std::string next_step(const RunOptions& options, const Scene& scene, const RunOutcome& outcome) {
-  const std::string command = fmt::format("vehd run {} -o {} --resume", options.scene_file, options.directory);
+  const std::string command =
+      fmt::format("vehd run {} -o {} --resume", options.scene.text(), directory_of(options).string());
   if (!outcome.cannot_step) return "continue with: " + command;
   return fmt::format("unchanged it would stop there again: {} of {}, then continue with: {}",
-                     what_may_help(scene.numerics), options.scene_file, command);
+                     what_may_help(scene.numerics), options.scene.source.file.string(), command);
 }
 
 void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
@@ -56,8 +63,8 @@ void plot_if_possible(const RunPaths& paths) {
 ExitCode run(const RunOptions& options) {
   // Before anything runs in parallel: threads inherit which signals they leave alone.
   std::optional<Interruption> interruption(std::in_place);
-  const Scene scene = read_scene(options.scene_file);
-  const RunSession session(scene, options.scene_file, options.directory, options.resume);
+  const Scene scene = read_scene(options.scene.source);
+  const RunSession session(scene, options.scene.source, directory_of(options), options.resume);
   if (session.is_complete()) {
     fmt::print("{}: the run is already complete, nothing to do\n", session.paths().directory.string());
     write_json(options.common, session.last_summary());
@@ -97,14 +104,16 @@ ExitCode run(const RunOptions& options) {
 void add_run_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("SCENE", options->scene_file, "Scene file (TOML)")->required();
-  command->add_option("-o,--output", options->directory, "Directory for the files of the run; created if missing")
-      ->required()
+  add_scene_choice(*command, options->scene);
+  command
+      ->add_option("-o,--output", options->directory,
+                   "Directory for the files of the run, created if missing; out/NAME of NAME.toml if not given")
       ->type_name("DIR");
   command->add_flag("--resume", options->resume,
                     "Continue the run in DIR, also with other [numerics] and [output]; start it if there is none");
   command->add_flag("--no-plot", options->no_plot, "Draw no pictures at the end");
   command->add_flag("--quiet", options->quiet, "Show no progress");
+  add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(
       "Writes history.csv, run.h5, run.xdmf (ParaView), summary.json, scene.toml and plots/.\n"

@@ -89,7 +89,7 @@ std::vector<BenchPanel> panels_of(const std::vector<std::string>& parts, const s
 
 BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer) {
   scene = with_fixed_steps(std::move(scene), "parts");
-  require_ascending("--orders", orders);
+  require_ascending("--degrees", orders);
   const MachineRecord machine = machine_record();
   const double peak = measured_peak(machine.threads);
   BenchResult result{"parts", machine, repeats, {}, {}, {}};

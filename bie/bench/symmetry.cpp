@@ -30,7 +30,7 @@ Scene with_symmetry(Scene scene, SymmetryUse use) {
 
 BenchResult bench_symmetry(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer) {
   scene = with_fixed_steps(std::move(scene), "symmetry");
-  require_ascending("--orders", orders);
+  require_ascending("--degrees", orders);
   if (!problem_of(with_symmetry(scene, SymmetryUse::automatic)).symmetry.any()) {
     throw InputError("bench symmetry needs a scene that has one");
   }

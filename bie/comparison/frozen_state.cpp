@@ -27,10 +27,10 @@ Symmetry symmetry_of(const Scene& scene, const FrozenState& frozen) {
   return scene.numerics.symmetry == SymmetryUse::off ? Symmetry{} : find_symmetry(frozen.model, frozen.state);
 }
 
-FrozenState start_of_scene(const std::filesystem::path& file) {
-  const Scene scene = read_scene(file);
+FrozenState start_of_scene(const SceneSource& source) {
+  const Scene scene = read_scene(source);
   FrozenState frozen;
-  frozen.source = file.string();
+  frozen.source = source.file.string();
   frozen.model = model_of(scene);
   const Problem problem = problem_of(scene);
   const Discretisation discretisation(problem.settings, problem.symmetry);
@@ -73,10 +73,15 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<dou
 
 }  // namespace
 
-FrozenState read_frozen_state(const std::filesystem::path& file, std::optional<double> time) {
-  if (!is_scene(file)) return snapshot_of_run(file, time);
-  require_start(file, time);
-  return start_of_scene(file);
+FrozenState read_frozen_state(const SceneSource& source, std::optional<double> time) {
+  if (is_scene(source.file)) {
+    require_start(source.file, time);
+    return start_of_scene(source);
+  }
+  if (source.settings.empty()) return snapshot_of_run(source.file, time);
+  throw InputError(fmt::format("--set {}: {} is a run, which has the values that it was made with; accepted: with a "
+                               "scene (.toml)",
+                               source.settings.front(), source.file.string()));
 }
 
 FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "bie/scene/settings.hpp"
 #include "bie/stepping/state/fields.hpp"
 #include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
@@ -27,10 +28,10 @@ struct FrozenShape {
   std::string note;  ///< as above
 };
 
-/// @param file  a run.h5, or a scene (.toml) whose initial state is computed in memory
+/// @param source  a run.h5, or a scene (.toml) whose initial state is computed in memory; settings go with a scene only
 /// @param time  of the snapshot, see choose_snapshot; absent: the last one. A scene knows time 0 only.
 /// @throws InputError if there is no such time or the file cannot be used
-FrozenState read_frozen_state(const std::filesystem::path& file, std::optional<double> time);
+FrozenState read_frozen_state(const SceneSource& source, std::optional<double> time);
 
 /// The same without its fields; of a scene nothing is solved.
 FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time);

@@ -30,7 +30,7 @@ std::string snapshot_name(std::int64_t number);
 /// @param transform  between degree p and the grid of the file
 void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const RunHeader& header);
 
-/// Writes /snapshots/<name>: grid fields, coefficients/ and surface/.
+/// Writes /snapshots/NAME: grid fields, coefficients/ and surface/.
 /// @param state, fields  of the degree of the transform
 /// @param si_scale  every dataset says in `scale` what it says
 /// @return its checksum

@@ -36,7 +36,7 @@ constexpr double kStokesDoubleLayerPrefactor = 3.0 / (4.0 * std::numbers::pi);
 /// @param inverse_r            1/|r|
 /// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11
 /// (tests/potentials/stokes_sphere_test.cpp)
-/// Source: Pozrikidis 1992 (Boundary integral and singularity methods for linearized viscous flow)
+/// Source: Pozrikidis 1992
 inline std::array<double, 6> stokes_double_kernel(double rx, double ry, double rz, double r_dot_source_normal,
                                                   double inverse_r) {
   const double inverse_r2 = inverse_r * inverse_r;

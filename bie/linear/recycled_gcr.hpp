@@ -8,7 +8,7 @@
 namespace vehd {
 
 /// Solves A x = b for several right-hand sides of one operator, left-preconditioned, by generalised conjugate residuals
-/// (Eisenstat, Elman, Schultz 1983). Directions are kept: each later right-hand side starts from its projection on what
+/// (Eisenstat, Elman and Schultz 1983). Directions are kept: each later right-hand side starts from its projection on what
 /// the former ones have found, so that a sequence of rough solves costs little more than one fine solve. What is known
 /// of a similar operator proposes directions and does not change what is solved.
 ///

@@ -71,8 +71,8 @@ ElectricTraces electric_traces(const ElectricParameters& electric, const Membran
 /// f_E = [[n·Σ_el]] (interior minus exterior), Eqs. (3), (15), (32), on the upsampled grid.
 /// @param permittivity        outside
 /// @param permittivity_ratio  inside over outside
-/// @return  force per area of the field on the membrane, normal and tangential part, [n_points x 3]; the fluid feels
-///     f_b + f_λ − f_E
+/// @return  minus the force per area of the field on the membrane, normal and tangential part, [n_points x 3]; the fluid
+///     feels f_b + f_λ − f_E
 /// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/electric_sphere_test.cpp); errors of Example 1 as the
 /// paper has them (tests/physics/example1_test.cpp)
 /// Source: paper Eqs. (3), (15), (32); Melcher and Taylor 1969

@@ -30,7 +30,7 @@ struct ViscosityContrastParameters {
 /// The map is a dense LU factor on the unknowns that the reflections leave: found once per shape, applied many times.
 /// Accuracy: spectral at every ratio: closed spectrum of the sphere to 1e-11, a flow common to both fluids to 1e-5 at p
 /// = 18, rigid motions to 1e-12 (tests/physics/viscosity_contrast_test.cpp)
-/// Source: Pozrikidis 1992 (Boundary integral and singularity methods for linearized viscous flow)
+/// Source: Pozrikidis 1992
 class ViscosityContrast {
  public:
   /// @param fine         degree p ↔ upsampled grid

@@ -29,7 +29,7 @@ struct GradedRule {
 /// @param scale    smallest angle that is resolved, > 0; height over largest stretch of a foot point
 /// Accuracy: spectral in n_theta and n_phi; a peak of width 1e-8 and more is integrated to 1e-11
 /// (tests/potentials/foot_point_test.cpp)
-/// Source: the substitution is that of Johnston and Elliott 2005 (sinh transformation of nearly singular integrals)
+/// Source: the substitution is that of Johnston and Elliott 2005
 GradedRule make_graded_rule(int order, double scale, int n_theta, int n_phi);
 
 }  // namespace vehd

@@ -289,7 +289,7 @@ void require_resolved(const OffSurfaceValues& values, const Matrix& points) {
     if (values.resolved[i]) continue;
     throw ConvergenceError(
         fmt::format("layer potentials at ({:.6g}, {:.6g}, {:.6g}), {:.3g} from the membrane: the finest rules still "
-                    "disagree; another part of the membrane may be as near, or its order too low for its shape",
+                    "disagree; another part of the membrane may be as near, or its degree too low for its shape",
                     points(i, 0), points(i, 1), points(i, 2), values.distance[i]));
   }
 }

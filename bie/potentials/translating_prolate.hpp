@@ -12,7 +12,7 @@ struct ProlateSpeeds {
   double along, across;
 };
 /// See ProlateSpeeds.
-/// Source: Kim and Karrila 1991 (Microhydrodynamics, Table 3.4)
+/// Source: Kim and Karrila 1991, Table 3.4
 ProlateSpeeds translating_prolate_speeds();
 
 }  // namespace vehd

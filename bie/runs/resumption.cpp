@@ -51,11 +51,11 @@ State adapted(State state, const Scene& before, const Scene& scene) {
 
 }  // namespace
 
-void require_same_physics(const Scene& scene, const std::filesystem::path& scene_file, const Checkpoint& checkpoint,
+void require_same_physics(const Scene& scene, const SceneSource& source, const Checkpoint& checkpoint,
                           const RunPaths& paths) {
   const Scene stored = stored_scene(checkpoint, paths);
   const auto refuse = [&](const std::string& key, const std::string& why) {
-    throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(scene_file, key), key,
+    throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(source, key), key,
                                  shown(key_text(scene, key)), paths.directory.string(), shown(key_text(stored, key)),
                                  why));
   };
@@ -71,7 +71,7 @@ void require_same_physics(const Scene& scene, const std::filesystem::path& scene
     throw InputError(
         fmt::format("{}: \"numerics.end_time\" is {:g}, but the run in {} has already reached {:g}; accepted: "
                     "that or later",
-                    key_place(scene_file, "numerics.end_time"), scene.numerics.end_time, paths.directory.string(),
+                    key_place(source, "numerics.end_time"), scene.numerics.end_time, paths.directory.string(),
                     checkpoint.state.time));
   }
 }
@@ -99,12 +99,12 @@ int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPa
 }
 
 std::string what_may_help(const NumericsScene& numerics) {
-  const std::string order = fmt::format("order (now {})", numerics.order);
+  const std::string degree = fmt::format("degree (now {})", numerics.order);
   if (numerics.tolerance) {
-    return fmt::format("change tolerance (now {:g}) or {} in [numerics]", *numerics.tolerance, order);
+    return fmt::format("change tolerance (now {:g}) or {} in [numerics]", *numerics.tolerance, degree);
   }
   return fmt::format("change dt (now {:g}), {} or time_order (now {}), or give a tolerance, in [numerics]",
-                     *numerics.dt, order, numerics.time_order);
+                     *numerics.dt, degree, numerics.time_order);
 }
 
 }  // namespace vehd

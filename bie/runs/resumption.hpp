@@ -6,15 +6,16 @@
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/run_directory.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/scene/settings.hpp"
 
 /// What a session of a run may change of its scene.
 namespace vehd {
 
 /// The physics of a run stay what they were; [numerics] and [output] may change, but for a symmetry that was switched
 /// off and an end that lies in the past.
-/// @param scene_file  of the scene, for messages
+/// @param source  of the scene, for messages
 /// @throws InputError naming file and line of the scene, the key and both its values
-void require_same_physics(const Scene& scene, const std::filesystem::path& scene_file, const Checkpoint& checkpoint,
+void require_same_physics(const Scene& scene, const SceneSource& source, const Checkpoint& checkpoint,
                           const RunPaths& paths);
 
 /// The checkpoint from which a run goes on with the numerics of the scene, every change recorded. Where nothing has
@@ -27,7 +28,7 @@ Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& 
 /// @throws InputError if the run has snapshots and their file cannot be read
 int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths);
 
-/// "change dt (now 0.05), order (now 16) ... in [numerics]": what may help where no step is acceptable.
+/// "change dt (now 0.05), degree (now 16) ... in [numerics]": what may help where no step is acceptable.
 std::string what_may_help(const NumericsScene& numerics);
 
 }  // namespace vehd

@@ -25,12 +25,12 @@ bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths&
 
 }  // namespace
 
-RunSession::RunSession(Scene scene, const std::filesystem::path& scene_file, const std::filesystem::path& directory,
+RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory,
                        bool resume)
     : scene_(std::move(scene)), paths_{directory}, lock_(lock_in(paths_)) {
   if (!admit_run(paths_, resume)) return;
   checkpoint_ = read_checkpoint(paths_.checkpoint());
-  require_same_physics(scene_, scene_file, *checkpoint_, paths_);
+  require_same_physics(scene_, source, *checkpoint_, paths_);
   complete_ = has_ended(scene_, *checkpoint_, paths_);
   threads_before_ = checkpoint_->threads;
   n_changes_before_ = checkpoint_->changes.size();

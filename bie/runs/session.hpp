@@ -11,6 +11,7 @@
 #include "bie/runs/run_loop.hpp"
 #include "bie/runs/scene_changes.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/scene/settings.hpp"
 
 namespace vehd {
 
@@ -18,11 +19,11 @@ namespace vehd {
 class RunSession {
  public:
   /// Creates the directory if it is missing. Nothing of a former run in it is touched yet.
-  /// @param scene_file  of the scene, for messages
+  /// @param source  of the scene, for messages
   /// @param resume  whether a former run may go on
   /// @throws InputError if another session is at it, or if what the directory holds cannot go on with this scene
   /// @throws OutputError if the directory cannot be used
-  RunSession(Scene scene, const std::filesystem::path& scene_file, const std::filesystem::path& directory, bool resume);
+  RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume);
 
   [[nodiscard]] const RunPaths& paths() const { return paths_; }
   /// A former session has reached the end of the scene: nothing is left to do.

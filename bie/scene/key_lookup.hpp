@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "bie/scene/scene.hpp"
+#include "bie/scene/settings.hpp"
 
 /// Single keys of a scene by their full name, "table.key".
 namespace vehd {
@@ -12,7 +12,7 @@ namespace vehd {
 std::string key_text(const Scene& scene, const std::string& name);
 
 /// "file:line" of a key in a scene file that can be read: of its table where the key is left out, of the first line
-/// where the table is. @throws InputError if the file cannot be read any more
-std::string key_place(const std::filesystem::path& file, const std::string& name);
+/// where the table is; the option --set that gives the key. @throws InputError if the file cannot be read any more
+std::string key_place(const SceneSource& source, const std::string& name);
 
 }  // namespace vehd

@@ -80,7 +80,7 @@ void add_shape_keys(KeyTable& table) {
       .required = true;
   table.begin("shape", {"file"});
   table
-      .add("path", any_number, {"", "", "run.h5 that holds the shape, relative to the scene file; any order and units"},
+      .add("path", any_number, {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units"},
            shape, &ShapeScene::path)
       .required = true;
   table.add("time", not_negative, {"t", "time", "time of the snapshot in that run; absent: the last one"}, shape,
@@ -213,11 +213,13 @@ void add_numerics_keys(KeyTable& table) {
              "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they are "
              "fixed"},
             numerics, &NumericsScene::tolerance);
-  table.add("order", {lowest_order, highest_order},
-            {"p", "1",
-             "degree of the spherical harmonics; with a tolerance the highest and that of the files, by default "
-             "8 (1 − log₁₀ tolerance) up to 64"},
-            numerics, &NumericsScene::order);
+  table
+      .add("degree", {lowest_order, highest_order},
+           {"p", "1",
+            "of the spherical harmonics; also called order; with a tolerance the highest and that of the files, by "
+            "default 8 (1 − log₁₀ tolerance) up to 64"},
+           numerics, &NumericsScene::order)
+      .other_name = "order";
   table.add("dt", positive, {"Δt", "time", "largest time step; required without a tolerance"}, numerics,
             &NumericsScene::dt);
   table.add(

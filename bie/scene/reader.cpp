@@ -116,8 +116,23 @@ std::string kinds_text(std::string_view table, std::string_view name) {
   return fmt::format("kind{} {}", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "));
 }
 
-void read_key(Scene& scene, const KeyDescription& key, const toml::node& node, const std::string& file) {
+/// @param name  of the two that the key may have the one that the file has
+void read_key(Scene& scene, KeyDescription key, std::string_view name, const toml::node& node,
+              const std::string& file) {
+  key.name = name;
   key.set(scene, checked_value(key, node, file, scene.units));
+}
+
+bool has_key(const toml::table& table, const KeyDescription& key) {
+  return table.contains(key.name) || (!key.other_name.empty() && table.contains(key.other_name));
+}
+
+/// A key with two names is there under one of them.
+void require_one_name(const KeyDescription& key, const toml::table& table, const std::string& file) {
+  if (key.other_name.empty() || !table.contains(key.name) || !table.contains(key.other_name)) return;
+  throw InputError(fmt::format("{}: \"{}\" in [{}] is another name of \"{}\", which is there as well; accepted: one "
+                               "of them",
+                               place(*table.get(key.other_name), file), key.other_name, key.table, key.name));
 }
 
 /// The table of a dotted name, or nullptr.
@@ -146,7 +161,7 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
   // The kind decides which of the other keys are accepted.
   if (const KeyDescription* kind = find_key(description.name, "kind")) {
     if (const toml::node* node = table.get("kind"))
-      read_key(scene, *kind, *node, file);
+      read_key(scene, *kind, "kind", *node, file);
     else {
       throw InputError(fmt::format("{}: missing key \"kind\" in [{}]; accepted: {}", place(table, file),
                                    description.name, fmt::join(kind->words, ", ")));
@@ -168,10 +183,11 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
       throw InputError(fmt::format("{}: key \"{}\" in [{}] belongs to {}, not to \"{}\"", place(node, file), name.str(),
                                    description.name, kinds_text(description.name, name.str()), kind));
     }
-    read_key(scene, *key, node, file);
+    require_one_name(*key, table, file);
+    read_key(scene, *key, name.str(), node, file);
   }
   for (const KeyDescription& key : scene_keys()) {
-    if (key.table != description.name || !key.required || table.contains(key.name)) continue;
+    if (key.table != description.name || !key.required || has_key(table, key)) continue;
     if (!key.is_for(kind)) continue;
     throw InputError(fmt::format("{}: missing key \"{}\" in [{}] ({}); accepted: {}", place(table, file), key.name,
                                  key.table, key.description, accepted_text(key)));
@@ -183,18 +199,22 @@ void apply_tolerance(NumericsScene& numerics, const toml::table& file) {
   if (!numerics.tolerance) return;
   const toml::table& table = *find_table(file, "numerics");
   const AccuracyDefaults defaults = accuracy_defaults(*numerics.tolerance);
-  if (!table.contains("time_order")) numerics.time_order = defaults.time_order;
-  if (!table.contains("order")) numerics.order = defaults.order;
+  if (!has_key(table, *find_key("numerics", "time_order"))) numerics.time_order = defaults.time_order;
+  if (!has_key(table, *find_key("numerics", "degree"))) numerics.order = defaults.order;
 }
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& path) {
-  return parse_scene(file_text(path), path.string(), path.parent_path());
+Scene read_scene(const std::filesystem::path& path) { return read_scene(SceneSource{path, {}}); }
+
+Scene read_scene(const SceneSource& source) {
+  return parse_scene(file_text(source.file), source.file.string(), source.file.parent_path(), source.settings);
 }
 
-Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder) {
-  const toml::table file = parse_toml(text, name);
+Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                  const std::vector<std::string>& settings) {
+  toml::table file = parse_toml(text, name);
+  apply_settings(file, settings);
   for (const auto& [key, node] : file) {
     const std::vector<std::string_view> known = table_names();
     if (std::find(known.begin(), known.end(), key.str()) == known.end()) {

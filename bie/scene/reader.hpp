@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bie/scene/scene.hpp"
+#include "bie/scene/settings.hpp"
 
 namespace vehd {
 
@@ -12,10 +13,15 @@ namespace vehd {
 /// @throws InputError "file:line: what is wrong, the value, what is accepted"
 Scene read_scene(const std::filesystem::path& path);
 
+/// The same with other values for some keys. A message about one of these names it in place of "file:line".
+Scene read_scene(const SceneSource& source);
+
 /// The same for text in memory.
 /// @param name    stands for the file in messages
 /// @param folder  where relative paths in the scene start
-Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder);
+/// @param settings  values that take the place of those in the text, see SceneSource
+Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                  const std::vector<std::string>& settings = {});
 
 /// The table [units] alone, of the text of an effective scene, in which all its scales are spelled out.
 /// @return nullopt if the text has no such table

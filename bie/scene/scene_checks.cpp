@@ -139,7 +139,7 @@ class Checks {
     for (std::size_t i = 0; i < shape.modes.size(); ++i) {
       if (shape.modes[i].n <= scene_.numerics.order) continue;
       const toml::node& entry = *table_["shape"]["modes"][i].node();
-      throw InputError(fmt::format("{}: \"modes\" in [shape] has the degree n = {}; accepted: at most the order {}",
+      throw InputError(fmt::format("{}: \"modes\" in [shape] has the degree n = {}; accepted: at most the degree {} of [numerics]",
                                    place(entry, file_), shape.modes[i].n, scene_.numerics.order));
     }
     const double smallest = smallest_radius(scene_);

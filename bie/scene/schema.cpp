@@ -19,6 +19,10 @@ std::string Range::text() const {
   return fmt::format("{} ... {}", lower, upper);
 }
 
+bool KeyDescription::is_called(std::string_view word) const {
+  return !word.empty() && (word == name || word == other_name);
+}
+
 bool KeyDescription::is_for(std::string_view kind) const {
   return kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
@@ -35,14 +39,14 @@ const std::vector<KeyDescription>& scene_keys() {
 
 const KeyDescription* find_key(std::string_view table, std::string_view name) {
   for (const KeyDescription& key : scene_keys()) {
-    if (key.table == table && key.name == name) return &key;
+    if (key.table == table && key.is_called(name)) return &key;
   }
   return nullptr;
 }
 
 const KeyDescription* find_key_of_kind(std::string_view table, std::string_view name, std::string_view kind) {
   for (const KeyDescription& key : scene_keys()) {
-    if (key.table == table && key.name == name && key.is_for(kind)) return &key;
+    if (key.table == table && key.is_called(name) && key.is_for(kind)) return &key;
   }
   return nullptr;
 }

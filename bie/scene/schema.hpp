@@ -37,6 +37,7 @@ struct Range {
 struct KeyDescription {
   std::string_view table;
   std::string_view name;
+  std::string_view other_name;  ///< under which it is read as well; empty if it has none
   ValueType type = ValueType::number;
   std::string_view symbol;  ///< as in the paper; empty if it has none
   std::string_view unit;    ///< name of a dimension (units.hpp), "1", or empty where the value is no number
@@ -48,6 +49,8 @@ struct KeyDescription {
   std::function<std::optional<Value>(const Scene&)> get;  ///< nullopt: the optional value is absent
   std::function<void(Scene&, const Value&)> set;
 
+  /// Is this its name, or the other one?
+  [[nodiscard]] bool is_called(std::string_view word) const;
   /// Does the key belong to this kind of its table?
   [[nodiscard]] bool is_for(std::string_view kind) const;
 };
@@ -66,7 +69,7 @@ const std::vector<TableDescription>& scene_tables();
 /// Likewise the keys of all tables.
 const std::vector<KeyDescription>& scene_keys();
 
-/// The first such key, or nullptr. A table may have rows of one name for different kinds.
+/// The first key of either name, or nullptr. A table may have rows of one name for different kinds.
 const KeyDescription* find_key(std::string_view table, std::string_view name);
 
 /// The key of that name that counts for the kind, or nullptr.

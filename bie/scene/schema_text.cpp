@@ -34,7 +34,7 @@ constexpr const char* page_end = R"(
 ## A shape from a file
 
 `kind = "file"` starts with one snapshot of the run.h5 of another run. Taken are the position of the membrane, in any
-order, and its V_m, unless `initial_Vm` says otherwise; V_m turns with the shape and is not scaled with it. Lengths,
+degree, and its V_m, unless `initial_Vm` says otherwise; V_m turns with the shape and is not scaled with it. Lengths,
 `time` and V_m are converted from the units of that run to those of the scene. Where neither has a reference scale, the
 numbers are taken as they are; where one of them alone has a scale that a value needs, that is an error. A scene with
 `area`, without `time` and with `initial_Vm` zero or steady needs none.

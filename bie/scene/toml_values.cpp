@@ -9,6 +9,7 @@
 
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/reference_scales.hpp"
+#include "bie/scene/settings.hpp"
 #include "bie/scene/toml_text.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/support/errors.hpp"
@@ -173,6 +174,7 @@ std::vector<HarmonicMode> modes(const Context& context, const toml::node& node) 
 }  // namespace
 
 std::string place(const toml::node& node, const std::string& file) {
+  if (is_from_setting(node)) return *node.source().path;
   return fmt::format("{}:{}", file, node.source().begin.line);
 }
 

@@ -10,7 +10,7 @@
 /// From TOML nodes to values of the key table.
 namespace vehd {
 
-/// "file:line" of a node.
+/// "file:line" of a node, or the option --set that gave it.
 std::string place(const toml::node& node, const std::string& file);
 
 /// A number of any notation: an integer is the double nearest to it, as if it were written with a point.

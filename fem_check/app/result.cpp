@@ -72,7 +72,7 @@ std::string CheckResult::disagreeing() const {
 
 std::string table_of(const CheckResult& result) {
   std::string text =
-      fmt::format("{} at time {:g}: boundary integrals of order {} and {}, finite elements to R = {:.3g}\n",
+      fmt::format("{} at time {:g}: boundary integrals of degree {} and {}, finite elements to R = {:.3g}\n",
                   result.source, result.time, result.order, result.high_order, result.outer_radius);
   text += fmt::format("{:<12} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
                       "order", "BIE error", "verdict");

@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(missing_scene_file) {
 
 BOOST_AUTO_TEST_CASE(wrong_usage) {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, {"run"}, {"run", "a.toml"}, {"fly"}, {"plot", "--times", "x", "."}}) {
+       {std::vector<std::string>{}, {"run"}, {"run", "a.toml", "b.toml"}, {"fly"}, {"plot", "--times", "x", "."}}) {
     const ProgramResult result = run_vehd(arguments);
     BOOST_TEST(result.exit_code == 1);
     BOOST_TEST(result.errors.find("--help") != std::string::npos, result.errors);

@@ -201,12 +201,12 @@ BOOST_AUTO_TEST_CASE(lists_out_of_order_are_refused) {
     return result.errors;
   };
   const std::string scene = directory / "scene.toml";
-  BOOST_TEST(message({"bench", "parts", scene, "--orders", "10,6"}) ==
-             "--orders: 6 after a higher one; accepted: ascending\n");
+  BOOST_TEST(message({"bench", "parts", scene, "--degrees", "10,6"}) ==
+             "--degrees: 6 after a higher one; accepted: ascending\n");
   BOOST_TEST(message({"bench", "threads", scene, "--threads", "2,1"}) ==
              "--threads: 1 after a higher one; accepted: ascending\n");
   BOOST_TEST(message({"bench", "symmetry", scene, "--orders", "10,6"}) ==
-             "--orders: 6 after a higher one; accepted: ascending\n");
+             "--degrees: 6 after a higher one; accepted: ascending\n");
   std::string oblique = quick_scene("1.0");
   const std::string upright = "kind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]";
   oblique.replace(

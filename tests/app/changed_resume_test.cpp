@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(where_no_step_is_acceptable_a_smaller_one_may_be) {
   BOOST_TEST(stopped.exit_code == 3);
   BOOST_TEST(stopped.output.find("verdict: stopped: no acceptable step from time 1: ") != std::string::npos,
              stopped.output);
-  BOOST_TEST(stopped.errors.find("change dt (now 0.25), order (now 6)") != std::string::npos, stopped.errors);
+  BOOST_TEST(stopped.errors.find("change dt (now 0.25), degree (now 6)") != std::string::npos, stopped.errors);
   BOOST_TEST(stopped.errors.find("continue with: vehd run ") != std::string::npos, stopped.errors);
   BOOST_TEST(run.summary()["verdict"].get<std::string>().starts_with("stopped: no acceptable step from time 1: "));
   BOOST_TEST(run.summary()["changes"].empty());

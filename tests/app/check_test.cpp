@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(charge_that_is_wrong_by_a_percent_is_noticed) {
   if (!has_finite_elements()) return;
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", crooked_scene);
-  const vehd::FrozenState frozen = vehd::read_frozen_state(directory / "scene.toml", std::nullopt);
+  const vehd::FrozenState frozen = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
   vehd::CheckContents contents = vehd::check_contents(frozen);
   contents.flow = false;
   const vehd::CheckSamples samples = vehd::check_samples(frozen.state.vesicles[0].position);

@@ -36,8 +36,8 @@ std::vector<fs::path> pages() {
 
 /// The command with little to measure: that it works is under test here, not its figures.
 std::string shortened(std::string command) {
-  command = std::regex_replace(command, std::regex("--orders [0-9,]+"), "--orders 6,8");
-  command = std::regex_replace(command, std::regex("--order [0-9]+"), "--order 6");
+  command = std::regex_replace(command, std::regex("--degrees [0-9,]+"), "--degrees 6,8");
+  command = std::regex_replace(command, std::regex("--degree [0-9]+"), "--degree 6");
   command = std::regex_replace(command, std::regex("--repeats [0-9]+"), "--repeats 1");
   command = std::regex_replace(command, std::regex("--dt [0-9.,]+"), "--dt 0.1,0.05,0.025");
   command = std::regex_replace(command, std::regex("--tolerance [0-9e.,-]+"), "--tolerance 1e-1,1e-2");
@@ -68,13 +68,14 @@ struct ReaderFolder {
   ReaderFolder() {
     fs::create_directories(directory / "build");
     fs::create_symlink(VEHD_PROGRAM, directory / "build/vehd");
-    fs::create_directories(directory / "docs/scenes");
-    for (const auto& entry : fs::directory_iterator(fs::path(VEHD_SOURCE_DIR) / "docs/scenes")) {
-      if (entry.path().extension() != ".toml") continue;
-      write_text(directory / ("docs/scenes/" + entry.path().filename().string()),
-                 shortened_scene(file_text(entry.path())));
+    for (const char* folder : {"docs/scenes", "docs/examples"}) {
+      fs::create_directories(directory / folder);
+      for (const auto& entry : fs::directory_iterator(fs::path(VEHD_SOURCE_DIR) / folder)) {
+        const fs::path copy = fs::path(directory / folder) / entry.path().filename();
+        if (entry.path().extension() == ".toml") write_text(copy, shortened_scene(file_text(entry.path())));
+        if (entry.path().extension() == ".py") fs::copy_file(entry.path(), copy);
+      }
     }
-    fs::copy(fs::path(VEHD_SOURCE_DIR) / "docs/examples", directory / "docs/examples");
     copy_some_hard_cases(directory / "");
   }
 };
@@ -103,6 +104,12 @@ BOOST_AUTO_TEST_CASE(every_shipped_scene_has_its_row_where_the_scenes_end) {
     const std::string name = entry.path().filename().string();
     BOOST_TEST(table.find("| " + name + " |") != std::string::npos, name);
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_scene_of_the_tutorial_is_the_one_that_its_page_shows) {
+  const std::string scene = file_text(VEHD_SOURCE_DIR "/docs/examples/tutorial.toml");
+  BOOST_TEST(file_text(VEHD_SOURCE_DIR "/docs/tutorial.md").find("```toml\n" + scene + "```\n") != std::string::npos);
+  BOOST_CHECK_NO_THROW(vehd::read_scene(VEHD_SOURCE_DIR "/docs/examples/tutorial.toml"));
 }
 
 BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {

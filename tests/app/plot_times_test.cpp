@@ -66,7 +66,7 @@ BOOST_FIXTURE_TEST_CASE(times_outside_the_run_are_refused, ShortRun) {
 
 BOOST_FIXTURE_TEST_CASE(frozen_states_take_the_same_times, ShortRun) {
   const auto both = [&](std::optional<double> time) {
-    const vehd::FrozenState state = vehd::read_frozen_state(file(), time);
+    const vehd::FrozenState state = vehd::read_frozen_state({file(), {}}, time);
     const vehd::FrozenShape shape = vehd::read_frozen_shape(file(), time);
     BOOST_TEST((shape.position == state.state.vesicles[0].position));
     BOOST_TEST(shape.note == state.note);
@@ -76,7 +76,7 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_take_the_same_times, ShortRun) {
   BOOST_TEST((both(0.5) == std::pair{0.5, std::string()}));
   BOOST_TEST((both(0.7) == std::pair{0.5, note("0.7", "0.5")}));
   const auto is_refused = [&](const vehd::InputError& error) { return error.what() == refusal("5", "1.25"); };
-  BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_state(file(), 5.0), vehd::InputError, is_refused);
+  BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_state({file(), {}}, 5.0), vehd::InputError, is_refused);
   BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_shape(file(), 5.0), vehd::InputError, is_refused);
 }
 

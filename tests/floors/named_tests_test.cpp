@@ -1,41 +1,13 @@
 #include <boost/test/unit_test.hpp>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <regex>
-#include <set>
-#include <string>
-#include <vector>
+
+#include "tests/floors/source_files.hpp"
 
 BOOST_AUTO_TEST_SUITE(named_tests)
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path source = VEHD_SOURCE_DIR;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// First groups of all matches.
-std::vector<std::string> found(const std::string& text, const std::string& pattern) {
-  const std::regex regex(pattern);
-  std::vector<std::string> result;
-  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it) result.push_back((*it)[1]);
-  return result;
-}
-
-std::vector<fs::path> files_below(const std::string& folder, const std::set<std::string>& endings) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
-    if (endings.contains(entry.path().extension().string())) files.push_back(entry.path());
-  }
-  return files;
-}
 
 /// Cases of every suite; suites of one name in several programs count as one.
 std::map<std::string, std::set<std::string>> suites() {
@@ -89,10 +61,8 @@ std::vector<std::string> test_files_named_in(const std::string& text) {
 
 BOOST_AUTO_TEST_CASE(every_test_that_a_page_names_exists) {
   const auto known = suites();
-  std::vector<fs::path> pages = files_below("docs", {".md"});
-  pages.push_back(source / "README.md");
   std::size_t n_named = 0;
-  for (const fs::path& page : pages) {
+  for (const fs::path& page : pages()) {
     for (const std::string& name : tests_named_in(text_of(page))) {
       BOOST_TEST(exists(known, name), page.string() + ": " + name);
       ++n_named;

@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(reads_back_to_the_same_scene) {
 
 BOOST_AUTO_TEST_CASE(spells_out_every_default) {
   const std::string text = vehd::effective_scene(parsed(with_appended("")));
-  for (const char* line : {"inextensible = true\n", "viscosity = 1.0\n", "symmetry = \"auto\"\n", "order = 8\n"}) {
+  for (const char* line : {"inextensible = true\n", "viscosity = 1.0\n", "symmetry = \"auto\"\n", "degree = 8\n"}) {
     BOOST_TEST(text.find(line) != std::string::npos, line);
   }
   BOOST_TEST(text.find("[electric]") == std::string::npos);

@@ -179,7 +179,8 @@ BOOST_AUTO_TEST_CASE(radial_modes) {
              "scene.toml:3: \"modes\" in [shape] has the mode n = 2, m = 3; accepted: entries "
              "{n = degree, m = -n ... n, a = finite number}");
   BOOST_TEST(message_of(radial_scene("[{n=9, m=0, a=0.1}]")) ==
-             "scene.toml:3: \"modes\" in [shape] has the degree n = 9; accepted: at most the order 8");
+             "scene.toml:3: \"modes\" in [shape] has the degree n = 9; accepted: at most the degree 8 of "
+             "[numerics]");
   BOOST_TEST(message_of(radial_scene("[{n=-1, m=0, a=0.1}]")).find("degree n = -1") != std::string::npos);
   BOOST_TEST(message_of(radial_scene("[{n=2, m=0}]")).find("entry without \"a\"") != std::string::npos);
   BOOST_TEST(message_of(radial_scene("[{n=2, m=0, a=nan}]")).find("is nan, not a finite number") != std::string::npos);

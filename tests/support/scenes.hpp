@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <regex>
 #include <string>
 
@@ -12,9 +14,19 @@ inline std::string quick_scene(const std::string& end_time = "3.0") {
          end_time + "\n[output]\nevery = 0.5\n";
 }
 
-/// A scene of docs/scenes at a low order and with few steps.
+/// A scene of docs/scenes at a low degree and with few steps. One in SI units keeps its steps and ends after a hundredth
+/// of its time.
 inline std::string shortened_scene(std::string scene) {
-  scene = std::regex_replace(scene, std::regex("order = \\d+"), "order = 6");
+  scene = std::regex_replace(scene, std::regex("\n(degree|order) = \\d+"), "\n$1 = 6");
+  std::smatch end;
+  if (std::regex_search(scene, end, std::regex("\nend_time = \"([0-9.]+) (\\w+)\""))) {
+    const double time = 0.01 * std::stod(end[1]);
+    const auto line = [unit = end[2].str()](const char* key, double value) {
+      return fmt::format("\n{} = \"{} {}\"", key, value, unit);
+    };
+    scene = std::regex_replace(scene, std::regex("\nend_time = .*"), line("end_time", time));
+    return std::regex_replace(scene, std::regex("\nevery = .*"), line("every", 0.5 * time));
+  }
   scene = std::regex_replace(scene, std::regex("\ndt = [0-9.e-]+"), "\ndt = 0.1");
   scene = std::regex_replace(scene, std::regex("\nend_time = [0-9.e-]+"), "\nend_time = 0.3");
   return std::regex_replace(scene, std::regex("\nevery = [0-9.e-]+"), "\nevery = 0.1");

@@ -13,7 +13,7 @@ struct CorrectedNode {
 /// New shapes that a step of this order evaluates, its end included.
 int evaluations_per_step(int order);
 
-/// One step of order 1 … highest_time_order by spectral deferred correction (Dutt, Greengard, Rokhlin 2000) of the
+/// One step of order 1 … highest_time_order by spectral deferred correction (Dutt, Greengard and Rokhlin 2000) of the
 /// first-order step: with c_m the nodes of the time rule, q_mj its weights and d_m its implicit sizes, each sweep
 /// takes
 ///   y_m ← y_m + (1 − d_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F(y_j) − y_m),   y = (x, V_m) on material points,

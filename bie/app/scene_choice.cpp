@@ -1,0 +1,74 @@
+#include "bie/app/scene_choice.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+
+#include <string_view>
+#include <vector>
+
+#include "bie/scene/nearest_name.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr int most_threads = 1024;
+
+/// As one word of a shell.
+std::string quoted(const std::string& word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char letter : word) {
+    if (letter == '\'') {
+      text += "'\\''";
+    } else {
+      text += letter;
+    }
+  }
+  return text + "'";
+}
+
+}  // namespace
+
+std::string SceneChoice::text() const {
+  std::string text = quoted(source.file.string());
+  for (const std::string& setting : source.settings) text += fmt::format(" --set {}", quoted(setting));
+  return text;
+}
+
+void add_scene_choice(CLI::App& command, SceneChoice& scene) {
+  command.add_option("SCENE", scene.source.file, "Scene file (TOML)")->required();
+  add_settings(command, scene);
+}
+
+void add_settings(CLI::App& command, SceneChoice& scene) {
+  command
+      .add_option("--set", scene.source.settings,
+                  "Another value for a key of the scene, as in --set flow.rate=2.5; any number of times")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_threads_option(CLI::App& command) {
+  command.add_option_function<int>("--threads", [](int count) { omp_set_num_threads(count); }, "Number of threads; "
+                                   "OMP_NUM_THREADS, or all that the machine has, if not given")
+      ->check(CLI::Range(1, most_threads));
+}
+
+std::filesystem::path default_directory(const std::filesystem::path& scene_file) {
+  return std::filesystem::path("out") / scene_file.stem();
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const std::string list = fmt::format("{{{}}}", fmt::join(words, ","));
+  const auto check = [words = std::move(words)](const std::string& word) -> std::string {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return "";
+    return fmt::format("\"{}\" is unknown; {}", word,
+                       suggestion(word, std::vector<std::string_view>(words.begin(), words.end())));
+  };
+  return CLI::Validator(check, list);
+}
+
+}  // namespace vehd

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "bie/scene/settings.hpp"
+
+/// Options that several commands have.
+namespace vehd {
+
+/// A scene as a command line gives it.
+struct SceneChoice {
+  SceneSource source;
+
+  /// The part of a command line, for a shell.
+  [[nodiscard]] std::string text() const;
+};
+
+/// Adds SCENE and --set.
+void add_scene_choice(CLI::App& command, SceneChoice& scene);
+/// --set alone.
+void add_settings(CLI::App& command, SceneChoice& scene);
+
+/// Adds --threads, which acts at once.
+void add_threads_option(CLI::App& command);
+
+/// Where a command writes what it makes of a scene, unless it is told otherwise: out/NAME of NAME.toml.
+std::filesystem::path default_directory(const std::filesystem::path& scene_file);
+
+/// Accepts these words only. An error names the nearest one; help and completion list all.
+CLI::Validator one_of(std::vector<std::string> words);
+
+}  // namespace vehd

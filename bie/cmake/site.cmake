@@ -1,0 +1,49 @@
+# One site from the pages of docs/, the files of the top folder and the headers of bie/, in SITE, which is made anew:
+#   cmake -DSITE=build/site -P bie/cmake/site.cmake
+# A warning of Sphinx or doxygen is an error. With -DOPTIONAL=ON it is made only where its tools are there.
+cmake_minimum_required(VERSION 3.25)
+
+get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
+get_filename_component(site "${SITE}" ABSOLUTE)
+include("${CMAKE_CURRENT_LIST_DIR}/site_tools.cmake")
+if(missing_site_tools)
+  list(JOIN missing_site_tools " " names)
+  if(OPTIONAL)
+    message("No site: not there, by the names of their Debian packages, are ${names}")
+    return()
+  endif()
+  message(FATAL_ERROR "a site needs the Debian packages ${names}")
+endif()
+
+# Links lead from page to page as they do in the project, so the copy has its folders.
+set(pages "${site}-pages")
+file(REMOVE_RECURSE "${site}" "${pages}")
+file(GLOB files "${source}/*.md")
+file(COPY ${files} "${source}/docs" DESTINATION "${pages}")
+
+get_filename_component(mathjax "${mathjax}" DIRECTORY)
+foreach(part IN ITEMS MathJax.js config/TeX-AMS_SVG.js extensions jax/element jax/input/TeX jax/output/SVG)
+  get_filename_component(folder "${part}" DIRECTORY)
+  file(COPY "${mathjax}/${part}" DESTINATION "${pages}/docs/site/mathjax/${folder}" FOLLOW_SYMLINK_CHAIN
+       PATTERN fonts EXCLUDE)
+endforeach()
+file(COPY "${mathjax}/jax/output/SVG/fonts/TeX" DESTINATION "${pages}/docs/site/mathjax/jax/output/SVG/fonts")
+
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${source}" RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${status}): ${command}")
+  endif()
+endfunction()
+
+run("${sphinx}" -q -W --keep-going -b html -c "${pages}/docs/site" "${pages}" "${site}")
+
+file(READ "${source}/docs/site/Doxyfile" settings)
+string(APPEND settings "INPUT = \"${source}/bie\"\nSTRIP_FROM_PATH = \"${source}\"\nOUTPUT_DIRECTORY = \"${site}\"\n")
+file(WRITE "${pages}/Doxyfile" "${settings}")
+run("${doxygen}" "${pages}/Doxyfile")
+
+file(WRITE "${site}/index.html" "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=docs/index.html\">\n")
+file(REMOVE_RECURSE "${pages}")
+message("The site begins at ${site}/index.html")
