@@ -87,6 +87,7 @@ int run_program(int argc, char** argv) {
   ExitCode exit_code = ExitCode::done;
   add_run_command(program, exit_code);
   add_plot_command(program, exit_code);
+  add_report_command(program, exit_code);
   add_plan_command(program, exit_code);
   add_verify_command(program, exit_code);
   add_mesh_command(program, exit_code);

@@ -14,6 +14,8 @@ namespace vehd {
 void add_run_command(CLI::App& program, ExitCode& exit_code);
 /// vehd plot: pictures of a run.
 void add_plot_command(CLI::App& program, ExitCode& exit_code);
+/// vehd report: one HTML file that shows a run.
+void add_report_command(CLI::App& program, ExitCode& exit_code);
 /// vehd verify: Example 1 of the paper.
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
 /// vehd plan: what a run will do and cost.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
+#include "bie/pictures/movie.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -18,6 +19,7 @@ struct PlotOptions {
   std::string field;
   std::vector<double> times;
   ShapesStyle style;
+  bool movie = false;
   CommonOptions common;
 };
 
@@ -48,12 +50,22 @@ PlotResult plot_file(const PlotOptions& options, const PlotTask& task, PictureFo
 ExitCode plot(const PlotOptions& options) {
   const PlotTask task = task_of(options);
   const auto format = format_of(options.output);
+  if (options.movie && format) {
+    throw InputError(fmt::format("--movie: -o {} is a picture; accepted: a directory", options.output));
+  }
   const PlotResult drawn = format ? plot_file(options, task, *format) : plot_run(task);
   for (const std::string& note : drawn.notes) fmt::print(stderr, "{}\n", note);
   nlohmann::json result{{"times", drawn.times}};
   for (const auto& picture : drawn.pictures) {
     fmt::print("{}\n", picture.string());
     result["pictures"].push_back(picture.string());
+  }
+  if (options.movie) {
+    Progress progress(Progress::suitable_style());
+    const std::filesystem::path movie = plot_movie(task, progress);
+    progress.clear();
+    fmt::print("{}\n", movie.string());
+    result["movie"] = movie.string();
   }
   write_json(options.common, result);
   return ExitCode::done;
@@ -93,6 +105,7 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("--format", options->format, "Of the pictures; png if not given")
       ->type_name("FORMAT")
       ->check(CLI::IsMember(std::vector<std::string>(picture_formats.begin(), picture_formats.end())));
+  command->add_flag("--movie", options->movie, "Also write movie.mp4, a picture for each snapshot; needs ffmpeg");
   command->footer("See docs/pictures.md.");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] { exit_code = plot(*options); });

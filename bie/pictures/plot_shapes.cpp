@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/colour_bar.hpp"
@@ -26,6 +27,8 @@ constexpr const char* cut_colour = "#202020";
 /// Everything that is known about a picture before its parts have places.
 struct ShapesPicture {
   std::vector<Shape> shapes;
+  std::array<double, 2> room{};  ///< half extents that every shape gets at least
+  double label_room = 0.0;       ///< and the text below it
   std::vector<std::string> times;
   Matrix3 view;
   ShownUnit length;
@@ -33,10 +36,9 @@ struct ShapesPicture {
   ColourMap colours = ColourMap::sequential();
 };
 
-std::vector<std::string> time_texts(const std::vector<Shape>& shapes, const OutputUnits& units) {
+std::vector<std::string> time_texts(std::vector<double> times, const OutputUnits& units) {
   const ShownUnit unit = shown_unit(units, "time");
-  std::vector<double> times;
-  for (const Shape& shape : shapes) times.push_back(shape.time * unit.factor);
+  for (double& time : times) time *= unit.factor;
   std::vector<std::string> texts;
   for (const std::string& text : distinct_texts(times)) {
     texts.push_back(fmt::format("t = {}{}{}", text, unit.unit.empty() ? "" : " ", unit.unit));
@@ -44,16 +46,14 @@ std::vector<std::string> time_texts(const std::vector<Shape>& shapes, const Outp
   return texts;
 }
 
-void colour_shapes(ShapesPicture& picture, ShapeField field, const OutputUnits& units) {
+/// @param range  of the field, in numbers of the scene
+void colour_shapes(ShapesPicture& picture, ShapeField field, const ColourRange& range, const OutputUnits& units) {
   if (field == ShapeField::none) {
     // The middle of the diverging colours: white.
     picture.colours = ColourMap::diverging();
     for (Shape& shape : picture.shapes) shape.mesh.shade = Vector::Constant(shape.values.size(), 0.5);
     return;
   }
-  std::vector<WeightedValues> values;
-  for (const Shape& shape : picture.shapes) values.push_back({shape.values, shape.weights});
-  const ColourRange range = robust_range(values);
   const FieldLabel label = label_of(field);
   const ShownUnit unit = shown_unit(units, label.dimension);
   ColourRange shown = range;
@@ -66,11 +66,18 @@ void colour_shapes(ShapesPicture& picture, ShapeField field, const OutputUnits& 
   }
 }
 
+ColourRange range_of(const std::vector<Shape>& shapes) {
+  std::vector<WeightedValues> values;
+  for (const Shape& shape : shapes) values.push_back({shape.values, shape.weights});
+  return robust_range(values);
+}
+
 ShapesContent content_of(const ShapesPicture& picture, const std::vector<KeyItem>& items, double page_width) {
   ShapesContent content;
+  content.label_width = picture.label_room;
   for (const Shape& shape : picture.shapes) {
     const Eigen::Vector2d extent = cell_margin * projected_extent(shape.mesh, picture.view);
-    content.half_extents.push_back({extent.x(), extent.y()});
+    content.half_extents.push_back({std::max(extent.x(), picture.room[0]), std::max(extent.y(), picture.room[1])});
   }
   for (const std::string& text : picture.times) {
     content.label_width = std::max(content.label_width, time_size * text_width(text));
@@ -113,6 +120,10 @@ Page page_of(const ShapesPicture& picture, const Scene& scene, const ShapesStyle
   for (std::size_t i = 0; i < items.size(); ++i) draw_key_item(page, items[i], layout.key[i], key);
   if (picture.bar) draw_colour_bar(page, *picture.bar, picture.colours, layout.bar);
   return page;
+}
+
+Matrix3 view_of(const ShapesStyle& style, const Scene& scene, const Shape& first) {
+  return style.view.empty() ? default_view(scene, first.gyration) : parse_view(style.view);
 }
 
 std::vector<SnapshotChoice> without_repeats(const std::vector<SnapshotChoice>& all) {
@@ -158,13 +169,46 @@ PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
     result.times.push_back(picture.shapes.back().time);
     if (!choice.note.empty()) result.notes.push_back(choice.note);
   }
-  picture.view =
-      task.style.view.empty() ? default_view(scene, picture.shapes.front().gyration) : parse_view(task.style.view);
-  picture.times = time_texts(picture.shapes, units);
+  picture.view = view_of(task.style, scene, picture.shapes.front());
+  picture.times = time_texts(result.times, units);
   picture.length = shown_unit(units, "length");
-  colour_shapes(picture, field, units);
+  colour_shapes(picture, field, range_of(picture.shapes), units);
   draw_page(page_of(picture, scene, task.style), file);
   return result;
+}
+
+FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::vector<std::size_t>& snapshots) {
+  const Scene scene = read_scene(task.paths.scene());
+  const OutputUnits units = units_of_run(task.paths);
+  const ShapeField field = task.style.field.value_or(default_field(run, snapshots.front()));
+  // For what all frames share a coarse grid is enough.
+  constexpr int coarse_order = 24;
+  std::vector<Shape> shapes;
+  std::vector<double> times;
+  for (const std::size_t snapshot : snapshots) {
+    require_field(run, snapshot, field);
+    shapes.push_back(shape_of(run, snapshot, field, coarse_order));
+    times.push_back(shapes.back().time);
+  }
+  const std::vector<std::string> texts = time_texts(times, units);
+  ShapesPicture frame;
+  frame.view = view_of(task.style, scene, shapes.front());
+  frame.length = shown_unit(units, "length");
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Eigen::Vector2d extent = cell_margin * cell_margin * projected_extent(shapes[i].mesh, frame.view);
+    frame.room = {std::max(frame.room[0], extent.x()), std::max(frame.room[1], extent.y())};
+    frame.label_room = std::max(frame.label_room, time_size * text_width(texts[i]));
+  }
+  std::map<std::size_t, std::string> text_of;
+  for (std::size_t i = 0; i < snapshots.size(); ++i) text_of[snapshots[i]] = texts[i];
+  return [=, &run, range = range_of(shapes), style = task.style](std::size_t snapshot,
+                                                                 const std::filesystem::path& picture) {
+    ShapesPicture drawn = frame;
+    drawn.shapes.push_back(shape_of(run, snapshot, field, picture_grid_order));
+    drawn.times = {text_of.at(snapshot)};
+    colour_shapes(drawn, field, range, units);
+    draw_page(page_of(drawn, scene, style), {picture, PictureFormat::png});
+  };
 }
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,5 +59,14 @@ bool plot_history(const PlotTask& task, const PictureFile& picture);
 
 /// Most shapes in one picture.
 constexpr std::size_t most_shapes = 6;
+
+/// Draws the picture of a snapshot to a PNG file.
+using FrameDrawer = std::function<void(std::size_t snapshot, const std::filesystem::path& picture)>;
+
+/// Pictures of single shapes as those of `plot_shapes`, all at one scale and with the same colours.
+/// @param run        must outlive what is returned
+/// @param snapshots  that will be drawn
+/// @throws InputError
+FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::vector<std::size_t>& snapshots);
 
 }  // namespace vehd

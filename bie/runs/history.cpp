@@ -217,6 +217,8 @@ std::size_t HistoryTable::index(const std::string& name) const {
   return static_cast<std::size_t>(found - names_.begin());
 }
 
+bool HistoryTable::has(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
+
 const std::vector<double>& HistoryTable::column(const std::string& name) const { return columns_[index(name)]; }
 
 const std::string& HistoryTable::unit(const std::string& name) const { return units_[index(name)]; }

@@ -82,6 +82,8 @@ class HistoryTable {
   [[nodiscard]] std::int64_t n_steps() const;
   /// Largest magnitude in a column, 0 of none; not a number where there is one. @throws InputError as `column`
   [[nodiscard]] double largest_magnitude(const std::string& name) const;
+  /// Whether there is a column of this name.
+  [[nodiscard]] bool has(const std::string& name) const;
   /// In the unit of the file. @throws InputError if there is no such column
   [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
   /// Symbol of the unit of a column; empty where it has none. @throws InputError as `column`

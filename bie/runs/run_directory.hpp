@@ -16,6 +16,7 @@ struct RunPaths {
   [[nodiscard]] std::filesystem::path checkpoint() const { return directory / "checkpoint.h5"; }
   [[nodiscard]] std::filesystem::path lock() const { return directory / ".lock"; }
   [[nodiscard]] std::filesystem::path plots() const { return directory / "plots"; }
+  [[nodiscard]] std::filesystem::path report() const { return directory / "report.html"; }
 };
 
 /// Exclusive use of a run directory until destruction; a killed process releases it as well.

@@ -13,16 +13,9 @@
 namespace vehd {
 namespace {
 
-/// A run that exceeds one of these is reported as not trustworthy.
-struct TrustLimit {
-  const char* column;
-  double largest;
-};
 constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6},
                                TrustLimit{"strain_max", 0.05}, TrustLimit{"spectrum_tail", 5e-3},
                                TrustLimit{"quadrature_error", 1e-3}};
-/// Parts of the membrane that are nearer to each other, in grid spacings, are one to the grid.
-constexpr double least_separation = 1.0;
 
 /// Steps ring where the tension swings from one to the next by this share of its largest value, and the tail of the
 /// spectrum by this factor with it: what a field that jumps does to the tension leaves the shape alone, and a collapse
@@ -60,11 +53,8 @@ std::optional<double> first_time(const HistoryTable& history, const std::vector<
 }
 
 std::vector<std::string> beyond_limits(const HistoryTable& history, std::optional<double> tolerance) {
-  std::vector<TrustLimit> all(limits.begin(), limits.end());
-  // The highest degree that the scene allows was not enough.
-  if (tolerance) all.push_back({"truncation", *tolerance});
   std::vector<std::string> findings;
-  for (const TrustLimit& limit : all) {
+  for (const TrustLimit& limit : trust_limits(tolerance)) {
     const std::vector<double>& values = history.column(limit.column);
     const auto time = first_time(history, values, [&](double value) { return std::abs(value) <= limit.largest; });
     if (!time) continue;
@@ -73,8 +63,9 @@ std::vector<std::string> beyond_limits(const HistoryTable& history, std::optiona
                                    history.time_text(*time), most));
   }
   const std::vector<double>& separation = history.column("separation");
-  if (const auto time = first_time(history, separation, [](double value) { return value >= least_separation; })) {
-    findings.push_back(fmt::format("separation below {:g} since time {} (worst {:.3g})", least_separation,
+  if (const auto time =
+          first_time(history, separation, [](double value) { return value >= least_trusted_separation; })) {
+    findings.push_back(fmt::format("separation below {:g} since time {} (worst {:.3g})", least_trusted_separation,
                                    history.time_text(*time), worst(separation, std::less<>())));
   }
   return findings;
@@ -151,6 +142,13 @@ std::optional<std::string> rejections(const HistoryTable& history) {
 }
 
 }  // namespace
+
+std::vector<TrustLimit> trust_limits(std::optional<double> tolerance) {
+  std::vector<TrustLimit> all(limits.begin(), limits.end());
+  // The highest degree that the scene allows was not enough.
+  if (tolerance) all.push_back({"truncation", *tolerance});
+  return all;
+}
 
 std::string verdict_of(const HistoryTable& history, std::optional<double> tolerance, const std::string& stop_reason) {
   std::vector<std::string> findings = beyond_limits(history, tolerance);

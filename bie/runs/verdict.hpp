@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bie/runs/history.hpp"
 
@@ -9,6 +10,19 @@ namespace vehd {
 
 /// The word for a run that reached its end and whose numbers nothing speaks against.
 constexpr const char* trustworthy = "trustworthy";
+
+/// A run in whose history the magnitude of a column exceeds this is not trustworthy.
+struct TrustLimit {
+  const char* column;
+  double largest;
+};
+
+/// All that are judged in this way.
+/// @param tolerance  see verdict_of
+std::vector<TrustLimit> trust_limits(std::optional<double> tolerance);
+
+/// Parts of the membrane that are nearer to each other, in grid spacings, are one to the grid.
+constexpr double least_trusted_separation = 1.0;
 
 /// Whether the numbers of a run can be relied on, judged from its whole history.
 /// @param tolerance    of the scene, which the share left out by the degree must keep; none: fixed steps

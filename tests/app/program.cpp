@@ -59,6 +59,13 @@ ProgramResult run_command(const std::vector<std::string>& command) { return Runn
 
 ProgramResult run_vehd(const std::vector<std::string>& arguments) { return run_command(vehd_command(arguments)); }
 
+std::string python_with(const std::string& modules) {
+  for (const char* python : {"python3", "/usr/bin/python3"}) {
+    if (run_command({"sh", "-c", std::string(python) + " -c 'import " + modules + "'"}).exit_code == 0) return python;
+  }
+  return {};
+}
+
 void copy_some_hard_cases(const std::filesystem::path& tree) {
   const std::filesystem::path folder = "tests/hard/scenes";
   std::filesystem::create_directories(tree / folder);

@@ -43,6 +43,8 @@ class RunningProgram {
 /// Runs `vehd` with these arguments to its end.
 ProgramResult run_vehd(const std::vector<std::string>& arguments);
 ProgramResult run_command(const std::vector<std::string>& command);
+/// A Python that has these modules ("h5py, numpy"): the one of PATH or that of the system; empty if neither has them.
+std::string python_with(const std::string& modules);
 std::vector<std::string> vehd_command(const std::vector<std::string>& arguments);
 
 /// While alive, the program keeps its measured costs in a folder of its own, which starts empty.

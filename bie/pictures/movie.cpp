@@ -1,0 +1,74 @@
+#include "bie/pictures/movie.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "bie/support/child_process.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
+#include "bie/support/temporary.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr std::size_t most_frames = 500;
+constexpr double seconds_of_movie = 10.0;
+/// Slower ones stumble, faster ones hide what happens.
+constexpr double least_frame_rate = 4.0, largest_frame_rate = 25.0;
+
+void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path& messages) {
+  arguments.insert(arguments.begin(), {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y"});
+  const ChildEnd end = run_child({arguments, messages});
+  if (end.start_problem == ENOENT) {
+    throw InputError("ffmpeg is not installed, which makes movies; on Debian it is the package ffmpeg");
+  }
+  if (end.start_problem != 0) {
+    throw InputError(fmt::format("ffmpeg cannot be started: {}", std::strerror(end.start_problem)));
+  }
+  if (end.signal != 0 || end.exit_code != 0) {
+    throw InputError(fmt::format("ffmpeg failed: {}", text_of_file(messages)));
+  }
+}
+
+}  // namespace
+
+void write_movie(const std::vector<std::size_t>& snapshots, const FrameDrawer& draw, const std::filesystem::path& file,
+                 Progress& progress) {
+  const TemporaryFolder folder("vehd-movie");
+  const std::filesystem::path messages = folder.path() / "messages";
+  // Better known before minutes of drawing than after.
+  run_ffmpeg({"-version"}, messages);
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    progress.update(static_cast<double>(i) / static_cast<double>(snapshots.size()),
+                    fmt::format("picture {} of {}", i + 1, snapshots.size()));
+    draw(snapshots[i], folder.path() / fmt::format("{:06}.png", i));
+  }
+  progress.begin(1.0, "movie");
+  const double rate =
+      std::clamp(static_cast<double>(snapshots.size()) / seconds_of_movie, least_frame_rate, largest_frame_rate);
+  const std::filesystem::path movie = folder.path() / "movie.mp4";
+  // Players want even sizes and this way to store colours; with the index in front a movie plays while it loads.
+  run_ffmpeg(
+      {"-framerate", fmt::format("{:.4g}", rate), "-i", (folder.path() / "%06d.png").string(), "-vf",
+       "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p", "-movflags", "+faststart", movie.string()},
+      messages);
+  replace_file(file, text_of_file(movie));
+}
+
+std::filesystem::path plot_movie(const PlotTask& task, Progress& progress) {
+  const RunReader run(task.paths.snapshots());
+  const std::size_t n_snapshots = run.times().size(), n_frames = std::min(n_snapshots, most_frames);
+  std::vector<std::size_t> snapshots;
+  for (std::size_t i = 0; i < n_frames; ++i) {
+    snapshots.push_back(n_frames == 1 ? 0 : i * (n_snapshots - 1) / (n_frames - 1));
+  }
+  make_directory(task.output);
+  std::filesystem::path movie = task.output / "movie.mp4";
+  write_movie(snapshots, shape_frames(task, run, snapshots), movie, progress);
+  return movie;
+}
+
+}  // namespace vehd

@@ -1,0 +1,142 @@
+#include "bie/pictures/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "bie/files/versions.hpp"
+#include "bie/pictures/colour_map.hpp"
+#include "bie/pictures/report/history_data.hpp"
+#include "bie/pictures/report/page_files.hpp"
+#include "bie/pictures/report/scene_data.hpp"
+#include "bie/pictures/report/surface_data.hpp"
+#include "bie/pictures/report/verdict_data.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
+#include "bie/support/progress.hpp"
+
+namespace vehd {
+namespace {
+
+std::string name_of(const RunPaths& paths) {
+  const std::filesystem::path directory = std::filesystem::absolute(paths.directory).lexically_normal();
+  return (directory.has_filename() ? directory : directory.parent_path()).filename().string();
+}
+
+/// Text between tags.
+std::string html_text(const std::string& text) {
+  std::string result;
+  for (const char letter : text) {
+    if (letter == '<') {
+      result += "&lt;";
+    } else if (letter == '&') {
+      result += "&amp;";
+    } else {
+      result += letter;
+    }
+  }
+  return result;
+}
+
+/// JSON within a script element, which the first "</" would end.
+std::string json_within_page(const nlohmann::json& json) {
+  std::string result;
+  for (const char letter : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
+    if (letter == '<') {
+      result += "\\u003c";
+    } else {
+      result += letter;
+    }
+  }
+  return result;
+}
+
+/// The page with what stands for each place; what is put in is not searched again.
+std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& places) {
+  std::string result;
+  std::size_t position = 0;
+  while (position < page.size()) {
+    const std::size_t start = page.find("{{", position);
+    result += page.substr(position, start - position);
+    if (start == std::string_view::npos) break;
+    const std::size_t end = page.find("}}", start);
+    const std::string_view name = page.substr(start + 2, end - start - 2);
+    for (const auto& [place, text] : places) {
+      if (place == name) result += text;
+    }
+    position = end + 2;
+  }
+  return result;
+}
+
+nlohmann::json palette_of(const ColourMap& colours) {
+  constexpr int n_colours = 33;
+  nlohmann::json palette = nlohmann::json::array();
+  for (int i = 0; i < n_colours; ++i) {
+    const Colour colour = colours.at(i / (n_colours - 1.0));
+    palette.push_back({std::lround(255 * colour[0]), std::lround(255 * colour[1]), std::lround(255 * colour[2])});
+  }
+  return palette;
+}
+
+nlohmann::json facts_of(const nlohmann::json& summary, const HistoryTable& history, const ReportSize& size) {
+  nlohmann::json facts = nlohmann::json::array();
+  const auto add = [&](const char* name, const std::string& value) { facts.push_back({name, value}); };
+  if (!history.column("time").empty()) add("time reached", fmt::format("{:.6g}", history.column("time").back()));
+  add("steps", std::to_string(history.n_steps()));
+  if (summary.is_object()) {
+    const auto number = [&](const char* key) {
+      return summary.contains(key) && summary[key].is_number() ? summary[key].get<double>() : std::nan("");
+    };
+    add("rejected steps", fmt::format("{:.0f}", number("rejected_steps")));
+    add("computing time", duration_text(number("seconds")));
+    add("memory", fmt::format("{:.0f} MB", number("peak_memory_bytes") / 1e6));
+    add("highest degree", fmt::format("{:.0f}", number("order_max")));
+  }
+  add("shapes in this page",
+      size.snapshots == size.all ? std::to_string(size.all) : fmt::format("{} of {}", size.snapshots, size.all));
+  return facts;
+}
+
+}  // namespace
+
+ReportSize write_report(const ReportTask& task) {
+  if (!std::filesystem::exists(task.paths.snapshots())) {
+    throw InputError(fmt::format("{}: holds no run (no run.h5)", task.paths.directory.string()));
+  }
+  const Scene scene = read_scene(task.paths.scene());
+  const RunReader run(task.paths.snapshots());
+  const HistoryTable history(task.paths.history());
+  // Absent while a run is under way; a damaged one tells no more than that.
+  const nlohmann::json summary = nlohmann::json::parse(text_of_file(task.paths.summary()), nullptr, false);
+  const std::vector<std::size_t> snapshots = snapshots_for_page(run, task.most_snapshots);
+  ReportSize size{snapshots.size(), run.times().size()};
+
+  nlohmann::json data{{"headline", headline_of(scene)},
+                      {"verdict", verdict_data(history, scene, summary)},
+                      {"facts", facts_of(summary, history, size)},
+                      {"scene", scene_data(scene)},
+                      {"groups", groups_data(scene)},
+                      {"arrows", arrows_data(scene)},
+                      {"history", history_data(history, scene)},
+                      {"surface", surface_data(run, snapshots, history.units(scene.units))},
+                      {"footer", fmt::format("Made by vehd {} from {}.", program_version(), run.name())}};
+  data["palettes"] = {{"diverging", palette_of(ColourMap::diverging())},
+                      {"sequential", palette_of(ColourMap::sequential())}};
+  const PageFiles files = page_files();
+  const std::string page = filled(files.page, {{"title", html_text(name_of(task.paths))},
+                                               {"style", std::string(files.style)},
+                                               {"script", std::string(files.script)},
+                                               {"data", json_within_page(data)}});
+  if (!task.output.parent_path().empty()) make_directory(task.output.parent_path());
+  replace_file(task.output, page);
+  size.bytes = page.size();
+  return size;
+}
+
+}  // namespace vehd

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "bie/runs/run_directory.hpp"
+
+namespace vehd {
+
+/// Which run is reported, and where to.
+struct ReportTask {
+  RunPaths paths;
+  std::filesystem::path output;
+  std::size_t most_snapshots = 200;  ///< in the page
+};
+
+/// What a report holds.
+struct ReportSize {
+  std::size_t snapshots = 0;  ///< in the page
+  std::size_t all = 0;        ///< of the run
+  std::size_t bytes = 0;
+};
+
+/// Writes one HTML file that needs nothing else: verdict, vesicle in 3D, shapes, histories, scene.
+/// @throws InputError if the run cannot be read, OutputError if the file cannot be written
+ReportSize write_report(const ReportTask& task);
+
+}  // namespace vehd
