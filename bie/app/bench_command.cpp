@@ -163,7 +163,8 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--degree,--order", options->order, "Degree p; that of the scene if not given")->check(CLI::Range(4, 64));
+  command->add_option("--degree,--order", options->order, "Degree p; that of the scene if not given")
+      ->check(CLI::Range(4, 64));
   add_repeats(*command, options->bench, 5);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
     Scene scene = read_scene(o.scene_file);

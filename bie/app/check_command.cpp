@@ -71,8 +71,7 @@ ExitCode check(const CheckOptions& options) {
 void add_check_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("check", "Compare the fields of a frozen shape with finite elements");
   const auto options = std::make_shared<CheckOptions>();
-  command
-      ->add_option("FILE", options->scene.source.file, "run.h5 of a run, or a scene (.toml) for its initial state")
+  command->add_option("FILE", options->scene.source.file, "run.h5 of a run, or a scene (.toml) for its initial state")
       ->required();
   add_settings(*command, options->scene);
   command->add_option("--time", options->time, "Time; the nearest snapshot is taken, the last one if left out");

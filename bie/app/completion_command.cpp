@@ -136,8 +136,8 @@ std::string zsh_entries(const std::vector<Word>& words) {
 std::string zsh_script(const CLI::App& program) {
   std::string cases;
   for (const Completion& completion : completions(program)) {
-    cases += fmt::format("    \"{}\") options={}; choices={} ;;\n", completion.command,
-                         zsh_entries(completion.options), zsh_entries(completion.words));
+    cases += fmt::format("    \"{}\") options={}; choices={} ;;\n", completion.command, zsh_entries(completion.options),
+                         zsh_entries(completion.words));
   }
   return fmt::format(R"(#compdef vehd
 # Completion of vehd for zsh.

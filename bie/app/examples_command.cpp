@@ -45,8 +45,8 @@ void list(const ExamplesOptions& options) {
 /// Whatever somebody has made of it stays.
 void require_free(const fs::path& file, const ShippedScene& scene) {
   if (!fs::exists(file) || text_of_file(file) == scene.text) return;
-  throw InputError(fmt::format("{}: exists already and differs from the example; accepted: another folder (-o)",
-                               file.string()));
+  throw InputError(
+      fmt::format("{}: exists already and differs from the example; accepted: another folder (-o)", file.string()));
 }
 
 void write(const ExamplesOptions& options) {

@@ -11,6 +11,7 @@
 #include "bie/runs/resumption.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/progress.hpp"
+#include "bie/support/text_table.hpp"
 
 namespace vehd {
 namespace {
@@ -34,6 +35,22 @@ nlohmann::json json_of(const RunPlan& plan) {
   for (const PlannedOperator& op : plan.operators) json["operators"].push_back({{"name", op.name}, {"why", op.why}});
   json["kernel_evaluations_per_shape"] = plan.kernel_evaluations;
   json["shapes_per_step"] = plan.shapes_per_step;
+  json["groups"] = nlohmann::json::array();
+  for (const DimensionlessGroup& group : plan.groups) {
+    json["groups"].push_back({{"name", group.name},
+                              {"symbol", group.symbol},
+                              {"value", group.value},
+                              {"si", plan.si_of_groups[json["groups"].size()]},
+                              {"meaning", group.meaning}});
+  }
+  json["times"] = nlohmann::json::array();
+  for (const RunTime& time : plan.times) {
+    json["times"].push_back({{"name", time.name},
+                             {"symbol", time.symbol},
+                             {"value", time.value},
+                             {"seconds", time.seconds ? nlohmann::json(*time.seconds) : nlohmann::json()},
+                             {"meaning", time.meaning}});
+  }
   json["unknowns"] = plan.unknowns;
   json["steps"] = plan.n_steps;
   if (plan.stops.empty()) {
@@ -46,11 +63,25 @@ nlohmann::json json_of(const RunPlan& plan) {
   return json;
 }
 
+void print_groups_and_times(const RunPlan& plan) {
+  TextTable groups, times;
+  for (const DimensionlessGroup& group : plan.groups) {
+    const std::string& si = plan.si_of_groups[groups.size()];
+    groups.push_back({std::string(group.symbol), si.empty() ? fmt::format("{:.4g}", group.value) : si,
+                      std::string(group.name), std::string(group.meaning)});
+  }
+  for (const RunTime& time : plan.times) {
+    times.push_back({time.symbol.empty() ? "–" : time.symbol, time.text(), time.name, time.meaning});
+  }
+  fmt::print("groups\n{}times\n{}", aligned(groups, "  "), aligned(times, "  "));
+}
+
 void print(const RunPlan& plan) {
   fmt::print("effects\n");
   for (const PlannedEffect& effect : plan.effects) {
     fmt::print("  {:<22} {}\n  {:<22} without it: {}\n", effect.name, effect.adds, "", effect.if_absent);
   }
+  print_groups_and_times(plan);
   fmt::print("absent     {}\n", fmt::join(plan.absent, ", "));
   fmt::print("symmetry   {}\n", plan.symmetry);
   fmt::print("operators  ({} kernel evaluations each at every new shape, {} a step)\n", plan.kernel_evaluations,

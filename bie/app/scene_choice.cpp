@@ -16,8 +16,7 @@ constexpr int most_threads = 1024;
 
 /// As one word of a shell.
 std::string quoted(const std::string& word) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
   std::string text = "'";
   for (const char letter : word) {
@@ -52,8 +51,11 @@ void add_settings(CLI::App& command, SceneChoice& scene) {
 }
 
 void add_threads_option(CLI::App& command) {
-  command.add_option_function<int>("--threads", [](int count) { omp_set_num_threads(count); }, "Number of threads; "
-                                   "OMP_NUM_THREADS, or all that the machine has, if not given")
+  command
+      .add_option_function<int>(
+          "--threads", [](int count) { omp_set_num_threads(count); },
+          "Number of threads; "
+          "OMP_NUM_THREADS, or all that the machine has, if not given")
       ->check(CLI::Range(1, most_threads));
 }
 

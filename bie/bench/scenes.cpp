@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 
@@ -27,6 +28,12 @@ BenchTable empty_scenes_table() {
                     {"seconds", "seconds", "{:.2g}", true}}};
   for (const char* name : kQuantities) table.columns.push_back({name, name, "{:.5g}"});
   return table;
+}
+
+/// Of a column, in the reference scales of the scene whatever the units of the file.
+double last_number(const HistoryTable& history, const Scene& scene, std::string_view name) {
+  const auto column = std::ranges::find(history_columns(), name, &HistoryColumn::name);
+  return history.column(std::string(name)).back() / history.units(scene.units).of(column->dimension).factor;
 }
 
 void draw(const RunPaths& paths, const std::string& name, const std::filesystem::path& folder,
@@ -59,8 +66,8 @@ BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const
     if (!outcome.completed) throw ConvergenceError(fmt::format("{}: {}", file.string(), outcome.reason));
     const HistoryTable history(paths.history());
     std::vector<BenchCell> row{file.filename().string(), std::int64_t{scene.numerics.order},
-                               history.column("time").back(), history.n_steps(), spread_of({seconds})};
-    for (const char* name : kQuantities) row.emplace_back(history.column(name).back());
+                               last_number(history, scene, "time"), history.n_steps(), spread_of({seconds})};
+    for (const char* name : kQuantities) row.emplace_back(last_number(history, scene, name));
     add_row(result.tables.front(), std::move(row), observer);
     draw(paths, file.stem().string(), pictures, observer);
   }

@@ -136,6 +136,8 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
   for (const std::filesystem::path& path : task.scenes) {
     cases.push_back(read_stability_case(path));
     Scene& scene = cases.back().scene;
+    // Bounds are numbers of the scene.
+    scene.output.units = ResultUnits::dimensionless;
     if (task.brief) scene.numerics.end_time = std::min(scene.numerics.end_time, cases.back().short_end_time);
   }
   std::stable_sort(cases.begin(), cases.end(),

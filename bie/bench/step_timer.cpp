@@ -26,7 +26,7 @@ StepTimer::StepTimer(const Scene& scene)
 
 void StepTimer::step() {
   const double no_end = evolution_.state().time + 1e3 * problem_.control.largest;
-  last_ = evolution_.step({std::nullopt, no_end});
+  last_ = evolution_.step({{}, no_end});
 }
 
 void StepTimer::timed_step() {

@@ -85,7 +85,7 @@ TimedRun fixed_run(Scene scene, double dt, int time_order, double at, int repeat
   scene.numerics.dt = dt;
   scene.numerics.time_order = time_order;
   TimedRun run{fmt::format("order {}", time_order), fmt::format("{:g}", dt), dt};
-  run_to(scene, {std::nullopt, at}, repeats, run, observer);
+  run_to(scene, {{}, at}, repeats, run, observer);
   return run;
 }
 
@@ -93,7 +93,7 @@ TimedRun adaptive_run(const TimeTask& task, double tolerance, BenchObserver& obs
   Scene asked = at_tolerance(task.scene, tolerance);
   asked.numerics.end_time = task.at;
   TimedRun run{"tolerance", fmt::format("{:.0e}", tolerance), {}, tolerance};
-  run_to(asked, {task.every, task.at}, task.repeats, run, observer);
+  run_to(asked, {{task.every}, task.at}, task.repeats, run, observer);
   return run;
 }
 

@@ -79,9 +79,10 @@ FrozenState read_frozen_state(const SceneSource& source, std::optional<double> t
     return start_of_scene(source);
   }
   if (source.settings.empty()) return snapshot_of_run(source.file, time);
-  throw InputError(fmt::format("--set {}: {} is a run, which has the values that it was made with; accepted: with a "
-                               "scene (.toml)",
-                               source.settings.front(), source.file.string()));
+  throw InputError(
+      fmt::format("--set {}: {} is a run, which has the values that it was made with; accepted: with a "
+                  "scene (.toml)",
+                  source.settings.front(), source.file.string()));
 }
 
 FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time) {

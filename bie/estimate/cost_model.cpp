@@ -51,9 +51,9 @@ CostModel::Point timed(Scene scene, int order, double dt) {
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
-  evolution.step({std::nullopt, 10.0 * dt});
+  evolution.step({{}, 10.0 * dt});
   const auto start = std::chrono::steady_clock::now();
-  evolution.step({std::nullopt, 10.0 * dt});
+  evolution.step({{}, 10.0 * dt});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {order, seconds / evaluations_per_step(kTimeOrder), static_cast<double>(peak_memory_bytes())};
 }

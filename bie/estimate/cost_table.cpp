@@ -13,6 +13,7 @@
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -131,7 +132,7 @@ CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vect
 /// p = 16 and 6.5 ms at p = 40: a small share of any run.
 double file_seconds(const Scene& scene, const CostRow& row) {
   constexpr double kPerRow = 2e-4, kPerSnapshot = 2e-3, kPerPoint = 1.4e-6;
-  const double snapshots = 2.0 + (scene.output.every ? scene.numerics.end_time / *scene.output.every : 0.0);
+  const double snapshots = 2.0 + events_of(scene).snapshots.count(scene.numerics.end_time);
   const double order = accuracy_defaults(row.tolerance).order;
   return kPerRow * static_cast<double>(row.steps) + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
 }

@@ -83,6 +83,10 @@ RunPlan plan_of(const Scene& scene) {
   const Symmetry& symmetry = problem.symmetry;
   const std::vector<EffectDescription> effects = effects_of(model);
   RunPlan plan;
+  plan.groups = dimensionless_groups(scene);
+  plan.times = run_times(scene, plan.groups);
+  std::erase_if(plan.groups, [](const DimensionlessGroup& group) { return group.unit == "time"; });
+  for (const DimensionlessGroup& group : plan.groups) plan.si_of_groups.push_back(si_text(scene, group));
   plan.symmetry = text_of(problem);
   std::size_t n_fields = 0;
   for (const EffectDescription& effect : effects) {
@@ -111,8 +115,9 @@ RunPlan plan_of(const Scene& scene) {
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
+  EventTimes events = events_of(scene);
   while (!scene.numerics.tolerance && time < scene.numerics.end_time) {
-    const EventTimes events{scene.output.every, scene.numerics.end_time, next_discontinuity(model, time)};
+    events.discontinuity = next_discontinuity(model, time);
     const StepPlan step = plan_step(time, *scene.numerics.dt, events);
     plan.n_steps += std::lround((step.event_time - time) / step.dt_limit);
     time = step.event_time;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/scene/run_times.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd {
@@ -25,6 +26,9 @@ struct PlannedOperator {
 struct RunPlan {
   std::vector<PlannedEffect> effects;
   std::vector<std::string> absent;
+  std::vector<DimensionlessGroup> groups;  ///< without times
+  std::vector<std::string> si_of_groups;   ///< their values with units; empty of pure numbers and without a scale
+  std::vector<RunTime> times;
   std::string symmetry;
   std::vector<PlannedOperator> operators;
   std::uint64_t kernel_evaluations = 0;  ///< of each operator at each new shape

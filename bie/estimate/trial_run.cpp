@@ -23,9 +23,10 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
   trial.highest_order = evolution.order(0);
-  const double end = scene.numerics.end_time;
+  const EventTimes events = events_of(scene);
+  const double end = events.end_time;
   while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
-    const StepAttempt step = evolution.step({scene.output.every, end});
+    const StepAttempt step = evolution.step(events);
     TrialStep record{evolution.state().time, step.dt, step.error_estimate, step.rejected + 1, evolution.order(0),
                      step.at_snapshot,       {}};
     trial.highest_order = std::max(trial.highest_order, evolution.order(0));

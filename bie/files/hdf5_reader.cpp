@@ -145,4 +145,18 @@ std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std:
   return value;
 }
 
+std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
+  const Hdf5Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  const Hdf5Handle type(attribute.valid() ? H5Aget_type(attribute.id()) : H5I_INVALID_HID, H5Tclose);
+  if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0 ||
+      H5Tget_size(type.id()) > longest_text) {
+    refuse(fmt::format("attribute {} of {} is missing or no text of fixed length", name, object));
+  }
+  std::string value(H5Tget_size(type.id()), '\0');
+  read_attribute(object, name, type.id(), value.data());
+  value.resize(std::min(value.size(), value.find('\0')));
+  return value;
+}
+
 }  // namespace vehd

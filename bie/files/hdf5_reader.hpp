@@ -36,6 +36,8 @@ class Hdf5Reader {
   [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
   /// Value of an attribute that is one integer.
   [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+  /// Value of an attribute that is one text.
+  [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
 
   /// What stands for the file in messages.
   [[nodiscard]] const std::string& name() const { return name_; }

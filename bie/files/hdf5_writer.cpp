@@ -122,8 +122,8 @@ void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t
       H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT, dataset_properties_.id(), H5P_DEFAULT),
       H5Dclose);
   if (!dataset.valid() || H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0 ||
-      !put_attribute(dataset.id(), "unit", label.unit) ||
-      (label.scale && !put_attribute(dataset.id(), "scale", H5T_NATIVE_DOUBLE, &*label.scale)) ||
+      !put_attribute(dataset.id(), "dimension", label.dimension) || !put_attribute(dataset.id(), "unit", label.unit) ||
+      !put_attribute(dataset.id(), "scale", H5T_NATIVE_DOUBLE, &label.scale) ||
       !put_attribute(dataset.id(), "description", label.description) || !dataset.close()) {
     fail(fmt::format("dataset {} cannot be written", path));
   }

@@ -13,9 +13,10 @@ namespace vehd {
 
 /// What a dataset is, for whoever opens the file without this program at hand.
 struct DatasetLabel {
-  std::string unit;
+  std::string dimension;  ///< "force/area"; "1" of a pure number
   std::string description;
-  std::optional<double> scale{};  ///< what 1 is in SI base units; NaN where nobody says; absent: not written
+  std::string unit = "1";  ///< of the numbers times the scale
+  double scale = 1.0;
 };
 
 /// Writes one HDF5 file. Times of modification are left out, so equal data make equal files.

@@ -21,8 +21,11 @@ const DatasetLabel charge_label{"potential/length", "q = [[d phi/d n]], interior
 const DatasetLabel tension_label{"force/length", "membrane tension lambda"};
 const DatasetLabel strain_label{"1", "area strain W/W_ref - 1 of the material"};
 
-DatasetLabel with_scale(DatasetLabel label, const SiScale& si_scale) {
-  label.scale = si_scale(label.unit);
+/// With the SI unit of its dimension.
+DatasetLabel labelled(DatasetLabel label, const SiUnits& si_units) {
+  const SiUnit unit = si_units(label.dimension);
+  label.unit = unit.symbol;
+  label.scale = unit.scale;
   return label;
 }
 
@@ -58,8 +61,8 @@ void write_coefficient_convention(Hdf5Writer& file, int order) {
 /// One snapshot under construction: each field is written on the grid, as coefficients and on the closed surface.
 class SnapshotWriter {
  public:
-  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform, const SiScale& si_scale)
-      : file_(file), group_("/snapshots/" + name), transform_(transform), si_scale_(si_scale) {
+  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform, const SiUnits& si_units)
+      : file_(file), group_("/snapshots/" + name), transform_(transform), si_units_(si_units) {
     file_.group(group_);
     file_.group(group_ + "/coefficients");
     file_.group(group_ + "/surface");
@@ -101,7 +104,7 @@ class SnapshotWriter {
  private:
   void numbers(const std::string& name, const Matrix& values, const std::vector<hsize_t>& extents,
                const DatasetLabel& label) {
-    file_.numbers(group_ + "/" + name, memory_of(values), extents, with_scale(label, si_scale_));
+    file_.numbers(group_ + "/" + name, memory_of(values), extents, labelled(label, si_units_));
     checksum_.add(memory_of(values));
   }
 
@@ -109,7 +112,7 @@ class SnapshotWriter {
   Hdf5Writer& file_;
   std::string group_;
   const SphereTransform& transform_;
-  const SiScale& si_scale_;
+  const SiUnits& si_units_;
 };
 
 }  // namespace
@@ -124,30 +127,31 @@ void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const 
   file.attribute("/", "threads", std::int64_t{header.threads});
   file.attribute(
       "/", "units",
-      std::string("dimensionless; the unit of a dataset names its physical dimension, its scale is what 1 of it "
-                  "is in SI units, NaN where the scene does not say"));
+      std::string("numbers are those of the scene; times the scale of a dataset they are in its unit, which is 1 where "
+                  "the scene does not say what its numbers are in SI units"));
   for (const auto& [library, version] : library_versions()) file.attribute("/", "version_" + library, version);
   file.text("/scene", header.scene);
 
   const hsize_t n_theta = static_cast<hsize_t>(grid.n_theta), n_phi = static_cast<hsize_t>(grid.n_phi);
   file.group("/grid");
-  file.numbers("/grid/theta", memory_of(grid.theta), {n_theta}, {"rad", "polar angle from +z", 1.0});
-  file.numbers("/grid/phi", memory_of(grid.phi), {n_phi}, {"rad", "azimuth", 1.0});
+  file.numbers("/grid/theta", memory_of(grid.theta), {n_theta}, {"1", "polar angle from +z", "rad"});
+  file.numbers("/grid/phi", memory_of(grid.phi), {n_phi}, {"1", "azimuth", "rad"});
   file.numbers("/grid/weight", memory_of(grid.weight), {n_theta},
-               {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element", 1.0});
+               {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element"});
   const std::vector<std::int64_t> triangles = closed_triangles(grid);
   file.group("/surface");
   file.integers("/surface/triangles", triangles, {triangles.size() / 3, 3},
                 {"1", "closed surface on the grid points (theta-major), north pole, south pole"});
   write_coefficient_convention(file, transform.order());
   file.group("/snapshots");
-  file.attribute("/snapshots", "time_unit", std::string("time"));
-  file.attribute("/snapshots", "time_scale", header.si_scale("time"));
+  const SiUnit time = header.si_units("time");
+  file.attribute("/snapshots", "time_unit", time.symbol);
+  file.attribute("/snapshots", "time_scale", time.scale);
 }
 
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
-                            const State& state, const Fields& fields, const SiScale& si_scale) {
-  SnapshotWriter snapshot(file, name, transform, si_scale);
+                            const State& state, const Fields& fields, const SiUnits& si_units) {
+  SnapshotWriter snapshot(file, name, transform, si_units);
   snapshot.moment(state.time, state.step);
   const VesicleState& vesicle = state.vesicles.front();
   const VesicleFields& f = fields.vesicles.front();

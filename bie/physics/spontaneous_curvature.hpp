@@ -18,6 +18,8 @@ class SpontaneousCurvatureEffect : public ExplicitEffect {
  public:
   explicit SpontaneousCurvatureEffect(SpontaneousCurvatureParameters parameters) : parameters_(parameters) {}
 
+  [[nodiscard]] const SpontaneousCurvatureParameters& parameters() const { return parameters_; }
+
   [[nodiscard]] EffectDescription description() const override;
   void add(const EffectInput& input, Forcing& forcing) const override;
   [[nodiscard]] bool is_invariant_under(const Reflection&) const override { return true; }

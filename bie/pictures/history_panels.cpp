@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "bie/scene/output_units.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -33,6 +34,8 @@ std::optional<std::vector<double>> column_of(const HistoryTable& history, const 
   }
 }
 
+std::string unit_of(const HistoryTable& history, const std::string& name) { return printed_unit(history.unit(name)); }
+
 class Panels {
  public:
   explicit Panels(const HistoryTable& history) : history_(history) {}
@@ -40,14 +43,13 @@ class Panels {
   struct Wanted {
     const char* column;
     const char* label;
-    std::string_view dimension;
   };
 
   void add(const std::vector<Wanted>& wanted) {
     HistoryPanel panel;
     for (const Wanted& curve : wanted) {
       if (auto values = column_of(history_, curve.column)) {
-        panel.curves.push_back({curve.label, curve.dimension, std::move(*values)});
+        panel.curves.push_back({curve.label, unit_of(history_, curve.column), std::move(*values)});
       }
     }
     add(std::move(panel));
@@ -75,7 +77,7 @@ HistoryPanel drift_panel(const HistoryTable& history) {
       value = value == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::abs(value);
       matters = matters || value >= drift.least;
     }
-    panel.curves.push_back({drift.label, "1", std::move(*values)});
+    panel.curves.push_back({drift.label, "", std::move(*values)});
   }
   return matters ? panel : HistoryPanel{};
 }
@@ -84,7 +86,8 @@ HistoryPanel extent_panel(const HistoryTable& history) {
   HistoryPanel panel{{}, "extent"};
   for (const auto& [column, label] :
        {std::pair{"extent_x", "x"}, std::pair{"extent_y", "y"}, std::pair{"extent_z", "z"}}) {
-    if (auto values = column_of(history, column)) panel.curves.push_back({label, "length", std::move(*values)});
+    if (auto values = column_of(history, column))
+      panel.curves.push_back({label, unit_of(history, column), std::move(*values)});
   }
   return panel;
 }
@@ -92,8 +95,8 @@ HistoryPanel extent_panel(const HistoryTable& history) {
 }  // namespace
 
 HistoryCurve aspect_curve(const HistoryTable& history) {
-  if (auto column = column_of(history, "aspect_ratio")) return {"aspect ratio", "1", std::move(*column)};
-  HistoryCurve curve{"longest / shortest extent", "1", {}};
+  if (auto column = column_of(history, "aspect_ratio")) return {"aspect ratio", "", std::move(*column)};
+  HistoryCurve curve{"longest / shortest extent", "", {}};
   const auto x = column_of(history, "extent_x"), y = column_of(history, "extent_y"), z = column_of(history, "extent_z");
   if (!x || !y || !z) return curve;
   for (std::size_t i = 0; i < x->size(); ++i) {
@@ -105,16 +108,14 @@ HistoryCurve aspect_curve(const HistoryTable& history) {
 
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
   Panels panels(history);
-  panels.add(
-      {{"bending_energy_scaled", "bending energy ∫H^2 dγ", "1"}, {"tension_integral", "tension ∫λ dγ", "energy"}});
+  panels.add({{"bending_energy_scaled", "bending energy ∫H^2 dγ"}, {"tension_integral", "tension ∫λ dγ"}});
   if (scene.electric) {
-    panels.add(
-        {{"Vm_north", "V_m at the north pole", "potential"}, {"q_north", "q at the north pole", "potential/length"}});
+    panels.add({{"Vm_north", "V_m at the north pole"}, {"q_north", "q at the north pole"}});
   }
   HistoryPanel shape{{aspect_curve(history)}};
   const auto inclination = column_of(history, "inclination_deg");
   if (scene.flow && inclination) {
-    shape.curves.insert(shape.curves.begin(), {"inclination (degrees)", "1", *inclination});
+    shape.curves.insert(shape.curves.begin(), {"inclination (degrees)", "", *inclination});
   }
   panels.add(std::move(shape));
   panels.add(drift_panel(history));

@@ -96,7 +96,6 @@ std::string data_block(int number, const std::vector<double>& times, const std::
 
 struct Drawing {
   const std::vector<double>& times;
-  const std::optional<UnitsScene>& units;
   PictureFormat format;
   int n_curves = 0;  ///< so far
 
@@ -126,27 +125,15 @@ constexpr const char* fresh_panel =
 /// Above the axes.
 constexpr const char* key_above = "set key at graph 0.5,1.075 center center horizontal samplen 2 maxrows 1\n";
 
-double largest_of(const std::vector<HistoryCurve>& curves) {
-  double largest = 0.0;
-  for (const HistoryCurve& curve : curves) {
-    for (const double value : curve.values) {
-      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-    }
-  }
-  return largest;
-}
-
 std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
   std::string data, settings = fresh_panel, plot;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const HistoryCurve& curve = panel.curves[i];
-    const ShownUnit unit = shown_unit(drawing.units, curve.dimension, largest_of({curve}));
-    std::vector<double> values = curve.values;
-    for (double& value : values) value *= unit.factor;
-    settings += axis_script(axis_of(values, unit.label(curve.label), 0.06), i == 0 ? "y" : "y2", curve_colours[i]);
+    settings += axis_script(axis_of(curve.values, ShownUnit{1.0, curve.unit}.label(curve.label), 0.06),
+                            i == 0 ? "y" : "y2", curve_colours[i]);
     constexpr double half_turn = 90.0;
-    data +=
-        data_block(drawing.n_curves, drawing.times, values, curve.label.starts_with("inclination") ? half_turn : 0.0);
+    data += data_block(drawing.n_curves, drawing.times, curve.values,
+                       curve.label.starts_with("inclination") ? half_turn : 0.0);
     plot += fmt::format("{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
                         drawing.line_style(i), i == 0 ? "x1y1" : "x1y2");
   }
@@ -178,18 +165,16 @@ std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std:
 }
 
 std::string panel_of_common_axis(const HistoryPanel& panel, Drawing& drawing) {
-  const ShownUnit unit = shown_unit(drawing.units, panel.curves.front().dimension, largest_of(panel.curves));
   std::vector<double> all;
   std::string data, plot;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-    std::vector<double> values = panel.curves[i].values;
-    for (double& value : values) value *= unit.factor;
+    const std::vector<double>& values = panel.curves[i].values;
     all.insert(all.end(), values.begin(), values.end());
     data += data_block(drawing.n_curves, drawing.times, values, 0.0);
     plot += fmt::format("{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
                         drawing.line_style(i), gnuplot_quoted(panel.curves[i].label));
   }
-  const std::string label = unit.label(panel.common_axis);
+  const std::string label = ShownUnit{1.0, panel.curves.front().unit}.label(panel.common_axis);
   const std::string axis = panel.logarithmic ? logarithmic_axis(panel.curves, label)
                                              : axis_script(axis_of(all, label, 0.06), "y", "#000000");
   return data + fresh_panel + key_above + axis + plot + "\n";
@@ -202,10 +187,8 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
   const HistoryTable history(task.paths.history());
   const std::vector<HistoryPanel> panels = panels_of(scene, history);
   if (panels.empty()) return false;
-  std::vector<double> times = history.column("time");
-  const ShownUnit time_unit = shown_unit(scene.units, "time", times.empty() ? 0.0 : times.back());
-  for (double& time : times) time *= time_unit.factor;
-  const Axis time_axis = axis_of(times, time_unit.label("time"), 0.0);
+  const std::vector<double>& times = history.column("time");
+  const Axis time_axis = axis_of(times, ShownUnit{1.0, printed_unit(history.unit("time"))}.label("time"), 0.0);
 
   const int columns = panels.size() > 1 ? 2 : 1, rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
   const double width = columns * panel_width, height = rows * panel_height;
@@ -219,7 +202,7 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
       "set xrange [{1:.12g}:{2:.12g}]; set xtics {3} nomirror; set xlabel {4} offset 0,0.4\n",
       gnuplot_line_width(file.format, 0.5, Drawing::pixels), time_axis.lower, time_axis.upper, time_axis.ticks,
       gnuplot_quoted(time_axis.label));
-  Drawing drawing{times, scene.units, file.format};
+  Drawing drawing{times, file.format};
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double left = panel_width * static_cast<double>(i % static_cast<std::size_t>(columns));
     const double top = height - panel_height * static_cast<double>(i / static_cast<std::size_t>(columns));

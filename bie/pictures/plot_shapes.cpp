@@ -10,6 +10,7 @@
 #include "bie/pictures/shapes_key.hpp"
 #include "bie/pictures/shapes_layout.hpp"
 #include "bie/pictures/view.hpp"
+#include "bie/runs/run_units.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 
@@ -32,10 +33,8 @@ struct ShapesPicture {
   ColourMap colours = ColourMap::sequential();
 };
 
-std::vector<std::string> time_texts(const std::vector<Shape>& shapes, const std::optional<UnitsScene>& units) {
-  double latest = 0.0;
-  for (const Shape& shape : shapes) latest = std::max(latest, std::abs(shape.time));
-  const ShownUnit unit = shown_unit(units, "time", latest);
+std::vector<std::string> time_texts(const std::vector<Shape>& shapes, const OutputUnits& units) {
+  const ShownUnit unit = shown_unit(units, "time");
   std::vector<double> times;
   for (const Shape& shape : shapes) times.push_back(shape.time * unit.factor);
   std::vector<std::string> texts;
@@ -45,7 +44,7 @@ std::vector<std::string> time_texts(const std::vector<Shape>& shapes, const std:
   return texts;
 }
 
-void colour_shapes(ShapesPicture& picture, ShapeField field, const std::optional<UnitsScene>& units) {
+void colour_shapes(ShapesPicture& picture, ShapeField field, const OutputUnits& units) {
   if (field == ShapeField::none) {
     // The middle of the diverging colours: white.
     picture.colours = ColourMap::diverging();
@@ -53,12 +52,10 @@ void colour_shapes(ShapesPicture& picture, ShapeField field, const std::optional
     return;
   }
   std::vector<WeightedValues> values;
-  double largest = 0.0;
   for (const Shape& shape : picture.shapes) values.push_back({shape.values, shape.weights});
   const ColourRange range = robust_range(values);
-  largest = std::max(std::abs(range.lower), std::abs(range.upper));
   const FieldLabel label = label_of(field);
-  const ShownUnit unit = shown_unit(units, label.dimension, largest);
+  const ShownUnit unit = shown_unit(units, label.dimension);
   ColourRange shown = range;
   shown.lower *= unit.factor;
   shown.upper *= unit.factor;
@@ -162,9 +159,10 @@ PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
   }
   picture.view =
       task.style.view.empty() ? default_view(scene, picture.shapes.front().gyration) : parse_view(task.style.view);
-  picture.times = time_texts(picture.shapes, scene.units);
-  picture.length = shown_unit(scene.units, "length", std::sqrt(picture.shapes.front().gyration.trace()));
-  colour_shapes(picture, field, scene.units);
+  const OutputUnits units = units_of_run(task.paths);
+  picture.times = time_texts(picture.shapes, units);
+  picture.length = shown_unit(units, "length");
+  colour_shapes(picture, field, units);
   draw_page(page_of(picture, scene, task.style), file);
   return result;
 }

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
-
-#include "bie/scene/units.hpp"
 
 namespace vehd {
 namespace {
@@ -22,13 +19,6 @@ int exponent_of(double value) { return value == 0.0 ? 0 : static_cast<int>(std::
 
 /// Numbers beyond these are written with a power of ten.
 constexpr double longest = 1e5, shortest = 1e-3;
-
-struct Prefix {
-  std::string_view letter;
-  double size;
-};
-constexpr std::array prefixes = {Prefix{"G", 1e9},  Prefix{"M", 1e6},  Prefix{"k", 1e3},  Prefix{"", 1.0},
-                                 Prefix{"m", 1e-3}, Prefix{"µ", 1e-6}, Prefix{"n", 1e-9}, Prefix{"p", 1e-12}};
 
 }  // namespace
 
@@ -103,24 +93,12 @@ std::string ShownUnit::label(std::string_view name) const {
   return unit.empty() ? std::string(name) : fmt::format("{} ({})", name, unit);
 }
 
-ShownUnit shown_unit(const std::optional<UnitsScene>& units, std::string_view dimension, double largest) {
-  const double scale = si_scale(units, dimension);
-  const Dimension* known = find_dimension(dimension);
-  if (known == nullptr || !std::isfinite(scale)) return {};
-  const std::string symbol(known->si_unit());
-  // A number that is one but for rounding counts as one.
-  const double size = std::abs(largest) * scale * (1.0 + 1e-9);
-  // Powers of units, areas for example, would count their prefix as often: they stay as they are.
-  if (symbol.find('^') != std::string::npos || size == 0.0 || !std::isfinite(size)) return {scale, symbol};
-  if (symbol.starts_with("1/")) {
-    constexpr double least = 0.1;
-    const auto prefix =
-        std::find_if(prefixes.rbegin(), prefixes.rend() - 1, [&](const Prefix& p) { return size * p.size >= least; });
-    return {scale * prefix->size, fmt::format("1/{}{}", prefix->letter, symbol.substr(2))};
-  }
-  const auto prefix =
-      std::find_if(prefixes.begin(), prefixes.end() - 1, [&](const Prefix& p) { return size >= p.size; });
-  return {scale / prefix->size, std::string(prefix->letter) + symbol};
+ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension) {
+  const OutputUnit unit = units.of(dimension);
+  if (unit.is_si()) return {unit.factor, printed_unit(unit.symbol)};
+  const OutputUnit length = units.of("length");
+  if (dimension == "1/length" && length.is_si()) return {1.0 / length.factor, "1/" + printed_unit(length.symbol)};
+  return {};
 }
 
 }  // namespace vehd

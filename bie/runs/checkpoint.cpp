@@ -101,7 +101,7 @@ struct WriteVisitor {
     std::vector<hsize_t> extents{static_cast<hsize_t>(values.rows())};
     if (Derived::ColsAtCompileTime != 1) extents.insert(extents.begin(), static_cast<hsize_t>(values.cols()));
     file.numbers(std::string("/state/") + name, {values.data(), static_cast<std::size_t>(values.size())}, extents,
-                 {"", "member of the state of the run"});
+                 {"1", "member of the state of the run, as the run computes with it"});
   }
 };
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -17,38 +17,44 @@
 namespace vehd {
 namespace {
 
-struct DiagnosticColumn {
-  std::string_view name;
-  double VesicleDiagnostics::*member;
-};
+template <auto member>
+double of_vesicle(const HistoryRow& row) {
+  return row.diagnostics.vesicles.front().*member;
+}
+template <auto member>
+double of_step(const HistoryRow& row) {
+  return static_cast<double>(row.step.*member);
+}
+template <auto member>
+double of_row(const HistoryRow& row) {
+  return static_cast<double>(row.*member);
+}
 
-constexpr std::array diagnostic_columns = {
-    DiagnosticColumn{"area", &VesicleDiagnostics::area},
-    DiagnosticColumn{"volume", &VesicleDiagnostics::volume},
-    DiagnosticColumn{"reduced_volume", &VesicleDiagnostics::reduced_volume},
-    DiagnosticColumn{"bending_energy_scaled", &VesicleDiagnostics::bending_energy_scaled},
-    DiagnosticColumn{"tension_integral", &VesicleDiagnostics::tension_integral},
-    DiagnosticColumn{"Vm_north", &VesicleDiagnostics::Vm_north},
-    DiagnosticColumn{"q_north", &VesicleDiagnostics::q_north},
-    DiagnosticColumn{"Vm_max", &VesicleDiagnostics::Vm_max},
-    DiagnosticColumn{"extent_x", &VesicleDiagnostics::extent_x},
-    DiagnosticColumn{"extent_y", &VesicleDiagnostics::extent_y},
-    DiagnosticColumn{"extent_z", &VesicleDiagnostics::extent_z},
-    DiagnosticColumn{"inclination_deg", &VesicleDiagnostics::inclination_deg},
-    DiagnosticColumn{"area_drift", &VesicleDiagnostics::area_drift},
-    DiagnosticColumn{"volume_drift", &VesicleDiagnostics::volume_drift},
-    DiagnosticColumn{"strain_max", &VesicleDiagnostics::strain_max},
-    DiagnosticColumn{"spectrum_tail", &VesicleDiagnostics::spectrum_tail},
-};
+using D = VesicleDiagnostics;
 
-std::string header() {
-  std::vector<std::string> names{"time", "dt"};
-  for (const DiagnosticColumn& column : diagnostic_columns) names.emplace_back(column.name);
-  for (const char* name : {"iterations_flow", "iterations_electric", "rejected", "order", "truncation",
-                           "error_estimate", "quadrature_error", "separation", "raw_area", "wrinkle_degree"}) {
-    names.emplace_back(name);
+std::string header_of(std::string_view name, const std::string& unit) {
+  return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
+}
+
+std::string header_line(const OutputUnits& units) {
+  std::vector<std::string> cells;
+  for (const HistoryColumn& column : history_columns()) {
+    cells.push_back(header_of(column.name, units.of(column.dimension).symbol));
   }
-  return csv_line(names);
+  return csv_line(cells);
+}
+
+/// Name and unit of a header.
+std::pair<std::string, std::string> parts_of(const std::string& header) {
+  const std::size_t at = header.find(" [");
+  if (at == std::string::npos || !header.ends_with(']')) return {header, ""};
+  return {header.substr(0, at), header.substr(at + 2, header.size() - at - 3)};
+}
+
+bool is_header(const std::string& line) {
+  const std::vector<std::string> cells = csv_cells(line);
+  return std::ranges::equal(
+      cells, history_columns(), {}, [](const std::string& cell) { return parts_of(cell).first; }, &HistoryColumn::name);
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
@@ -63,6 +69,52 @@ Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
 
 }  // namespace
 
+const std::vector<HistoryColumn>& history_columns() {
+  static const std::vector<HistoryColumn> all = {
+      {"time", "time", of_row<&HistoryRow::time>},
+      {"dt", "time", of_step<&StepAttempt::dt>},
+      {"area", "area", of_vesicle<&D::area>},
+      {"volume", "volume", of_vesicle<&D::volume>},
+      {"reduced_volume", "1", of_vesicle<&D::reduced_volume>},
+      {"bending_energy_scaled", "1", of_vesicle<&D::bending_energy_scaled>},
+      {"tension_integral", "energy", of_vesicle<&D::tension_integral>},
+      {"Vm_north", "potential", of_vesicle<&D::Vm_north>},
+      {"q_north", "potential/length", of_vesicle<&D::q_north>},
+      {"Vm_max", "potential", of_vesicle<&D::Vm_max>},
+      {"extent_x", "length", of_vesicle<&D::extent_x>},
+      {"extent_y", "length", of_vesicle<&D::extent_y>},
+      {"extent_z", "length", of_vesicle<&D::extent_z>},
+      {"inclination_deg", "1", of_vesicle<&D::inclination_deg>},
+      {"area_drift", "1", of_vesicle<&D::area_drift>},
+      {"volume_drift", "1", of_vesicle<&D::volume_drift>},
+      {"strain_max", "1", of_vesicle<&D::strain_max>},
+      {"spectrum_tail", "1", of_vesicle<&D::spectrum_tail>},
+      {"iterations_flow", "1", of_step<&StepAttempt::iterations_flow>},
+      {"iterations_electric", "1", of_step<&StepAttempt::iterations_electric>},
+      {"rejected", "1", of_step<&StepAttempt::rejected>},
+      {"order", "1", of_row<&HistoryRow::order>},
+      {"truncation", "1", of_row<&HistoryRow::truncation>},
+      {"error_estimate", "1", of_step<&StepAttempt::error_estimate>},
+      {"quadrature_error", "1", of_vesicle<&D::quadrature_error>},
+      {"separation", "1", of_vesicle<&D::separation>},
+      {"raw_area", "1", of_step<&StepAttempt::raw_area>},
+      {"wrinkle_degree", "1", of_vesicle<&D::wrinkle_degree>},
+      {"centroid_x", "length", of_vesicle<&D::centroid_x>},
+      {"centroid_y", "length", of_vesicle<&D::centroid_y>},
+      {"centroid_z", "length", of_vesicle<&D::centroid_z>},
+      {"centroid_velocity_x", "velocity", of_vesicle<&D::centroid_velocity_x>},
+      {"centroid_velocity_y", "velocity", of_vesicle<&D::centroid_velocity_y>},
+      {"centroid_velocity_z", "velocity", of_vesicle<&D::centroid_velocity_z>},
+      {"tension_max", "force/length", of_vesicle<&D::tension_max>},
+      {"elastic_energy_scaled", "1", of_vesicle<&D::elastic_energy_scaled>},
+      {"aspect_ratio", "1", of_vesicle<&D::aspect_ratio>},
+      {"aspect_ratio_field", "1", of_vesicle<&D::aspect_ratio_field>},
+      {"Vm_pole_plus", "potential", of_vesicle<&D::Vm_pole_plus>},
+      {"Vm_pole_minus", "potential", of_vesicle<&D::Vm_pole_minus>},
+  };
+  return all;
+}
+
 void require_history(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum) {
   if (kept_bytes == 0) return;
   std::error_code error;
@@ -74,7 +126,7 @@ void require_history(const std::filesystem::path& path, std::int64_t kept_bytes,
   std::ifstream kept(path, std::ios::binary);
   std::string first_line;
   std::getline(kept, first_line);
-  if (first_line + "\n" != header()) throw InputError(fmt::format("{}:1: has other columns", path.string()));
+  if (!is_header(first_line)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
   kept.seekg(0);
   if (checksum_of(kept, kept_bytes).value() != checksum) {
     throw InputError(fmt::format("{}: was altered: its first {} bytes do not match the checksum in checkpoint.h5",
@@ -82,11 +134,13 @@ void require_history(const std::filesystem::path& path, std::int64_t kept_bytes,
   }
 }
 
-HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum)
+HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
+                         const OutputUnits& units)
     : path_(path), checksum_(checksum) {
+  for (const HistoryColumn& column : history_columns()) factors_.push_back(units.of(column.dimension).factor);
   if (kept_bytes == 0) {
     stream_.open(path, std::ios::binary | std::ios::trunc);
-    write(header());
+    write(header_line(units));
     return;
   }
   std::error_code error;
@@ -98,17 +152,8 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_by
 
 void HistoryFile::append(const HistoryRow& row) {
   std::vector<std::string> cells;
-  const auto number = [&cells](double value) { cells.push_back(fmt::format("{:.17g}", value)); };
-  const auto count = [&cells](std::int64_t value) { cells.push_back(std::to_string(value)); };
-  const StepAttempt& step = row.step;
-  const VesicleDiagnostics& d = row.diagnostics.vesicles.front();
-  number(row.time);
-  number(step.dt);
-  for (const DiagnosticColumn& column : diagnostic_columns) number(d.*column.member);
-  for (const int value : {step.iterations_flow, step.iterations_electric, step.rejected, row.order}) count(value);
-  for (const double value :
-       {row.truncation, step.error_estimate, d.quadrature_error, d.separation, step.raw_area, d.wrinkle_degree}) {
-    number(value);
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    cells.push_back(fmt::format("{:.17g}", history_columns()[i].value(row) * factors_[i]));
   }
   write(csv_line(cells));
 }
@@ -135,7 +180,11 @@ HistoryTable::HistoryTable(const std::filesystem::path& path) {
 HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::move(name)) {
   std::string line;
   if (!std::getline(stream, line)) throw InputError(fmt::format("{}: no such file or empty", file_));
-  names_ = csv_cells(line);
+  for (const std::string& cell : csv_cells(line)) {
+    auto [plain, unit] = parts_of(cell);
+    names_.push_back(std::move(plain));
+    units_.push_back(std::move(unit));
+  }
   columns_.resize(names_.size());
   while (std::getline(stream, line)) {
     const std::vector<std::string> cells = csv_cells(line);
@@ -162,11 +211,32 @@ double HistoryTable::largest_magnitude(const std::string& name) const {
   return largest;
 }
 
-const std::vector<double>& HistoryTable::column(const std::string& name) const {
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    if (names_[i] == name) return columns_[i];
+std::size_t HistoryTable::index(const std::string& name) const {
+  const auto found = std::ranges::find(names_, name);
+  if (found == names_.end()) throw InputError(fmt::format("{}:1: has no column {}", file_, name));
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+const std::vector<double>& HistoryTable::column(const std::string& name) const { return columns_[index(name)]; }
+
+const std::string& HistoryTable::unit(const std::string& name) const { return units_[index(name)]; }
+
+std::string HistoryTable::header(const std::string& name) const { return header_of(name, unit(name)); }
+
+std::string HistoryTable::time_text(double time) const {
+  const std::string& symbol = unit("time");
+  return symbol.empty() ? fmt::format("{:g}", time) : fmt::format("{:g} {}", time, symbol);
+}
+
+OutputUnits HistoryTable::units(std::optional<UnitsScene> scales) const {
+  std::map<std::string, std::string, std::less<>> symbols;
+  for (const HistoryColumn& column : history_columns()) {
+    const auto found = std::ranges::find(names_, column.name);
+    if (found == names_.end()) continue;
+    const std::string& symbol = units_[static_cast<std::size_t>(found - names_.begin())];
+    if (!symbol.empty()) symbols.emplace(column.dimension, symbol);
   }
-  throw InputError(fmt::format("{}:1: has no column {}", file_, name));
+  return {std::move(scales), std::move(symbols)};
 }
 
 }  // namespace vehd

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "bie/scene/output_units.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/support/checksum.hpp"
 
@@ -22,6 +25,17 @@ struct HistoryRow {
   double truncation = 0.0;  ///< see Evolution::truncation
 };
 
+/// A column of history.csv by its plain name; its header is that name, and " [unit]" behind it where the file has
+/// units.
+struct HistoryColumn {
+  std::string_view name;
+  std::string_view dimension;  ///< see units.hpp; "1" of a pure number
+  double (*value)(const HistoryRow&);
+};
+
+/// All columns in the order of the file: new ones come last.
+const std::vector<HistoryColumn>& history_columns();
+
 /// Checks the first bytes of a history.csv.
 /// @throws InputError if the file is shorter, was altered there or has other columns
 void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum);
@@ -32,8 +46,10 @@ class HistoryFile {
  public:
   /// Starts a file, or continues one after its first `kept_bytes` bytes when that is not 0.
   /// @param checksum  of these bytes, which `require_history` has found intact
+  /// @param units  of a file that goes on those that it began with
   /// @throws OutputError
-  HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum);
+  HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
+              const OutputUnits& units = {});
 
   /// A row that the disk has no room for leaves nothing of itself behind. @throws OutputError
   void append(const HistoryRow& row);
@@ -46,12 +62,13 @@ class HistoryFile {
   void write(const std::string& text);
 
   std::filesystem::path path_;
+  std::vector<double> factors_;  ///< of the columns
   std::ofstream stream_;
   std::int64_t bytes_ = 0;
   Checksum checksum_;
 };
 
-/// A history.csv in memory.
+/// A history.csv in memory. Columns go by their plain names, whatever the units of the file.
 class HistoryTable {
  public:
   /// @throws InputError "file:line: ..."
@@ -65,12 +82,23 @@ class HistoryTable {
   [[nodiscard]] std::int64_t n_steps() const;
   /// Largest magnitude in a column, 0 of none; not a number where there is one. @throws InputError as `column`
   [[nodiscard]] double largest_magnitude(const std::string& name) const;
-  /// @throws InputError if there is no such column
+  /// In the unit of the file. @throws InputError if there is no such column
   [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
+  /// Symbol of the unit of a column; empty where it has none. @throws InputError as `column`
+  [[nodiscard]] const std::string& unit(const std::string& name) const;
+  /// Header of a column as it stands in the file. @throws InputError as `column`
+  [[nodiscard]] std::string header(const std::string& name) const;
+  /// A time of the file with its unit behind it.
+  [[nodiscard]] std::string time_text(double time) const;
+  /// The units that the columns tell of.
+  /// @param scales  of the scene of the run
+  [[nodiscard]] OutputUnits units(std::optional<UnitsScene> scales) const;
 
  private:
+  [[nodiscard]] std::size_t index(const std::string& name) const;
+
   std::string file_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_, units_;
   std::vector<std::vector<double>> columns_;
   std::size_t n_rows_ = 0;
 };

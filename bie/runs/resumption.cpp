@@ -7,6 +7,7 @@
 #include "bie/files/hdf5_reader.hpp"
 #include "bie/scene/key_lookup.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/sphere/degrees.hpp"
@@ -63,16 +64,18 @@ void require_same_physics(const Scene& scene, const SceneSource& source, const C
     if (!may_change(key)) {
       refuse(key, "--resume accepts changes of [numerics] and [output] alone: keep the value or choose another -o");
     }
+    if (key == "output.units") refuse(key, "history.csv goes on in the units that it began with: keep the value");
     if (key == "numerics.symmetry" && stored.numerics.symmetry == SymmetryUse::off) {
       refuse(key, "a state that was computed without symmetry need not have any: keep \"off\" or choose another -o");
     }
   }
   if (scene.numerics.end_time < checkpoint.state.time) {
+    const OutputUnit time = OutputUnits(scene).of("time");
     throw InputError(
-        fmt::format("{}: \"numerics.end_time\" is {:g}, but the run in {} has already reached {:g}; accepted: "
+        fmt::format("{}: \"numerics.end_time\" is {}, but the run in {} has already reached {}; accepted: "
                     "that or later",
-                    key_place(source, "numerics.end_time"), scene.numerics.end_time, paths.directory.string(),
-                    checkpoint.state.time));
+                    key_place(source, "numerics.end_time"), time.text_of(scene.numerics.end_time),
+                    paths.directory.string(), time.text_of(checkpoint.state.time)));
   }
 }
 

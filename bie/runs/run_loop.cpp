@@ -11,6 +11,7 @@
 
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_recorder.hpp"
+#include "bie/runs/run_units.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
@@ -50,10 +51,14 @@ class Simulation {
   explicit Simulation(const RunTask& task)
       : scene_(task.scene),
         start_(task.checkpoint.value_or(Checkpoint{})),
+        units_(start_.history_bytes > 0 ? units_of_history(task.paths.history(), task.scene.units)
+                                        : OutputUnits(task.scene)),
+        time_unit_(units_.of("time")),
         problem_(problem_of(task.scene, start_order())),
+        events_(events_of(task.scene)),
         evolution_(evolution()),
         meter_(start_.totals, instruments_),
-        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_)),
+        recorder_(task.paths, settings_of_files(task.paths), problem_.frame, updated(start_), units_),
         after_step_(task.after_step),
         tell_(task.tell),
         start_time_(evolution_.state().time) {}
@@ -78,8 +83,10 @@ class Simulation {
   }
 
   Evolution evolution() {
-    if (goes_on()) return {setup_of(problem_), start_.state, instruments_};
-    return {setup_of(problem_), problem_.start, instruments_};
+    EvolutionSetup setup = setup_of(problem_);
+    setup.time_text = [unit = time_unit_](double time) { return unit.text_of(time); };
+    if (goes_on()) return {std::move(setup), start_.state, instruments_};
+    return {std::move(setup), problem_.start, instruments_};
   }
 
   [[nodiscard]] NumericalSettings settings_of_files(const RunPaths& paths) const {
@@ -102,9 +109,10 @@ class Simulation {
       start();
       while (evolution_.state().time < scene_.numerics.end_time) {
         if (interruption.requested()) {
-          return {.completed = false, .reason = fmt::format("a signal came at time {:g}", evolution_.state().time)};
+          const std::string now = time_unit_.text_of(evolution_.state().time);
+          return {.completed = false, .reason = fmt::format("a signal came at time {}", now)};
         }
-        record(evolution_.step({scene_.output.every, scene_.numerics.end_time}));
+        record(evolution_.step(events_));
         if (after_step_) after_step_();
       }
       return {.completed = true, .reason = {}};
@@ -147,13 +155,19 @@ class Simulation {
     const VesicleDiagnostics& diagnostics = evolution_.evaluation().diagnostics.vesicles.front();
     recorder_.record(state, sides_of(step), meter_.totals());
     const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
-    if (tell_) tell_({state.step, start_time_, state.time, scene_.numerics.end_time, step.dt, drift, meter_.seconds()});
+    if (!tell_) return;
+    const auto shown = [&](double time) { return time * time_unit_.factor; };
+    tell_({state.step, shown(start_time_), shown(state.time), shown(scene_.numerics.end_time), shown(step.dt), drift,
+           meter_.seconds(), time_unit_.symbol});
   }
 
   const Scene& scene_;
   Instruments instruments_;
   Checkpoint start_;
+  OutputUnits units_;
+  OutputUnit time_unit_;
   Problem problem_;
+  EventTimes events_;
   Evolution evolution_;
   WorkMeter meter_;
   RunRecorder recorder_;

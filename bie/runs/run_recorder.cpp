@@ -26,21 +26,21 @@ Checkpoint written(const RunPaths& paths, Checkpoint start) {
 
 /// What the last session has left, in the degree of this one.
 SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform& output, const Checkpoint& start,
-                                   const SiScale& si_scale) {
+                                   const SiUnits& si_units) {
   SnapshotStore::Kept kept{start.n_snapshots, start.snapshots_checksum, {}};
   if (start.n_snapshots == 0) return kept;
   const auto present = std::make_shared<const Hdf5Reader>(paths.snapshots());
   if (present->integer_attribute("/", "order") == output.order()) return kept;
-  kept.convert = [present, &output, &si_scale](Hdf5Writer& file, const std::string& name) {
-    return copy_snapshot(file, *present, name, output, si_scale);
+  kept.convert = [present, &output, &si_units](Hdf5Writer& file, const std::string& name) {
+    return copy_snapshot(file, *present, name, output, si_units);
   };
   return kept;
 }
 
 SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start,
-                                         const SiScale& si_scale) {
+                                         const SiUnits& si_units) {
   return [&output, header = RunHeader{with_changes(start.scene, start.changes), static_cast<int>(start.threads),
-                                      si_scale}](Hdf5Writer& file) { write_run_header(file, output, header); };
+                                      si_units}](Hdf5Writer& file) { write_run_header(file, output, header); };
 }
 
 /// Lists the fields of the snapshots. @param has  whether they have the field of this name
@@ -57,15 +57,15 @@ void name_fields(XdmfSeries& series, const Predicate& has) {
 }  // namespace
 
 RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame,
-                         const Checkpoint& start)
+                         const Checkpoint& start, const OutputUnits& units)
     : paths_(paths),
-      si_scale_(si_scales(parse_units(start.scene, "scene"))),
+      si_units_(si_units_of(parse_units(start.scene, "scene"))),
       output_(settings.order, make_grid(settings.order)),
       lab_frame_(frame, settings),
       last_(written(paths, start)),
-      snapshots_(paths.snapshots(), header_writer(output_, start, si_scale_),
-                 kept_snapshots(paths, output_, last_, si_scale_)),
-      history_(paths.history(), start.history_bytes, start.history_checksum) {
+      snapshots_(paths.snapshots(), header_writer(output_, start, si_units_),
+                 kept_snapshots(paths, output_, last_, si_units_)),
+      history_(paths.history(), start.history_bytes, start.history_checksum, units) {
   const SphereGrid& grid = output_.grid();
   xdmf_.n_points = grid.n_points() + 2;
   xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
@@ -84,6 +84,8 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
     HistoryRow shown = row;
     if (lab_frame_.is_rotated()) {
       shown.diagnostics = lab_frame_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
+    } else {
+      shown.diagnostics = lab_frame_.diagnostics(row.diagnostics);
     }
     history_.append(shown);
     ++last_.n_rows;
@@ -104,7 +106,7 @@ void RunRecorder::keep_last_state(const Fields& fields) {
 void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
   snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
     const std::int64_t checksum =
-        write_snapshot(file, name, output_, lab_frame_.state(state), lab_frame_.fields(fields), si_scale_);
+        write_snapshot(file, name, output_, lab_frame_.state(state), lab_frame_.fields(fields), si_units_);
     const auto has = [&](const std::string& field) { return file.has("/snapshots/" + name + "/" + field); };
     if (xdmf_.times.empty()) name_fields(xdmf_, has);
     return checksum;

@@ -31,7 +31,9 @@ class RunRecorder {
   /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
   /// @param settings  with the degree of the files, which must not be less than that of files that exist
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
-  RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start);
+  /// @param units  of the history: where it goes on, those that it began with
+  RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start,
+              const OutputUnits& units);
 
   /// Records one accepted state, which has two sides where the forcing jumps. A snapshot holds the last side, the one
   /// with which a run goes on. A kill leaves either none or all of the rows to a resumed run.
@@ -53,7 +55,7 @@ class RunRecorder {
   void write_xdmf();
 
   const RunPaths& paths_;
-  SiScale si_scale_;
+  SiUnits si_units_;
   SphereTransform output_;  ///< degree and grid of the files
   LabFrameOutput lab_frame_;
   Checkpoint last_;

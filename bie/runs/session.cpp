@@ -25,8 +25,7 @@ bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths&
 
 }  // namespace
 
-RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory,
-                       bool resume)
+RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume)
     : scene_(std::move(scene)), paths_{directory}, lock_(lock_in(paths_)) {
   if (!admit_run(paths_, resume)) return;
   checkpoint_ = read_checkpoint(paths_.checkpoint());

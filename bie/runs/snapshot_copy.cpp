@@ -6,7 +6,7 @@
 namespace vehd {
 
 std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const std::string& name,
-                           const SphereTransform& transform, const SiScale& si_scale) {
+                           const SphereTransform& transform, const SiUnits& si_units) {
   const std::string group = "/snapshots/" + name;
   const auto matrix = [&](const char* field) {
     const std::string dataset = group + "/coefficients/" + field;
@@ -32,7 +32,7 @@ std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const s
   fields.tension = vector("tension");
   fields.charge = vector("q");
   return write_snapshot(target, name, transform, resized(std::move(state), transform.order()),
-                        resized(std::move(all), transform.order()), si_scale);
+                        resized(std::move(all), transform.order()), si_units);
 }
 
 }  // namespace vehd

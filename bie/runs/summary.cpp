@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::array largest_of = {"area_drift", "volume_drift", "strain_max", "spectrum_tail", "quadrature_error"};
 
+/// At the times of the history.
+nlohmann::json changes_in(const OutputUnit& time, std::vector<SceneChange> changes) {
+  for (SceneChange& change : changes) change.time *= time.factor;
+  return json_of(changes);
+}
+
 double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
 
 }  // namespace
@@ -27,8 +33,9 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   json["completed"] = outcome.completed;
   json["verdict"] = verdict_of(history, scene.numerics.tolerance, outcome.reason);
   if (!outcome.completed) json["reason"] = outcome.reason;
-  json["changes"] = json_of(checkpoint.changes);
+  json["changes"] = changes_in(history.units(scene.units).of("time"), checkpoint.changes);
   json["time"] = last(history.column("time"));
+  json["units"] = {{"time", history.unit("time").empty() ? "1" : history.unit("time")}};
   json["steps"] = steps;
   json["rejected_steps"] = static_cast<std::int64_t>(std::accumulate(rejected.begin(), rejected.end(), 0.0));
   json["seconds"] = totals.seconds;

@@ -69,13 +69,13 @@ std::vector<std::string> beyond_limits(const HistoryTable& history, std::optiona
     const auto time = first_time(history, values, [&](double value) { return std::abs(value) <= limit.largest; });
     if (!time) continue;
     const double most = std::abs(worst(values, [](double a, double b) { return std::abs(a) > std::abs(b); }));
-    findings.push_back(
-        fmt::format("{} above {:g} since time {:g} (worst {:.3g})", limit.column, limit.largest, *time, most));
+    findings.push_back(fmt::format("{} above {:g} since time {} (worst {:.3g})", limit.column, limit.largest,
+                                   history.time_text(*time), most));
   }
   const std::vector<double>& separation = history.column("separation");
   if (const auto time = first_time(history, separation, [](double value) { return value >= least_separation; })) {
-    findings.push_back(fmt::format("separation below {:g} since time {:g} (worst {:.3g})", least_separation, *time,
-                                   worst(separation, std::less<>())));
+    findings.push_back(fmt::format("separation below {:g} since time {} (worst {:.3g})", least_separation,
+                                   history.time_text(*time), worst(separation, std::less<>())));
   }
   return findings;
 }
@@ -95,8 +95,8 @@ std::optional<std::string> wrinkling(const HistoryTable& history) {
   if (!since) return std::nullopt;
   const double round = 2.0 * std::numbers::pi;
   return fmt::format(
-      "compressed since time {:g}: wrinkles of wavelength {:.2g} radii grow fastest, the finest degree {:g} has {:.2g}",
-      *since, round / wrinkles[worst_row], order[worst_row], round / order[worst_row]);
+      "compressed since time {}: wrinkles of wavelength {:.2g} radii grow fastest, the finest degree {:g} has {:.2g}",
+      history.time_text(*since), round / wrinkles[worst_row], order[worst_row], round / order[worst_row]);
 }
 
 /// Deviation of each value from the straight line between its neighbours; 0 at the ends and where time stands still.
@@ -132,8 +132,8 @@ std::optional<std::string> ringing(const HistoryTable& history) {
     }
   }
   if (swings.size() <= most_swings) return std::nullopt;
-  return fmt::format("tension_integral and spectrum_tail swing from step to step since time {:g} ({} times)",
-                     swings.front(), swings.size());
+  return fmt::format("tension_integral and spectrum_tail swing from step to step since time {} ({} times)",
+                     history.time_text(swings.front()), swings.size());
 }
 
 /// Steps of a fixed size that fail again and again.
@@ -146,8 +146,8 @@ std::optional<std::string> rejections(const HistoryTable& history) {
     return std::nullopt;
   }
   const auto first = std::ranges::find_if(rejected, fails) - rejected.begin();
-  return fmt::format("rejected before {} of {} steps since time {:g}", count, n_steps,
-                     history.column("time")[static_cast<std::size_t>(first)]);
+  return fmt::format("rejected before {} of {} steps since time {}", count, n_steps,
+                     history.time_text(history.column("time")[static_cast<std::size_t>(first)]));
 }
 
 }  // namespace

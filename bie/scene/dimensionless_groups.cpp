@@ -7,6 +7,7 @@
 
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/placement.hpp"
 #include "bie/scene/units.hpp"
 
@@ -29,7 +30,11 @@ class Groups {
       add({"viscosity ratio", "Λ", vesicle_.viscosity_ratio, "1", "μ_i/μ_e"});
     }
     if (vesicle_.bending) add_bending();
-    if (vesicle_.bending && shear_rate() > 0.0) add_flow();
+    if (shear_rate() > 0.0) add_flow();
+    if (scene_.gravity) {
+      add({"sedimentation time", "t_g", model_.viscosity / (weight() * radius()), "time",
+           "μ/(|ρ_i − ρ_e|ga): its weight moves the vesicle by about its radius"});
+    }
     if (model_.electric) add_electric();
     return groups_;
   }
@@ -48,16 +53,19 @@ class Groups {
   void add_bending() {
     add({"bending time", "t_κ", bending_time(), "time", "μa³/κ_B: shapes relax by bending"});
     if (scene_.membrane.spontaneous_curvature != 0.0) {
-      add({"spontaneous curvature", "c₀", scene_.membrane.spontaneous_curvature * radius(), "1", "ca, −1 on a sphere"});
+      add({"spontaneous curvature", "c₀", scene_.membrane.spontaneous_curvature * radius(), "1",
+           "ca, −1 on a sphere; the usual C₀ is −2c"});
+      add({"the usual spontaneous curvature", "C₀a", -2.0 * scene_.membrane.spontaneous_curvature * radius(), "1",
+           "−2ca of (κ_c/2)∫(C₁ + C₂ − C₀)² dA with κ_c = κ_B/2, 2 on a sphere"});
     }
     if (!scene_.gravity) return;
-    const Triple& g = scene_.gravity->acceleration;
-    const double weight = std::abs(scene_.fluid.density_difference) * Vector3(g[0], g[1], g[2]).norm();
-    add({"Bond number", "Bo", weight * std::pow(radius(), 4) / vesicle_.bending->modulus, "1",
+    add({"Bond number", "Bo", weight() * std::pow(radius(), 4) / vesicle_.bending->modulus, "1",
          "|ρ_i − ρ_e|ga⁴/κ_B: weight over bending force"});
   }
 
   void add_flow() {
+    add({"flow time", "t_γ", 1.0 / shear_rate(), "time", "1/γ̇: the flow turns and stretches the vesicle"});
+    if (!vesicle_.bending) return;
     add({"capillary number of the flow", "χ", shear_rate() * bending_time(), "1",
          "μγ̇a³/κ_B: viscous stress over bending stress"});
   }
@@ -85,6 +93,12 @@ class Groups {
     if (electric.permittivity_ratio != 1.0) {
       add({"permittivity ratio", "S", electric.permittivity_ratio, "1", "ε_i/ε_e"});
     }
+    // Without units the permittivity is that of the stress alone, as in the paper, whatever the conductivities.
+    if (scene_.units) {
+      add({"Maxwell–Wagner time", "t_MW",
+           electric.permittivity * (electric.permittivity_ratio + 2.0) / (inside + 2.0 * outside), "time",
+           "(ε_i + 2ε_e)/(σ_i + 2σ_e): the charge of the fluids relaxes"});
+    }
     const double stress = electric.permittivity * electric.field.squaredNorm();
     if (stress == 0.0) return;
     add({"electric time", "t_el", model_.viscosity / stress, "time", "μ/(εE²): the field deforms the membrane"});
@@ -108,6 +122,11 @@ class Groups {
     const Matrix3& gradient = model_.flow->gradient;
     return std::sqrt(0.5) * (gradient + gradient.transpose()).norm();
   }
+  /// Per volume.
+  [[nodiscard]] double weight() const {
+    const Triple& g = scene_.gravity->acceleration;
+    return std::abs(scene_.fluid.density_difference) * Vector3(g[0], g[1], g[2]).norm();
+  }
   [[nodiscard]] double radius() const { return std::sqrt(size_.area / (4.0 * pi)); }
   [[nodiscard]] double bending_time() const {
     return model_.viscosity * std::pow(radius(), 3) / vesicle_.bending->modulus;
@@ -128,7 +147,7 @@ std::string si_text(const Scene& scene, const DimensionlessGroup& group) {
   const Dimension* dimension = find_dimension(group.unit);
   if (dimension == nullptr || !scene.units) return {};
   const auto scale = reference_scale(*scene.units, *dimension);
-  return scale ? fmt::format("{:.4g} {}", group.value * *scale, dimension->si_unit()) : std::string();
+  return scale ? si_number(group.value * *scale, group.unit) : std::string();
 }
 
 }  // namespace vehd

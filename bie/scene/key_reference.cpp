@@ -31,6 +31,8 @@ std::string type_text(const KeyDescription& key) {
       return "list of numbers";
     case ValueType::modes:
       return "list of {n, m, a}";
+    case ValueType::windows:
+      return "list of {from, to, every}";
     case ValueType::quantity:
       return "text with unit";
   }

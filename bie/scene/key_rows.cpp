@@ -42,6 +42,8 @@ void add_units_keys(KeyTable& table) {
             &UnitsScene::viscosity);
   add_scale("potential", {"Φ", "potential", "reference potential; absent: √(ML/(T C_m)) of a capacitance in SI units"},
             &UnitsScene::potential);
+  add_scale("temperature", {"", "temperature", "of energies in kBT, such as \"298 K\"; no scale"},
+            &UnitsScene::temperature);
 }
 
 void add_shape_keys(KeyTable& table) {
@@ -80,8 +82,9 @@ void add_shape_keys(KeyTable& table) {
       .required = true;
   table.begin("shape", {"file"});
   table
-      .add("path", any_number, {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units"},
-           shape, &ShapeScene::path)
+      .add("path", any_number,
+           {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units"}, shape,
+           &ShapeScene::path)
       .required = true;
   table.add("time", not_negative, {"t", "time", "time of the snapshot in that run; absent: the last one"}, shape,
             &ShapeScene::time);
@@ -100,9 +103,12 @@ void add_shape_keys(KeyTable& table) {
 void add_membrane_keys(KeyTable& table) {
   table.begin("membrane");
   table.add("bending_modulus", not_negative,
-            {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus; absent or 0: no bending"}, membrane,
+            {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus κ_c; absent or 0: no bending"}, membrane,
             &MembraneScene::bending_modulus);
-  table.add("spontaneous_curvature", any_number, {"c", "1/length", "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere"},
+  table.add("spontaneous_curvature", any_number,
+            {"c", "1/length",
+             "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere. The usual C₀ of (κ_c/2)∫(C₁ + C₂ − C₀)² dA, positive "
+             "where the membrane prefers to bulge outwards, is −2c"},
             membrane, &MembraneScene::spontaneous_curvature);
   table.add("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"}, membrane,
             &MembraneScene::inextensible);
@@ -239,8 +245,20 @@ void add_numerics_keys(KeyTable& table) {
 
 void add_output_keys(KeyTable& table) {
   table.begin("output");
-  table.add("every", positive, {"", "time", "time between snapshots; absent: the start and the end only"}, output,
-            &OutputScene::every);
+  table.add("every", positive,
+            {"", "time", "time between snapshots; absent: the start, the end, and what times and window ask for"},
+            output, &OutputScene::every);
+  table.add("times", not_negative, {"", "time", "further times of snapshots, ascending"}, output, &OutputScene::times);
+  table.add("window", not_negative,
+            {"", "time",
+             "[[output.window]]: further snapshots at from, from + every, … up to to; any number of windows, which may "
+             "overlap"},
+            output, &OutputScene::windows);
+  table.add_word(
+      "units", {"auto", "si", "dimensionless"},
+      "of history.csv, summary.json, pictures and progress: auto takes SI units where the scene has [units]; "
+      "see docs/run_files.md",
+      output, &OutputScene::units);
 }
 
 TableDescription always_present(std::string_view name, std::string_view description, bool required = false) {

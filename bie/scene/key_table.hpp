@@ -38,6 +38,8 @@ template <>
 struct MemberTraits<std::vector<double>> : PlainMember<std::vector<double>, ValueType::numbers> {};
 template <>
 struct MemberTraits<std::vector<HarmonicMode>> : PlainMember<std::vector<HarmonicMode>, ValueType::modes> {};
+template <>
+struct MemberTraits<std::vector<OutputWindow>> : PlainMember<std::vector<OutputWindow>, ValueType::windows> {};
 template <typename Contained>
 struct MemberTraits<std::optional<Contained>> : MemberTraits<Contained> {};
 

@@ -9,6 +9,14 @@ EvolutionSetup setup_of(const Problem& problem) {
   return {problem.model, problem.settings, problem.symmetry, problem.control};
 }
 
+EventTimes events_of(const Scene& scene) {
+  EventTimes events{{scene.output.every, scene.output.times}, scene.numerics.end_time};
+  for (const OutputWindow& window : scene.output.windows) {
+    events.snapshots.windows.push_back({window.from, window.to, window.every});
+  }
+  return events;
+}
+
 Problem problem_of(const Scene& scene) { return problem_of(scene, model_of(scene)); }
 
 Problem problem_of(const Scene& scene, int start_order) {

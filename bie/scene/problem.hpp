@@ -20,6 +20,9 @@ struct Problem {
 /// For an Evolution.
 EvolutionSetup setup_of(const Problem& problem);
 
+/// When steps of the scene have to end; those of waveforms aside.
+EventTimes events_of(const Scene& scene);
+
 /// @throws InputError if the shape file cannot be used
 Problem problem_of(const Scene& scene);
 

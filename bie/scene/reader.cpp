@@ -130,9 +130,10 @@ bool has_key(const toml::table& table, const KeyDescription& key) {
 /// A key with two names is there under one of them.
 void require_one_name(const KeyDescription& key, const toml::table& table, const std::string& file) {
   if (key.other_name.empty() || !table.contains(key.name) || !table.contains(key.other_name)) return;
-  throw InputError(fmt::format("{}: \"{}\" in [{}] is another name of \"{}\", which is there as well; accepted: one "
-                               "of them",
-                               place(*table.get(key.other_name), file), key.other_name, key.table, key.name));
+  throw InputError(
+      fmt::format("{}: \"{}\" in [{}] is another name of \"{}\", which is there as well; accepted: one "
+                  "of them",
+                  place(*table.get(key.other_name), file), key.other_name, key.table, key.name));
 }
 
 /// The table of a dotted name, or nullptr.

@@ -11,7 +11,7 @@
 namespace vehd {
 
 void derive_reference_scales(UnitsScene& units, const toml::table& file) {
-  const SiValues si(file);
+  const SiValues si(file, units.temperature);
   if (const auto area = si.size("shape", "area"); area && !units.length) {
     units.length = std::sqrt(*area / (4.0 * std::numbers::pi));
   }

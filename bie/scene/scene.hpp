@@ -36,12 +36,16 @@ enum class InitialPotential { zero, steady, file };
 /// Values of symmetry in [numerics].
 enum class SymmetryUse { automatic, off, axisymmetric };
 
+/// Values of units in [output].
+enum class ResultUnits { automatic, si, dimensionless };
+
 /// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
 struct UnitsScene {
-  std::optional<double> length;     ///< m
-  std::optional<double> time;       ///< s
-  std::optional<double> viscosity;  ///< Pa s
-  std::optional<double> potential;  ///< V
+  std::optional<double> length;         ///< m
+  std::optional<double> time;           ///< s
+  std::optional<double> viscosity;      ///< Pa s
+  std::optional<double> potential;      ///< V
+  std::optional<double> temperature{};  ///< K, of energies in kBT; no scale
   bool operator==(const UnitsScene&) const = default;
 };
 
@@ -135,9 +139,20 @@ struct NumericsScene {
   bool operator==(const NumericsScene&) const = default;
 };
 
-/// Table [output].
+/// Snapshots at from, from + every, ... up to `to`.
+struct OutputWindow {
+  double from = 0.0;
+  double to = 0.0;
+  double every = 0.0;
+  bool operator==(const OutputWindow&) const = default;
+};
+
+/// Table [output]. Snapshots come at the start, at the end and whenever any of these asks for one.
 struct OutputScene {
-  std::optional<double> every;  ///< absent: snapshots at the start and at the end only
+  std::optional<double> every;
+  std::vector<double> times;
+  std::vector<OutputWindow> windows;
+  ResultUnits units = ResultUnits::automatic;
   bool operator==(const OutputScene&) const = default;
 };
 

@@ -37,7 +37,9 @@ class Checks {
     if (scene_.electric && scene_.electric->waveform) {
       check_waveform("electric", *scene_.electric->waveform, scene_.electric->field == Triple{});
     }
+    check_windows();
     check_counts();
+    check_output();
   }
 
  private:
@@ -139,8 +141,9 @@ class Checks {
     for (std::size_t i = 0; i < shape.modes.size(); ++i) {
       if (shape.modes[i].n <= scene_.numerics.order) continue;
       const toml::node& entry = *table_["shape"]["modes"][i].node();
-      throw InputError(fmt::format("{}: \"modes\" in [shape] has the degree n = {}; accepted: at most the degree {} of [numerics]",
-                                   place(entry, file_), shape.modes[i].n, scene_.numerics.order));
+      throw InputError(
+          fmt::format("{}: \"modes\" in [shape] has the degree n = {}; accepted: at most the degree {} of [numerics]",
+                      place(entry, file_), shape.modes[i].n, scene_.numerics.order));
     }
     const double smallest = smallest_radius(scene_);
     if (!(smallest > 0.0)) {
@@ -188,10 +191,42 @@ class Checks {
              fmt::format("end_time / dt in [numerics] asks for {:.3g} steps; accepted: at most {:g}",
                          numerics.end_time / *numerics.dt, most_steps));
     }
-    if (scene_.output.every && numerics.end_time / *scene_.output.every > most_snapshots) {
-      refuse("output", "every",
-             fmt::format("\"every\" in [output] asks for {:.3g} snapshots; accepted: at most {:g}",
-                         numerics.end_time / *scene_.output.every, most_snapshots));
+    const OutputScene& output = scene_.output;
+    double count = output.every ? numerics.end_time / *output.every : 0.0;
+    const auto require_few = [&](std::string_view key) {
+      if (count <= most_snapshots) return;
+      refuse("output", key,
+             fmt::format("\"{}\" in [output] asks for {:.3g} snapshots; accepted: at most {:g}", key, count,
+                         most_snapshots));
+    };
+    require_few("every");
+    for (const OutputWindow& window : output.windows) {
+      count += std::max(0.0, std::min(window.to, numerics.end_time) - window.from) / window.every;
+    }
+    require_few("window");
+    count += static_cast<double>(output.times.size());
+    require_few("times");
+  }
+
+  void check_output() const {
+    const OutputScene& output = scene_.output;
+    const auto fall = std::is_sorted_until(output.times.begin(), output.times.end());
+    if (fall != output.times.end()) {
+      refuse("output", "times", fmt::format("\"times\" in [output] falls to {:g}; accepted: ascending times", *fall));
+    }
+    if (output.units == ResultUnits::si && !scene_.units) {
+      refuse("output", "units", "\"units\" in [output] is \"si\", but the scene has no table [units]");
+    }
+  }
+
+  /// Before any count of theirs.
+  void check_windows() const {
+    for (const OutputWindow& window : scene_.output.windows) {
+      if (window.every > 0.0 && window.to > window.from) continue;
+      refuse("output", "window",
+             fmt::format("\"window\" in [output] goes from {:g} to {:g} every {:g}; accepted: a later \"to\" and an "
+                         "\"every\" > 0",
+                         window.from, window.to, window.every));
     }
   }
 

@@ -15,11 +15,24 @@
 namespace vehd {
 
 /// `quantity` is a number that always has a unit, kept in SI; every other value is dimensionless once read.
-enum class ValueType { boolean, integer, number, word, text, triple, matrix, axis_angle, numbers, modes, quantity };
+enum class ValueType {
+  boolean,
+  integer,
+  number,
+  word,
+  text,
+  triple,
+  matrix,
+  axis_angle,
+  numbers,
+  modes,
+  windows,
+  quantity
+};
 
 /// Value of a key of any type.
 using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, AxisAngle,
-                           std::vector<double>, std::vector<HarmonicMode>>;
+                           std::vector<double>, std::vector<HarmonicMode>, std::vector<OutputWindow>>;
 
 /// Accepted interval of a number or of every component of an array.
 struct Range {

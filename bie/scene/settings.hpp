@@ -11,11 +11,13 @@ namespace vehd {
 /// Where a scene comes from: a file, and values that take the place of its own.
 struct SceneSource {
   std::filesystem::path file;  ///< paths in either are relative to its folder
-  std::vector<std::string> settings;  ///< "table.key=value", as of the option --set; of two for one key the later counts
+  std::vector<std::string>
+      settings;  ///< "table.key=value", as of the option --set; of two for one key the later counts
 };
 
-/// Puts values into the tables of a scene file. A value is TOML; what is no TOML is a text, so that a shell's words need
-/// no quotes of their own: flow.kind=shear, flow.rate=2 1/s. Messages about a value name its option in place of a line.
+/// Puts values into the tables of a scene file. A value is TOML; what is no TOML is a text, so that a shell's words
+/// need no quotes of their own: flow.kind=shear, flow.rate=2 1/s. Messages about a value name its option in place of a
+/// line.
 /// @param settings  "table.key=value"
 /// @throws InputError if one of them is not of that form; what it says is checked with the rest of the scene
 void apply_settings(toml::table& file, const std::vector<std::string>& settings);

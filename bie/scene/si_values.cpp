@@ -11,21 +11,22 @@ namespace vehd {
 namespace {
 
 /// nullopt for what is no number with a unit of the dimension; a plain zero has every unit.
-std::optional<double> magnitude(const toml::node& node, const Dimension& dimension) {
+std::optional<double> magnitude(const toml::node& node, const Dimension& dimension, std::optional<double> temperature) {
   if (const auto number = number_of(node)) return *number == 0.0 ? number : std::nullopt;
   const toml::value<std::string>* text = node.as_string();
   const auto quantity = text == nullptr ? std::nullopt : parse_quantity(text->get());
   const Unit* unit = quantity ? dimension.find(quantity->unit) : nullptr;
-  return unit == nullptr ? std::nullopt : std::optional<double>(std::abs(quantity->in_si(*unit)));
+  if (unit == nullptr || (unit->per_kelvin && !temperature)) return std::nullopt;
+  return std::abs(quantity->in_si(*unit, temperature));
 }
 
 /// Of an array the length, of an array of arrays the largest length of a row.
-std::optional<double> size_of(const toml::node& node, const Dimension& dimension) {
+std::optional<double> size_of(const toml::node& node, const Dimension& dimension, std::optional<double> temperature) {
   const toml::array* array = node.as_array();
-  if (array == nullptr) return magnitude(node, dimension);
+  if (array == nullptr) return magnitude(node, dimension, temperature);
   double length = 0.0, largest_row = 0.0;
   for (const toml::node& entry : *array) {
-    const auto size = size_of(entry, dimension);
+    const auto size = size_of(entry, dimension, temperature);
     if (!size) return std::nullopt;
     if (entry.is_array()) {
       largest_row = std::max(largest_row, *size);
@@ -45,7 +46,7 @@ std::optional<double> SiValues::size(std::string_view table, std::string_view ke
   const Dimension* dimension = description == nullptr ? nullptr : find_dimension(description->unit);
   const toml::node* node = file_.at_path(table)[key].node();
   if (dimension == nullptr || node == nullptr) return std::nullopt;
-  const auto size = size_of(*node, *dimension);
+  const auto size = size_of(*node, *dimension, temperature_);
   return size && *size > 0.0 ? size : std::nullopt;
 }
 

@@ -11,7 +11,9 @@ namespace vehd {
 /// said when its key is read; here it only is of no use.
 class SiValues {
  public:
-  explicit SiValues(const toml::table& file) : file_(file) {}
+  /// @param temperature  in K, of energies in kBT
+  explicit SiValues(const toml::table& file, std::optional<double> temperature = std::nullopt)
+      : file_(file), temperature_(temperature) {}
 
   /// Whether the file has this table.
   [[nodiscard]] bool has_table(std::string_view table) const;
@@ -21,6 +23,7 @@ class SiValues {
 
  private:
   const toml::table& file_;
+  std::optional<double> temperature_;
 };
 
 }  // namespace vehd

@@ -54,6 +54,14 @@ struct TomlText {
     }
     return "[" + text + "]";
   }
+  std::string operator()(const std::vector<OutputWindow>& windows) const {
+    std::string text;
+    for (const OutputWindow& window : windows) {
+      text += fmt::format("{}{{from = {}, to = {}, every = {}}}", text.empty() ? "" : ", ", number_to_toml(window.from),
+                          number_to_toml(window.to), number_to_toml(window.every));
+    }
+    return "[" + text + "]";
+  }
 };
 
 }  // namespace

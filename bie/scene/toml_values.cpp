@@ -44,7 +44,12 @@ double si_value(const Context& context, const Dimension& dimension, const toml::
     context.refuse(node, fmt::format("is {}, whose unit is none of {}", shown(node), dimension.name),
                    dimension.accepted());
   }
-  return quantity->in_si(*unit);
+  const std::optional<double> temperature = context.units ? context.units->temperature : std::nullopt;
+  if (unit->per_kelvin && !temperature) {
+    context.refuse(node, fmt::format("is {}, but the scene has no temperature", shown(node)),
+                   "\"temperature\" in [units] with the unit K");
+  }
+  return quantity->in_si(*unit, temperature);
 }
 
 /// Dimensionless value of a text such as "1 kV/cm".
@@ -142,25 +147,32 @@ std::string word(const Context& context, const toml::node& node) {
   return value;
 }
 
-HarmonicMode mode(const Context& context, const toml::node& node) {
+/// An entry of a list of tables with exactly these keys.
+const toml::table& entry_of(const std::vector<std::string_view>& names, const Context& context,
+                            const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr) context.refuse(node, fmt::format("has the entry {}", shown(node)));
-  const std::vector<std::string_view> names = {"n", "m", "a"};
   for (const auto& [name, value] : *table) {
     if (std::find(names.begin(), names.end(), name.str()) == names.end()) {
-      throw InputError(fmt::format("{}: unknown key \"{}\" in an entry of \"{}\" in [{}]; accepted: n, m, a",
-                                   place(value, context.file), name.str(), context.key.name, context.key.table));
+      throw InputError(fmt::format("{}: unknown key \"{}\" in an entry of \"{}\" in [{}]; accepted: {}",
+                                   place(value, context.file), name.str(), context.key.name, context.key.table,
+                                   fmt::join(names, ", ")));
     }
   }
   for (const std::string_view name : names) {
     if (!table->contains(name)) context.refuse(node, fmt::format("has an entry without \"{}\"", name));
   }
-  const std::int64_t n = integer(context, *table->get("n"));
-  const std::int64_t m = integer(context, *table->get("m"));
+  return *table;
+}
+
+HarmonicMode mode(const Context& context, const toml::node& node) {
+  const toml::table& table = entry_of({"n", "m", "a"}, context, node);
+  const std::int64_t n = integer(context, *table.get("n"));
+  const std::int64_t m = integer(context, *table.get("m"));
   // Bounded here so that neither can overflow; the order of the scene bounds n further.
-  if (n < 0 || n > 1000) context.refuse(*table->get("n"), fmt::format("has the degree n = {}", n));
-  if (m < -n || m > n) context.refuse(*table->get("m"), fmt::format("has the mode n = {}, m = {}", n, m));
-  return {static_cast<int>(n), static_cast<int>(m), number(context, *table->get("a"))};
+  if (n < 0 || n > 1000) context.refuse(*table.get("n"), fmt::format("has the degree n = {}", n));
+  if (m < -n || m > n) context.refuse(*table.get("m"), fmt::format("has the mode n = {}, m = {}", n, m));
+  return {static_cast<int>(n), static_cast<int>(m), number(context, *table.get("a"))};
 }
 
 std::vector<HarmonicMode> modes(const Context& context, const toml::node& node) {
@@ -168,6 +180,20 @@ std::vector<HarmonicMode> modes(const Context& context, const toml::node& node) 
   if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
   std::vector<HarmonicMode> result;
   for (const toml::node& entry : *array) result.push_back(mode(context, entry));
+  return result;
+}
+
+OutputWindow window(const Context& context, const toml::node& node) {
+  const toml::table& table = entry_of({"from", "to", "every"}, context, node);
+  const auto time = [&](std::string_view name) { return number(context, *table.get(name)); };
+  return {time("from"), time("to"), time("every")};
+}
+
+std::vector<OutputWindow> windows(const Context& context, const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  std::vector<OutputWindow> result;
+  for (const toml::node& entry : *array) result.push_back(window(context, entry));
   return result;
 }
 
@@ -227,6 +253,8 @@ std::string accepted_text(const KeyDescription& key) {
       return fmt::format("a list of numbers, each {}", key.range.text());
     case ValueType::modes:
       return "entries {n = degree, m = -n ... n, a = finite number}";
+    case ValueType::windows:
+      return fmt::format("entries {{from = time, to = time, every = time}}, each {}", key.range.text());
     case ValueType::quantity:
       return fmt::format("a positive number with its unit in quotes, {}", find_dimension(key.unit)->accepted());
   }
@@ -257,6 +285,8 @@ Value checked_value(const KeyDescription& key, const toml::node& node, const std
       return quantity(context, node);
     case ValueType::numbers:
       return numbers(context, node);
+    case ValueType::windows:
+      return windows(context, node);
     case ValueType::modes:
       break;
   }

@@ -16,6 +16,8 @@ constexpr std::array<std::string_view, 4> scale_symbols = {"L", "T", "M", "Φ"};
 
 /// Vacuum permittivity in F/m.
 constexpr double vacuum_permittivity = 8.8541878188e-12;
+/// k_B in J/K, exact.
+constexpr double boltzmann_constant = 1.380649e-23;
 
 std::vector<Dimension> make_dimensions() {
   return {
@@ -28,14 +30,16 @@ std::vector<Dimension> make_dimensions() {
       {"acceleration", {1, -2, 0, 0}, {{"m/s^2"}}},
       {"density", {-2, 1, 1, 0}, {{"kg/m^3"}, {"g/cm^3", 1e3}}},
       {"viscosity", {0, 0, 1, 0}, {{"Pa s"}, {"mPa s", 1, 1e3}}},
-      {"energy", {3, -1, 1, 0}, {{"J"}, {"aJ", 1, 1e18}, {"zJ", 1, 1e21}}},
+      {"energy", {3, -1, 1, 0}, {{"J"}, {"aJ", 1, 1e18}, {"zJ", 1, 1e21}, {"kBT", boltzmann_constant, 1, true}}},
       {"potential", {0, 0, 0, 1}, {{"V"}, {"mV", 1, 1e3}}},
       {"field", {-1, 0, 0, 1}, {{"V/m"}, {"kV/m", 1e3}, {"V/cm", 1e2}, {"kV/cm", 1e5}}},
       {"conductivity", {2, -2, 1, -2}, {{"S/m"}, {"mS/m", 1, 1e3}, {"mS/cm", 1, 1e1}, {"uS/cm", 1, 1e4}}},
       {"permittivity", {2, -1, 1, -2}, {{"F/m"}, {"pF/m", 1, 1e12}, {"eps0", vacuum_permittivity}}},
       {"capacitance/area", {1, -1, 1, -2}, {{"F/m^2"}, {"mF/m^2", 1, 1e3}, {"uF/cm^2", 1, 1e2}}},
       {"conductance/area", {1, -2, 1, -2}, {{"S/m^2"}, {"S/cm^2", 1e4}, {"mS/cm^2", 1e1}}},
+      {"temperature", {0, 0, 0, 0}, {{"K"}}},
       // Of results alone, by the names that run.h5 has for them.
+      {"volume", {3, 0, 0, 0}, {{"m^3"}}},
       {"length^2", {2, 0, 0, 0}, {{"m^2"}}},
       {"force/area", {0, -1, 1, 0}, {{"Pa"}}},
       {"force/length", {1, -1, 1, 0}, {{"N/m"}}},
@@ -84,7 +88,7 @@ std::string Dimension::scale_text() const {
     factors.push_back(powers[i] == 1 ? std::string(scale_symbols[i])
                                      : fmt::format("{}^{}", scale_symbols[i], powers[i]));
   }
-  return fmt::format("{}", fmt::join(factors, " "));
+  return factors.empty() ? "1" : fmt::format("{}", fmt::join(factors, " "));
 }
 
 const std::vector<Dimension>& dimensions() {
@@ -110,6 +114,11 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   return quantity;
 }
 
+double Quantity::in_si(const Unit& of, std::optional<double> temperature) const {
+  const double value = number * of.times / of.over;
+  return of.per_kelvin ? value * temperature.value_or(std::numeric_limits<double>::quiet_NaN()) : value;
+}
+
 std::optional<double> reference_scale(const UnitsScene& units, const Dimension& dimension) {
   if (!missing_scale(units, dimension).empty()) return std::nullopt;
   double scale = 1.0;
@@ -120,14 +129,19 @@ std::optional<double> reference_scale(const UnitsScene& units, const Dimension& 
 }
 
 double si_scale(const std::optional<UnitsScene>& units, std::string_view dimension) {
-  if (dimension == "1" || dimension == "rad") return 1.0;
+  if (dimension == "1") return 1.0;
   const Dimension* known = find_dimension(dimension);
   const auto scale = known != nullptr && units ? reference_scale(*units, *known) : std::nullopt;
   return scale.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-std::function<double(std::string_view)> si_scales(const std::optional<UnitsScene>& units) {
-  return [units](std::string_view dimension) { return si_scale(units, dimension); };
+SiUnits si_units_of(const std::optional<UnitsScene>& units) {
+  return [units](std::string_view dimension) -> SiUnit {
+    const Dimension* known = find_dimension(dimension);
+    const double scale = si_scale(units, dimension);
+    if (known == nullptr || !std::isfinite(scale)) return {};
+    return {std::string(known->si_unit()), scale};
+  };
 }
 
 std::optional<double> conversion(const std::optional<UnitsScene>& from, const std::optional<UnitsScene>& to,

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bie/files/si_unit.hpp"
 #include "bie/scene/scene.hpp"
 
 /// Values with SI units: which units each physical dimension has, and what 1 of the scene means in it. Four reference
@@ -19,6 +19,7 @@ struct Unit {
   std::string_view symbol;
   double times = 1.0;
   double over = 1.0;
+  bool per_kelvin = false;  ///< of a thermal energy: times the temperature
 };
 
 /// A physical dimension as powers of the reference scales, with the units that its values may have.
@@ -48,7 +49,8 @@ struct Quantity {
   std::string unit;  ///< in ASCII: u for micro, ^2 for a square, one space for a product
 
   /// The number in SI base units.
-  [[nodiscard]] double in_si(const Unit& of) const { return number * of.times / of.over; }
+  /// @param temperature  in K, of a unit that needs it; without one the result is not a number
+  [[nodiscard]] double in_si(const Unit& of, std::optional<double> temperature = std::nullopt) const;
 };
 
 /// nullopt if the text does not start with a number.
@@ -58,11 +60,11 @@ std::optional<Quantity> parse_quantity(std::string_view text);
 /// @return nullopt if a scale that the dimension needs is absent
 std::optional<double> reference_scale(const UnitsScene& units, const Dimension& dimension);
 
-/// SI value of 1 of a dimension by its name, 1 of a pure number ("1", "rad").
+/// SI value of 1 of a dimension by its name, 1 of a pure number ("1").
 /// @return NaN where the scene does not say
 double si_scale(const std::optional<UnitsScene>& units, std::string_view dimension);
-/// The same as a function of the dimension alone, as files take it.
-std::function<double(std::string_view)> si_scales(const std::optional<UnitsScene>& units);
+/// What numbers of each dimension are in SI units, as files say it.
+SiUnits si_units_of(const std::optional<UnitsScene>& units);
 
 /// Factor from numbers of one scene to those of another: the ratio of their reference scales, 1 where neither has one.
 /// @return nullopt if only one of them has the scale

@@ -236,8 +236,8 @@ bool Evolution::raise_orders_for(const State& reached) {
       change_space(a, enough, state_.vesicles[a].quadrature_level);
     } catch (const ConvergenceError& error) {
       throw ConvergenceError(fmt::format(
-          "no acceptable step from time {:g}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-          state_.time, order(a), found.remainder(), truncation_target(setup_), enough, error.what()));
+          "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
+          setup_.time_text(state_.time), order(a), found.remainder(), truncation_target(setup_), enough, error.what()));
     }
     raised = true;
   }
@@ -275,7 +275,8 @@ StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const St
   attempt.iterations_flow += former.iterations_flow;
   attempt.iterations_electric += former.iterations_electric;
   if (!attempt.accepted) {
-    throw ConvergenceError(fmt::format("no acceptable step from time {:g}: {}", state_.time, attempt.reason));
+    throw ConvergenceError(
+        fmt::format("no acceptable step from time {}: {}", setup_.time_text(state_.time), attempt.reason));
   }
   return attempt;
 }

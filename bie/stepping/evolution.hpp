@@ -1,6 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bie/stepping/evaluation/initial_state.hpp"
@@ -19,6 +23,8 @@ struct EvolutionSetup {
   NumericalSettings settings;  ///< the degree is the highest that a run with a tolerance may take
   Symmetry symmetry;
   StepControl control;
+  /// How messages write a time.
+  std::function<std::string(double)> time_text = [](double time) { return fmt::format("{:g}", time); };
 };
 
 /// Vesicles on their way through time. With a tolerance the degree of each follows the spectrum of its state: it rises,

@@ -36,9 +36,8 @@ std::vector<std::vector<std::string>> commands_below(const std::vector<std::stri
 
 /// What completion offers after a line, one word each.
 std::vector<std::string> offered(const std::string& line) {
-  const std::string script =
-      "source <('" VEHD_PROGRAM "' completion bash); COMP_WORDS=(" + line +
-      "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _vehd; printf '%s\\n' \"${COMPREPLY[@]}\"";
+  const std::string script = "source <('" VEHD_PROGRAM "' completion bash); COMP_WORDS=(" + line +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _vehd; printf '%s\\n' \"${COMPREPLY[@]}\"";
   return words_of(run_command({"bash", "-c", script}).output);
 }
 

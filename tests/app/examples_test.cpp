@@ -46,8 +46,7 @@ BOOST_AUTO_TEST_CASE(never_replace_what_somebody_has_changed) {
   write_text(file, "mine");
   const ProgramResult result = run_vehd({"examples", "figure2", "figure3", "-o", directory / ""});
   BOOST_TEST(result.exit_code == 1);
-  BOOST_TEST(result.errors ==
-             file + ": exists already and differs from the example; accepted: another folder (-o)\n");
+  BOOST_TEST(result.errors == file + ": exists already and differs from the example; accepted: another folder (-o)\n");
   BOOST_TEST(file_text(file) == "mine");
   BOOST_TEST(!fs::exists(directory / "figure2.toml"));
 }

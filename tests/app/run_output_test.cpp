@@ -36,7 +36,9 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
              "time,dt,area,volume,reduced_volume,bending_energy_scaled,tension_integral,Vm_north,q_north,Vm_max,"
              "extent_x,extent_y,extent_z,inclination_deg,area_drift,volume_drift,strain_max,spectrum_tail,"
              "iterations_flow,iterations_electric,rejected,order,truncation,error_estimate,quadrature_error,separation,"
-             "raw_area,wrinkle_degree");
+             "raw_area,wrinkle_degree,centroid_x,centroid_y,centroid_z,centroid_velocity_x,centroid_velocity_y,"
+             "centroid_velocity_z,tension_max,elastic_energy_scaled,aspect_ratio,aspect_ratio_field,Vm_pole_plus,"
+             "Vm_pole_minus");
   const vehd::HistoryTable history(output + "/history.csv");
   BOOST_TEST(history.column("time").front() == 0.0);
   BOOST_TEST(history.column("time").back() == 3.0);

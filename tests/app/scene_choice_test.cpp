@@ -67,8 +67,9 @@ BOOST_FIXTURE_TEST_CASE(plan_and_run_refuse_a_wrong_setting_in_one_line, WorkFol
     const ProgramResult result = vehd(command + " some.toml --set membrane.condutance=4");
     if (command == "check" && result.errors.find("finite-element") != std::string::npos) continue;
     BOOST_TEST(result.exit_code == 1);
-    BOOST_TEST(result.errors ==
-               "--set membrane.condutance=4: unknown key \"condutance\" in [membrane]; did you mean \"conductance\"?\n");
+    BOOST_TEST(
+        result.errors ==
+        "--set membrane.condutance=4: unknown key \"condutance\" in [membrane]; did you mean \"conductance\"?\n");
     BOOST_TEST(result.output == "");
   }
   BOOST_TEST(!fs::exists(directory / "out"));

@@ -89,7 +89,7 @@ vehd::Matrix ellipsoid() {
 std::string good_run() {
   const vehd::SphereTransform transform(order, vehd::make_grid(order));
   vehd::Hdf5Writer file("run.h5", vehd::Hdf5Writer::Mode::in_memory);
-  vehd::write_run_header(file, transform, {scene_text, 1, vehd::si_scales(std::nullopt)});
+  vehd::write_run_header(file, transform, {scene_text, 1, vehd::si_units_of(std::nullopt)});
   vehd::State state;
   state.vesicles.emplace_back();
   state.vesicles[0].position = ellipsoid();
@@ -97,7 +97,7 @@ std::string good_run() {
   vehd::Fields fields{std::vector<vehd::VesicleFields>(1)};
   fields.vesicles[0].velocity = state.vesicles[0].position;
   for (const char* name : {"000000", "000001"}) {
-    vehd::write_snapshot(file, name, transform, state, fields, vehd::si_scales(std::nullopt));
+    vehd::write_snapshot(file, name, transform, state, fields, vehd::si_units_of(std::nullopt));
     state.time += 1.0;
   }
   return file.image();

@@ -116,6 +116,7 @@ std::vector<double> numbers_of(const vehd::Value& value) {
       return result;
     }
     std::vector<double> operator()(const std::vector<vehd::HarmonicMode>&) const { return {}; }
+    std::vector<double> operator()(const std::vector<vehd::OutputWindow>&) const { return {}; }
   };
   return std::visit(Numbers{}, value);
 }
@@ -126,7 +127,8 @@ bool is_same(const WrittenNumber& written, double value, const vehd::KeyDescript
   const vehd::Dimension* dimension = vehd::find_dimension(key.unit);
   const vehd::Unit* unit = dimension == nullptr ? nullptr : dimension->find(written.unit);
   if (unit == nullptr) return true;  // another spelling of a unit, such as µm
-  const double expected = written.value * unit->times / unit->over;
+  const double kelvin = unit->per_kelvin ? scene.units->temperature.value() : 1.0;
+  const double expected = written.value * unit->times / unit->over * kelvin;
   const double scale =
       key.type == vehd::ValueType::quantity ? 1.0 : vehd::reference_scale(*scene.units, *dimension).value_or(1.0);
   constexpr double rounding = 1e-12;
@@ -165,7 +167,10 @@ void require_written_numbers(const std::string& text, const vehd::Scene& scene) 
     const auto is_table = [&](const vehd::TableDescription& each) { return each.name == table && each.present(scene); };
     if (std::none_of(vehd::scene_tables().begin(), vehd::scene_tables().end(), is_table)) continue;
     const vehd::KeyDescription* key = vehd::find_key_of_kind(table, name, vehd::kind_of(scene, table));
-    if (key == nullptr || key->unit.empty() || key->type == vehd::ValueType::modes) continue;
+    if (key == nullptr || key->unit.empty() || key->type == vehd::ValueType::modes ||
+        key->type == vehd::ValueType::windows) {
+      continue;
+    }
     const std::string value = line.substr(sign + 1);
     if (const auto written = Scanner(value).numbers()) compare(*key, *written, scene);
   }

@@ -27,6 +27,17 @@ double natural_scale(const Column& column, const ShortRun& run) {
       scale = std::max(scale, row.diagnostics.Vm_max / row.diagnostics.extent_x);
   }
   if (column.member == &VesicleDiagnostics::tension_integral) scale = std::max(scale, run.bending_modulus);
+  const RunRow& last = run.rows.back();
+  const double size = last.diagnostics.extent_x;
+  if (column.member == &VesicleDiagnostics::tension_max) scale = std::max(scale, run.bending_modulus / (size * size));
+  // A vesicle that stays where it is does so up to rounding, over its size and over the time of the run.
+  if (column.depends == Column::Depends::on_place) {
+    const bool is_velocity = column.powers[1] != 0;
+    scale = std::max(scale, is_velocity ? size / std::max(last.state.time, std::numeric_limits<double>::min()) : size);
+  }
+  if (column.member == &VesicleDiagnostics::Vm_pole_plus || column.member == &VesicleDiagnostics::Vm_pole_minus) {
+    scale = std::max(scale, last.diagnostics.Vm_max);
+  }
   return scale;
 }
 
@@ -42,34 +53,48 @@ bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(a
 }  // namespace
 
 const std::vector<Column>& columns() {
+  using enum Column::Depends;
   static const std::vector<Column> all = {
       {"area", &VesicleDiagnostics::area, {2, 0, 0, 0}},
       {"volume", &VesicleDiagnostics::volume, {3, 0, 0, 0}},
       {"reduced_volume", &VesicleDiagnostics::reduced_volume},
       {"bending_energy_scaled", &VesicleDiagnostics::bending_energy_scaled},
       {"tension_integral", &VesicleDiagnostics::tension_integral, {3, -1, 1, 0}},
-      {"Vm_north", &VesicleDiagnostics::Vm_north, {0, 0, 0, 1}, false},
-      {"q_north", &VesicleDiagnostics::q_north, {-1, 0, 0, 1}, false},
+      {"Vm_north", &VesicleDiagnostics::Vm_north, {0, 0, 0, 1}, on_axes},
+      {"q_north", &VesicleDiagnostics::q_north, {-1, 0, 0, 1}, on_axes},
       {"Vm_max", &VesicleDiagnostics::Vm_max, {0, 0, 0, 1}},
-      {"extent_x", &VesicleDiagnostics::extent_x, {1, 0, 0, 0}, false},
-      {"extent_y", &VesicleDiagnostics::extent_y, {1, 0, 0, 0}, false},
-      {"extent_z", &VesicleDiagnostics::extent_z, {1, 0, 0, 0}, false},
-      {"inclination_deg", &VesicleDiagnostics::inclination_deg, {}, false, 90.0},
-      {"area_drift", &VesicleDiagnostics::area_drift, {}, true, 1.0},
-      {"volume_drift", &VesicleDiagnostics::volume_drift, {}, true, 1.0},
+      {"extent_x", &VesicleDiagnostics::extent_x, {1, 0, 0, 0}, on_axes},
+      {"extent_y", &VesicleDiagnostics::extent_y, {1, 0, 0, 0}, on_axes},
+      {"extent_z", &VesicleDiagnostics::extent_z, {1, 0, 0, 0}, on_axes},
+      {"inclination_deg", &VesicleDiagnostics::inclination_deg, {}, on_axes, 90.0},
+      {"area_drift", &VesicleDiagnostics::area_drift, {}, on_nothing, 1.0},
+      {"volume_drift", &VesicleDiagnostics::volume_drift, {}, on_nothing, 1.0},
       // Held to 1e-6 by the step itself, more loosely than anything else.
-      {"strain_max", &VesicleDiagnostics::strain_max, {}, true, 10.0},
-      {"spectrum_tail", &VesicleDiagnostics::spectrum_tail, {}, true, 1.0},
+      {"strain_max", &VesicleDiagnostics::strain_max, {}, on_nothing, 10.0},
+      {"spectrum_tail", &VesicleDiagnostics::spectrum_tail, {}, on_nothing, 1.0},
+      {"centroid_x", &VesicleDiagnostics::centroid_x, {1, 0, 0, 0}, on_place},
+      {"centroid_y", &VesicleDiagnostics::centroid_y, {1, 0, 0, 0}, on_place},
+      {"centroid_z", &VesicleDiagnostics::centroid_z, {1, 0, 0, 0}, on_place},
+      {"centroid_velocity_x", &VesicleDiagnostics::centroid_velocity_x, {1, -1, 0, 0}, on_place},
+      {"centroid_velocity_y", &VesicleDiagnostics::centroid_velocity_y, {1, -1, 0, 0}, on_place},
+      {"centroid_velocity_z", &VesicleDiagnostics::centroid_velocity_z, {1, -1, 0, 0}, on_place},
+      {"tension_max", &VesicleDiagnostics::tension_max, {1, -1, 1, 0}},
+      {"elastic_energy_scaled", &VesicleDiagnostics::elastic_energy_scaled},
+      {"aspect_ratio", &VesicleDiagnostics::aspect_ratio},
+      {"aspect_ratio_field", &VesicleDiagnostics::aspect_ratio_field},
+      {"Vm_pole_plus", &VesicleDiagnostics::Vm_pole_plus, {0, 0, 0, 1}},
+      {"Vm_pole_minus", &VesicleDiagnostics::Vm_pole_minus, {0, 0, 0, 1}},
   };
   return all;
 }
 
-Deviation largest_deviation(const ShortRun& base, const ShortRun& other, const UnitFactors& units, bool scalars_only) {
+Deviation largest_deviation(const ShortRun& base, const ShortRun& other, const UnitFactors& units,
+                            Column::Depends columns_up_to) {
   if (base.stopped != other.stopped) return {std::numeric_limits<double>::infinity(), "end"};
   if (base.rows.size() != other.rows.size()) return {std::numeric_limits<double>::infinity(), "number of rows"};
   Deviation worst;
   for (const Column& column : columns()) {
-    if (scalars_only && !column.is_scalar) continue;
+    if (column.depends > columns_up_to) continue;
     const double scale = natural_scale(column, base);
     for (std::size_t i = 0; i < base.rows.size(); ++i) {
       // With a tolerance the step sizes follow an error estimate, of which rounding is a part.

@@ -14,8 +14,9 @@ struct Column {
   std::string name;
   double VesicleDiagnostics::*member;
   std::array<int, 4> powers{};  ///< of length, time, viscosity and potential
-  bool is_scalar = true;        ///< the same in every place and orientation
-  double least_scale = 0.0;     ///< of differences, dimensionless: what is this small is rounding or solver error
+  /// Whether it is the same in every place and orientation, in every place, or is the place or the drift itself.
+  enum class Depends { on_nothing, on_axes, on_place } depends = Depends::on_nothing;
+  double least_scale = 0.0;  ///< of differences, dimensionless: what is this small is rounding or solver error
 
   [[nodiscard]] double factor(const UnitFactors& units) const {
     return units.of(powers[0], powers[1], powers[2], powers[3]);
@@ -30,8 +31,8 @@ struct Deviation {
 };
 
 /// The largest difference of two histories of the same physics in any row, over the largest value of the column.
-/// @param scalars_only  where place and orientation differ
+/// @param columns_up_to  those that depend on more are left out
 Deviation largest_deviation(const ShortRun& base, const ShortRun& other, const UnitFactors& units,
-                            bool scalars_only = false);
+                            Column::Depends columns_up_to = Column::Depends::on_place);
 
 }  // namespace vehd::testing

@@ -24,6 +24,11 @@ struct Multiply {
   void operator()(std::vector<double>& values) const {
     for (double& value : values) value *= factor;
   }
+  void operator()(std::vector<OutputWindow>& windows) const {
+    for (OutputWindow& window : windows) {
+      for (double* value : {&window.from, &window.to, &window.every}) *value *= factor;
+    }
+  }
 };
 
 /// These have an area of 4π unless the scene says otherwise.

@@ -27,7 +27,7 @@ ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps) {
     evolution.evaluate_start();
     record({});
     while (evolution.state().time < scene.numerics.end_time && static_cast<int>(run.rows.size()) <= most_steps) {
-      record(evolution.step({scene.output.every, scene.numerics.end_time}));
+      record(evolution.step(events_of(scene)));
     }
   } catch (const ConvergenceError& error) {
     run.stopped = true;

@@ -44,28 +44,20 @@ BOOST_AUTO_TEST_CASE(different_times_have_different_texts) {
   BOOST_TEST(distinct_texts({0.0, 1.563e-5}) == (std::vector<std::string>{"0", "1.56 × 10^{\u22125}"}));
 }
 
-BOOST_AUTO_TEST_CASE(units_have_the_prefix_that_suits_the_number) {
-  UnitsScene units;
-  units.length = 1e-5;
-  units.time = 1e-3;
-  units.viscosity = 1e-3;
-  units.potential = 1.0;
-  const auto shown = [&](std::string_view dimension, double largest) {
-    const ShownUnit unit = shown_unit(units, dimension, largest);
-    return std::pair{unit.unit, largest * unit.factor};
+BOOST_AUTO_TEST_CASE(units_are_those_of_the_run) {
+  UnitsScene scales;
+  scales.length = 1e-5;
+  scales.time = 1e-3;
+  const OutputUnits units(scales, {{"length", "um"}, {"time", "us"}});
+  const auto is = [](const ShownUnit& shown, const std::string& unit, double factor) {
+    BOOST_TEST(shown.unit == unit);
+    BOOST_TEST(shown.factor == factor, boost::test_tools::tolerance(1e-12));
   };
-  const auto is = [](const std::pair<std::string, double>& shown_number, const std::string& unit, double number) {
-    BOOST_TEST(shown_number.first == unit);
-    BOOST_TEST(shown_number.second == number, boost::test_tools::tolerance(1e-12));
-  };
-  is(shown("length", 1.0), "µm", 10.0);
-  is(shown("time", 0.5), "µs", 500.0);
-  is(shown("time", 80.0), "ms", 80.0);
-  is(shown("potential", 0.25), "mV", 250.0);
-  is(shown("1/length", 1.0), "1/µm", 0.1);
-  is(shown("force/length", 1.0), "µN/m", 10.0);
-  BOOST_TEST(shown_unit(std::nullopt, "length", 1.0).unit.empty());
-  BOOST_TEST(shown_unit(units, "1", 1.0).unit.empty());
+  is(shown_unit(units, "length"), "µm", 10.0);
+  is(shown_unit(units, "1/length"), "1/µm", 0.1);
+  is(shown_unit(units, "time"), "µs", 1000.0);
+  is(shown_unit(units, "potential"), "", 1.0);
+  is(shown_unit(OutputUnits(), "length"), "", 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(texts_take_no_more_room_than_is_reserved) {

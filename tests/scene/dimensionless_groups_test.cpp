@@ -36,6 +36,8 @@ BOOST_AUTO_TEST_CASE(have_the_values_worked_out_in_si) {
   BOOST_TEST(groups["t_el"].value * 0.5 == viscosity / stress, tolerance);
   BOOST_TEST(groups["Ca"].value == stress / bending * 0.9 * 1e-15, tolerance);
   BOOST_TEST(groups["Mn"].value == viscosity * rate / stress, tolerance);
+  BOOST_TEST(groups["t_γ"].value * 0.5 == 1.0 / rate, tolerance);
+  BOOST_TEST(groups["t_MW"].value * 0.5 == 3.0 * 80 * 8.8541878188e-12 / (0.01 + 0.04), tolerance);
 }
 
 BOOST_AUTO_TEST_CASE(do_not_depend_on_the_reference_scales) {
@@ -82,6 +84,10 @@ BOOST_AUTO_TEST_CASE(of_further_effects_have_the_written_values) {
   BOOST_TEST(groups["Λ"].value == 7.0);
   BOOST_TEST(groups["S"].value == 0.3);
   BOOST_TEST(groups["c₀"].value == -0.5, tolerance);
+  // Bulging outwards as much as the sphere of half the radius: C₀ = −2c = 1/2.
+  BOOST_TEST(groups["C₀a"].value == 1.0, tolerance);
+  BOOST_TEST(groups["t_g"].value == 3.0 / (2.0 * 5.0 * 2.0), tolerance);
+  BOOST_TEST(!groups.contains("t_MW"));
   BOOST_TEST(groups["Bo"].value == 2.0 * 5.0 * 16.0 / 0.5, tolerance);
   BOOST_TEST(groups["χ"].value == 2.0 * 5.0 * 2.0 / 16.0 * 3.0 * 8.0 / 0.5, tolerance);
   BOOST_TEST(groups["ωt_m"].value == 0.5 * std::numbers::pi * groups["t_m"].value, tolerance);

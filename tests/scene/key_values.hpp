@@ -24,6 +24,8 @@ inline std::string value_with_number(const vehd::KeyDescription& key, const std:
       return "[0, " + number + "]";
     case vehd::ValueType::modes:
       return "[{n = 2, m = 0, a = " + number + "}]";
+    case vehd::ValueType::windows:
+      return "[{from = 0, to = " + number + ", every = 1}]";
     case vehd::ValueType::quantity:
       return fmt::format("\"{} {}\"", number, unit);
     default:

@@ -70,16 +70,16 @@ BOOST_AUTO_TEST_CASE(messages_name_the_option) {
              "--set flow.rate=x: \"rate\" in [flow] is the text 'x'; accepted: any finite number");
   BOOST_TEST(problem_of({"flow.rtae=1"}) ==
              "--set flow.rtae=1: unknown key \"rtae\" in [flow]; did you mean \"rate\"?");
-  BOOST_TEST(problem_of({"flwo.rate=1"}) ==
-             "--set flwo.rate=1: unknown table \"flwo\"; did you mean \"flow\"?");
+  BOOST_TEST(problem_of({"flwo.rate=1"}) == "--set flwo.rate=1: unknown table \"flwo\"; did you mean \"flow\"?");
   BOOST_TEST(problem_of({"fluid.viscosity=-1"}) ==
              "--set fluid.viscosity=-1: \"viscosity\" in [fluid] is -1; accepted: a number > 0");
   BOOST_TEST(problem_of({"shape.axes=[1, 1, x]"}) ==
              "--set shape.axes=[1, 1, x]: \"axes\" in [shape] is the text '[1, 1, x]'; accepted: 3 numbers [x, y, z], "
              "each 1e-30 ... 1e+30");
-  BOOST_TEST(problem_of({"shape.axes=[1, 1, -1]"}).starts_with("--set shape.axes=[1, 1, -1]: \"axes\" in [shape] is -1"));
-  BOOST_TEST(problem_of({"electric.conductivity_in=1"}).starts_with(
-      "--set electric.conductivity_in=1: missing key \"field\" in [electric]"));
+  BOOST_TEST(
+      problem_of({"shape.axes=[1, 1, -1]"}).starts_with("--set shape.axes=[1, 1, -1]: \"axes\" in [shape] is -1"));
+  BOOST_TEST(problem_of({"electric.conductivity_in=1"})
+                 .starts_with("--set electric.conductivity_in=1: missing key \"field\" in [electric]"));
   BOOST_TEST(problem_of({"flow.rate=0", "flow.waveform.kind=dc"}).starts_with("--set flow.waveform.kind=dc: "));
   BOOST_TEST(problem_of({"numerics.dt=1e-12", "numerics.end_time=1"}).starts_with("--set numerics.dt=1e-12: "));
   // What stands in the file is still found there.
@@ -99,8 +99,8 @@ BOOST_AUTO_TEST_CASE(have_one_form) {
 }
 
 BOOST_AUTO_TEST_CASE(give_one_key_and_no_more) {
-  BOOST_TEST(problem_of({"flow.rate=1\n[gravity]\nacceleration=[0, 0, 1]"})
-                 .find("\"rate\" in [flow] is the text") != std::string::npos);
+  BOOST_TEST(problem_of({"flow.rate=1\n[gravity]\nacceleration=[0, 0, 1]"}).find("\"rate\" in [flow] is the text") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_key_is_found_in_the_option_that_gives_it) {

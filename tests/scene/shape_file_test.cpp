@@ -47,7 +47,7 @@ class StoredRun {
     const vehd::SphereTransform transform(stored_order, vehd::make_grid(stored_order));
     const vehd::Scene parsed = vehd::parse_scene(scene, "stored.toml", directory_ / "");
     vehd::Hdf5Writer file(path(), vehd::Hdf5Writer::Mode::create);
-    vehd::write_run_header(file, transform, {vehd::effective_scene(parsed), 1, vehd::si_scales(parsed.units)});
+    vehd::write_run_header(file, transform, {vehd::effective_scene(parsed), 1, vehd::si_units_of(parsed.units)});
     for (int number = 0; number < 5; ++number) {
       vehd::State state;
       state.time = number;
@@ -56,7 +56,7 @@ class StoredRun {
       if (parsed.electric) state.vesicles[0].transmembrane_potential = potential(number);
       state.vesicles[0].area_strain = Vector::Zero(state.vesicles[0].position.rows());
       vehd::write_snapshot(file, vehd::snapshot_name(number), transform, state,
-                           vehd::Fields{std::vector<vehd::VesicleFields>(1)}, vehd::si_scales(parsed.units));
+                           vehd::Fields{std::vector<vehd::VesicleFields>(1)}, vehd::si_units_of(parsed.units));
     }
     file.close();
   }
@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(a_potential_that_no_file_has_is_refused) {
              "scene.toml:8: \"initial_Vm\" in [electric] is file, but the shape is from none; accepted: zero, steady");
 }
 
-BOOST_AUTO_TEST_CASE(every_dataset_says_what_one_is_in_si) {
+BOOST_AUTO_TEST_CASE(every_dataset_says_what_its_numbers_are_in_si) {
   const vehd::UnitsScene units{2.0, 3.0, 5.0, 7.0};
   const StoredRun with(units_text(units) + ellipsoid + electric + numerics), without(ellipsoid + electric + numerics);
   const vehd::Hdf5Reader file(with.path()), plain(without.path());
@@ -234,14 +234,27 @@ BOOST_AUTO_TEST_CASE(every_dataset_says_what_one_is_in_si) {
   for (const std::string part : {"", "coefficients/", "surface/"}) {
     const std::string group = "/snapshots/000000/" + part;
     BOOST_TEST(file.number_attribute(group + "x", "scale") == 2.0, tolerance);
+    BOOST_TEST(file.text_attribute(group + "x", "unit") == "m");
+    BOOST_TEST(file.text_attribute(group + "x", "dimension") == "length");
     BOOST_TEST(file.number_attribute(group + "Vm", "scale") == 7.0, tolerance);
-    BOOST_TEST(std::isnan(plain.number_attribute(group + "x", "scale")));
+    BOOST_TEST(file.text_attribute(group + "Vm", "unit") == "V");
+    BOOST_TEST(plain.number_attribute(group + "x", "scale") == 1.0);
+    BOOST_TEST(plain.text_attribute(group + "x", "unit") == "1");
+    BOOST_TEST(plain.text_attribute(group + "x", "dimension") == "length");
   }
   BOOST_TEST(file.number_attribute("/snapshots/000000/area_element", "scale") == 4.0, tolerance);
-  BOOST_TEST(file.number_attribute("/snapshots/000000/area_strain", "scale") == 1.0, tolerance);
-  BOOST_TEST(plain.number_attribute("/snapshots/000000/area_strain", "scale") == 1.0, tolerance);
+  BOOST_TEST(file.text_attribute("/snapshots/000000/area_element", "unit") == "m^2");
+  BOOST_TEST(file.number_attribute("/snapshots/000000/area_strain", "scale") == 1.0);
+  BOOST_TEST(file.text_attribute("/snapshots/000000/area_strain", "unit") == "1");
+  BOOST_TEST(file.text_attribute("/grid/theta", "unit") == "rad");
+  for (const char* dataset : {"/grid/weight", "/surface/triangles", "/coefficients_convention/degree"}) {
+    BOOST_TEST(file.number_attribute(dataset, "scale") == 1.0);
+    BOOST_TEST(file.text_attribute(dataset, "unit") == "1");
+  }
   BOOST_TEST(file.number_attribute("/snapshots", "time_scale") == 3.0, tolerance);
-  BOOST_TEST(std::isnan(plain.number_attribute("/snapshots", "time_scale")));
+  BOOST_TEST(file.text_attribute("/snapshots", "time_unit") == "s");
+  BOOST_TEST(plain.number_attribute("/snapshots", "time_scale") == 1.0);
+  BOOST_TEST(plain.text_attribute("/snapshots", "time_unit") == "1");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

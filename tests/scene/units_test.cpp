@@ -184,6 +184,24 @@ BOOST_AUTO_TEST_CASE(numbers_convert_by_the_ratio_of_their_scales) {
   BOOST_TEST(std::isnan(vehd::si_scale(none, "length")));
 }
 
+BOOST_AUTO_TEST_CASE(a_thermal_energy_is_that_of_the_temperature_of_the_scene) {
+  const std::string thermal = replaced(si_scene(), "\"2e-20 J\"", "\"20 kBT\"");
+  const std::string warm = replaced(thermal, "[units]\n", "[units]\ntemperature = \"300 K\"\n");
+  const double energy = 20.0 * 1.380649e-23 * 300.0, scale = 1e-3 * 1e-15 / 0.5;
+  BOOST_TEST(*parsed(warm).membrane.bending_modulus == energy / scale, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(message_of(thermal) ==
+             "scene.toml:11: \"bending_modulus\" in [membrane] is the text '20 kBT', but the scene has no temperature; "
+             "accepted: \"temperature\" in [units] with the unit K");
+  // The bending time can be what gives the reference time.
+  const std::string start = "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\n" + with_appended("");
+  const std::string bending = "[membrane]\nbending_modulus = '20 kBT'\n";
+  const std::string at = replaced(start, "[units]\n", "[units]\ntemperature = '300 K'\n");
+  BOOST_TEST(*parsed(at + bending).units->time == 1e-3 * 1e-15 / energy, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(message_with("\"10 um\"", "'10 kBT'") ==
+             "scene.toml:2: \"length\" in [units] is the text '10 kBT', whose unit is none of length; accepted: m, mm, "
+             "um, nm");
+}
+
 BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {
   BOOST_TEST(message_of(with_appended("[fluid]\nviscosity = '1 mPa s'\n")) ==
              "scene.toml:9: \"viscosity\" in [fluid] is the text '1 mPa s', but the scene has no table [units]; "
@@ -193,7 +211,7 @@ BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {
 BOOST_AUTO_TEST_CASE(wrong_units_name_the_accepted_ones) {
   BOOST_TEST(message_with("\"2e-20 J\"", "'2e-20 N'") ==
              "scene.toml:11: \"bending_modulus\" in [membrane] is the text '2e-20 N', whose unit is none of energy; "
-             "accepted: J, aJ, zJ");
+             "accepted: J, aJ, zJ, kBT");
   BOOST_TEST(message_with("\"0.1 kV/cm\"", "'0.1 kV'") ==
              "scene.toml:20: \"field\" in [electric] is the text '0.1 kV', whose unit is none of field; accepted: V/m, "
              "kV/m, V/cm, kV/cm");

@@ -83,6 +83,7 @@ double number_in(const vehd::Value& value) {
     double operator()(const vehd::AxisAngle& numbers) const { return numbers[3]; }
     double operator()(const std::vector<double>& numbers) const { return numbers.at(1); }
     double operator()(const std::vector<vehd::HarmonicMode>& modes) const { return modes.at(0).a; }
+    double operator()(const std::vector<vehd::OutputWindow>& windows) const { return windows.at(0).to; }
   };
   return std::visit(Number{}, value);
 }

@@ -44,7 +44,7 @@ Result run_to(const Model& model, const Matrix& position, double tolerance, doub
   evolution.evaluate_start();
   Result result{{}, evolution.order(0), evolution.order(0), 0};
   while (evolution.state().time < end_time) {
-    evolution.step({std::nullopt, end_time});
+    evolution.step({{}, end_time});
     result.lowest_order = std::min(result.lowest_order, evolution.order(0));
     result.highest_order = std::max(result.highest_order, evolution.order(0));
     ++result.n_steps;
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(step_of_a_fixed_size_never_changes_the_degree) {
   Instruments instruments;
   Evolution evolution(fixed_setup(field_model(), position, 0.25), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
-  for (int i = 0; i < 4; ++i) BOOST_TEST(evolution.step({std::nullopt, 1.0}).dt == 0.25);
+  for (int i = 0; i < 4; ++i) BOOST_TEST(evolution.step({{}, 1.0}).dt == 0.25);
   BOOST_TEST(evolution.order(0) == 12);
   BOOST_TEST(evolution.state().time == 1.0);
 }
@@ -108,12 +108,12 @@ BOOST_AUTO_TEST_CASE(state_of_an_evolution_continues_to_the_same_bits) {
   Instruments instruments;
   Evolution whole(setup, {StartMembrane{position}}, instruments);
   whole.evaluate_start();
-  for (int i = 0; i < 4; ++i) whole.step({std::nullopt, 5.0});
+  for (int i = 0; i < 4; ++i) whole.step({{}, 5.0});
   Evolution resumed(setup, whole.state(), instruments);
   resumed.evaluate_start();
   for (int i = 0; i < 3; ++i) {
-    whole.step({std::nullopt, 5.0});
-    resumed.step({std::nullopt, 5.0});
+    whole.step({{}, 5.0});
+    resumed.step({{}, 5.0});
   }
   BOOST_TEST(whole.state().time == resumed.state().time);
   BOOST_TEST((whole.state().vesicles[0].position - resumed.state().vesicles[0].position).isZero(0.0));
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(tank_treading_in_long_steps_leaves_high_degrees_alone) {
   Instruments instruments;
   Evolution evolution(setup, {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
-  for (int i = 0; i < 12; ++i) BOOST_TEST(evolution.step({std::nullopt, 3.0}).rejected == 0);
+  for (int i = 0; i < 12; ++i) BOOST_TEST(evolution.step({{}, 3.0}).rejected == 0);
   BOOST_TEST(evolution.truncation() < 3e-6);
 }
 

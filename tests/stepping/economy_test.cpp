@@ -63,7 +63,7 @@ Evolution evolution_from(const EvolutionSetup& setup, const Matrix& position, st
   return {setup, std::move(state), instruments};
 }
 
-constexpr EventTimes kEvents{std::nullopt, 4.0};
+const EventTimes kEvents{{}, 4.0};
 constexpr int kSteps = 8;
 
 }  // namespace
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_raised_ends_the_run_with_that_reason)
   evolution.evaluate_start();
   const auto run_until_it_fails = [&] {
     for (int i = 0; i < 1000; ++i) {
-      evolution.step({std::nullopt, 70.0});
+      evolution.step({{}, 70.0});
       // The steps before it stops are smaller ones, and each is resolved.
       BOOST_TEST_REQUIRE(evolution.truncation() <= thresholds::truncation_share * setup.control.tolerance);
       BOOST_TEST_REQUIRE(evolution.order(0) <= solvable);
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_raised_ends_the_run_with_that_reason)
   BOOST_TEST(reached > 0.0);
   // Nothing was lost: once the higher degree can be solved for, the same evolution goes on.
   solvable = kHighest;
-  evolution.step({std::nullopt, 70.0});
+  evolution.step({{}, 70.0});
   BOOST_TEST(evolution.state().time > reached);
 }
 

@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_switch_are_those_of_the_forcing_that_holds_
   Evolution evolution(setup_of(pulse, position), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
   BOOST_TEST(!evolution.before_jump().has_value());
-  const EventTimes events{std::nullopt, 1.0};
+  const EventTimes events{{}, 1.0};
   for (int i = 0; i < 3; ++i) {
     evolution.step(events);
     BOOST_TEST(!evolution.before_jump().has_value());
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(discontinuity_of_the_slope_alone_has_one_side) {
   Evolution evolution(setup_of(model, position), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
   while (evolution.state().time < 0.3) {
-    evolution.step({std::nullopt, 0.3});
+    evolution.step({{}, 0.3});
     BOOST_TEST(!evolution.before_jump().has_value());
   }
 }
@@ -83,9 +83,9 @@ BOOST_AUTO_TEST_CASE(flow_that_is_switched_has_two_sides_as_well) {
   Instruments instruments;
   Evolution evolution(setup_of(model, position), {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
-  evolution.step({std::nullopt, 0.2});
+  evolution.step({{}, 0.2});
   BOOST_TEST(!evolution.before_jump().has_value());
-  evolution.step({std::nullopt, 0.2});
+  evolution.step({{}, 0.2});
   BOOST_TEST_REQUIRE(evolution.before_jump().has_value());
   const Matrix& velocity = evolution.evaluation().fields.vesicles[0].velocity;
   const Matrix& before = evolution.before_jump()->fields.vesicles[0].velocity;

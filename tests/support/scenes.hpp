@@ -14,8 +14,8 @@ inline std::string quick_scene(const std::string& end_time = "3.0") {
          end_time + "\n[output]\nevery = 0.5\n";
 }
 
-/// A scene of docs/scenes at a low degree and with few steps. One in SI units keeps its steps and ends after a hundredth
-/// of its time.
+/// A scene of docs/scenes at a low degree and with few steps. One in SI units keeps its steps and ends after a
+/// hundredth of its time.
 inline std::string shortened_scene(std::string scene) {
   scene = std::regex_replace(scene, std::regex("\n(degree|order) = \\d+"), "\n$1 = 6");
   std::smatch end;

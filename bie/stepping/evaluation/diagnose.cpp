@@ -6,12 +6,16 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "bie/physics/bending.hpp"
+#include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/sphere/axis_crossing.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/maximum.hpp"
+#include "bie/stepping/evaluation/field_poles.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
+#include "bie/stepping/evaluation/volume_moments.hpp"
 #include "bie/stepping/evaluation/wrinkling.hpp"
 #include "bie/stepping/thresholds.hpp"
 
@@ -41,6 +45,13 @@ double inclination(const Surface& s, const Frame& frame) {
   constexpr double kRounding = 1e-9;
   return degrees > 90.0 + kRounding ? degrees - 180.0 : degrees <= -90.0 + kRounding ? degrees + 180.0 : degrees;
 }
+
+/// ∫(H − c)² dA.
+double elastic_energy_scaled(const Surface& s, double c) {
+  return (s.mean_curvature.array() - c).square().matrix().dot(s.quadrature);
+}
+
+std::tuple<double, double, double> components(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// √(energy of x in degrees above 2p/3 over energy in degrees from 1 up).
 double spectrum_tail(const Matrix& position) {
@@ -84,6 +95,19 @@ VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame
 
 namespace {
 
+/// Where the membrane is, how it moves and how it is stretched.
+void add_moments(const DiagnosedModel& model, const SphereTransform& fine, const Surface& s,
+                 const VesicleFields& fields, VesicleDiagnostics& d) {
+  const VolumeMoments moments = volume_moments(s);
+  std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
+  if (fields.velocity.size() > 0) {
+    std::tie(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z) =
+        components(centroid_velocity(s, moments, fine.synthesize(fields.velocity)));
+  }
+  d.aspect_ratio = moments.aspect_ratio();
+  if (!model.field.isZero(0.0)) d.aspect_ratio_field = moments.aspect_ratio_along(model.field);
+}
+
 void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
                      const Membrane& membrane, VesicleDiagnostics& d) {
   // Truncation hides what is this close above it.
@@ -95,7 +119,17 @@ void check_operators(const MembraneSpace& space, double tolerance, const Vesicle
 
 }  // namespace
 
-VesicleDiagnostics diagnose(const FlowParameters& parameters, const MembraneSpace& space, double quadrature_tolerance,
+DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle) {
+  DiagnosedModel result{flow_parameters(model, vesicle)};
+  for (const auto& effect : vesicle.effects) {
+    const auto* curvature = dynamic_cast<const SpontaneousCurvatureEffect*>(effect.get());
+    if (curvature != nullptr) result.spontaneous_curvature = curvature->parameters().curvature;
+  }
+  if (model.electric) result.field = model.electric->field;
+  return result;
+}
+
+VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& space, double quadrature_tolerance,
                             const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
                             const VesicleDiagnostics* previous) {
   const Membrane& membrane = *solution.membrane;
@@ -106,19 +140,28 @@ VesicleDiagnostics diagnose(const FlowParameters& parameters, const MembraneSpac
   d.volume = enclosed_volume(s);
   d.reduced_volume = 6.0 * std::sqrt(std::numbers::pi) * d.volume / (d.area * std::sqrt(d.area));
   d.bending_energy_scaled = bending_energy_scaled(s);
+  d.elastic_energy_scaled = elastic_energy_scaled(s, model.spontaneous_curvature);
   d.area_drift = d.area / vesicle.reference_area - 1.0;
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
   d.spectrum_tail = spectrum_tail(vesicle.position);
+  add_moments(model, fine, s, fields, d);
   if (fields.tension.size() > 0) {
     const Vector tension = fine.synthesize(fields.tension);
     d.tension_integral = tension.dot(s.quadrature);
+    d.tension_max = maximum(fine.grid(), fine.synthesize_hessian(fields.tension), 0, fields.tension, 1.0);
     // The tension of a sphere is known up to its mean.
-    if (!solution.is_sphere) d.wrinkle_degree = wrinkle_degree(parameters, tension.minCoeff(), membrane.radius);
+    if (!solution.is_sphere) d.wrinkle_degree = wrinkle_degree(model.flow, tension.minCoeff(), membrane.radius);
   }
   const Vector& potential = vesicle.transmembrane_potential;
   if (potential.size() > 0) {
     const SphereDerivatives v = fine.synthesize_hessian(potential);
+    if (!model.field.isZero(0.0)) {
+      const Vector3 mean = vesicle.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+      const auto [plus, minus] = values_at_poles(model.field, fine, centroid(s) - mean, vesicle.position, potential);
+      d.Vm_pole_plus = plus;
+      d.Vm_pole_minus = minus;
+    }
     d.Vm_max = std::max(maximum(fine.grid(), v, 0, potential, 1.0), maximum(fine.grid(), v, 0, potential, -1.0));
   }
   if (previous != nullptr) {

@@ -5,13 +5,23 @@
 
 namespace vehd {
 
+/// What the model says of one membrane and its surroundings, in the frame of the state.
+struct DiagnosedModel {
+  FlowParameters flow{};
+  double spontaneous_curvature = 0.0;  ///< c
+  Vector3 field = Vector3::Zero();     ///< E_∞ where the waveform is 1
+};
+
+/// That of a vesicle of a model.
+DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle);
+
 /// History quantities of one membrane, with its own axes for those of the laboratory. Extrema are those of the surface
 /// between the nodes to third order in the spacing.
 /// @param quadrature_tolerance  of LayerCheck::error
 /// @param previous              where shape and operators are those of a former moment: what it found of them
 /// Accuracy: spectral; extents of ellipsoids to 1e-13, inclinations to 1e-8 degrees, V_m at the north pole to 1e-12
 /// (tests/stepping/evaluation/diagnostics_test.cpp)
-VesicleDiagnostics diagnose(const FlowParameters& parameters, const MembraneSpace& space, double quadrature_tolerance,
+VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& space, double quadrature_tolerance,
                             const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
                             const VesicleDiagnostics* previous = nullptr);
 

@@ -11,7 +11,7 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
     const VesicleSolution& solution = evaluation.vesicles[a];
     const bool same = previous != nullptr && previous->vesicles[a].membrane == solution.membrane;
     evaluation.diagnostics.vesicles.push_back(
-        diagnose(flow_parameters(model, model.vesicles[a]), discretisation.vesicle(a),
+        diagnose(diagnosed_model(model, model.vesicles[a]), discretisation.vesicle(a),
                  discretisation.settings().quadrature_tolerance, state.vesicles[a], solution,
                  evaluation.fields.vesicles[a], same ? &previous->diagnostics.vesicles[a] : nullptr));
   }

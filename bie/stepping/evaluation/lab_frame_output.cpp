@@ -1,5 +1,7 @@
 #include "bie/stepping/evaluation/lab_frame_output.hpp"
 
+#include <utility>
+
 #include "bie/geometry/surface.hpp"
 #include "bie/stepping/evaluation/diagnose.hpp"
 
@@ -12,15 +14,36 @@ LabFrameOutput::LabFrameOutput(const Frame& frame, const NumericalSettings& sett
   fine_.emplace(settings.order, make_grid(order, 4 * (order / 2 + 1)));
 }
 
+namespace {
+
+/// Centroid and its velocity are vectors of the frame.
+void place(const Frame& frame, VesicleDiagnostics& d) {
+  const Vector3 centroid = frame.origin + frame.axes * Vector3(d.centroid_x, d.centroid_y, d.centroid_z);
+  const Vector3 velocity = frame.axes * Vector3(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z);
+  d.centroid_x = centroid.x();
+  d.centroid_y = centroid.y();
+  d.centroid_z = centroid.z();
+  d.centroid_velocity_x = velocity.x();
+  d.centroid_velocity_y = velocity.y();
+  d.centroid_velocity_z = velocity.z();
+}
+
+}  // namespace
+
+Diagnostics LabFrameOutput::diagnostics(Diagnostics d) const {
+  for (VesicleDiagnostics& vesicle : d.vesicles) place(frame_, vesicle);
+  return d;
+}
+
 Diagnostics LabFrameOutput::diagnostics(const Diagnostics& d, const State& state, const Fields& fields) const {
-  if (!fine_) return d;
+  if (!fine_) return diagnostics(d);
   Diagnostics result;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     const VesicleState& vesicle = state.vesicles[a];
     result.vesicles.push_back(along_lab_frame_axes(
         d.vesicles[a], frame_, *fine_, make_surface(*fine_, vesicle.position), vesicle, fields.vesicles[a]));
   }
-  return result;
+  return diagnostics(std::move(result));
 }
 
 }  // namespace vehd

@@ -14,7 +14,7 @@ class LabFrameOutput {
   /// @param settings  with the degree of the results
   LabFrameOutput(const Frame& frame, const NumericalSettings& settings);
 
-  /// Whether its axes are others than those of the frame.
+  /// Whether its axes are others than those of the frame, so that its diagnostics need state and fields.
   [[nodiscard]] bool is_rotated() const { return fine_.has_value(); }
   /// A state in the axes of the laboratory.
   [[nodiscard]] State state(const State& of_frame) const { return in_laboratory(frame_, of_frame); }
@@ -23,6 +23,8 @@ class LabFrameOutput {
   /// @param d       of the state in the frame
   /// @param state   in the frame, as are the fields
   [[nodiscard]] Diagnostics diagnostics(const Diagnostics& d, const State& state, const Fields& fields) const;
+  /// The same where no axes are rotated: the origin may be another.
+  [[nodiscard]] Diagnostics diagnostics(Diagnostics d) const;
 
  private:
   Frame frame_;

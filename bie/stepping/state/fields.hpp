@@ -39,6 +39,14 @@ struct VesicleDiagnostics {
   /// The layers are less exact than NumericalSettings::quadrature_tolerance, and finer quadrature would help.
   bool quadrature_is_coarse = false;
   double separation = std::numeric_limits<double>::infinity();  ///< of its own parts, see separation()
+  double centroid_x = 0, centroid_y = 0, centroid_z = 0;        ///< of the volume
+  double centroid_velocity_x = 0, centroid_velocity_y = 0, centroid_velocity_z = 0;
+  double tension_max = 0;            ///< largest λ, 0 without tension
+  double elastic_energy_scaled = 0;  ///< ∫(H − c)² dA
+  double aspect_ratio = 0;           ///< longest over shortest axis of the gyration tensor
+  double aspect_ratio_field = 0;     ///< of the gyration tensor along the field over across, 0 without a field
+  double Vm_pole_plus = 0,
+         Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
 };
 
 /// The diagnostics of every membrane of a State.

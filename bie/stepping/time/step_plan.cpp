@@ -11,12 +11,7 @@ constexpr double rounding = 1e-9;
 
 StepPlan plan_step(double time, double dt, const EventTimes& events) {
   StepPlan plan;
-  plan.event_time = events.end_time;
-  if (events.every) {
-    // k * every rather than a running sum: the k-th snapshot does not drift.
-    const double snapshot = (std::floor(time / *events.every + rounding) + 1.0) * *events.every;
-    if (snapshot < events.end_time - rounding * *events.every) plan.event_time = snapshot;
-  }
+  plan.event_time = events.snapshots.next(time, events.end_time).value_or(events.end_time);
   // A discontinuity within rounding of a snapshot is that snapshot.
   if (events.discontinuity && *events.discontinuity < plan.event_time - rounding * dt) {
     plan.event_time = *events.discontinuity;

@@ -2,11 +2,13 @@
 
 #include <optional>
 
+#include "bie/stepping/time/snapshot_times.hpp"
+
 namespace vehd {
 
 /// The instants at which a step has to end exactly.
 struct EventTimes {
-  std::optional<double> every;  ///< snapshots at k * every
+  SnapshotTimes snapshots;
   double end_time = 0.0;
   std::optional<double> discontinuity = std::nullopt;  ///< where the forcing changes abruptly; no snapshot is due there
 };

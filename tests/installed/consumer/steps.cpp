@@ -18,7 +18,7 @@ int main(int n_arguments, char** arguments) try {
   evolution.evaluate_start();
   double drift = 0.0;
   for (int step = 0; step < 2; ++step) {
-    evolution.step({std::nullopt, 1e9 * problem.control.largest});
+    evolution.step({{}, 1e9 * problem.control.largest});
     const vehd::VesicleDiagnostics& vesicle = evolution.evaluation().diagnostics.vesicles[0];
     drift = std::max(drift, std::abs(vesicle.area_drift));
     std::printf("t = %g, extent along z %.6f\n", evolution.state().time, vesicle.extent_z);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/stepping/evaluation/diagnose.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -23,7 +24,7 @@ VesicleDiagnostics diagnostics_of_shape(const Matrix& position) {
 }
 
 /// Of V_m = z, without layers.
-VesicleDiagnostics diagnostics_of_potential(const Matrix& position) {
+VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const DiagnosedModel& model = {}) {
   const int order = order_of(position.rows());
   const SphereTransform fine(order, make_grid(2 * order));
   Surface surface = make_surface(fine, position);
@@ -38,7 +39,7 @@ VesicleDiagnostics diagnostics_of_potential(const Matrix& position) {
   VesicleSolution solution;
   solution.membrane =
       std::make_shared<const Membrane>(Membrane{fine, std::move(surface), {}, 1.0, SymmetrySubspace({}, order)});
-  return diagnose({}, MembraneSpace(settings, {}), settings.quadrature_tolerance, vesicle, solution, fields);
+  return diagnose(model, MembraneSpace(settings, {}), settings.quadrature_tolerance, vesicle, solution, fields);
 }
 
 Matrix rotated_about_y(const Matrix& position, double degrees) {
@@ -172,6 +173,56 @@ BOOST_AUTO_TEST_CASE(integrals_are_taken_over_the_surface) {
   BOOST_TEST(std::abs(d.area / (16.0 * std::numbers::pi) - 1.0) < 1e-12);
   BOOST_TEST(std::abs(d.volume / (32.0 / 3.0 * std::numbers::pi) - 1.0) < 1e-12);
   BOOST_TEST(std::abs(d.bending_energy_scaled / (4.0 * std::numbers::pi) - 1.0) < 1e-11);
+}
+
+// V_m = z of a leaning ellipsoid in a field that leans otherwise.
+BOOST_AUTO_TEST_CASE(potential_is_read_at_both_poles_of_the_field) {
+  const Vector3 axes(1.0, 1.3, 2.0), centre(4.0, -3.0, 1.0);
+  for (const Vector3& field : {Vector3(0.0, 0.0, 2.0), Vector3(0.0, 0.0, -3.0), Vector3(1.0, 0.5, -0.2)}) {
+    DiagnosedModel model;
+    model.field = field;
+    const VesicleDiagnostics d = diagnostics_of_potential(translated(ellipsoid(kOrder, axes), centre), model);
+    // x = s e with |x/axes| = 1.
+    const double reach = 1.0 / field.cwiseQuotient(axes).norm();
+    BOOST_TEST(std::abs(d.Vm_pole_plus - (centre.z() + reach * field.z())) < 1e-12);
+    BOOST_TEST(std::abs(d.Vm_pole_minus - (centre.z() - reach * field.z())) < 1e-12);
+  }
+  const VesicleDiagnostics without = diagnostics_of_potential(ellipsoid(kOrder, axes));
+  BOOST_TEST(without.Vm_pole_plus == 0.0);
+  BOOST_TEST(without.aspect_ratio_field == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(aspect_ratios_of_an_ellipsoid_are_those_of_its_axes) {
+  DiagnosedModel model;
+  model.field = Vector3(3.0, 0.0, 0.0);
+  const Matrix disc = translated(ellipsoid(kOrder, {0.5, 1.5, 1.5}), {2.0, 0.0, -7.0});
+  const VesicleDiagnostics d = diagnostics_of_potential(disc, model);
+  BOOST_TEST(std::abs(d.aspect_ratio - 3.0) < 1e-10);
+  BOOST_TEST(std::abs(d.aspect_ratio_field - 1.0 / 3.0) < 1e-10);
+  BOOST_TEST(std::abs(d.centroid_x - 2.0) < 1e-12);
+  BOOST_TEST(std::abs(d.centroid_z + 7.0) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(elastic_energy_is_that_about_the_spontaneous_curvature) {
+  Model model = relaxation_model(0.1);
+  const double c = -0.7;
+  model.vesicles[0].effects.push_back(
+      std::make_shared<SpontaneousCurvatureEffect>(SpontaneousCurvatureParameters{0.1, c}));
+  const VesicleDiagnostics sphere_of_2 =
+      diagnostics_of(model, start(model, discretisation_of(kOrder), sphere(kOrder, 2.0), 0.1));
+  BOOST_TEST(std::abs(sphere_of_2.elastic_energy_scaled - 16.0 * std::numbers::pi * 0.2 * 0.2) < 1e-10);
+  const VesicleDiagnostics plain = diagnostics_of_shape(prolate(kOrder));
+  BOOST_TEST(std::abs(plain.elastic_energy_scaled - plain.bending_energy_scaled) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(largest_tension_is_between_the_nodes_too) {
+  const Model model = shear_model();
+  const Evaluated at_12 =
+      evaluated(model, discretisation_of(12), start(model, discretisation_of(12), prolate(12), 0.1));
+  const SphereTransform fine(12, make_grid(90));
+  const double seen = fine.synthesize(at_12.fields.tension).maxCoeff();
+  BOOST_TEST(at_12.diagnostics.tension_max >= seen);
+  BOOST_TEST(at_12.diagnostics.tension_max < seen + 1e-3 * std::abs(seen));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(a_disc_whose_sides_meet_is_stopped_before_they_cross) {
   std::string reason;
   for (int i = 0; i < 400 && reason.empty(); ++i) {
     try {
-      evolution.step({std::nullopt, 1e3});
+      evolution.step({{}, 1e3});
     } catch (const ConvergenceError& error) {
       reason = error.what();
     }

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(no_state_leaves_out_more_than_its_share_below_the_highest_d
                                 << evolution.order(0) << ": " << evolution.truncation());
         }
         if (evolution.state().time >= scene.end_time) break;
-        evolution.step({std::nullopt, scene.end_time});
+        evolution.step({{}, scene.end_time});
       }
       BOOST_TEST_MESSAGE(scene.name << " at tolerance " << tolerance << ": " << n_steps << " steps, degrees " << lowest
                                     << " to " << highest);

@@ -1,0 +1,29 @@
+#include "bie/runs/run_units.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "bie/runs/history.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/support/file_system.hpp"
+
+namespace vehd {
+
+OutputUnits units_of_history(const std::filesystem::path& history, const std::optional<UnitsScene>& scales) {
+  // The headers alone: a kill can leave part of a row at the end.
+  std::ifstream file(history);
+  std::string header;
+  if (!std::getline(file, header)) return {};
+  std::istringstream first_line(header + "\n");
+  return HistoryTable(first_line, history.string()).units(scales);
+}
+
+OutputUnits units_of_run(const RunPaths& paths) {
+  if (!std::filesystem::exists(paths.scene())) return {};
+  const std::string scene = text_of_file(paths.scene());
+  return units_of_history(paths.history(), parse_units(scene, paths.scene().string()));
+}
+
+}  // namespace vehd

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bie/scene/scene.hpp"
+
+/// The units in which people read results: history.csv, summary.json, pictures, progress.
+namespace vehd {
+
+/// One unit for the numbers of a scene.
+struct OutputUnit {
+  std::string symbol;   ///< in ASCII as in a scene, "um^2"; empty where numbers stay dimensionless
+  double factor = 1.0;  ///< from a number of the scene to one in this unit
+
+  /// Does it show SI values?
+  [[nodiscard]] bool is_si() const { return !symbol.empty(); }
+  /// A number of the scene with the unit behind it: "2.5 ms", or "2.5" without one.
+  [[nodiscard]] std::string text_of(double number) const;
+};
+
+/// The unit of every dimension. By default all numbers are shown as they are.
+class OutputUnits {
+ public:
+  OutputUnits() = default;
+  /// Those that [output] of the scene asks for: SI units whose prefix suits the size of the vesicle, the length of the
+  /// run, the field and the forces. What the scene has no reference scale for stays dimensionless.
+  explicit OutputUnits(const Scene& scene);
+  /// Those of a run that has begun.
+  /// @param symbols  of dimensions by their names; the others are dimensionless
+  OutputUnits(std::optional<UnitsScene> scales, std::map<std::string, std::string, std::less<>> symbols);
+
+  /// @param dimension  by its name (units.hpp); pure numbers have no unit
+  [[nodiscard]] OutputUnit of(std::string_view dimension) const;
+
+ private:
+  std::optional<UnitsScene> scales_;
+  std::map<std::string, std::string, std::less<>> symbols_;
+};
+
+/// A number in SI base units with the prefix that suits it: "12 ms" of 0.012 and "time".
+/// @param dimension  of results: see OutputUnits
+std::string si_number(double value, std::string_view dimension);
+
+/// A symbol as in print: "µm²" of "um^2".
+std::string printed_unit(std::string_view symbol);
+
+/// A label of an axis or a colour bar: "time (ms)" of "time" and "ms", "time" without a unit.
+std::string with_unit(std::string_view label, std::string_view symbol);
+
+}  // namespace vehd

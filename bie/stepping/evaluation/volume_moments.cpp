@@ -1,0 +1,50 @@
+#include "bie/stepping/evaluation/volume_moments.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace vehd {
+namespace {
+
+/// ∫ (a·n) f dA for every column f.
+Eigen::RowVectorXd flux_mean(const Surface& s, const Matrix& a, const Matrix& f) {
+  const Vector flux = a.cwiseProduct(s.normal).rowwise().sum().cwiseProduct(s.quadrature);
+  return flux.transpose() * f;
+}
+
+}  // namespace
+
+double VolumeMoments::aspect_ratio() const {
+  const Vector3 axes = Eigen::SelfAdjointEigenSolver<Matrix3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
+  return std::sqrt(axes[2] / axes[0]);
+}
+
+double VolumeMoments::aspect_ratio_along(const Vector3& direction) const {
+  const Vector3 e = direction.normalized();
+  const double along = e.dot(spread * e);
+  return std::sqrt(2.0 * along / (spread.trace() - along));
+}
+
+VolumeMoments volume_moments(const Surface& s) {
+  // About the mean of the surface, so that far from the origin nothing cancels.
+  const Vector3 mean = centroid(s);
+  const Matrix y = s.position.rowwise() - mean.transpose();
+  // y and y yᵀ are homogeneous of degree 1 and 2: their volume integrals are fluxes of y f over 4 and 5.
+  const double volume = flux_mean(s, y, Matrix::Ones(y.rows(), 1))[0] / 3.0;
+  const Vector3 offset = flux_mean(s, y, y).transpose() / (4.0 * volume);
+  VolumeMoments moments;
+  moments.centroid = mean + offset;
+  for (int i = 0; i < 3; ++i) {
+    const Matrix products = y.col(i).asDiagonal() * y;
+    moments.spread.row(i) = flux_mean(s, y, products) / (5.0 * volume);
+  }
+  moments.spread -= offset * offset.transpose();
+  return moments;
+}
+
+Vector3 centroid_velocity(const Surface& s, const VolumeMoments& moments, const Matrix& velocity) {
+  const Matrix y = s.position.rowwise() - moments.centroid.transpose();
+  return flux_mean(s, velocity, y).transpose() / enclosed_volume(s);
+}
+
+}  // namespace vehd

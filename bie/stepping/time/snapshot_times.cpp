@@ -1,0 +1,47 @@
+#include "bie/stepping/time/snapshot_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vehd {
+namespace {
+
+/// Of the spacing of snapshots.
+constexpr double rounding = 1e-9;
+/// Of a time that is written as such.
+constexpr double rounding_of_time = 1e-12;
+
+/// Index of the first of k * every that is later than the time.
+double index_after(double time, double every) { return std::floor(time / every + rounding) + 1.0; }
+
+}  // namespace
+
+std::optional<double> SnapshotTimes::next(double time, double end) const {
+  std::optional<double> earliest;
+  const auto consider = [&](double moment, double tolerance) {
+    if (moment < end - tolerance && (!earliest || moment < *earliest)) earliest = moment;
+  };
+  if (every) consider(index_after(time, *every) * *every, rounding * *every);
+  const auto listed = std::ranges::find_if(times, [&](double moment) {
+    return moment - time > rounding_of_time * std::max(std::abs(moment), std::abs(time));
+  });
+  if (listed != times.end()) consider(*listed, rounding_of_time * *listed);
+  for (const SnapshotWindow& window : windows) {
+    const double moment = window.from + std::max(0.0, index_after(time - window.from, window.every)) * window.every;
+    const double tolerance = rounding * window.every;
+    // A window that begins at the start has its first snapshot there already.
+    if (moment - time > tolerance && moment <= window.to + tolerance) consider(moment, tolerance);
+  }
+  return earliest;
+}
+
+double SnapshotTimes::count(double end) const {
+  double count = every ? end / *every : 0.0;
+  count += static_cast<double>(std::ranges::count_if(times, [&](double moment) { return moment < end; }));
+  for (const SnapshotWindow& window : windows) {
+    count += std::max(0.0, std::min(window.to, end) - window.from) / window.every;
+  }
+  return count;
+}
+
+}  // namespace vehd

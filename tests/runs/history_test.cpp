@@ -1,0 +1,94 @@
+#include "bie/runs/history.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "bie/runs/run_units.hpp"
+#include "bie/runs/verdict.hpp"
+#include "bie/support/errors.hpp"
+#include "tests/support/files.hpp"
+
+namespace {
+
+const std::optional<vehd::UnitsScene> kScales = vehd::UnitsScene{1e-5, 2e-4, 1e-3, {}};
+/// There is no potential.
+const vehd::OutputUnits kUnits(kScales, {{"time", "ms"}, {"length", "um"}, {"potential", "mV"}});
+
+vehd::HistoryRow row_at(double time) {
+  vehd::HistoryRow row;
+  row.time = time;
+  row.order = 12;
+  row.diagnostics.vesicles.resize(1);
+  vehd::VesicleDiagnostics& d = row.diagnostics.vesicles[0];
+  d.extent_x = 2.5;
+  d.Vm_max = 0.25;
+  d.strain_max = time > 4.0 ? 1.0 : 0.0;
+  return row;
+}
+
+struct Written {
+  TemporaryDirectory directory;
+  std::filesystem::path path = directory / "history.csv";
+  std::int64_t bytes = 0, checksum = 0;
+
+  explicit Written(const vehd::OutputUnits& units) {
+    vehd::HistoryFile file(path, 0, 0, units);
+    for (const double time : {0.0, 2.5, 5.0}) file.append(row_at(time));
+    bytes = file.bytes();
+    checksum = file.checksum();
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(history)
+
+BOOST_AUTO_TEST_CASE(columns_go_by_their_plain_names_whatever_their_units) {
+  const Written si(kUnits), plain({});
+  const vehd::HistoryTable shown(si.path), numbers(plain.path);
+  const auto tolerance = boost::test_tools::tolerance(1e-14);
+  BOOST_TEST(shown.header("time") == "time [ms]");
+  BOOST_TEST(shown.unit("extent_x") == "um");
+  BOOST_TEST(shown.column("time")[1] == 0.5, tolerance);
+  BOOST_TEST(shown.column("extent_x")[0] == 25.0, tolerance);
+  BOOST_TEST(numbers.header("time") == "time");
+  BOOST_TEST(numbers.unit("extent_x") == "");
+  BOOST_TEST(numbers.column("extent_x")[0] == 2.5);
+  // Without a scale the unit means nothing.
+  BOOST_TEST(shown.header("Vm_max") == "Vm_max");
+  BOOST_TEST(shown.column("Vm_max")[0] == 0.25);
+  // Counts are whole numbers.
+  BOOST_TEST(file_text(plain.path).find(",12,") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_history_tells_in_which_units_it_began) {
+  const Written si(kUnits);
+  const vehd::OutputUnits units = vehd::units_of_history(si.path, kScales);
+  BOOST_TEST(units.of("time").symbol == "ms");
+  BOOST_TEST(units.of("time").factor == 0.2, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(!units.of("area").is_si());
+  BOOST_TEST(!vehd::units_of_history(si.directory / "none.csv", kScales).of("time").is_si());
+}
+
+BOOST_AUTO_TEST_CASE(a_history_goes_on_after_what_the_checkpoint_counts) {
+  const Written si(kUnits);
+  const std::string text = file_text(si.path);
+  write_text(si.path, text + "3,4");
+  vehd::require_history(si.path, si.bytes, si.checksum);
+  vehd::HistoryFile file(si.path, si.bytes, si.checksum, vehd::units_of_history(si.path, kScales));
+  BOOST_TEST(file_text(si.path) == text);
+  file.append(row_at(7.5));
+  BOOST_TEST(vehd::HistoryTable(si.path).column("time").back() == 1.5, boost::test_tools::tolerance(1e-14));
+  std::string other = text;
+  other.replace(other.find("extent_x"), 8, "extent_w");
+  write_text(si.path, other);
+  BOOST_CHECK_THROW(vehd::require_history(si.path, si.bytes, si.checksum), vehd::InputError);
+}
+
+BOOST_AUTO_TEST_CASE(the_verdict_says_times_with_their_unit) {
+  BOOST_TEST(vehd::verdict_of(vehd::HistoryTable(Written(kUnits).path), std::nullopt, "").find("since time 1 ms") !=
+             std::string::npos);
+  BOOST_TEST(vehd::verdict_of(vehd::HistoryTable(Written({}).path), std::nullopt, "").find("since time 5 (") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,110 @@
+#include "bie/scene/output_units.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <string>
+
+#include "tests/scene/scene_text.hpp"
+
+namespace {
+
+vehd::OutputUnits units_of(const std::string& text) { return vehd::OutputUnits(parsed(text)); }
+
+std::string replaced(std::string text, const std::string& old_part, const std::string& new_part) {
+  return text.replace(text.find(old_part), old_part.size(), new_part);
+}
+
+std::string with_end(const std::string& time) {
+  return replaced(si_scene(), "end_time = \"1 s\"", "end_time = " + time);
+}
+
+constexpr const char* shown[] = {"length",           "area",      "volume", "time",      "velocity", "force/length",
+                                 "potential/length", "potential", "energy", "force/area"};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(output_units)
+
+BOOST_AUTO_TEST_CASE(si_units_have_the_prefix_that_suits_the_scene) {
+  const vehd::OutputUnits units = units_of(si_scene());
+  const auto symbol = [&](const char* dimension) { return units.of(dimension).symbol; };
+  BOOST_TEST(symbol("length") == "um");
+  BOOST_TEST(symbol("area") == "um^2");
+  BOOST_TEST(symbol("volume") == "um^3");
+  BOOST_TEST(symbol("time") == "s");
+  BOOST_TEST(symbol("velocity") == "um/s");
+  // 1.5 · 10 kV/m · 10 um
+  BOOST_TEST(symbol("potential") == "mV");
+  BOOST_TEST(symbol("potential/length") == "kV/m");
+  // εE²a = 708 nN/m is more than κ/a² and μγ̇a.
+  BOOST_TEST(symbol("force/length") == "nN/m");
+  BOOST_TEST(symbol("energy") == "aJ");
+  BOOST_TEST(symbol("1") == "");
+}
+
+BOOST_AUTO_TEST_CASE(numbers_times_the_factor_are_in_the_unit) {
+  const vehd::OutputUnits units = units_of(si_scene());
+  const auto tolerance = boost::test_tools::tolerance(1e-15);
+  BOOST_TEST(units.of("length").factor == 10.0, tolerance);
+  BOOST_TEST(units.of("area").factor == 100.0, tolerance);
+  BOOST_TEST(units.of("volume").factor == 1000.0, tolerance);
+  BOOST_TEST(units.of("time").factor == 0.5, tolerance);
+  BOOST_TEST(units.of("velocity").factor == 20.0, tolerance);
+  BOOST_TEST(units.of("potential").factor == 1.0, tolerance);
+  BOOST_TEST(units.of("potential/length").factor == 0.1, tolerance);
+  BOOST_TEST(units.of("time").text_of(0.25) == "0.125 s");
+}
+
+BOOST_AUTO_TEST_CASE(exact_units_are_not_missed_by_rounding) {
+  for (const char* time : {"\"1 ms\"", "\"1e-3 s\"", "\"1000 us\""}) {
+    BOOST_TEST(units_of(with_end(time)).of("time").symbol == "ms");
+  }
+  BOOST_TEST(units_of(with_end("\"0.99 ms\"")).of("time").symbol == "us");
+  BOOST_TEST(units_of(with_end("\"999 ms\"")).of("time").symbol == "ms");
+}
+
+BOOST_AUTO_TEST_CASE(do_not_depend_on_the_reference_scales) {
+  std::string other = si_scene();
+  for (const auto& [from, to] : {std::pair{"\"10 um\"", "\"3 nm\""}, {"500 ms", "7 us"}, {"= \"1 mV", "= \"2 V"}}) {
+    other = replaced(other, from, to);
+  }
+  other = replaced(other, "viscosity = \"1 mPa s\"", "viscosity = \"2 Pa s\"");
+  const vehd::OutputUnits a = units_of(si_scene()), b = units_of(other);
+  for (const char* dimension : shown) BOOST_TEST(a.of(dimension).symbol == b.of(dimension).symbol, dimension);
+}
+
+BOOST_AUTO_TEST_CASE(default_is_si_where_the_scene_has_units) {
+  BOOST_TEST(!units_of(with_appended("")).of("time").is_si());
+  BOOST_TEST(!units_of(si_scene() + "[output]\nunits = \"dimensionless\"\n").of("time").is_si());
+  BOOST_TEST(units_of(si_scene() + "[output]\nunits = \"si\"\n").of("time").is_si());
+  BOOST_TEST(units_of(with_appended("")).of("length").factor == 1.0);
+  BOOST_TEST(message_of(with_appended("[output]\nunits = \"si\"\n")) ==
+             "scene.toml:9: \"units\" in [output] is \"si\", but the scene has no table [units]");
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_scale_stays_dimensionless) {
+  const vehd::OutputUnits units = units_of(with_appended("[units]\nlength = \"1 um\"\n"));
+  BOOST_TEST(units.of("length").symbol == "um");
+  BOOST_TEST(!units.of("time").is_si());
+  BOOST_TEST(!units.of("velocity").is_si());
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_has_begun_keeps_its_symbols) {
+  const vehd::OutputUnits units(vehd::UnitsScene{1e-6, 1e-3, {}, {}},
+                                {{"length", "nm"}, {"area", "mm^2"}, {"velocity", "ells"}});
+  BOOST_TEST(units.of("length").factor == 1000.0, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(units.of("area").factor == 1e-6, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(!units.of("time").is_si());
+  BOOST_TEST(!units.of("velocity").is_si());
+}
+
+BOOST_AUTO_TEST_CASE(print_has_the_signs_that_ascii_lacks) {
+  BOOST_TEST(vehd::printed_unit("um^3") == "µm³");
+  BOOST_TEST(vehd::printed_unit("um/s") == "µm/s");
+  BOOST_TEST(vehd::with_unit("time", "ms") == "time (ms)");
+  BOOST_TEST(vehd::with_unit("time", "") == "time");
+  BOOST_TEST(vehd::si_number(0.012, "time") == "12 ms");
+  BOOST_TEST(vehd::si_number(1e-5, "length") == "10 um");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
