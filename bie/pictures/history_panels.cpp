@@ -45,7 +45,7 @@ class Panels {
     const char* label;
   };
 
-  void add(const std::vector<Wanted>& wanted) {
+  void add_columns(const std::vector<Wanted>& wanted) {
     HistoryPanel panel;
     for (const Wanted& curve : wanted) {
       if (auto values = column_of(history_, curve.column)) {
@@ -108,9 +108,9 @@ HistoryCurve aspect_curve(const HistoryTable& history) {
 
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
   Panels panels(history);
-  panels.add({{"bending_energy_scaled", "bending energy ∫H^2 dγ"}, {"tension_integral", "tension ∫λ dγ"}});
+  panels.add_columns({{"bending_energy_scaled", "bending energy ∫H^2 dγ"}, {"tension_integral", "tension ∫λ dγ"}});
   if (scene.electric) {
-    panels.add({{"Vm_north", "V_m at the north pole"}, {"q_north", "q at the north pole"}});
+    panels.add_columns({{"Vm_north", "V_m at the north pole"}, {"q_north", "q at the north pole"}});
   }
   HistoryPanel shape{{aspect_curve(history)}};
   const auto inclination = column_of(history, "inclination_deg");
