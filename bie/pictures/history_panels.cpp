@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "bie/scene/output_units.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -33,6 +34,8 @@ std::optional<std::vector<double>> column_of(const HistoryTable& history, const 
   }
 }
 
+std::string unit_of(const HistoryTable& history, const std::string& name) { return printed_unit(history.unit(name)); }
+
 class Panels {
  public:
   explicit Panels(const HistoryTable& history) : history_(history) {}
@@ -42,11 +45,11 @@ class Panels {
     const char* label;
   };
 
-  void add(const std::vector<Wanted>& wanted) {
+  void add_columns(const std::vector<Wanted>& wanted) {
     HistoryPanel panel;
     for (const Wanted& curve : wanted) {
       if (auto values = column_of(history_, curve.column)) {
-        panel.curves.push_back({curve.label, history_.unit(curve.column), std::move(*values)});
+        panel.curves.push_back({curve.label, unit_of(history_, curve.column), std::move(*values)});
       }
     }
     add(std::move(panel));
@@ -83,7 +86,8 @@ HistoryPanel extent_panel(const HistoryTable& history) {
   HistoryPanel panel{{}, "extent"};
   for (const auto& [column, label] :
        {std::pair{"extent_x", "x"}, std::pair{"extent_y", "y"}, std::pair{"extent_z", "z"}}) {
-    if (auto values = column_of(history, column)) panel.curves.push_back({label, history.unit(column), std::move(*values)});
+    if (auto values = column_of(history, column))
+      panel.curves.push_back({label, unit_of(history, column), std::move(*values)});
   }
   return panel;
 }
@@ -104,9 +108,9 @@ HistoryCurve aspect_curve(const HistoryTable& history) {
 
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
   Panels panels(history);
-  panels.add({{"bending_energy_scaled", "bending energy ∫H^2 dγ"}, {"tension_integral", "tension ∫λ dγ"}});
+  panels.add_columns({{"bending_energy_scaled", "bending energy ∫H^2 dγ"}, {"tension_integral", "tension ∫λ dγ"}});
   if (scene.electric) {
-    panels.add({{"Vm_north", "V_m at the north pole"}, {"q_north", "q at the north pole"}});
+    panels.add_columns({{"Vm_north", "V_m at the north pole"}, {"q_north", "q at the north pole"}});
   }
   HistoryPanel shape{{aspect_curve(history)}};
   const auto inclination = column_of(history, "inclination_deg");

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -95,12 +94,11 @@ std::string ShownUnit::label(std::string_view name) const {
 }
 
 ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension) {
-  if (dimension == "1/length") {
-    const OutputUnit length = units.of("length");
-    return length.is_si() ? ShownUnit{1.0 / length.factor, "1/" + printed_unit(length.symbol)} : ShownUnit{};
-  }
   const OutputUnit unit = units.of(dimension);
-  return {unit.factor, printed_unit(unit.symbol)};
+  if (unit.is_si()) return {unit.factor, printed_unit(unit.symbol)};
+  const OutputUnit length = units.of("length");
+  if (dimension == "1/length" && length.is_si()) return {1.0 / length.factor, "1/" + printed_unit(length.symbol)};
+  return {};
 }
 
 }  // namespace vehd

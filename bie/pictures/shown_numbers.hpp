@@ -6,7 +6,7 @@
 
 #include "bie/scene/output_units.hpp"
 
-/// Numbers as pictures show them: round ticks, few digits, units.
+/// Numbers as pictures show them: round ticks, few digits, the units of the run.
 namespace vehd {
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above a positive length.
@@ -28,13 +28,13 @@ std::vector<std::string> distinct_texts(const std::vector<double>& values);
 /// How numbers of a scene are shown: times `factor`, in `unit`.
 struct ShownUnit {
   double factor = 1.0;
-  std::string unit{};  ///< empty: dimensionless
+  std::string unit{};  ///< as printed; empty: dimensionless
 
   /// "time" or "time (ms)".
   [[nodiscard]] std::string label(std::string_view name) const;
 };
 
-/// The unit of a dimension, by its name in scene/units.hpp, among those of a run; that of 1/length follows the length.
+/// The unit in which a run shows a dimension, by its name in scene/units.hpp; curvatures go with lengths.
 ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension);
 
 }  // namespace vehd
