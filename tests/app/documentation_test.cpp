@@ -9,7 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Lines of the ```sh blocks of a page. Commands that install, fetch or build are what runs this test.
+/// Lines of the ```sh blocks of a page. Commands that install, fetch or build are what runs this test, and what is
+/// installed is tested by tests/installed.
 std::vector<std::string> commands_of(const fs::path& page) {
   std::vector<std::string> commands;
   std::istringstream text(file_text(page));
@@ -18,7 +19,7 @@ std::vector<std::string> commands_of(const fs::path& page) {
     if (line.starts_with("```")) {
       inside = line == "```sh";
     } else if (inside && !line.empty() && !line.starts_with("#") &&
-               !std::regex_search(line, std::regex("^(git|cmake|ctest) "))) {
+               !std::regex_search(line, std::regex("^(git |cmake |ctest |apt-get |dpkg |out/(installed|package)/)"))) {
       commands.push_back(line);
     }
   }

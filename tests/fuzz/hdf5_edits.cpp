@@ -53,10 +53,10 @@ constexpr std::array paths = {"/",
                               "/state/flow_responses"};
 constexpr std::array attributes = {"schema_version", "time",    "step",  "checksum",          "n_rows",
                                    "threads",        "dt_next", "pause", "unaided_iterations"};
-constexpr std::array<double, 8> numbers = {0.0,    1.0,
-                                           -1.0,   0.25,
-                                           1e300,  std::numeric_limits<double>::infinity(),
-                                           5e-324, std::numeric_limits<double>::quiet_NaN()};
+constexpr std::array<double, 8> written_values = {0.0,    1.0,
+                                                  -1.0,   0.25,
+                                                  1e300,  std::numeric_limits<double>::infinity(),
+                                                  5e-324, std::numeric_limits<double>::quiet_NaN()};
 constexpr std::array<hsize_t, 16> extents = {
     0, 1, 2, 3, 4, 5, 10, 16, 25, 36, 4225, 4356, 0xffffffff, hsize_t{1} << 40, hsize_t{1} << 62, 7};
 
@@ -153,7 +153,7 @@ void put_dataset(hid_t file, Bytes& bytes) {
     extent = bytes.pick(extents);
     count = extent == 0 || count > 100000 / extent ? 0 : count * extent;
   }
-  const double value = bytes.pick(numbers);
+  const double value = bytes.pick(written_values);
   const vehd::Hdf5Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
   const vehd::Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   if (bytes.next() % 2 == 1 && count > 0 && !size.empty()) H5Pset_chunk(properties.id(), int(size.size()), size.data());
@@ -184,7 +184,7 @@ void put_attribute(hid_t file, Bytes& bytes) {
   const char* path = bytes.pick(paths);
   const char* name = bytes.pick(attributes);
   const hsize_t size = 1 + bytes.next() % 3;
-  const std::vector<double> values(size, bytes.pick(numbers));
+  const std::vector<double> values(size, bytes.pick(written_values));
   const vehd::Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
   H5Adelete_by_name(file, path, name, H5P_DEFAULT);
   const vehd::Hdf5Handle attribute(

@@ -3,6 +3,8 @@
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 
+# Whoever runs the tests may have chosen libraries of the build.
+unset(ENV{LD_LIBRARY_PATH})
 set(prefix "${FOLDER}/prefix")
 file(REMOVE_RECURSE "${FOLDER}")
 expect("" "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")

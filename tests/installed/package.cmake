@@ -3,6 +3,8 @@
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 
+# Whoever runs the tests may have chosen libraries of the build.
+unset(ENV{LD_LIBRARY_PATH})
 file(REMOVE_RECURSE "${FOLDER}")
 file(MAKE_DIRECTORY "${FOLDER}")
 get_filename_component(cmake_folder "${CMAKE_COMMAND}" DIRECTORY)
@@ -22,9 +24,7 @@ expect("" dpkg -x "${packages}" "${FOLDER}/root")
 set(prefix "${FOLDER}/root/usr")
 look_at_texts("${prefix}")
 expect("x86-64" "${prefix}/bin/vehd" --version)
-set(run "${prefix}/bin/vehd" run "${prefix}/share/vehd/scenes/figure5_no_field.toml" -o "${FOLDER}/run")
 expect("" "${prefix}/bin/vehd" plan "${prefix}/share/vehd/scenes/figure2.toml")
-# Every level is loadable by itself where the processor has it.
 file(GLOB levels "${prefix}/lib/*/vehd/glibc-hwcaps/*")
 list(LENGTH levels n_levels)
 if(NOT n_levels EQUAL 2)
