@@ -118,7 +118,8 @@ BOOST_AUTO_TEST_CASE(nearly_dependent_directions_fake_no_convergence) {
                                        << " iterations, residual " << solution.report.residual) {
           BOOST_TEST(solution.report.converged());
           BOOST_TEST(actual <= tolerance);
-          BOOST_TEST(actual <= solution.report.residual);
+          // Products here and in the solver round differently, by some units of the last place of b.
+          BOOST_TEST(actual <= solution.report.residual + 1e-14);
         }
       }
     }
