@@ -29,20 +29,13 @@ foreach(part IN ITEMS MathJax.js config/TeX-AMS_SVG.js extensions jax/element ja
 endforeach()
 file(COPY "${mathjax}/jax/output/SVG/fonts/TeX" DESTINATION "${pages}/docs/site/mathjax/jax/output/SVG/fonts")
 
-function(run)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${source}" RESULT_VARIABLE status)
-  if(NOT status EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "failed (${status}): ${command}")
-  endif()
-endfunction()
-
-run("${sphinx}" -q -W --keep-going -b html -c "${pages}/docs/site" "${pages}" "${site}")
+execute_process(COMMAND "${sphinx}" -q -W --keep-going -b html -c "${pages}/docs/site" "${pages}" "${site}"
+                WORKING_DIRECTORY "${source}" COMMAND_ERROR_IS_FATAL ANY)
 
 file(READ "${source}/docs/site/Doxyfile" settings)
 string(APPEND settings "INPUT = \"${source}/bie\"\nSTRIP_FROM_PATH = \"${source}\"\nOUTPUT_DIRECTORY = \"${site}\"\n")
 file(WRITE "${pages}/Doxyfile" "${settings}")
-run("${doxygen}" "${pages}/Doxyfile")
+execute_process(COMMAND "${doxygen}" "${pages}/Doxyfile" WORKING_DIRECTORY "${source}" COMMAND_ERROR_IS_FATAL ANY)
 
 file(WRITE "${site}/index.html" "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=docs/index.html\">\n")
 file(REMOVE_RECURSE "${pages}")

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "bie/scene/output_units.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -34,8 +33,6 @@ std::optional<std::vector<double>> column_of(const HistoryTable& history, const 
   }
 }
 
-std::string unit_of(const HistoryTable& history, const std::string& name) { return printed_unit(history.unit(name)); }
-
 class Panels {
  public:
   explicit Panels(const HistoryTable& history) : history_(history) {}
@@ -49,7 +46,7 @@ class Panels {
     HistoryPanel panel;
     for (const Wanted& curve : wanted) {
       if (auto values = column_of(history_, curve.column)) {
-        panel.curves.push_back({curve.label, unit_of(history_, curve.column), std::move(*values)});
+        panel.curves.push_back({curve.label, history_.unit(curve.column), std::move(*values)});
       }
     }
     add(std::move(panel));
@@ -87,7 +84,7 @@ HistoryPanel extent_panel(const HistoryTable& history) {
   for (const auto& [column, label] :
        {std::pair{"extent_x", "x"}, std::pair{"extent_y", "y"}, std::pair{"extent_z", "z"}}) {
     if (auto values = column_of(history, column))
-      panel.curves.push_back({label, unit_of(history, column), std::move(*values)});
+      panel.curves.push_back({label, history.unit(column), std::move(*values)});
   }
   return panel;
 }

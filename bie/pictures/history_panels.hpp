@@ -12,7 +12,7 @@ namespace vehd {
 /// One quantity against time.
 struct HistoryCurve {
   std::string label;
-  std::string unit;            ///< of the file, as printed; empty of a pure number
+  std::string unit;            ///< symbol in the file; empty of a pure number
   std::vector<double> values;  ///< one for each row, NaN where there is none
 };
 

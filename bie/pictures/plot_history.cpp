@@ -10,6 +10,7 @@
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/shown_numbers.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/reader.hpp"
 
 namespace vehd {
@@ -129,8 +130,8 @@ std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
   std::string data, settings = fresh_panel, plot;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const HistoryCurve& curve = panel.curves[i];
-    settings += axis_script(axis_of(curve.values, ShownUnit{1.0, curve.unit}.label(curve.label), 0.06),
-                            i == 0 ? "y" : "y2", curve_colours[i]);
+    settings += axis_script(axis_of(curve.values, with_unit(curve.label, curve.unit), 0.06), i == 0 ? "y" : "y2",
+                            curve_colours[i]);
     constexpr double half_turn = 90.0;
     data += data_block(drawing.n_curves, drawing.times, curve.values,
                        curve.label.starts_with("inclination") ? half_turn : 0.0);
@@ -174,7 +175,7 @@ std::string panel_of_common_axis(const HistoryPanel& panel, Drawing& drawing) {
     plot += fmt::format("{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
                         drawing.line_style(i), gnuplot_quoted(panel.curves[i].label));
   }
-  const std::string label = ShownUnit{1.0, panel.curves.front().unit}.label(panel.common_axis);
+  const std::string label = with_unit(panel.common_axis, panel.curves.front().unit);
   const std::string axis = panel.logarithmic ? logarithmic_axis(panel.curves, label)
                                              : axis_script(axis_of(all, label, 0.06), "y", "#000000");
   return data + fresh_panel + key_above + axis + plot + "\n";
@@ -188,7 +189,7 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
   const std::vector<HistoryPanel> panels = panels_of(scene, history);
   if (panels.empty()) return false;
   const std::vector<double>& times = history.column("time");
-  const Axis time_axis = axis_of(times, ShownUnit{1.0, printed_unit(history.unit("time"))}.label("time"), 0.0);
+  const Axis time_axis = axis_of(times, with_unit("time", history.unit("time")), 0.0);
 
   const int columns = panels.size() > 1 ? 2 : 1, rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
   const double width = columns * panel_width, height = rows * panel_height;

@@ -89,10 +89,6 @@ std::vector<std::string> distinct_texts(const std::vector<double>& values) {
   return texts(most_digits);
 }
 
-std::string ShownUnit::label(std::string_view name) const {
-  return unit.empty() ? std::string(name) : fmt::format("{} ({})", name, unit);
-}
-
 ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension) {
   const OutputUnit unit = units.of(dimension);
   if (unit.is_si()) return {unit.factor, printed_unit(unit.symbol)};

@@ -29,9 +29,6 @@ std::vector<std::string> distinct_texts(const std::vector<double>& values);
 struct ShownUnit {
   double factor = 1.0;
   std::string unit{};  ///< as printed; empty: dimensionless
-
-  /// "time" or "time (ms)".
-  [[nodiscard]] std::string label(std::string_view name) const;
 };
 
 /// The unit in which a run shows a dimension, by its name in scene/units.hpp; curvatures go with lengths.

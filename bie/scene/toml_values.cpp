@@ -123,12 +123,19 @@ AxisAngle axis_angle(const Context& context, const toml::node& node) {
   return {number(context, array[0]), number(context, array[1]), number(context, array[2]), number(context, array[3])};
 }
 
-std::vector<double> numbers(const Context& context, const toml::node& node) {
+/// @param read  one entry
+template <typename Entry>
+std::vector<Entry> list_of(Entry (*read)(const Context&, const toml::node&), const Context& context,
+                           const toml::node& node) {
   const toml::array* array = node.as_array();
   if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  std::vector<double> result;
-  for (const toml::node& entry : *array) result.push_back(number(context, entry));
+  std::vector<Entry> result;
+  for (const toml::node& entry : *array) result.push_back(read(context, entry));
   return result;
+}
+
+std::vector<double> numbers(const Context& context, const toml::node& node) {
+  return list_of<double>(number, context, node);
 }
 
 std::string text(const Context& context, const toml::node& node) {
@@ -176,11 +183,7 @@ HarmonicMode mode(const Context& context, const toml::node& node) {
 }
 
 std::vector<HarmonicMode> modes(const Context& context, const toml::node& node) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  std::vector<HarmonicMode> result;
-  for (const toml::node& entry : *array) result.push_back(mode(context, entry));
-  return result;
+  return list_of<HarmonicMode>(mode, context, node);
 }
 
 OutputWindow window(const Context& context, const toml::node& node) {
@@ -190,11 +193,7 @@ OutputWindow window(const Context& context, const toml::node& node) {
 }
 
 std::vector<OutputWindow> windows(const Context& context, const toml::node& node) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  std::vector<OutputWindow> result;
-  for (const toml::node& entry : *array) result.push_back(window(context, entry));
-  return result;
+  return list_of<OutputWindow>(window, context, node);
 }
 
 }  // namespace

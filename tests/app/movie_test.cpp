@@ -1,20 +1,13 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/program.hpp"
+#include "tests/app/reference_run.hpp"
 
 namespace {
 
 /// Four snapshots.
-struct RunWithSnapshots {
-  TemporaryDirectory directory;
-  std::string output = directory / "out";
-
-  RunWithSnapshots() {
-    write_text(directory / "scene.toml", quick_scene("1.5"));
-    const ProgramResult result = run_vehd({"run", directory / "scene.toml", "-o", output, "--no-plot"});
-    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
-  }
+struct RunWithSnapshots : FinishedRun {
+  RunWithSnapshots() : FinishedRun(quick_scene("1.5")) {}
 };
 
 }  // namespace

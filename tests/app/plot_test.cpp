@@ -4,20 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/program.hpp"
+#include "tests/app/reference_run.hpp"
 
 namespace {
 
 /// A run in a field with seven snapshots.
-struct PlottedRun {
-  TemporaryDirectory directory;
-  std::string output = directory / "out";
-
-  PlottedRun() {
-    write_text(directory / "scene.toml", quick_scene("3.0"));
-    const ProgramResult result = run_vehd({"run", directory / "scene.toml", "-o", output, "--no-plot"});
-    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
-  }
+struct PlottedRun : FinishedRun {
+  PlottedRun() : FinishedRun(quick_scene("3.0")) {}
 
   [[nodiscard]] ProgramResult plot(std::vector<std::string> options) const {
     options.insert(options.begin(), {"plot", output, "--json", directory / "plot.json"});

@@ -6,20 +6,13 @@
 
 #include "bie/comparison/frozen_state.hpp"
 #include "bie/support/errors.hpp"
-#include "tests/app/program.hpp"
+#include "tests/app/reference_run.hpp"
 
 namespace {
 
 /// Snapshots at 0, 0.5, 1 and 1.25.
-struct ShortRun {
-  TemporaryDirectory directory;
-  std::string output = directory / "out";
-
-  ShortRun() {
-    write_text(directory / "scene.toml", quick_scene("1.25"));
-    const ProgramResult result = run_vehd({"run", directory / "scene.toml", "-o", output, "--no-plot"});
-    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
-  }
+struct ShortRun : FinishedRun {
+  ShortRun() : FinishedRun(quick_scene("1.25")) {}
   [[nodiscard]] std::string file() const { return output + "/run.h5"; }
   [[nodiscard]] ProgramResult plot(const std::string& times) const {
     return run_vehd({"plot", output, "--times", times, "--json", directory / "plot.json"});

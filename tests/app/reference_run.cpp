@@ -35,8 +35,8 @@ void check_same_run(const std::string& actual, const std::string& expected) {
   BOOST_TEST((file_text(actual + "/run.xdmf") == file_text(expected + "/run.xdmf")));
 }
 
-FinishedRun::FinishedRun() {
-  write_text(scene, quick_scene("0.5"));
+FinishedRun::FinishedRun(const std::string& text) {
+  write_text(scene, text);
   const ProgramResult result = run_vehd({"run", scene, "-o", output, "--no-plot"});
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
 }

@@ -13,13 +13,13 @@ std::vector<std::pair<std::string, vehd::Vector>> snapshot_data(const std::strin
 /// History, snapshots and time series of two run directories agree bit for bit.
 void check_same_run(const std::string& actual, const std::string& expected);
 
-/// A complete short run to damage.
+/// A complete short run, to damage or to draw.
 struct FinishedRun {
   TemporaryDirectory directory;
   std::string scene = directory / "scene.toml";
   std::string output = directory / "out";
 
-  FinishedRun();
+  explicit FinishedRun(const std::string& text = quick_scene("0.5"));
 };
 
 /// A scene, a place for its run without any trouble, and the command that makes the same run in `output`, or continues
