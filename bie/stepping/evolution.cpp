@@ -222,7 +222,7 @@ bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
 
 int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
   const int enough = resolution.order_for(truncation_target(setup_), order(a), order(a) + 8);
-  return std::min(setup_.settings.order, std::max(enough, order(a) + 2));
+  return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
 }
 
 /// @throws ConvergenceError, and the vesicle stays as it is
@@ -274,7 +274,7 @@ StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const St
   attempt.rejected += former.rejected;
   attempt.iterations_flow += former.iterations_flow;
   attempt.iterations_electric += former.iterations_electric;
-  if (!attempt.accepted) {
+  if (!attempt.accepted && attempt.too_coarse.empty()) {
     throw ConvergenceError(
         fmt::format("no acceptable step from time {}: {}", setup_.time_text(state_.time), attempt.reason));
   }
@@ -292,6 +292,13 @@ StepAttempt Evolution::step(const EventTimes& events) {
     attempt = step_within(plan, wanted, attempt);
     const bool at_event = plan.reaches_event && attempt.dt == plan.dt_limit;
     try {
+      if (!attempt.too_coarse.empty()) {
+        for (const std::size_t a : attempt.too_coarse) {
+          change_space(a, std::min(setup_.settings.order, order(a) + thresholds::least_raise),
+                       state_.vesicles[a].quadrature_level);
+        }
+        continue;
+      }
       if (raise_orders_for(attempt.state)) {
         ++attempt.rejected;
         continue;

@@ -60,6 +60,11 @@ constexpr double step_safety = 0.85;
 /// A step changes its size by these factors at most.
 constexpr double least_step_factor = 0.2;
 constexpr double most_step_factor = 4.0;
+/// A step that was rejected and tried again in a smaller size (0.9 at most) at second order or more is wrong by 0.8 of
+/// what it was: more than this is no error of the step.
+constexpr double stagnation = 0.95;
+/// Much of an error: a mean over the membrane against a maximum on it.
+constexpr double arrival_share = 0.1;
 /// The first step covers this share of the time in which the start changes by the tolerance's root.
 constexpr double first_step_share = 0.5;
 
@@ -94,6 +99,9 @@ inline constexpr std::array quadrature_levels = {1.0, 1.75, 2.6};
 constexpr double idle_quadrature = 1e-2;
 /// Errors of the layers up to this many times what truncation does to them are hidden by it.
 constexpr double above_truncation = 3.0;
+/// Degrees by which one that is too low rises at least: the next one is of the other parity, which adds nothing to a
+/// shape that has mirrors.
+constexpr int least_raise = 2;
 /// Steps between two attempts to save work: one that fails every time costs little of what a run does.
 constexpr std::int64_t economy_interval = 4;
 

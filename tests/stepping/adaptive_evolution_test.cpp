@@ -92,6 +92,20 @@ BOOST_AUTO_TEST_CASE(degree_follows_the_spectrum_up_and_down) {
   BOOST_TEST(result.highest_order > 20);
 }
 
+BOOST_AUTO_TEST_CASE(degree_rises_where_the_grid_cannot_be_moved_without_it) {
+  // Its spectrum ends below the lowest degree, so that the start seems resolved. Nearly a sphere: the area that another
+  // grid of that degree gives it needs a much larger change of the shape.
+  const SphereTransform transform(kHighestOrder, make_grid(kHighestOrder));
+  Matrix harmonics = Matrix::Zero(n_coefficients(kHighestOrder), 1);
+  harmonics(coefficient_index(3, 0), 0) = 0.04;
+  harmonics(coefficient_index(4, 0), 0) = 0.05;
+  const Vector radius = Vector(transform.synthesize(harmonics)).array() + 1.0;
+  const Matrix position = transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
+  const Result result = run_to(relaxation_model(0.1), position, 1e-6, 1e-2);
+  BOOST_TEST(result.lowest_order == lowest_adaptive_order);
+  BOOST_TEST(result.highest_order > lowest_adaptive_order);
+}
+
 BOOST_AUTO_TEST_CASE(step_of_a_fixed_size_never_changes_the_degree) {
   const Matrix position = prolate(12);
   Instruments instruments;

@@ -106,6 +106,9 @@ class Iteration {
     const Measure there = measure(fine(), motion_.arrived.position);
     arrival_area_ = there.area - after_.area;
     arrival_volume_ = there.volume - after_.volume;
+    if (before_arrival_.size() == 0) before_arrival_ = motion_.material.position;
+    motion_.arrival_shift =
+        (motion_.material.position - before_arrival_).norm() / std::sqrt(context_.state.reference_area);
     errors_.volume = there.volume / context_.state.reference_volume - 1.0;
     errors_.area = inextensible() ? there.area / context_.state.reference_area - 1.0 : 0.0;
     return errors_.of_constraint() <= settings.constraint_tolerance;
@@ -171,6 +174,7 @@ class Iteration {
   // What arrival adds to area and volume, known from the last one.
   double arrival_area_ = 0.0;
   double arrival_volume_ = 0.0;
+  Matrix before_arrival_;  // of the material, without that
   Motion motion_;
 };
 

@@ -18,6 +18,7 @@ StepAttempt attempt_step(const Model& model, const Discretisation& discretisatio
     attempt.error_estimate = end.last_correction;
     for (const Motion& vesicle : end.node.vesicles) {
       if (std::abs(vesicle.raw_area) >= std::abs(attempt.raw_area)) attempt.raw_area = vesicle.raw_area;
+      attempt.arrival_shifts.push_back(vesicle.arrival_shift);
     }
     attempt.state = physics.end_state(end.node);
     attempt.accepted = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bie/stepping/evaluation/evaluation.hpp"
 
@@ -15,6 +16,9 @@ struct StepAttempt {
   double error_estimate = 0.0;  ///< the last correction: of x over the radius or of V_m over its size; 0 without one
   /// Relative area error that the step would have left without its constraint: a drift of the step's order.
   double raw_area = 0.0;
+  std::vector<double> arrival_shifts;  ///< of each vesicle, see Motion
+  /// Rejected, and so would be smaller ones: of which vesicles a higher degree is needed.
+  std::vector<std::size_t> too_coarse;
   int rejected = 0;         ///< tries that were thrown away before it
   int iterations_flow = 0;  ///< of all tries; once the step is taken with those of the evaluation at its end
   int iterations_electric = 0;

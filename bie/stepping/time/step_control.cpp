@@ -18,6 +18,20 @@ double size_factor(double estimate, double tolerance, int order) {
                     thresholds::least_step_factor, thresholds::most_step_factor);
 }
 
+/// Vesicles whose degree is what is wrong with a step that gains nothing by being smaller than a former one: much of
+/// the estimate is what it took to hold area and volume on the grid that was moved.
+std::vector<std::size_t> too_coarse(const Discretisation& discretisation, const StepAttempt& former,
+                                    const StepAttempt& attempt) {
+  std::vector<std::size_t> result;
+  const bool gains = attempt.error_estimate <= thresholds::stagnation * former.error_estimate;
+  if (gains || former.error_estimate == 0.0) return result;
+  for (std::size_t a = 0; a < attempt.arrival_shifts.size(); ++a) {
+    const bool can_rise = discretisation.vesicle(a).order() < discretisation.settings().order;
+    if (can_rise && attempt.arrival_shifts[a] > thresholds::arrival_share * attempt.error_estimate) result.push_back(a);
+  }
+  return result;
+}
+
 }  // namespace
 
 StepControl fixed_steps(double dt) {
@@ -56,6 +70,8 @@ StepAttempt controlled_step(const Model& model, const Discretisation& discretisa
     if (solved) {
       result.reason = fmt::format("the last correction of a step changes it by {:.1e}; accepted: {:.1e}",
                                   result.error_estimate, control.tolerance);
+      result.too_coarse = too_coarse(discretisation, former, result);
+      if (!result.too_coarse.empty()) return result;
     }
     wanted = solved ? dt * std::min(factor, 0.9) : 0.5 * dt;
   }
