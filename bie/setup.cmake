@@ -14,7 +14,8 @@
 #   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture and table of the pages that the program measures itself
 #   cmake -DSTEP=site -P bie/setup.cmake   makes one site of the pages and the interfaces of all headers, in build/site;
 #                                          compiles nothing
-#   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64, in build-levels
+#   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64, in build-levels, lets lintian read
+#                                             it and tries it
 # Before -P, for every step:
 #   -DINSTALL=OFF                   installs nothing: says what is missing, and goes on where it can do without
 #   -DVEHD_FEM_CHECK=ON             test, build and docs include the finite-element check and install what it needs; without
@@ -114,7 +115,7 @@ if(STEP MATCHES "^(test|sanitize)$")
   need_python_module(python3-numpy numpy)
   need_python_module(python3-matplotlib matplotlib)
 endif()
-if(STEP STREQUAL "package" OR (STEP STREQUAL "test" AND VEHD_ARCHITECTURE STREQUAL "levels"))
+if(STEP STREQUAL "package")
   need_program(help2man help2man)
   need_program(dpkg-dev dpkg-shlibdeps)
   need_program(file file)
@@ -257,6 +258,8 @@ if(STEP STREQUAL "package")
   file(REMOVE_RECURSE "${build}/package")
   run_or_stop("${CMAKE_CPACK_COMMAND}" --config "${build}/CPackConfig.cmake" -G DEB -B "${build}/package")
   file(GLOB packages "${build}/package/*.deb")
+  run_or_stop("${CMAKE_COMMAND}" "-DPACKAGE=${packages}" "-DFOLDER=${build}/installed" -P
+              "${source}/tests/installed/package.cmake")
   message(STATUS "Install it with: apt-get install ${packages}")
 endif()
 if(STEP STREQUAL "check")

@@ -30,9 +30,13 @@ if(architecture)
   set(level $<TARGET_PROPERTY:VEHD_LEVEL>)
   target_compile_options(vehd_compilation INTERFACE -march=$<IF:$<BOOL:${level}>,${level},${architecture}>)
 endif()
-if(levels)
-  # A library keeps its own instance of a template, which may be compiled for another instruction set than others'.
-  target_compile_options(vehd_compilation INTERFACE -fvisibility-inlines-hidden)
+# What is optimised less.
+set(quickly_compiled)
+if(BUILD_SHARED_LIBS)
+  # A library calls its own functions, which nobody replaces, and keeps its own instance of a template, which may be
+  # compiled otherwise than others'.
+  set(quickly_compiled $<$<CONFIG:Release>:-O1>)
+  target_compile_options(vehd_compilation INTERFACE -fvisibility-inlines-hidden -fno-semantic-interposition)
   add_link_options(-Wl,-Bsymbolic -Wl,--enable-new-dtags)
 endif()
 if(VEHD_SANITIZE)

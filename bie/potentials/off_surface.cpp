@@ -33,7 +33,7 @@ struct FootDensities {
 };
 
 /// Where a target stands and what was found for it.
-struct Target {
+struct FreeTarget {
   Vector3 point;
   NearestNodes nearest;
   FootPoint foot;
@@ -88,7 +88,7 @@ struct OffSurfaceLayers::Data {
   }
 
   /// Smooth rule where it suffices. @return nodes visited
-  Index try_far(Target& target) const {
+  Index try_far(FreeTarget& target) const {
     target.nearest = nearest_nodes(coarse, target.point);
     target.distance = target.nearest.distance;
     target.near = target.distance < kFarSpacings * coarse.spacing[target.nearest.first];
@@ -105,7 +105,7 @@ struct OffSurfaceLayers::Data {
   [[nodiscard]] int least_n_theta(int level) const { return static_cast<int>(std::ceil(1.15 * order)) + 8 + level; }
   [[nodiscard]] int least_n_phi() const { return 2 * order + 12; }
 
-  void locate(Target& target, Side membrane_side) const {
+  void locate(FreeTarget& target, Side membrane_side) const {
     target.foot = foot_from(target.nearest.first, target.point);
     if (target.nearest.opposite_counts) {
       const FootPoint opposite = foot_from(target.nearest.opposite, target.point);
@@ -144,8 +144,8 @@ struct OffSurfaceLayers::Data {
   }
 
   /// Values from the sums about the foot point.
-  [[nodiscard]] TargetValues near_values(const Target& target, const TargetFrame& frame, const FootDensities& at_foot,
-                                         const LayerSums& sums) const {
+  [[nodiscard]] TargetValues near_values(const FreeTarget& target, const TargetFrame& frame,
+                                         const FootDensities& at_foot, const LayerSums& sums) const {
     TargetValues v = with_prefactors(sums);
     if (fields.double_layer >= 0) v.double_layer += frame.pole()[fields.double_layer] * enclosure_of(target.side);
     if (target.on_membrane) {
@@ -158,7 +158,7 @@ struct OffSurfaceLayers::Data {
   }
 
   /// Goes through the rules until two agree. @return nodes visited
-  Index run_rules(Target& target, const std::vector<GradedRule>& rules, bool first) const {
+  Index run_rules(FreeTarget& target, const std::vector<GradedRule>& rules, bool first) const {
     const TargetFrame frame(fields, target.foot.theta, target.foot.phi);
     const FootDensities at_foot = target.on_membrane ? foot_densities(target.foot) : FootDensities{};
     const Vector3 offset = target.on_membrane ? Vector3::Zero() : Vector3(target.point - target.foot.position);
@@ -196,7 +196,7 @@ void rethrow_first(const std::vector<std::exception_ptr>& exceptions) {
   }
 }
 
-OffSurfaceValues collect(const std::vector<Target>& targets, const NodeColumns& columns) {
+OffSurfaceValues collect(const std::vector<FreeTarget>& targets, const NodeColumns& columns) {
   const Index n = static_cast<Index>(targets.size());
   OffSurfaceValues out;
   const auto prepare = [n](LayerField& field, bool wanted, Index components) {
@@ -217,7 +217,7 @@ OffSurfaceValues collect(const std::vector<Target>& targets, const NodeColumns& 
     field.error[i] = error;
   };
   for (Index i = 0; i < n; ++i) {
-    const Target& t = targets[i];
+    const FreeTarget& t = targets[i];
     const Eigen::Matrix<double, 1, 1> single(t.values.single);
     const Eigen::Matrix<double, 1, 1> double_layer(t.values.double_layer);
     put(out.laplace_single, i, single, t.last_change.single);
@@ -247,13 +247,13 @@ OffSurfaceValues OffSurfaceLayers::evaluate(const Matrix& points, Side side, Ins
   const auto timer = instruments.time("off-surface evaluation");
   const Data& data = *data_;
   const Index n = points.rows();
-  std::vector<Target> targets(n);
+  std::vector<FreeTarget> targets(n);
   std::vector<std::exception_ptr> exceptions(n);
   std::uint64_t evaluations = 0;
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : evaluations)
   for (Index i = 0; i < n; ++i) {
     try {
-      Target& target = targets[i];
+      FreeTarget& target = targets[i];
       target.point = points.row(i).transpose();
       evaluations += data.try_far(target);
       if (target.near) data.locate(target, side);

@@ -29,7 +29,7 @@ struct SceneCase {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(bad_input)
+BOOST_AUTO_TEST_SUITE(bad_input, *boost::unit_test::label("once"))
 
 BOOST_FIXTURE_TEST_CASE(unknown_key, SceneCase) {
   check(quick_scene() + "[fluid]\nviscocity = 1.0\n",

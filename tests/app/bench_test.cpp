@@ -6,6 +6,7 @@
 
 #include "bie/bench/step_timer.hpp"
 #include "bie/scene/reader.hpp"
+#include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
 namespace {
@@ -84,7 +85,7 @@ void copy_docs(const fs::path& to) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(bench, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(bench, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
   const Bench bench({"space", "--orders", "6,12", "--repeats", "2"});
@@ -238,7 +239,7 @@ BOOST_AUTO_TEST_CASE(one_command_renews_every_table_and_picture_of_the_pages) {
   BOOST_TEST(extra.starts_with("before\n<!-- table space -->\n| p | error of q |"), extra);
   BOOST_TEST(extra.find("old") == std::string::npos);
   BOOST_TEST(extra.ends_with("after\n<!-- table unknown -->\nkept\n<!-- end of table -->\n"), extra);
-  const bool methods = fs::exists(fs::path(VEHD_PROGRAM).parent_path() / "vehd_fem");
+  const bool methods = static_cast<bool>(finite_elements_are_built());
   // Whatever the pages ask for is there, but for what was made up and what is not built.
   const std::string left =
       methods ? "; tables left as they were: unknown\n" : "; tables left as they were: methods, unknown\n";

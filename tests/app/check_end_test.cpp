@@ -5,15 +5,12 @@
 #include <functional>
 #include <thread>
 
+#include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-boost::test_tools::assertion_result finite_elements_are_built(boost::unit_test::test_unit_id) {
-  return fs::exists(fs::path(VEHD_PROGRAM).parent_path() / "vehd_fem");
-}
 
 /// Long enough for any machine, and only waited for where something is wrong.
 constexpr std::chrono::seconds most{120};
@@ -64,8 +61,8 @@ struct LongCheck {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(check_end,
-                      *boost::unit_test::precondition(finite_elements_are_built) * boost::unit_test::label("alone"))
+BOOST_AUTO_TEST_SUITE(check_end, *boost::unit_test::precondition(finite_elements_are_built) *
+                                     boost::unit_test::label("alone") * boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(whatever_ends_a_check_ends_its_finite_elements) {
   for (const int signal : {SIGKILL, SIGTERM, SIGINT}) {

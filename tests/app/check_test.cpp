@@ -25,7 +25,8 @@ const std::string crooked_scene =
 }  // namespace
 
 // The finite elements are one process for each processor.
-BOOST_AUTO_TEST_SUITE(check, *boost::unit_test::label("slow") * boost::unit_test::label("alone"))
+BOOST_AUTO_TEST_SUITE(check, *boost::unit_test::label("slow") * boost::unit_test::label("alone") *
+                                 boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(methods_agree_on_a_shape_without_symmetry) {
   if (!has_finite_elements()) return;

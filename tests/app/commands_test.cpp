@@ -47,7 +47,7 @@ bool has(const std::vector<std::string>& words, const std::string& word) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(commands)
+BOOST_AUTO_TEST_SUITE(commands, *boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(every_command_writes_json) {
   const auto commands = commands_below({});

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "bie/scene/reader.hpp"
+#include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
 namespace {
@@ -45,12 +46,13 @@ std::string shortened(std::string command) {
   command = std::regex_replace(command, std::regex("--(at|time) [0-9.]+"), "--$1 0.3");
   command = std::regex_replace(command, std::regex("--times [0-9.,]+"), "--times 0,0.1,0.3");
   if (command.starts_with("python3 ")) command.replace(0, 7, python_with("h5py, numpy, matplotlib"));
-  return std::regex_replace(command, std::regex("bench (all|methods|stability)"), "bench $1 --quick");
+  command = std::regex_replace(command, std::regex("bench (all|methods|stability)"), "bench $1 --quick");
+  // The suite `bench` runs all of it.
+  return std::regex_replace(command, std::regex("bench all"), "bench all --only space");
 }
 
 bool needs_finite_elements(const std::string& command) {
-  return std::regex_search(command, std::regex("vehd (bench methods|check|mesh)")) &&
-         !fs::exists(fs::path(VEHD_PROGRAM).parent_path() / "vehd_fem");
+  return std::regex_search(command, std::regex("vehd (bench methods|check|mesh)")) && !finite_elements_are_built();
 }
 
 /// What a command of a page needs and this machine does not have; empty if it has all.
@@ -83,7 +85,7 @@ struct ReaderFolder {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(documentation, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(documentation, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(every_shipped_scene_is_valid) {
   int count = 0;
@@ -115,10 +117,10 @@ BOOST_AUTO_TEST_CASE(the_scene_of_the_tutorial_is_the_one_that_its_page_shows) {
 
 BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {
   int count = 0;
+  const OwnCache cache;
   for (const fs::path& page : pages()) {
     // Each page starts afresh, as its reader does.
     const ReaderFolder folder;
-    const OwnCache cache;
     for (const std::string& written : commands_of(page)) {
       if (needs_finite_elements(written)) continue;
       if (const std::string missing = missing_program(written); !missing.empty()) {

@@ -10,7 +10,7 @@ fs::path shipped(const std::string& name) { return fs::path(VEHD_SOURCE_DIR) / "
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(examples)
+BOOST_AUTO_TEST_SUITE(examples, *boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(are_listed_with_what_they_show) {
   const TemporaryDirectory directory;

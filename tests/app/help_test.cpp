@@ -6,7 +6,7 @@
 #include "bie/scene/schema.hpp"
 #include "tests/app/program.hpp"
 
-BOOST_AUTO_TEST_SUITE(help)
+BOOST_AUTO_TEST_SUITE(help, *boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(page_of_scene_keys_is_the_generated_one) {
   const ProgramResult result = run_vehd({"help", "scene", "--markdown"});

@@ -38,7 +38,7 @@ void write_hollow_run(const std::string& path, const std::vector<hsize_t>& exten
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(hostile_size)
+BOOST_AUTO_TEST_SUITE(hostile_size, *boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(scenes_that_ask_for_too_much) {
   const TemporaryDirectory directory;

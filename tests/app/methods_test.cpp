@@ -2,15 +2,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-boost::test_tools::assertion_result finite_elements_are_built(boost::unit_test::test_unit_id) {
-  return fs::exists(fs::path(VEHD_PROGRAM).parent_path() / "vehd_fem");
-}
 
 /// Levels of one method, coarse to fine.
 std::vector<nlohmann::json> levels_of(const nlohmann::json& bench, const std::string& method) {
@@ -31,7 +28,7 @@ double power(const std::vector<nlohmann::json>& levels, const std::string& field
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(methods)
+BOOST_AUTO_TEST_SUITE(methods, *boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(both_methods_approach_the_exact_solution_each_at_its_rate,
                      *boost::unit_test::precondition(finite_elements_are_built)) {

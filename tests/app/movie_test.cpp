@@ -12,7 +12,7 @@ struct RunWithSnapshots : FinishedRun {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(movie)
+BOOST_AUTO_TEST_SUITE(movie, *boost::unit_test::label("once"))
 
 BOOST_FIXTURE_TEST_CASE(has_a_picture_for_each_snapshot, RunWithSnapshots) {
   if (run_command({"sh", "-c", "command -v ffmpeg && command -v ffprobe"}).exit_code != 0) {

@@ -24,7 +24,7 @@ struct Word {
 };
 
 /// Words of a PDF with the boxes of their letters.
-std::vector<Word> words_of(const std::string& pdf) {
+std::vector<Word> words_with_places(const std::string& pdf) {
   const ProgramResult result = run_command({"pdftotext", "-bbox", pdf, "-"});
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
   const std::regex pattern("<word xMin=\"([^\"]+)\" yMin=\"([^\"]+)\" xMax=\"([^\"]+)\" yMax=\"([^\"]+)\">([^<]*)<");
@@ -49,7 +49,7 @@ bool has_word(const std::vector<Word>& words, const std::string& text) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(plot, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(plot, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 BOOST_FIXTURE_TEST_CASE(no_word_of_a_picture_lies_over_another, PlottedRun) {
   for (const auto& options : std::vector<std::vector<std::string>>{
@@ -59,7 +59,7 @@ BOOST_FIXTURE_TEST_CASE(no_word_of_a_picture_lies_over_another, PlottedRun) {
     const ProgramResult result = plot(all);
     BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
     for (const char* file : {"pdf/shapes.pdf", "pdf/history.pdf"}) {
-      const std::vector<Word> words = words_of(directory / file);
+      const std::vector<Word> words = words_with_places(directory / file);
       BOOST_TEST(words.size() > 5, file);
       for (std::size_t i = 0; i < words.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
@@ -67,7 +67,7 @@ BOOST_FIXTURE_TEST_CASE(no_word_of_a_picture_lies_over_another, PlottedRun) {
         }
       }
     }
-    const std::vector<Word> words = words_of(directory / "pdf/shapes.pdf");
+    const std::vector<Word> words = words_with_places(directory / "pdf/shapes.pdf");
     BOOST_TEST(has_word(words, "field"));
     BOOST_TEST(has_word(words, "z"));
     BOOST_TEST(has_word(words, "t"));

@@ -30,7 +30,7 @@ struct ShortRun : FinishedRun {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(plot_times)
+BOOST_AUTO_TEST_SUITE(plot_times, *boost::unit_test::label("once"))
 
 BOOST_FIXTURE_TEST_CASE(pictures_say_which_times_they_have_taken, ShortRun) {
   const ProgramResult exact = plot("0,0.5,1.25");

@@ -3,7 +3,7 @@
 
 #include "tests/app/program.hpp"
 
-BOOST_AUTO_TEST_SUITE(read_run)
+BOOST_AUTO_TEST_SUITE(read_run, *boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(python_draws_figure_4_from_the_files_alone) {
   const std::string python = python_with("h5py, numpy, matplotlib");

@@ -15,7 +15,7 @@ bool can_render() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(xdmf)
+BOOST_AUTO_TEST_SUITE(xdmf, *boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(viewer_sees_a_closed_surface_with_its_fields) {
   if (!can_render()) return;

@@ -41,7 +41,7 @@ void check_holds(const fs::path& folder, const std::set<std::string>& names) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(result_file, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(result_file, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(pipe_gets_the_result_and_stays_a_pipe) {
   const TemporaryDirectory directory;
@@ -137,7 +137,7 @@ BOOST_FIXTURE_TEST_CASE(every_command_can_have_standard_output_for_its_result, F
       {"bench", "space", "--orders", "6,8", "--repeats", "1", "--no-plot", "-o", directory / "bench"},
       {"help", "scene"},
       {"help", "groups", scene}};
-  if (fs::exists(fs::path(VEHD_PROGRAM).parent_path() / "vehd_fem")) {
+  if (finite_elements_are_built()) {
     commands.push_back({"mesh", scene, "-o", directory / "mesh.msh"});
     commands.push_back({"check", scene, "--quick", "--ranks", "2", "-o", directory / "check"});
   }

@@ -13,11 +13,11 @@ using namespace vehd::testing;
 
 namespace {
 
-constexpr int kOrder = 32;
+constexpr int kDegree = 32;
 
 struct EffectFixture {
-  Space space{kOrder};
-  Matrix position = asymmetric_shape(kOrder);
+  Space space{kDegree};
+  Matrix position = asymmetric_shape(kDegree);
   Membrane membrane = make_membrane(space, position, {});
 
   [[nodiscard]] Forcing forcing_of(const ExplicitEffect& effect, double time = 0.0) const {
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(spontaneous_curvature_with_bending_is_minus_the_gradient_of
   const double c = -0.6;
   const Matrix force = bending_force({modulus}, membrane) + forcing_of(SpontaneousCurvatureEffect({modulus, c})).force;
   for (const int band : {2, 4, 6}) {
-    Matrix direction = smooth_coefficients(kOrder, band, 3, 160 + band);
+    Matrix direction = smooth_coefficients(kDegree, band, 3, 160 + band);
     direction /= direction.norm();
     const double h = 1e-4;
     const double slope =

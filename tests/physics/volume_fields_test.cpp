@@ -14,6 +14,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(volume_fields)
+
 namespace {
 
 PotentialSources sources_of(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential) {
@@ -98,8 +100,6 @@ struct Example1 {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(volume_fields)
 
 BOOST_AUTO_TEST_CASE(sphere_in_a_uniform_field_has_the_potential_and_field_of_its_dipole) {
   // φ_i = −a z, φ_e = (b/r³ − E) z with V_m = V cos θ; see electric_sphere.

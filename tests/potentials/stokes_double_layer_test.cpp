@@ -7,6 +7,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(stokes_double_layer)
+
 namespace {
 
 const Vector3 kInside(0.25, -0.1, 0.3);
@@ -34,8 +36,6 @@ Matrix rigid_motion(const Matrix& position, const Vector3& a, const Vector3& b) 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(stokes_double_layer)
 
 BOOST_AUTO_TEST_CASE(rigid_motion_gives_minus_half_of_itself) {
   const auto error = [](int order) {

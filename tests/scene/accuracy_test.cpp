@@ -6,6 +6,8 @@
 #include "bie/scene/model_of.hpp"
 #include "tests/scene/scene_text.hpp"
 
+BOOST_AUTO_TEST_SUITE(accuracy)
+
 namespace {
 
 /// A scene whose [numerics] is this.
@@ -14,8 +16,6 @@ std::string with_numerics(const std::string& numerics) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(accuracy)
 
 BOOST_AUTO_TEST_CASE(tolerance_sets_what_the_scene_leaves_open) {
   const vehd::Scene scene = parsed(with_numerics("tolerance = 1e-3\n"));

@@ -8,6 +8,8 @@
 
 #include "tests/scene/scene_text.hpp"
 
+BOOST_AUTO_TEST_SUITE(dimensionless_groups)
+
 namespace {
 
 std::map<std::string, vehd::DimensionlessGroup> groups_of(const vehd::Scene& scene) {
@@ -17,8 +19,6 @@ std::map<std::string, vehd::DimensionlessGroup> groups_of(const vehd::Scene& sce
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(dimensionless_groups)
 
 BOOST_AUTO_TEST_CASE(have_the_values_worked_out_in_si) {
   auto groups = groups_of(parsed(si_scene()));

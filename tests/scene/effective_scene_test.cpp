@@ -8,6 +8,8 @@
 #include "bie/scene/units.hpp"
 #include "tests/scene/scene_text.hpp"
 
+BOOST_AUTO_TEST_SUITE(effective_scene)
+
 namespace {
 
 const std::string every_table = with_appended(
@@ -17,8 +19,6 @@ const std::string every_table = with_appended(
     "[output]\nevery = 0.1\n");
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(effective_scene)
 
 BOOST_AUTO_TEST_CASE(reads_back_to_the_same_scene) {
   const std::string radial =

@@ -9,6 +9,8 @@
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/files.hpp"
 
+BOOST_AUTO_TEST_SUITE(effects_of_a_scene)
+
 namespace {
 
 /// An electric scene; the first appended line is line 12.
@@ -28,8 +30,6 @@ bool has_effect(const std::string& more, const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(effects_of_a_scene)
 
 BOOST_AUTO_TEST_CASE(every_waveform_is_made_of_its_keys) {
   BOOST_TEST(factor("kind = 'dc'", 7.0) == 1.0);

@@ -7,6 +7,8 @@
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/files.hpp"
 
+BOOST_AUTO_TEST_SUITE(hostile_scene)
+
 namespace {
 
 /// A scene that is in order but for `key`, which has this value; the table of the key holds nothing else that is read
@@ -37,8 +39,6 @@ std::string numerics(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(hostile_scene)
 
 BOOST_AUTO_TEST_CASE(no_key_takes_what_is_not_a_finite_number) {
   int count = 0;

@@ -14,6 +14,8 @@
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/runs.hpp"
 
+BOOST_AUTO_TEST_SUITE(initial_shape)
+
 namespace {
 
 using vehd::Matrix;
@@ -59,8 +61,6 @@ double error_of(const std::string& text, const Radius& radius) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(initial_shape)
 
 BOOST_AUTO_TEST_CASE(ellipsoid_has_the_given_axes) {
   const Matrix points = vehd::evaluate_harmonics(

@@ -12,6 +12,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(north_pole)
+
 namespace {
 
 constexpr int kLowest = 4, kHighest = 64;
@@ -64,8 +66,6 @@ SphereTransform transform_of(int order, bool axisymmetric) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(north_pole)
 
 BOOST_AUTO_TEST_CASE(place_is_the_same_on_every_shape_at_every_order_up_to_what_the_order_leaves_out) {
   const GridAngles points = grid_angles(make_grid(8));

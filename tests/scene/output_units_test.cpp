@@ -6,6 +6,8 @@
 
 #include "tests/scene/scene_text.hpp"
 
+BOOST_AUTO_TEST_SUITE(output_units)
+
 namespace {
 
 vehd::OutputUnits units_of(const std::string& text) { return vehd::OutputUnits(parsed(text)); }
@@ -22,8 +24,6 @@ constexpr const char* shown[] = {"length",           "area",      "volume", "tim
                                  "potential/length", "potential", "energy", "force/area"};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(output_units)
 
 BOOST_AUTO_TEST_CASE(si_units_have_the_prefix_that_suits_the_scene) {
   const vehd::OutputUnits units = units_of(si_scene());

@@ -2,6 +2,8 @@
 
 #include "tests/scene/scene_text.hpp"
 
+BOOST_AUTO_TEST_SUITE(reader)
+
 namespace {
 
 /// Message of a scene whose last part is `more`, which starts at line 8.
@@ -13,8 +15,6 @@ std::string radial_scene(const std::string& modes, int order = 8) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(reader)
 
 BOOST_AUTO_TEST_CASE(accepts_a_minimal_scene_with_defaults) {
   const vehd::Scene scene = parsed("[shape]\nkind='ellipsoid'\naxes=[1,1,2]\n[numerics]\ndt=1\nend_time=0\n");

@@ -15,6 +15,8 @@
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
 
+BOOST_AUTO_TEST_SUITE(shape_file)
+
 namespace {
 
 using vehd::Index;
@@ -112,8 +114,6 @@ vehd::UnitsScene random_units(std::mt19937& random) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(shape_file)
 
 BOOST_AUTO_TEST_CASE(a_snapshot_is_taken_over_at_any_order) {
   const StoredRun run(ellipsoid + numerics);

@@ -6,6 +6,8 @@
 #include "bie/scene/dimensionless_groups.hpp"
 #include "tests/scene/scene_text.hpp"
 
+BOOST_AUTO_TEST_SUITE(units)
+
 namespace {
 
 std::string without_line(std::string text, const std::string& start) {
@@ -23,8 +25,6 @@ std::string message_with(const std::string& old_part, const std::string& new_par
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(units)
 
 BOOST_AUTO_TEST_CASE(quantities_are_parsed_however_they_are_spelled) {
   const auto unit_of = [](const char* text) { return vehd::parse_quantity(text)->unit; };

@@ -12,6 +12,8 @@
 #include "tests/scene/key_values.hpp"
 #include "tests/scene/scene_text.hpp"
 
+BOOST_AUTO_TEST_SUITE(written_numbers)
+
 namespace {
 
 /// A number as a scene may spell it, and the double nearest to what is written.
@@ -103,8 +105,6 @@ Reading read(const vehd::KeyDescription& key, const std::string& value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(written_numbers)
 
 BOOST_AUTO_TEST_CASE(every_key_reads_the_number_that_is_written_or_refuses_it_by_its_line) {
   int read_count = 0;

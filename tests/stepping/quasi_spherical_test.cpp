@@ -8,6 +8,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(quasi_spherical)
+
 namespace {
 
 constexpr int kOrder = 8;
@@ -52,8 +54,6 @@ double time_of_turning(double conductivity_ratio, double expected, int steps_unt
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(quasi_spherical)
 
 BOOST_AUTO_TEST_CASE(field_makes_oblate_first_and_turns_prolate_when_the_theory_says) {
   // On a sphere with V = (3/2)E(1 − exp(−t/τ)) the P₂ part of normal stress + 2 tangential stress, which drives an

@@ -16,9 +16,10 @@ namespace vehd {
 
 namespace {
 
-constexpr double kRounding = 1e-12;
+/// Of an angle, and of a distance over the size of a vesicle.
+constexpr double kSamePlace = 1e-12;
 
-bool are_parallel(const Vector3& a, const Vector3& b) { return a.cross(b).norm() <= kRounding * a.norm() * b.norm(); }
+bool are_parallel(const Vector3& a, const Vector3& b) { return a.cross(b).norm() <= kSamePlace * a.norm() * b.norm(); }
 
 /// Unit vectors, no two of them parallel; coordinate axes come first, because nothing is rounded there.
 std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
@@ -65,7 +66,7 @@ std::vector<Vector3> origin_candidates(const Model& model, const State& state) {
   std::vector<Vector3> result{Vector3::Zero()};
   const auto is_away = [](const VesicleState& vesicle) {
     const double size = vesicle.position.bottomRows(vesicle.position.rows() - 1).norm();
-    return vesicle.position.row(0).norm() > kRounding * size;
+    return vesicle.position.row(0).norm() > kSamePlace * size;
   };
   if (is_same_everywhere(model) && std::any_of(state.vesicles.begin(), state.vesicles.end(), is_away)) {
     result.push_back(mean_position(state));

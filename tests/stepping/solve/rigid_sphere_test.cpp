@@ -10,6 +10,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(rigid_sphere, *boost::unit_test::label("slow"))
+
 namespace {
 
 constexpr int kOrder = 10;
@@ -25,8 +27,6 @@ double distance_from_sphere(const Discretisation& discretisation, const State& s
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rigid_sphere, *boost::unit_test::label("slow"))
 
 // Shear (z, 0, 0): the centre moves with the flow there.
 BOOST_AUTO_TEST_CASE(sphere_stays_a_sphere_in_flow_and_field) {

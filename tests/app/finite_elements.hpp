@@ -1,0 +1,9 @@
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+
+/// What tests of them ask for: *boost::unit_test::precondition(finite_elements_are_built).
+inline boost::test_tools::assertion_result finite_elements_are_built(boost::unit_test::test_unit_id = 0) {
+  return std::filesystem::exists(std::filesystem::path(VEHD_PROGRAM).parent_path() / "vehd_fem");
+}
