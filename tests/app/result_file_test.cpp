@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bie/support/file_system.hpp"
+#include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
 namespace {
