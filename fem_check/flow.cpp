@@ -4,14 +4,14 @@
 #include <numbers>
 #include <string>
 
-#include "fem_check/saddle_point.hpp"
+#include "fem_check/stokes_system.hpp"
 
 namespace vehd::fem_check {
 
 /// The unknown is the disturbance u = v − A x.
 struct FlowSolution::Data {
   std::shared_ptr<const Space> space;
-  std::unique_ptr<dealii::DoFHandler<3>> pressure_dofs;
+  std::shared_ptr<const dealii::DoFHandler<3>> pressure_dofs;
   Matrix3 gradient;
   std::array<dealii::Vector<double>, 3> velocity;
   dealii::Vector<double> pressure;
@@ -24,16 +24,20 @@ namespace {
 
 using FlowData = FlowSolution::Data;
 
-void require_valid(const Discretisation& discretisation, const FlowProblem& problem) {
+std::shared_ptr<const Space> space_for_flow(const Discretisation& discretisation, const Viscosities& viscosities) {
   if (discretisation.degree() < 2) {
     throw std::invalid_argument("the flow takes elements of degree 2 at least, the discretisation has degree " +
                                 std::to_string(discretisation.degree()));
   }
-  for (const double viscosity : {problem.viscosity_in, problem.viscosity_out}) {
+  for (const double viscosity : {viscosities.inside, viscosities.outside}) {
     if (!(viscosity > 0.0)) {
       throw std::invalid_argument("viscosity is " + std::to_string(viscosity) + "; must be positive");
     }
   }
+  return discretisation.space();
+}
+
+void require_valid(const FlowProblem& problem) {
   if (std::abs(problem.gradient.trace()) > 1e-12 * problem.gradient.norm()) {
     throw std::invalid_argument("the background flow has divergence " + std::to_string(problem.gradient.trace()) +
                                 "; an incompressible fluid has none");
@@ -64,6 +68,23 @@ Constraints tie_sheets(const Space& space) {
   return constraints;
 }
 
+struct Resultant {
+  Vector3 force = Vector3::Zero();
+  Vector3 torque = Vector3::Zero();
+};
+
+/// Net force and torque about the centre of the outer sphere.
+Resultant resultant(const Space& space, const Vectors& force) {
+  const SurfacePoints& rule = space.trace->rule();
+  const Vector3 centre = space.mesh->centre();
+  Resultant result;
+  for (Eigen::Index i = 0; i < rule.size(); ++i) {
+    result.force += rule.weight[i] * force.col(i);
+    result.torque += rule.weight[i] * (rule.position.col(i) - centre).cross(Vector3(force.col(i)));
+  }
+  return result;
+}
+
 Vector values_at(const Space& space, const dealii::DoFHandler<3>& handler, const dealii::Vector<double>& nodal,
                  const VolumePoints& points) {
   Vector result(points.size());
@@ -75,54 +96,66 @@ Vector values_at(const Space& space, const dealii::DoFHandler<3>& handler, const
 
 }  // namespace
 
-FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem) {
-  require_valid(discretisation, problem);
-  const auto data = std::make_shared<FlowData>();
-  data->space = discretisation.space();
-  data->gradient = problem.gradient;
-  const Space& space = *data->space;
-  const SurfacePoints& rule = space.trace->rule();
-  const Vector3 centre = space.mesh->centre();
-  Stopwatch watch;
+StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity)
+    : space_(space_for_flow(discretisation, viscosity)), viscosity_(viscosity), constraints_(tie_sheets(*space_)) {
+  pressure_dofs_ = std::make_shared<dealii::DoFHandler<3>>(space_->triangulation);
+  pressure_dofs_->distribute_dofs(dealii::FE_Q<3>(space_->element.degree - 1));
+  matrix_ = std::make_unique<SaddlePoint>(*space_, *pressure_dofs_, constraints_, viscosity_);
+}
 
-  const Constraints constraints = tie_sheets(space);
-  data->pressure_dofs = std::make_unique<dealii::DoFHandler<3>>(space.triangulation);
-  data->pressure_dofs->distribute_dofs(dealii::FE_Q<3>(space.element.degree - 1));
-  const SaddlePoint system(space, *data->pressure_dofs, constraints, {problem.viscosity_in, problem.viscosity_out});
+Blocks StokesSystem::right_side(const FlowProblem& problem) const {
+  require_valid(problem);
+  const SurfacePoints& rule = space_->trace->rule();
+  const Vector3 centre = space_->mesh->centre();
   const Vectors force = problem.force(rule);
-  for (Eigen::Index i = 0; i < rule.size(); ++i) {
-    data->force += rule.weight[i] * force.col(i);
-    data->torque += rule.weight[i] * (rule.position.col(i) - centre).cross(Vector3(force.col(i)));
-  }
+  const Resultant net = resultant(*space_, force);
   // The background flow has a traction jump of its own where viscosities differ.
   const Matrix3 background =
-      (problem.viscosity_in - problem.viscosity_out) * (problem.gradient + problem.gradient.transpose());
+      (viscosity_.inside - viscosity_.outside) * (problem.gradient + problem.gradient.transpose());
   const Vectors traction = force - background * rule.normal;
-  Blocks b = system.zero();
+  Blocks b = matrix_->zero();
   for (int d = 0; d < 3; ++d) {
-    const Vector functional = space.trace->integrate(traction.row(d).transpose());
-    add_membrane_functionals(space, constraints, functional, Vector::Zero(functional.size()), b.block(d));
+    const Vector functional = space_->trace->integrate(traction.row(d).transpose());
+    add_membrane_functionals(*space_, constraints_, functional, Vector::Zero(functional.size()), b.block(d));
     add_outer_functional(
-        space, constraints,
-        [&](const Vector3& x) { return outer_data(x - centre, data->force, data->torque, problem.viscosity_out)[d]; },
+        *space_, constraints_,
+        [&](const Vector3& x) { return outer_data(x - centre, net.force, net.torque, viscosity_.outside)[d]; },
         b.block(d));
   }
   b.compress(dealii::VectorOperation::add);
-  Cost& cost = data->cost;
-  const Blocks x = system.solve(b, problem.tolerance, cost.iterations);
+  return b;
+}
+
+FlowSolution StokesSystem::solution(const FlowProblem& problem, const Blocks& x, const Cost& cost) const {
+  const auto data = std::make_shared<FlowData>();
+  data->space = space_;
+  data->pressure_dofs = pressure_dofs_;
+  data->gradient = problem.gradient;
+  const Resultant net = resultant(*space_, problem.force(space_->trace->rule()));
+  data->force = net.force;
+  data->torque = net.torque;
   for (unsigned d = 0; d < 3; ++d) {
     data->velocity[d] = dealii::Vector<double>(x.block(d));
-    constraints.distribute(data->velocity[d]);
+    constraints_.distribute(data->velocity[d]);
   }
   data->pressure = dealii::Vector<double>(x.block(3));
-
-  cost.n_cells = discretisation.n_cells();
-  cost.n_unknowns = static_cast<long>(b.size());
-  cost.seconds_setup = space.seconds_setup;
-  cost.seconds_assembly = system.seconds_assembly();
-  cost.seconds_solve = watch.lap() - cost.seconds_assembly;
-  cost.peak_memory_bytes = peak_memory_bytes();
+  data->cost = cost;
+  data->cost.n_cells = static_cast<int>(space_->triangulation.n_active_cells());
+  data->cost.n_unknowns = static_cast<long>(x.size());
+  data->cost.seconds_setup = space_->seconds_setup;
+  data->cost.seconds_assembly = matrix_->seconds_assembly();
+  data->cost.peak_memory_bytes = peak_memory_bytes();
   return FlowSolution(data);
+}
+
+FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem) {
+  Stopwatch watch;
+  const StokesSystem system(discretisation, {problem.viscosity_in, problem.viscosity_out});
+  const Blocks b = system.right_side(problem);
+  Cost cost;
+  const Blocks x = system.matrix().solve(b, problem.tolerance, cost.iterations);
+  cost.seconds_solve = watch.lap() - system.matrix().seconds_assembly();
+  return system.solution(problem, x, cost);
 }
 
 FlowTraces FlowSolution::on_surface(const SurfacePoints& points) const {

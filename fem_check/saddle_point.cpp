@@ -1,6 +1,4 @@
-#include "fem_check/saddle_point.hpp"
-
-#include <sstream>
+#include "fem_check/minimal_residuals.hpp"
 
 namespace vehd::fem_check {
 
@@ -256,27 +254,13 @@ void SaddlePoint::vmult(Blocks& result, const Blocks& x) const {
   }
 }
 
+void SaddlePoint::precondition(Blocks& result, const Blocks& x) const {
+  BlockPreconditioner{diffusion_.preconditioner(), pressure_inverse_}.vmult(result, x);
+}
+
 Blocks SaddlePoint::solve(const Blocks& b, double tolerance, int& iterations) const {
-  Blocks x = zero();
-  const BlockPreconditioner preconditioner{diffusion_.preconditioner(), pressure_inverse_};
-  // Minimal residuals measures the residual in the norm of the preconditioner.
-  Blocks preconditioned = zero();
-  preconditioner.vmult(preconditioned, b);
-  const double norm = std::sqrt(std::max(0.0, preconditioned * b));
-  if (!std::isfinite(norm)) throw SolveError("the right-hand side of the flow is not finite");
-  if (norm == 0.0) return x;
-  dealii::SolverControl control(3000, tolerance * norm);
-  dealii::SolverMinRes<Blocks> solver(control);
-  try {
-    solver.solve(*this, x, b, preconditioner);
-  } catch (const dealii::SolverControl::NoConvergence& failure) {
-    std::ostringstream message;
-    message << "minimal residuals stopped after " << failure.last_step << " iterations at the residual "
-            << failure.last_residual / norm << " relative to the start; asked for " << tolerance;
-    throw SolveError(message.str());
-  }
-  iterations += static_cast<int>(control.last_step());
-  return x;
+  return minimal_residuals(*this, BlockPreconditioner{diffusion_.preconditioner(), pressure_inverse_}, b, tolerance,
+                           iterations);
 }
 
 }  // namespace vehd::fem_check

@@ -26,6 +26,9 @@ class SaddlePoint {
 
   /// Symmetric: [[A, Bᵀ], [B, 0]] with B = −∫ q div u.
   void vmult(Blocks& result, const Blocks& x) const;
+  /// An approximate inverse of the diagonal, symmetric and positive definite: multigrid for A, the pressure mass over μ
+  /// for the Schur complement. Further blocks are left alone, here and in vmult.
+  void precondition(Blocks& result, const Blocks& x) const;
   /// Minimal residuals from zero with multigrid for A and the pressure mass over μ for the Schur complement.
   /// @throws SolveError if the residual does not fall to `tolerance` times that of zero
   Blocks solve(const Blocks& right_side, double tolerance, int& iterations) const;

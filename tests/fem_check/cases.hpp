@@ -30,6 +30,15 @@ inline Discretisation discretise(const meshes::FrozenShape& shape, const Level& 
   return {std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options)), level.degree, ranks};
 }
 
+/// A mesh of which the membrane is what matters.
+inline meshes::HexMesh membrane_mesh(const meshes::FrozenShape& shape, int cells_per_edge) {
+  meshes::BlockMeshOptions options;
+  options.cells_per_edge = cells_per_edge;
+  options.blend_layers = 1;
+  options.shell_layers = 2;
+  return meshes::make_block_mesh(shape, options);
+}
+
 inline meshes::FrozenShape unit_sphere() {
   return meshes::FrozenShape(meshes::testing::project(1, [](const meshes::Point& r) { return r; }));
 }

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+
+#include "fem_check/discretisation.hpp"
+#include "fem_check/surface_elements.hpp"
+
+namespace vehd::fem_check {
+
+/// E_b = κ_B ∫ (H − c)² dA, H = −1 on the unit sphere.
+struct BendingEnergy {
+  double modulus = 0.0;                ///< κ_B
+  double spontaneous_curvature = 0.0;  ///< c, as H; the usual C₀ is −2c
+};
+
+/// Bending of a surface of isoparametric elements, with nothing but the positions of its nodes. The curvature vector
+/// h = 2H n is a nodal field of the same degree,
+///
+///   ∫ h·w dA = −∫ ∇_γ x:∇_γ w dA for every nodal w,
+///
+/// and the energy is E_h = κ_B/4 ∫ |h − 2c n|² dA. The force is minus its derivative in the positions, exactly that of
+/// the discrete energy: with y = κ_B/2 (h − 2c P n), P the L2 projection on nodal fields,
+///
+///   δE_h[w] = ∫ [(κ_B/4 |h − 2cn|² − h·y − ∇_γ·y) ∇_γ·w + κ_B c h·(∇_γ w)ᵀn + tᵇ·∂_a w tᵃ·∂_b y
+///                − gᵃᵇ (n·∂_a w)(n·∂_b y)] dA.
+///
+/// Accuracy: derivative of the energy to rounding; rates of convergence and the forces of ellipsoids in
+/// tests/fem_check/bending_test.cpp
+/// Source: Dziuk 2008; Barrett, Garcke and Nürnberg 2008; docs/weak_forms.md
+class BendingElements {
+ public:
+  /// @param degree  of the surface and of h, at least 2: with degree 1, h does not converge
+  /// @throws std::invalid_argument for a lower degree or a mesh of tetrahedra
+  BendingElements(const meshes::VolumeMesh& mesh, int degree);
+
+  [[nodiscard]] const SurfaceElements& surface() const { return surface_; }
+  /// h at the nodes, [3 x nodes].
+  [[nodiscard]] Vectors curvature_vector(const Vectors& positions) const;
+  [[nodiscard]] double energy(const BendingEnergy& energy, const Vectors& positions) const;
+  /// −δE_h[w] for the nodal functions w = φ e_d, row d: force times length, [3 x nodes].
+  [[nodiscard]] Vectors force_functional(const BendingEnergy& energy, const Vectors& positions) const;
+
+ private:
+  class Projection;
+  SurfaceElements surface_;
+};
+
+/// A functional on nodal fields of one degree, on those of a lower degree on the same faces, which are among them.
+Vectors restricted(const Vectors& functional, const FaceNodes& from, const FaceNodes& to);
+
+/// f_b of the finite elements as a field: the function of the trace space of the discretisation with
+/// ∫ f_b·w dA = −δE_b[w] for every trace function w, for FlowProblem::force.
+/// @param degree  of the surface on which the energy is taken; at least that of the discretisation
+/// @throws std::invalid_argument for a lower degree
+VectorOnSurface bending_force(const Discretisation& discretisation, const BendingEnergy& energy, int degree);
+
+}  // namespace vehd::fem_check

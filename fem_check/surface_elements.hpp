@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fem_check/types.hpp"
+#include "meshes/volume_mesh.hpp"
+
+/// Finite elements on the membrane alone: nodal functions of any degree on the faces of γ, and a geometry made of them.
+/// Every rank of MPI has all of it: a surface is small beside its volume.
+namespace vehd::fem_check {
+
+/// Continuous nodal functions of one degree on the faces of γ: Gauss–Lobatto points of every face, those on common
+/// edges shared. Faces, and the coordinates on them, are those of SurfacePoints.
+class FaceNodes {
+ public:
+  /// @throws std::invalid_argument for a degree below 1 or a mesh of tetrahedra
+  FaceNodes(const meshes::VolumeMesh& mesh, int degree);
+
+  [[nodiscard]] int degree() const { return degree_; }
+  /// Nodes on the whole of γ.
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+  [[nodiscard]] int n_faces() const { return static_cast<int>(of_face_.size()); }
+  /// Numbers of the (degree + 1)² nodes of one face, first face coordinate fastest.
+  [[nodiscard]] const std::vector<int>& of_face(int face) const { return of_face_[face]; }
+
+ private:
+  int degree_;
+  Eigen::Index size_ = 0;
+  std::vector<std::vector<int>> of_face_;
+};
+
+/// Nodal functions of one degree at points of the unit square: [points x nodes].
+struct FaceShape {
+  Eigen::MatrixXd value;
+  std::array<Eigen::MatrixXd, 2> derivative;  ///< by either face coordinate
+};
+FaceShape face_shape(int degree, const Eigen::Matrix2Xd& points);
+/// The nodes themselves, in the order of FaceNodes::of_face.
+Eigen::Matrix2Xd face_node_points(int degree);
+
+/// Geometry of one face at the points of a rule.
+struct FacePatch {
+  std::array<Vectors, 2> tangent;  ///< t_a = ∂x/∂s_a
+  std::array<Vectors, 2> dual;     ///< tᵃ with tᵃ·t_b = δᵃ_b: ∇_γ u = tᵃ ∂u/∂s_a
+  Vectors normal;                  ///< outward unit normal
+  Vector weight;                   ///< ∫ f dA = Σ f weight
+};
+
+/// γ as an isoparametric surface of one degree, with a Gauss rule on every face. The nodes lie on the shape itself;
+/// all functions of geometry take their positions, so that the surface can be varied.
+class SurfaceElements {
+ public:
+  SurfaceElements(const meshes::VolumeMesh& mesh, int degree, int points_per_edge);
+
+  [[nodiscard]] const FaceNodes& nodes() const { return nodes_; }
+  /// Of the nodes on the shape, [3 x nodes].
+  [[nodiscard]] const Vectors& positions() const { return positions_; }
+  /// The functions of the geometry at the points of the rule.
+  [[nodiscard]] const FaceShape& shape() const { return shape_; }
+  /// Points of the rule in the unit square, first coordinate fastest.
+  [[nodiscard]] const Eigen::Matrix2Xd& rule() const { return rule_; }
+  [[nodiscard]] FacePatch patch(int face, const Vectors& positions) const;
+
+ private:
+  FaceNodes nodes_;
+  Eigen::Matrix2Xd rule_;
+  Vector rule_weight_;
+  FaceShape shape_;
+  Vectors positions_;
+  std::vector<double> orientation_;  // of t_1 × t_2 against the outward normal
+};
+
+/// Columns of a field at the nodes of one face.
+Vectors at_nodes(const Vectors& nodal, const std::vector<int>& of_face);
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+
+#include "fem_check/inverse_root.hpp"
+#include "fem_check/surface_matrices.hpp"
+
+namespace vehd::fem_check {
+
+/// The tension λ on γ, continuous and of degree k − 1 beside a velocity of degree k: Taylor–Hood elements of the
+/// surface. λ and the condition that γ keeps its area elements are two sides of one matrix,
+///
+///   C_d[χ, φ] = ∫ χ (∇_γ φ)_d dA:  f_λ[w] = −∫ λ ∇_γ·w dA = −Σ_d λᵀ C_d w_d,  ∫ χ ∇_γ·v dA = Σ_d χᵀ C_d v_d.
+///
+/// Stable: inf-sup constants of this pair and of one that is not in tests/fem_check/tension_elements_test.cpp.
+/// Source: paper Eqs. (1e), (2); docs/weak_forms.md
+class TensionElements {
+ public:
+  /// @param tension_degree  k − 1 for the stable pair
+  TensionElements(const meshes::VolumeMesh& mesh, int velocity_degree, int tension_degree);
+
+  [[nodiscard]] const FaceNodes& velocity_nodes() const { return velocity_nodes_; }
+  [[nodiscard]] const FaceNodes& tension_nodes() const { return tension_nodes_; }
+  /// C_d, [tension nodes x velocity nodes].
+  [[nodiscard]] const std::array<SurfaceMatrix, 3>& divergence() const { return divergence_; }
+  /// ∫ χ χ' dA and ∫ ∇_γχ·∇_γχ' dA.
+  [[nodiscard]] const SurfaceMatrix& mass() const { return mass_; }
+  [[nodiscard]] const SurfaceMatrix& stiffness() const { return stiffness_; }
+  /// ∫ χ ∇_γ·(A x) dA.
+  [[nodiscard]] Vector divergence_of_linear_flow(const Matrix3& gradient) const;
+  /// λ less its mean over γ.
+  [[nodiscard]] Vector without_mean(const Vector& tension) const;
+  /// λ at points of γ.
+  [[nodiscard]] Vector evaluate(const Vector& tension, const SurfacePoints& points) const;
+
+  /// √(∫(H − H̄)² dA / ∫H² dA) of the mesh, 0 on a sphere: how much of the force of a constant tension, 2λH n, is more
+  /// than a pressure.
+  [[nodiscard]] double variation_of_curvature() const { return variation_of_curvature_; }
+  /// Radius of the sphere of equal area.
+  [[nodiscard]] double radius() const { return radius_; }
+  /// Bound of the eigenvalues of the surface Laplacian on tensions.
+  [[nodiscard]] double largest_eigenvalue() const { return largest_eigenvalue_; }
+
+ private:
+  SurfaceElements surface_;
+  FaceNodes velocity_nodes_;
+  FaceNodes tension_nodes_;
+  std::array<SurfaceMatrix, 3> divergence_;
+  SurfaceMatrix mass_, stiffness_;
+  double radius_ = 0.0;
+  double largest_eigenvalue_ = 0.0;
+  double variation_of_curvature_ = 0.0;
+};
+
+/// The tension that answers a rate of expansion of γ, but for a factor near 1:
+///
+///   2 (μ_i + μ_e) (−Δ_γ + 1/R²)^(−1/2).
+///
+/// On the unit sphere at equal viscosities a tension Y_n makes the membrane contract at
+/// n (n + 1) [(n + 2)²/(2n + 3) + (n − 1)²/(2n − 1)]/(2n + 1)² Y_n/μ, by the eigenvalues of the single layer
+/// (docs/conventions.md): √(n (n + 1) + 1)/(4μ) but for a factor between 0.92 and 1.
+class TensionPreconditioner {
+ public:
+  /// @param constant_is_free  leaves constant tensions alone: they do nothing
+  TensionPreconditioner(const TensionElements& elements, double viscosity_in, double viscosity_out,
+                        bool constant_is_free);
+
+  /// @param residual  products with the functions of the tension
+  [[nodiscard]] Vector apply(const Vector& residual) const;
+
+ private:
+  double scale_;
+  bool constant_is_free_;
+  Vector mass_of_one_;
+  InverseRoot root_;
+};
+
+}  // namespace vehd::fem_check
