@@ -11,7 +11,7 @@
 #                                             sanitizers
 #   cmake -DSTEP=fuzz -P bie/setup.cmake      installs clang, fuzzes each reader of files for 10 minutes; -DSECONDS=60
 #                                             before -P for another time
-#   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture and table of the pages that the program measures itself
+#   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture of the pages, and every table that the program measures itself
 #   cmake -DSTEP=site -P bie/setup.cmake   makes one site of the pages and the interfaces of all headers, in build/site;
 #                                          compiles nothing
 #   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64, in build-levels, lets lintian read
@@ -106,7 +106,10 @@ if(STEP MATCHES "^(test|sanitize)$")
   need_program(zsh zsh)
   # They read the words of pictures back.
   need_program(poppler-utils pdftotext)
-  # They open a report in a browser, make a movie and read a run from Python.
+endif()
+if(STEP MATCHES "^(test|sanitize|docs)$")
+  # The tests, and the pages with pictures of their own, open a report in a browser, make a movie and read a run from
+  # Python.
   need_program(chromium chromium)
   need_program(chromium-driver chromedriver)
   need_python_module(python3-selenium selenium)

@@ -15,10 +15,12 @@
 #include "bie/bench/symmetry.hpp"
 #include "bie/bench/threads.hpp"
 #include "bie/bench/time.hpp"
+#include "bie/scene/given_time.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/stepping/time/time_rule.hpp"
+#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -37,9 +39,10 @@ struct BenchOptions {
 struct SceneOptions {
   std::string scene_file;
   std::vector<int> orders, threads, time_orders;
-  std::vector<double> steps, tolerances;
+  std::vector<std::string> steps;
+  std::vector<double> tolerances;
   int order = 0;
-  double at = 0.0;
+  std::string at;
   bool quick = false;
   std::string docs = "docs";
   std::vector<std::string> only;
@@ -99,15 +102,25 @@ void add_space(CLI::App& bench, ExitCode& exit_code) {
   });
 }
 
+/// As a number of the scene, as which one without a unit counts.
+double positive_time(const char* option, const std::string& text, const Scene& scene) {
+  const double time = number_of_time(text, scene.units, OutputUnit{});
+  if (time > 0.0) return time;
+  throw InputError(fmt::format("{}: {} is not above 0", option, text));
+}
+
 void add_time(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command =
       bench.add_subcommand("time", "Errors against step size, steps and seconds, and against the tolerance");
   const auto options = std::make_shared<SceneOptions>();
   add_scene(*command, *options);
   auto* choice = command->add_option_group("what varies");
-  choice->add_option("--dt", options->steps, "Step sizes, each half of the one before")
+  choice
+      ->add_option("--dt", options->steps,
+                   "Step sizes as \"0.5 ms\" or numbers of the scene, each half of the one before")
+      ->type_name("T,T,...")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(time_text());
   choice->add_option("--tolerance", options->tolerances, "Tolerances, falling; the last is the reference")
       ->delimiter(',')
       ->check(CLI::Range(1e-9, 0.1));
@@ -117,16 +130,19 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       ->check(CLI::Range(1, highest_time_order));
   command->add_option("--degree,--order", options->order, "Degree p for --dt; that of the scene if not given")
       ->check(CLI::Range(4, 64));
-  command->add_option("--at", options->at, "Time at which the values are taken")
+  command->add_option("--at", options->at, "Time at which the values are taken, as \"5 ms\" or a number of the scene")
+      ->type_name("T")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(time_text());
   add_repeats(*command, options->bench, 1);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
     Scene scene = read_scene(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
+    std::vector<double> steps;
+    for (const std::string& step : o.steps) steps.push_back(positive_time("--dt", step, scene));
     return bench_time({.scene = scene,
-                       .at = o.at,
-                       .steps = o.steps,
+                       .at = positive_time("--at", o.at, scene),
+                       .steps = steps,
                        .time_orders = o.time_orders,
                        .tolerances = o.tolerances,
                        .repeats = o.bench.repeats},

@@ -21,7 +21,7 @@ int default_ranks() { return std::clamp(static_cast<int>(std::thread::hardware_c
 
 struct CheckOptions {
   SceneChoice scene;  ///< or a run.h5
-  std::optional<double> time;
+  std::optional<std::string> time;
   std::string directory;
   bool quick = false;
   bool no_plot = false;
@@ -74,7 +74,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("FILE", options->scene.source.file, "run.h5 of a run, or a scene (.toml) for its initial state")
       ->required();
   add_settings(*command, options->scene);
-  command->add_option("--time", options->time, "Time; the nearest snapshot is taken, the last one if left out");
+  add_snapshot_time(*command, options->time);
   command
       ->add_option("-o,--output", options->directory,
                    "Directory for the results; \"check\" beside a run.h5, out/NAME_check for NAME.toml")

@@ -7,6 +7,7 @@
 #include "bie/app/commands.hpp"
 #include "bie/files/versions.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/interruption.hpp"
 #include "bie/support/memory.hpp"
 #include "bie/support/output_error.hpp"
 
@@ -51,6 +52,8 @@ ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_
     return fail(ExitCode::wrong_input, error.what());
   } catch (const OutputError& error) {
     return fail(ExitCode::wrong_input, error.what());
+  } catch (const Interrupted& error) {
+    return fail(ExitCode::stopped_early, error.what());
   } catch (const ConvergenceError& error) {
     // No defect of the program: what it was given asks for more than its resolution can do.
     return fail(ExitCode::wrong_input, fmt::format("vehd {}: what the input asks for cannot be computed: {}",

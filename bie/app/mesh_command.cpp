@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
+#include "bie/app/scene_choice.hpp"
 #include "bie/comparison/frozen_state.hpp"
 #include "bie/comparison/volume_mesh.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 struct MeshOptions {
   std::string file;
-  std::optional<double> time;
+  std::optional<std::string> time;
   std::string output;
   std::string family = "hex";
   int refine = 0;
@@ -36,7 +37,7 @@ void add_mesh_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("mesh", "Write the gmsh volume mesh of a frozen shape");
   const auto options = std::make_shared<MeshOptions>();
   command->add_option("FILE", options->file, "run.h5 of a run, or a scene (.toml) for its initial shape")->required();
-  command->add_option("--time", options->time, "Time; the nearest snapshot is taken, the last one if left out");
+  add_snapshot_time(*command, options->time);
   command->add_option("-o,--output", options->output, "Mesh to write (MSH 4.1)")->required()->type_name("FILE.msh");
   command->add_option("--family", options->family, "hex: curved blocks; tet: unstructured tetrahedra")
       ->check(CLI::IsMember({"hex", "tet"}))

@@ -35,6 +35,7 @@ nlohmann::json json_of(const RunPlan& plan) {
   for (const PlannedOperator& op : plan.operators) json["operators"].push_back({{"name", op.name}, {"why", op.why}});
   json["kernel_evaluations_per_shape"] = plan.kernel_evaluations;
   json["shapes_per_step"] = plan.shapes_per_step;
+  json["jumps"] = plan.n_jumps;
   json["groups"] = nlohmann::json::array();
   for (const DimensionlessGroup& group : plan.groups) {
     json["groups"].push_back({{"name", group.name},
@@ -84,8 +85,9 @@ void print(const RunPlan& plan) {
   print_groups_and_times(plan);
   fmt::print("absent     {}\n", fmt::join(plan.absent, ", "));
   fmt::print("symmetry   {}\n", plan.symmetry);
-  fmt::print("operators  ({} kernel evaluations each at every new shape, {} a step)\n", plan.kernel_evaluations,
-             plan.shapes_per_step);
+  const std::string jumps = plan.n_jumps == 0 ? "" : fmt::format(", one more at each jump ({})", plan.n_jumps);
+  fmt::print("operators  ({} kernel evaluations each at every new shape, {} a step{})\n", plan.kernel_evaluations,
+             plan.shapes_per_step, jumps);
   for (const PlannedOperator& op : plan.operators) fmt::print("  {:<22} {}\n", op.name, op.why);
   fmt::print("unknowns   {} a step\n", plan.unknowns);
   if (!plan.stops.empty()) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bie/app/commands.hpp"
+#include "bie/app/scene_choice.hpp"
 #include "bie/pictures/movie.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/support/errors.hpp"
@@ -17,7 +18,7 @@ struct PlotOptions {
   std::string output;
   std::string format;
   std::string field;
-  std::vector<double> times;
+  std::vector<std::string> times;
   ShapesStyle style;
   bool movie = false;
   CommonOptions common;
@@ -55,7 +56,7 @@ ExitCode plot(const PlotOptions& options) {
   }
   const PlotResult drawn = format ? plot_file(options, task, *format) : plot_run(task);
   for (const std::string& note : drawn.notes) fmt::print(stderr, "{}\n", note);
-  nlohmann::json result{{"times", drawn.times}};
+  nlohmann::json result{{"times", drawn.times}, {"time_unit", drawn.time_unit}};
   for (const auto& picture : drawn.pictures) {
     fmt::print("{}\n", picture.string());
     result["pictures"].push_back(picture.string());
@@ -84,12 +85,13 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
   command
       ->add_option(
           "--times", options->times,
-          fmt::format("Times of the shapes, at most {}, the nearest snapshots are taken; without them as many, "
-                      "chosen by how much the shape changes",
+          fmt::format("Times of the shapes as \"0.5 ms\", or numbers in the unit of history.csv, at most {}, the "
+                      "nearest snapshots are taken; without them as many, chosen by how much the shape changes",
                       most_shapes))
       ->delimiter(',')
       ->type_name("T,T,...")
-      ->expected(1, most_shapes);
+      ->expected(1, most_shapes)
+      ->check(time_text());
   command
       ->add_option("--view", options->style.view,
                    "Where one looks from: along x, y or z, or a direction towards the eye as 1,1,0.5; across the plane "

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bie/scene/given_time.hpp"
 #include "bie/scene/nearest_name.hpp"
 
 namespace vehd {
@@ -57,6 +58,19 @@ void add_threads_option(CLI::App& command) {
           "Number of threads; "
           "OMP_NUM_THREADS, or all that the machine has, if not given")
       ->check(CLI::Range(1, most_threads));
+}
+
+CLI::Validator time_text() {
+  return CLI::Validator([](const std::string& text) { return problem_of_time(text); }, "");
+}
+
+void add_snapshot_time(CLI::App& command, std::optional<std::string>& time) {
+  command
+      .add_option("--time", time,
+                  "Time as \"0.5 ms\", or a number in the unit of history.csv; the nearest snapshot is taken, the last "
+                  "one if left out")
+      ->type_name("T")
+      ->check(time_text());
 }
 
 std::filesystem::path default_directory(const std::filesystem::path& scene_file) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "bie/scene/settings.hpp"
@@ -24,6 +25,11 @@ void add_settings(CLI::App& command, SceneChoice& scene);
 
 /// Adds --threads, which acts at once.
 void add_threads_option(CLI::App& command);
+
+/// Accepts what may be a time: a number, or one with a unit of time.
+CLI::Validator time_text();
+/// Adds --time, that of a snapshot of a run.
+void add_snapshot_time(CLI::App& command, std::optional<std::string>& time);
 
 /// Where a command writes what it makes of a scene, unless it is told otherwise: out/NAME of NAME.toml.
 std::filesystem::path default_directory(const std::filesystem::path& scene_file);

@@ -7,6 +7,7 @@
 
 #include "bie/bench/doc_tables.hpp"
 #include "bie/bench/methods.hpp"
+#include "bie/bench/pages.hpp"
 #include "bie/bench/parts.hpp"
 #include "bie/bench/scenes.hpp"
 #include "bie/bench/space.hpp"
@@ -245,6 +246,15 @@ class AllBenches {
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
 
+  /// Whole runs: a trial leaves them out.
+  void pages() {
+    if (task_.quick || !task_.output.plot) return;
+    observer_.section("pictures that pages make by their own commands");
+    for (const std::string& page : renew_pictures_of_pages(task_.docs, observer_)) {
+      without_.push_back("pictures of " + page);
+    }
+  }
+
   void report() const {
     std::string text = fmt::format("\npages and pictures in {} are renewed", task_.docs.string());
     if (!without_.empty()) text += fmt::format(", without {}", fmt::join(without_, ", "));
@@ -256,7 +266,7 @@ class AllBenches {
     const char* name;
     void (AllBenches::*run)();
   };
-  static const std::array<Bench, 9> kBenches;
+  static const std::array<Bench, 10> kBenches;
 
   const AllTask& task_;
   BenchObserver& observer_;
@@ -267,15 +277,16 @@ class AllBenches {
   nlohmann::ordered_json record_;
 };
 
-const std::array<AllBenches::Bench, 9> AllBenches::kBenches = {{{"scenes", &AllBenches::scenes},
-                                                                {"space", &AllBenches::space},
-                                                                {"time", &AllBenches::time},
-                                                                {"tolerances", &AllBenches::tolerances},
-                                                                {"parts", &AllBenches::parts},
-                                                                {"threads", &AllBenches::threads},
-                                                                {"symmetry", &AllBenches::symmetry},
-                                                                {"methods", &AllBenches::methods},
-                                                                {"stability", &AllBenches::stability}}};
+const std::array<AllBenches::Bench, 10> AllBenches::kBenches = {{{"scenes", &AllBenches::scenes},
+                                                                 {"space", &AllBenches::space},
+                                                                 {"time", &AllBenches::time},
+                                                                 {"tolerances", &AllBenches::tolerances},
+                                                                 {"parts", &AllBenches::parts},
+                                                                 {"threads", &AllBenches::threads},
+                                                                 {"symmetry", &AllBenches::symmetry},
+                                                                 {"methods", &AllBenches::methods},
+                                                                 {"stability", &AllBenches::stability},
+                                                                 {"pages", &AllBenches::pages}}};
 
 }  // namespace
 

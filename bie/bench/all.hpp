@@ -19,8 +19,9 @@ struct AllTask {
 /// In the order in which they are run.
 std::vector<std::string> names_of_benches();
 
-/// Runs every scene and every bench and renews the pictures and the tables of the pages from what they give. What needs
-/// the finite elements is left as it is where they are not built, and said.
+/// Runs every scene, every bench and the commands by which pages make pictures of their own, and renews the pictures
+/// and the tables of the pages from what they give. What needs the finite elements is left as it is where they are not
+/// built, and said.
 /// @return name and machine of every bench
 /// @throws InputError if there are no pages
 nlohmann::ordered_json bench_all(const AllTask& task, BenchObserver& observer);

@@ -15,6 +15,8 @@ constexpr const char* kBegin = "<!-- table ";
 constexpr const char* kBeginEnd = " -->\n";
 constexpr const char* kEnd = "<!-- end of table -->";
 
+}  // namespace
+
 std::vector<std::filesystem::path> pages_of(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> pages;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -23,8 +25,6 @@ std::vector<std::filesystem::path> pages_of(const std::filesystem::path& folder)
   std::sort(pages.begin(), pages.end());
   return pages;
 }
-
-}  // namespace
 
 int put_table(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
   int count = 0;

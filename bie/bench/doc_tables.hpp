@@ -3,8 +3,12 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace vehd {
+
+/// The pages (Markdown) in a folder and below it, in order.
+std::vector<std::filesystem::path> pages_of(const std::filesystem::path& folder);
 
 /// Puts a table into the pages (.md) of a folder and its subfolders: between the lines "<!-- table NAME -->" and
 /// "<!-- end of table -->", wherever they stand.

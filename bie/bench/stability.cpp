@@ -159,7 +159,10 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
     const std::optional<Checkpoint> none;
     const RunTask run{hard.scene, paths, none};
     const RunOutcome end = simulate(run, interruption);
-    if (interruption.requested()) throw InputError("stopped by a signal");
+    if (interruption.requested()) {
+      throw Interrupted(
+          fmt::format("stopped by a signal after {} of {} cases; there is no table", table.rows.size(), cases.size()));
+    }
     bool failed = false;
     const std::vector<BenchCell> row = row_of(hard, run, end, task.brief, failed);
     add_row(table, row, observer);

@@ -31,7 +31,7 @@ std::filesystem::path draw_case(const RunPaths& paths, const std::filesystem::pa
 
 /// Runs every case as `vehd run` would and prints, for each, the criterion that came closest to its bound. The further
 /// table "pictures" shows the shapes to the pages, which look for them in images/hard_cases.
-/// @throws InputError for a scene or criterion that cannot be read
+/// @throws InputError for a scene or criterion that cannot be read, Interrupted
 StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption, BenchObserver& observer);
 
 }  // namespace vehd

@@ -4,6 +4,8 @@
 
 #include "bie/files/run_reader.hpp"
 #include "bie/files/snapshot_choice.hpp"
+#include "bie/runs/given_times.hpp"
+#include "bie/scene/given_time.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
@@ -16,10 +18,20 @@ namespace {
 
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
 
-void require_start(const std::filesystem::path& file, std::optional<double> time) {
-  if (time.value_or(0.0) == 0.0) return;
-  throw InputError(fmt::format("{}: a scene has no state at time {:g}; run it and give its run.h5, or leave --time out",
+void require_start(const std::filesystem::path& file, const std::optional<std::string>& time) {
+  // Of a time that is not 0 the unit does not matter.
+  UnitsScene any;
+  any.time = 1.0;
+  if (!time || number_of_time(*time, any, OutputUnit{}) == 0.0) return;
+  throw InputError(fmt::format("{}: a scene has no state at time {}; run it and give its run.h5, or leave --time out",
                                file.string(), *time));
+}
+
+SnapshotChoice choice_of(const RunReader& run, const std::filesystem::path& file,
+                         const std::optional<std::string>& time) {
+  if (!time) return choose_snapshot(run, file, std::nullopt);
+  const GivenTimes times(run, file);
+  return choose_snapshot(run, file, times.number_of(*time), times.shown());
 }
 
 /// In the laboratory, where the finite elements are as well.
@@ -42,9 +54,9 @@ FrozenState start_of_scene(const SceneSource& source) {
   return frozen;
 }
 
-FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<double> time) {
+FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
   const RunReader run(file);
-  const SnapshotChoice choice = choose_snapshot(run, file, time);
+  const SnapshotChoice choice = choice_of(run, file, time);
   const std::size_t snapshot = choice.snapshot;
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   FrozenState frozen;
@@ -73,7 +85,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, std::optional<dou
 
 }  // namespace
 
-FrozenState read_frozen_state(const SceneSource& source, std::optional<double> time) {
+FrozenState read_frozen_state(const SceneSource& source, const std::optional<std::string>& time) {
   if (is_scene(source.file)) {
     require_start(source.file, time);
     return start_of_scene(source);
@@ -85,13 +97,13 @@ FrozenState read_frozen_state(const SceneSource& source, std::optional<double> t
                   source.settings.front(), source.file.string()));
 }
 
-FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time) {
+FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::optional<std::string>& time) {
   if (is_scene(file)) {
     require_start(file, time);
     return {initial_position(read_scene(file)), ""};
   }
   const RunReader run(file);
-  const SnapshotChoice choice = choose_snapshot(run, file, time);
+  const SnapshotChoice choice = choice_of(run, file, time);
   return {run.coefficients(choice.snapshot, "x", 3), choice.note};
 }
 

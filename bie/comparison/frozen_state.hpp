@@ -29,11 +29,12 @@ struct FrozenShape {
 };
 
 /// @param source  a run.h5, or a scene (.toml) whose initial state is computed in memory; settings go with a scene only
-/// @param time  of the snapshot, see choose_snapshot; absent: the last one. A scene knows time 0 only.
+/// @param time  of the snapshot as people write it, see GivenTimes and choose_snapshot; absent: the last one. A scene
+/// knows time 0 only.
 /// @throws InputError if there is no such time or the file cannot be used
-FrozenState read_frozen_state(const SceneSource& source, std::optional<double> time);
+FrozenState read_frozen_state(const SceneSource& source, const std::optional<std::string>& time);
 
 /// The same without its fields; of a scene nothing is solved.
-FrozenShape read_frozen_shape(const std::filesystem::path& file, std::optional<double> time);
+FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::optional<std::string>& time);
 
 }  // namespace vehd

@@ -75,6 +75,14 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
   return parts.empty() ? "nothing but its own term" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
+std::int64_t jumps_until(const Model& model, double end_time) {
+  std::int64_t count = 0;
+  for (auto time = next_discontinuity(model, 0.0); time && *time <= end_time; time = next_discontinuity(model, *time)) {
+    if (jumps_at(model, *time)) ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 RunPlan plan_of(const Scene& scene) {
@@ -113,6 +121,7 @@ RunPlan plan_of(const Scene& scene) {
   plan.kernel_evaluations =
       evaluations_per_assembly(space.quadrature(), space.targets(), symmetry.reflections, space.fold());
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
+  plan.n_jumps = jumps_until(model, scene.numerics.end_time);
   plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
   EventTimes events = events_of(scene);

@@ -33,6 +33,7 @@ struct RunPlan {
   std::vector<PlannedOperator> operators;
   std::uint64_t kernel_evaluations = 0;  ///< of each operator at each new shape
   int shapes_per_step = 1;
+  std::int64_t n_jumps = 0;   ///< of what acts, up to the end: at each the shape is evaluated once more
   std::int64_t unknowns = 0;  ///< independent scalars that the solves of a step find
   std::int64_t n_steps = 0;   ///< if none is rejected; with a tolerance known after predict_cost
   double seconds_per_step = 0.0;

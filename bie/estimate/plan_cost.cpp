@@ -33,6 +33,7 @@ TimedSteps timed_steps(Scene scene, int n_timed) {
   } catch (const ConvergenceError& error) {
     outcome = {.completed = false, .reason = error.what(), .cannot_step = true};
   }
+  if (interruption.requested()) throw Interrupted("stopped by a signal");
   if (!outcome.completed && !outcome.cannot_step) throw OutputError(outcome.reason);
   if (outcome.cannot_step || ends.size() <= kWarmUp) return {0.0, outcome.reason};
   const std::chrono::duration<double> timed = ends.back() - ends[kWarmUp - 1];

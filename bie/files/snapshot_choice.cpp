@@ -19,9 +19,15 @@ double spacing_at(const std::vector<double>& times, std::size_t snapshot, double
   return times[right] - times[right - 1];
 }
 
+std::string shown_time(double time, const SiUnit& unit) {
+  const std::string number = fmt::format("{:.10g}", time * unit.scale);
+  return unit.symbol == "1" ? number : number + " " + unit.symbol;
+}
+
 }  // namespace
 
-SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time) {
+SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time,
+                               const SiUnit& shown) {
   // Times of snapshots are multiples of a decimal number up to rounding.
   constexpr double kSameTime = 1e-9;
   const std::vector<double>& times = run.times();
@@ -29,17 +35,17 @@ SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path
   const std::size_t snapshot = run.nearest(*time);
   const double spacing = spacing_at(times, snapshot, *time);
   const double distance = std::abs(times[snapshot] - *time);
+  const auto text = [&shown](double of) { return shown_time(of, shown); };
   const double same = kSameTime * std::max(spacing, std::abs(*time));
   if (distance <= same) return {snapshot, ""};
   // Written so that a time which is not a number is refused.
   if (!(distance <= 0.5 * spacing + same)) {
-    throw InputError(
-        fmt::format("{}: no snapshot near time {:.10g}; there are {} from {:.10g} to {:.10g}, the nearest "
-                    "at {:.10g}",
-                    file.string(), *time, times.size(), times.front(), times.back(), times[snapshot]));
+    throw InputError(fmt::format("{}: no snapshot near time {}; there are {} from {} to {}, the nearest at {}",
+                                 file.string(), text(*time), times.size(), text(times.front()), text(times.back()),
+                                 text(times[snapshot])));
   }
-  return {snapshot, fmt::format("{}: no snapshot at time {:.10g}; taken: the nearest, at {:.10g}", file.string(), *time,
-                                times[snapshot])};
+  return {snapshot, fmt::format("{}: no snapshot at time {}; taken: the nearest, at {}", file.string(), text(*time),
+                                text(times[snapshot]))};
 }
 
 }  // namespace vehd

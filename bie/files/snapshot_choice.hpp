@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bie/files/run_reader.hpp"
+#include "bie/files/si_unit.hpp"
 
 namespace vehd {
 
@@ -18,7 +19,9 @@ struct SnapshotChoice {
 /// The nearest snapshot, provided that it is not farther than half the distance of neighbouring snapshots there: any
 /// time within a run has one, a time well before or after has none. Without a time, the last snapshot.
 /// @param file  that `run` was read from, for messages
+/// @param shown  unit of the times in messages
 /// @throws InputError naming the times between which the snapshots are, and the nearest one
-SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time);
+SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time,
+                               const SiUnit& shown = {});
 
 }  // namespace vehd

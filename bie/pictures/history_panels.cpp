@@ -5,120 +5,172 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-
-#include "bie/support/errors.hpp"
+#include <set>
+#include <string_view>
+#include <utility>
 
 namespace vehd {
 namespace {
 
-/// What is worth showing: from a tenth of what the verdict allows.
-struct Drift {
+struct ColumnRow {
   const char* column;
   const char* label;
+};
+
+enum class Shown { always, with_field, with_flow, with_tolerance };
+
+struct QuantityRow {
+  std::string_view label;
+  std::vector<ColumnRow> columns;
+  Shown shown = Shown::always;
+  bool is_logarithmic = false;
+};
+
+/// Names of those that a picture chooses among.
+namespace shown_quantity {
+constexpr std::string_view energy = "bending energy", tension = "tension", potential = "potential across the membrane",
+                           charge = "charge density", inclination = "inclination", aspect = "aspect ratio",
+                           errors = "errors", extent = "extent";
+}  // namespace shown_quantity
+
+const std::vector<QuantityRow>& quantity_rows() {
+  static const std::vector<QuantityRow> rows = {
+      {shown_quantity::energy, {{"bending_energy_scaled", "bending energy ∫H² dγ"}}},
+      {shown_quantity::tension, {{"tension_integral", "tension ∫λ dγ"}}},
+      {shown_quantity::potential,
+       {{"Vm_north", "V_m at the north pole"}, {"Vm_max", "largest |V_m|"}},
+       Shown::with_field},
+      {shown_quantity::charge, {{"q_north", "q at the north pole"}}, Shown::with_field},
+      {shown_quantity::inclination, {{"inclination_deg", "inclination (degrees)"}}, Shown::with_flow},
+      {shown_quantity::aspect, {{"aspect_ratio", "aspect ratio"}}},
+      {shown_quantity::errors,
+       {{"area_drift", "area"}, {"volume_drift", "volume"}, {"strain_max", "local strain"}, {"spectrum_tail", "tail"}},
+       Shown::always,
+       true},
+      {shown_quantity::extent, {{"extent_x", "along x"}, {"extent_y", "along y"}, {"extent_z", "along z"}}},
+      {"step", {{"dt", "dt"}}, Shown::with_tolerance, true},
+      {"degree", {{"order", "p"}}, Shown::with_tolerance}};
+  return rows;
+}
+
+/// Drifts are worth showing from a tenth of what the verdict allows.
+struct LeastDrift {
+  const char* column;
   double least;
 };
-constexpr std::array drifts = {Drift{"area_drift", "area", 1e-7}, Drift{"volume_drift", "volume", 1e-7},
-                               Drift{"strain_max", "local strain", 5e-3}};
+constexpr std::array least_drifts = {LeastDrift{"area_drift", 1e-7}, LeastDrift{"volume_drift", 1e-7},
+                                     LeastDrift{"strain_max", 5e-3}};
+
+bool applies(Shown shown, const Scene& scene) {
+  switch (shown) {
+    case Shown::with_field:
+      return scene.electric.has_value();
+    case Shown::with_flow:
+      return scene.flow.has_value();
+    case Shown::with_tolerance:
+      return scene.numerics.tolerance.has_value();
+    case Shown::always:
+      break;
+  }
+  return true;
+}
 
 bool has_numbers(const std::vector<double>& values) {
   return std::ranges::count_if(values, [](double value) { return std::isfinite(value); }) > 1;
 }
 
-/// Files of earlier programs lack columns.
-std::optional<std::vector<double>> column_of(const HistoryTable& history, const std::string& name) {
-  try {
-    return history.column(name);
-  } catch (const InputError&) {
-    return std::nullopt;
+/// A logarithmic axis shows all but zero.
+std::vector<double> magnitudes(std::vector<double> values) {
+  for (double& value : values) {
+    value = value == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::abs(value);
   }
+  return values;
 }
 
-class Panels {
- public:
-  explicit Panels(const HistoryTable& history) : history_(history) {}
-
-  struct Wanted {
-    const char* column;
-    const char* label;
-  };
-
-  void add_columns(const std::vector<Wanted>& wanted) {
-    HistoryPanel panel;
-    for (const Wanted& curve : wanted) {
-      if (auto values = column_of(history_, curve.column)) {
-        panel.curves.push_back({curve.label, history_.unit(curve.column), std::move(*values)});
-      }
-    }
-    add(std::move(panel));
-  }
-
-  void add(HistoryPanel panel) {
-    std::erase_if(panel.curves, [](const HistoryCurve& curve) { return !has_numbers(curve.values); });
-    if (!panel.curves.empty()) panels.push_back(std::move(panel));
-  }
-
-  std::vector<HistoryPanel> panels;
-
- private:
-  const HistoryTable& history_;
-};
-
-/// Magnitudes, of which a logarithmic axis shows all but zero.
-HistoryPanel drift_panel(const HistoryTable& history) {
-  HistoryPanel panel{{}, "drift", true};
-  bool matters = false;
-  for (const Drift& drift : drifts) {
-    auto values = column_of(history, drift.column);
-    if (!values) continue;
-    for (double& value : *values) {
-      value = value == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::abs(value);
-      matters = matters || value >= drift.least;
-    }
-    panel.curves.push_back({drift.label, "", std::move(*values)});
-  }
-  return matters ? panel : HistoryPanel{};
-}
-
-HistoryPanel extent_panel(const HistoryTable& history) {
-  HistoryPanel panel{{}, "extent"};
-  for (const auto& [column, label] :
-       {std::pair{"extent_x", "x"}, std::pair{"extent_y", "y"}, std::pair{"extent_z", "z"}}) {
-    if (auto values = column_of(history, column))
-      panel.curves.push_back({label, history.unit(column), std::move(*values)});
-  }
-  return panel;
-}
-
-}  // namespace
-
-HistoryCurve aspect_curve(const HistoryTable& history) {
-  if (auto column = column_of(history, "aspect_ratio")) return {"aspect ratio", "", std::move(*column)};
-  HistoryCurve curve{"longest / shortest extent", "", {}};
-  const auto x = column_of(history, "extent_x"), y = column_of(history, "extent_y"), z = column_of(history, "extent_z");
-  if (!x || !y || !z) return curve;
-  for (std::size_t i = 0; i < x->size(); ++i) {
-    const auto [least, most] = std::minmax({(*x)[i], (*y)[i], (*z)[i]});
+/// Files of earlier programs have no column of the aspect ratio: the longest over the shortest extent along the axes x,
+/// y and z, which is called so, for of an inclined shape it is something else.
+std::optional<HistoryCurve> ratio_of_extents(const HistoryTable& history) {
+  constexpr std::array columns = {"extent_x", "extent_y", "extent_z"};
+  if (!std::ranges::all_of(columns, [&](const char* column) { return history.has(column); })) return std::nullopt;
+  HistoryCurve curve{"longest / shortest extent", {}};
+  for (std::size_t i = 0; i < history.n_rows(); ++i) {
+    const auto at = [&](const char* column) { return history.column(column)[i]; };
+    const auto [least, most] = std::minmax({at(columns[0]), at(columns[1]), at(columns[2])});
     curve.values.push_back(most / least);
   }
   return curve;
 }
 
+bool drifts_matter(const HistoryTable& history) {
+  return std::ranges::any_of(least_drifts, [&](const LeastDrift& drift) {
+    return history.has(drift.column) && history.largest_magnitude(drift.column) >= drift.least;
+  });
+}
+
+}  // namespace
+
+std::vector<HistoryQuantity> history_quantities(const Scene& scene, const HistoryTable& history) {
+  std::vector<HistoryQuantity> quantities;
+  for (const QuantityRow& row : quantity_rows()) {
+    if (!applies(row.shown, scene)) continue;
+    HistoryQuantity found{.label = std::string(row.label), .is_logarithmic = row.is_logarithmic};
+    for (const ColumnRow& column : row.columns) {
+      // Files of earlier programs lack columns.
+      if (!history.has(column.column)) continue;
+      const std::vector<double>& values = history.column(column.column);
+      found.unit = history.unit(column.column);
+      found.curves.push_back({column.label, row.is_logarithmic ? magnitudes(values) : values});
+    }
+    if (row.label == shown_quantity::aspect && found.curves.empty()) {
+      if (auto curve = ratio_of_extents(history)) found.curves.push_back(std::move(*curve));
+    }
+    std::erase_if(found.curves, [](const HistoryCurve& curve) { return !has_numbers(curve.values); });
+    if (!found.curves.empty()) quantities.push_back(std::move(found));
+  }
+  return quantities;
+}
+
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
-  Panels panels(history);
-  panels.add_columns({{"bending_energy_scaled", "bending energy ∫H^2 dγ"}, {"tension_integral", "tension ∫λ dγ"}});
-  if (scene.electric) {
-    panels.add_columns({{"Vm_north", "V_m at the north pole"}, {"q_north", "q at the north pole"}});
-  }
-  HistoryPanel shape{{aspect_curve(history)}};
-  const auto inclination = column_of(history, "inclination_deg");
-  if (scene.flow && inclination) {
-    shape.curves.insert(shape.curves.begin(), {"inclination (degrees)", "", *inclination});
-  }
-  panels.add(std::move(shape));
-  panels.add(drift_panel(history));
+  const std::vector<HistoryQuantity> all = history_quantities(scene, history);
+  std::vector<HistoryPanel> panels;
+  const auto add = [&](std::initializer_list<std::string_view> labels) {
+    HistoryPanel panel;
+    for (const std::string_view label : labels) {
+      const auto found = std::ranges::find(all, label, &HistoryQuantity::label);
+      if (found != all.end()) panel.axes.push_back(*found);
+    }
+    // Where two have an axis each, one curve is all that can be told apart.
+    if (labels.size() > 1) {
+      for (HistoryQuantity& axis : panel.axes) axis.curves.resize(1);
+    }
+    if (!panel.axes.empty()) panels.push_back(std::move(panel));
+  };
+  add({shown_quantity::energy, shown_quantity::tension});
+  add({shown_quantity::potential, shown_quantity::charge});
+  add({shown_quantity::inclination, shown_quantity::aspect});
+  if (drifts_matter(history)) add({shown_quantity::errors});
   // Two stand side by side.
-  if (panels.panels.size() % 2 == 1) panels.add(extent_panel(history));
-  return std::move(panels.panels);
+  if (panels.size() % 2 == 1) add({shown_quantity::extent});
+  return panels;
+}
+
+std::vector<std::size_t> rows_to_draw(std::span<const HistoryCurve> curves, std::size_t n_stretches) {
+  const std::size_t n = curves.front().values.size();
+  const std::size_t length = std::max<std::size_t>(1, n / n_stretches);
+  std::set<std::size_t> rows = {0, n - 1};
+  for (std::size_t start = 0; start < n; start += length) {
+    for (const HistoryCurve& curve : curves) {
+      const std::vector<double>& values = curve.values;
+      std::size_t least = start, most = start;
+      for (std::size_t i = start; i < std::min(n, start + length); ++i) {
+        // A number takes the place of what is none.
+        if (values[i] < values[least] || std::isnan(values[least])) least = i;
+        if (values[i] > values[most] || std::isnan(values[most])) most = i;
+      }
+      rows.insert({least, most});
+    }
+  }
+  return {rows.begin(), rows.end()};
 }
 
 }  // namespace vehd

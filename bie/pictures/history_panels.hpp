@@ -1,7 +1,7 @@
 #pragma once
 
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bie/runs/history.hpp"
@@ -9,27 +9,38 @@
 
 namespace vehd {
 
-/// One quantity against time.
+/// One line against time.
 struct HistoryCurve {
   std::string label;
-  std::string unit;            ///< symbol in the file; empty of a pure number
   std::vector<double> values;  ///< one for each row, NaN where there is none
 };
 
-/// One or two curves with an axis of their own each, or several of one axis.
-struct HistoryPanel {
-  std::vector<HistoryCurve> curves;
-  std::string common_axis{};  ///< its label; empty: each curve has its own
-  bool logarithmic = false;   ///< the common axis
+/// Curves that share an axis.
+struct HistoryQuantity {
+  std::string label;
+  std::string unit{};  ///< symbol in the file; empty of a pure number
+  std::vector<HistoryCurve> curves{};
+  bool is_logarithmic = false;  ///< values are magnitudes; what is 0 is NaN
 };
 
-/// What tells something of a run: energy and tension; V_m and charge with a field; the inclination in a flow; the
-/// aspect ratio; the drifts where one of them comes near what the verdict allows; the extents where the page has room
-/// for them. Curves that have no two numbers are left out, and panels without curves.
+/// What tells something of a run, in this order: energy; tension; V_m and charge with a field; the inclination in a
+/// flow; the aspect ratio; the errors; the extents; step and degree where a tolerance chooses them. Curves that have no
+/// two numbers are left out, and quantities without curves.
+std::vector<HistoryQuantity> history_quantities(const Scene& scene, const HistoryTable& history);
+
+/// Part of a picture: one quantity with all its curves, or two with an axis at either side and the first curve of each.
+struct HistoryPanel {
+  std::vector<HistoryQuantity> axes;
+};
+
+/// Those of the quantities that a picture of all has room for: energy and tension, V_m and charge, inclination and
+/// aspect ratio; the errors where a drift comes near what the verdict allows; the extents where the page has room for
+/// them.
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history);
 
-/// The column "aspect_ratio"; where there is none the longest over the shortest extent along the axes x, y and z, which
-/// is called so: of an inclined shape it is something else.
-HistoryCurve aspect_curve(const HistoryTable& history);
+/// Rows that stand for all in a drawing: of each of so many stretches those where a curve is least and greatest, so
+/// that no peak is lost, and the first and the last row.
+/// @param curves  of one length
+std::vector<std::size_t> rows_to_draw(std::span<const HistoryCurve> curves, std::size_t n_stretches);
 
 }  // namespace vehd

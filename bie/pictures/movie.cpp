@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "bie/pictures/shape_times.hpp"
 #include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -35,20 +36,19 @@ void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path&
 
 }  // namespace
 
-void write_movie(const std::vector<std::size_t>& snapshots, const FrameDrawer& draw, const std::filesystem::path& file,
-                 Progress& progress) {
+void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::filesystem::path& file, Progress& progress) {
   const TemporaryFolder folder("vehd-movie");
   const std::filesystem::path messages = folder.path() / "messages";
   // Better known before minutes of drawing than after.
   run_ffmpeg({"-version"}, messages);
-  for (std::size_t i = 0; i < snapshots.size(); ++i) {
-    progress.update(static_cast<double>(i) / static_cast<double>(snapshots.size()),
-                    fmt::format("picture {} of {}", i + 1, snapshots.size()));
-    draw(snapshots[i], folder.path() / fmt::format("{:06}.png", i));
+  for (std::size_t i = 0; i < n_frames; ++i) {
+    progress.update(static_cast<double>(i) / static_cast<double>(n_frames),
+                    fmt::format("picture {} of {}", i + 1, n_frames));
+    draw(i, folder.path() / fmt::format("{:06}.png", i));
   }
   progress.begin(1.0, "movie");
   const double rate =
-      std::clamp(static_cast<double>(snapshots.size()) / seconds_of_movie, least_frame_rate, largest_frame_rate);
+      std::clamp(static_cast<double>(n_frames) / seconds_of_movie, least_frame_rate, largest_frame_rate);
   const std::filesystem::path movie = folder.path() / "movie.mp4";
   // Players want even sizes and this way to store colours; with the index in front a movie plays while it loads.
   run_ffmpeg(
@@ -60,14 +60,10 @@ void write_movie(const std::vector<std::size_t>& snapshots, const FrameDrawer& d
 
 std::filesystem::path plot_movie(const PlotTask& task, Progress& progress) {
   const RunReader run(task.paths.snapshots());
-  const std::size_t n_snapshots = run.times().size(), n_frames = std::min(n_snapshots, most_frames);
-  std::vector<std::size_t> snapshots;
-  for (std::size_t i = 0; i < n_frames; ++i) {
-    snapshots.push_back(n_frames == 1 ? 0 : i * (n_snapshots - 1) / (n_frames - 1));
-  }
+  const std::vector<std::size_t> snapshots = spread_evenly(run.times().size(), most_frames);
   make_directory(task.output);
   std::filesystem::path movie = task.output / "movie.mp4";
-  write_movie(snapshots, shape_frames(task, run, snapshots), movie, progress);
+  write_movie(snapshots.size(), shape_frames(task, run, snapshots), movie, progress);
   return movie;
 }
 

@@ -8,13 +8,12 @@
 
 namespace vehd {
 
-/// Writes an MP4 of pictures, one for each snapshot, that plays in about ten seconds.
-/// @param draw      called once for each snapshot; all pictures have one size
+/// Writes an MP4 of so many pictures that plays in about ten seconds.
+/// @param draw      called once for each of them; all have one size
 /// @param file      replaced when the movie is complete
 /// @param progress  is told of every picture
 /// @throws InputError if ffmpeg is missing or reports an error
-void write_movie(const std::vector<std::size_t>& snapshots, const FrameDrawer& draw, const std::filesystem::path& file,
-                 Progress& progress);
+void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::filesystem::path& file, Progress& progress);
 
 /// The movie of a run, OUTPUT/movie.mp4, of all snapshots or of many of them, evenly spread.
 /// @return the movie

@@ -16,16 +16,16 @@
 namespace vehd {
 namespace {
 
-constexpr std::array curve_colours = {"#1f5fa8", "#2c8a3d", "#c0392b"};
-constexpr std::array dashes = {"solid", "(12,6)", "(3,4)"};
+constexpr std::array curve_colours = {"#1f5fa8", "#2c8a3d", "#c0392b", "#7a7a7a"};
+constexpr std::array dashes = {"solid", "(12,6)", "(3,4)", "(12,4,3,4)"};
 /// Of one panel with its texts, in points.
 constexpr double panel_width = 255.0, panel_height = 172.0;
 /// Around the axes of a panel.
 constexpr double panel_left = 52.0, panel_right = 52.0, panel_bottom = 32.0, panel_top = 18.0;
 constexpr double letter_size = 8.0;
 constexpr double curve_width = 1.3;
-/// More points than this in a curve are thinned out.
-constexpr std::size_t most_points = 3000;
+/// Of a long curve the least and the greatest value of so many stretches are drawn.
+constexpr std::size_t picture_stretches = 1500;
 
 struct Axis {
   double lower = 0.0, upper = 1.0;
@@ -63,31 +63,12 @@ Axis axis_of(const std::vector<double>& values, const std::string& label, double
   return axis;
 }
 
-/// Rows of a curve: of many, the least and the greatest of every stretch.
-std::vector<std::size_t> shown_rows(const std::vector<double>& values) {
-  std::vector<std::size_t> rows;
-  const std::size_t n = values.size();
-  const std::size_t stretch = n <= most_points ? 1 : 2 * n / most_points + 1;
-  for (std::size_t begin = 0; begin < n; begin += stretch) {
-    const std::size_t end = std::min(n, begin + stretch);
-    std::size_t least = begin, most = begin;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!(values[i] >= values[least])) least = i;
-      if (!(values[i] <= values[most])) most = i;
-    }
-    rows.push_back(std::min(least, most));
-    if (least != most) rows.push_back(std::max(least, most));
-  }
-  if (rows.back() != n - 1) rows.push_back(n - 1);
-  return rows;
-}
-
 /// Data of a curve; a line ends where the angle of an axis comes round from one side to the other.
-std::string data_block(int number, const std::vector<double>& times, const std::vector<double>& values,
-                       double half_turn) {
+std::string data_block(int number, const std::vector<double>& times, const HistoryCurve& curve, double half_turn) {
+  const std::vector<double>& values = curve.values;
   std::string block = fmt::format("$curve{} << END\n", number);
   double before = values.front();
-  for (const std::size_t row : shown_rows(values)) {
+  for (const std::size_t row : rows_to_draw({&curve, 1}, picture_stretches)) {
     if (half_turn > 0.0 && std::abs(values[row] - before) > half_turn) block += "\n";
     before = values[row];
     block += fmt::format("{:.9g} {:.9g}\n", times[row], values[row]);
@@ -128,13 +109,13 @@ constexpr const char* key_above = "set key at graph 0.5,1.075 center center hori
 
 std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
   std::string data, settings = fresh_panel, plot;
-  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-    const HistoryCurve& curve = panel.curves[i];
-    settings += axis_script(axis_of(curve.values, with_unit(curve.label, curve.unit), 0.06), i == 0 ? "y" : "y2",
-                            curve_colours[i]);
+  for (std::size_t i = 0; i < panel.axes.size(); ++i) {
+    const HistoryCurve& curve = panel.axes[i].curves.front();
+    settings += axis_script(axis_of(curve.values, with_unit(curve.label, panel.axes[i].unit), 0.06),
+                            i == 0 ? "y" : "y2", curve_colours[i]);
     constexpr double half_turn = 90.0;
-    data += data_block(drawing.n_curves, drawing.times, curve.values,
-                       curve.label.starts_with("inclination") ? half_turn : 0.0);
+    data +=
+        data_block(drawing.n_curves, drawing.times, curve, curve.label.starts_with("inclination") ? half_turn : 0.0);
     plot += fmt::format("{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
                         drawing.line_style(i), i == 0 ? "x1y1" : "x1y2");
   }
@@ -165,19 +146,19 @@ std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std:
   return "set logscale y\n" + axis_script(axis, "y", "#000000");
 }
 
-std::string panel_of_common_axis(const HistoryPanel& panel, Drawing& drawing) {
+std::string panel_of_common_axis(const HistoryQuantity& quantity, Drawing& drawing) {
   std::vector<double> all;
   std::string data, plot;
-  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-    const std::vector<double>& values = panel.curves[i].values;
-    all.insert(all.end(), values.begin(), values.end());
-    data += data_block(drawing.n_curves, drawing.times, values, 0.0);
+  for (std::size_t i = 0; i < quantity.curves.size(); ++i) {
+    const HistoryCurve& curve = quantity.curves[i];
+    all.insert(all.end(), curve.values.begin(), curve.values.end());
+    data += data_block(drawing.n_curves, drawing.times, curve, 0.0);
     plot += fmt::format("{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
-                        drawing.line_style(i), gnuplot_quoted(panel.curves[i].label));
+                        drawing.line_style(i), gnuplot_quoted(curve.label));
   }
-  const std::string label = with_unit(panel.common_axis, panel.curves.front().unit);
-  const std::string axis = panel.logarithmic ? logarithmic_axis(panel.curves, label)
-                                             : axis_script(axis_of(all, label, 0.06), "y", "#000000");
+  const std::string label = with_unit(quantity.label, quantity.unit);
+  const std::string axis = quantity.is_logarithmic ? logarithmic_axis(quantity.curves, label)
+                                                   : axis_script(axis_of(all, label, 0.06), "y", "#000000");
   return data + fresh_panel + key_above + axis + plot + "\n";
 }
 
@@ -213,8 +194,9 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
         "{:.5f}\n",
         (left + panel_left) / width, (left + panel_width - panel_right) / width,
         (top - panel_height + panel_bottom) / height, (top - panel_top) / height);
-    script += panels[i].common_axis.empty() ? panel_of_own_axes(panels[i], drawing)
-                                            : panel_of_common_axis(panels[i], drawing);
+    const std::vector<HistoryQuantity>& axes = panels[i].axes;
+    const bool is_shared = axes.size() == 1 && (axes.front().curves.size() > 1 || axes.front().is_logarithmic);
+    script += is_shared ? panel_of_common_axis(axes.front(), drawing) : panel_of_own_axes(panels[i], drawing);
   }
   run_gnuplot(script + "unset multiplot\n", target.path.parent_path());
   return true;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/colour_bar.hpp"
@@ -11,6 +10,7 @@
 #include "bie/pictures/shapes_key.hpp"
 #include "bie/pictures/shapes_layout.hpp"
 #include "bie/pictures/view.hpp"
+#include "bie/runs/given_times.hpp"
 #include "bie/runs/run_units.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
@@ -66,10 +66,10 @@ void colour_shapes(ShapesPicture& picture, ShapeField field, const ColourRange& 
   }
 }
 
-ColourRange range_of(const std::vector<Shape>& shapes) {
-  std::vector<WeightedValues> values;
-  for (const Shape& shape : shapes) values.push_back({shape.values, shape.weights});
-  return robust_range(values);
+ColourRange range_of(const std::vector<Shape>& shapes, ShapeField field) {
+  std::vector<FieldReach> reaches;
+  for (const Shape& shape : shapes) reaches.push_back(reach_of(shape.values, shape.weights));
+  return robust_range(reaches, label_of(field).sign_matters);
 }
 
 ShapesContent content_of(const ShapesPicture& picture, const std::vector<KeyItem>& items, double page_width) {
@@ -147,7 +147,11 @@ std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader
         fmt::format("{} times are too many for one picture; accepted: at most {}", task.times.size(), most_shapes));
   }
   std::vector<SnapshotChoice> all;
-  for (const double time : task.times) all.push_back(choose_snapshot(run, task.paths.snapshots(), time));
+  const std::filesystem::path file = task.paths.snapshots();
+  const GivenTimes given(run, file);
+  for (const std::string& time : task.times) {
+    all.push_back(choose_snapshot(run, file, given.number_of(time), given.shown()));
+  }
   if (task.times.empty()) {
     for (const std::size_t snapshot : snapshots_by_change(run, most_shapes)) all.push_back({snapshot, ""});
   }
@@ -161,18 +165,22 @@ PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
   const OutputUnits units = units_of_run(task.paths);
   const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
   const ShapeField field = task.style.field.value_or(default_field(run, choices.front().snapshot));
-  PlotResult result{{file.path}, {}, {}};
+  PlotResult result{{file.path}, {}};
   ShapesPicture picture;
+  std::vector<double> times;
   for (const SnapshotChoice& choice : choices) {
     require_field(run, choice.snapshot, field);
-    picture.shapes.push_back(shape_of(run, choice.snapshot, field, picture_grid_order));
-    result.times.push_back(picture.shapes.back().time);
+    picture.shapes.push_back(shape_of(read_shape(run, choice.snapshot, field), field, picture_grid_order));
+    times.push_back(picture.shapes.back().time);
     if (!choice.note.empty()) result.notes.push_back(choice.note);
   }
   picture.view = view_of(task.style, scene, picture.shapes.front());
-  picture.times = time_texts(result.times, units);
+  picture.times = time_texts(times, units);
+  const OutputUnit unit = units.of("time");
+  for (const double time : times) result.times.push_back(time * unit.factor);
+  if (unit.is_si()) result.time_unit = unit.symbol;
   picture.length = shown_unit(units, "length");
-  colour_shapes(picture, field, range_of(picture.shapes), units);
+  colour_shapes(picture, field, range_of(picture.shapes, field), units);
   draw_page(page_of(picture, scene, task.style), file);
   return result;
 }
@@ -183,11 +191,13 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
   const ShapeField field = task.style.field.value_or(default_field(run, snapshots.front()));
   // For what all frames share a coarse grid is enough.
   constexpr int coarse_order = 24;
+  std::vector<ShapeCoefficients> read;
   std::vector<Shape> shapes;
   std::vector<double> times;
   for (const std::size_t snapshot : snapshots) {
     require_field(run, snapshot, field);
-    shapes.push_back(shape_of(run, snapshot, field, coarse_order));
+    read.push_back(read_shape(run, snapshot, field));
+    shapes.push_back(shape_of(read.back(), field, coarse_order));
     times.push_back(shapes.back().time);
   }
   const std::vector<std::string> texts = time_texts(times, units);
@@ -199,13 +209,10 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
     frame.room = {std::max(frame.room[0], extent.x()), std::max(frame.room[1], extent.y())};
     frame.label_room = std::max(frame.label_room, time_size * text_width(texts[i]));
   }
-  std::map<std::size_t, std::string> text_of;
-  for (std::size_t i = 0; i < snapshots.size(); ++i) text_of[snapshots[i]] = texts[i];
-  return [=, &run, range = range_of(shapes), style = task.style](std::size_t snapshot,
-                                                                 const std::filesystem::path& picture) {
+  return [=, range = range_of(shapes, field), style = task.style](std::size_t i, const std::filesystem::path& picture) {
     ShapesPicture drawn = frame;
-    drawn.shapes.push_back(shape_of(run, snapshot, field, picture_grid_order));
-    drawn.times = {text_of.at(snapshot)};
+    drawn.shapes.push_back(shape_of(read[i], field, picture_grid_order));
+    drawn.times = {texts[i]};
     colour_shapes(drawn, field, range, units);
     draw_page(page_of(drawn, scene, style), {picture, PictureFormat::png});
   };

@@ -24,7 +24,8 @@ struct ShapesStyle {
 /// Which pictures are drawn, and where they go.
 struct PlotTask {
   RunPaths paths;
-  std::vector<double> times;     ///< of the shapes; empty: chosen by how much the shape changes
+  /// Of the shapes as people write them, see GivenTimes; empty: chosen by how much the shape changes.
+  std::vector<std::string> times;
   std::filesystem::path output;  ///< directory for the pictures
   PictureFormat format = PictureFormat::png;
   ShapesStyle style{};
@@ -33,7 +34,8 @@ struct PlotTask {
 /// What plot_run has drawn.
 struct PlotResult {
   std::vector<std::filesystem::path> pictures;
-  std::vector<double> times;         ///< of the shapes
+  std::vector<double> times;         ///< of the shapes, in the unit
+  std::string time_unit = "1";       ///< in which the run shows them; "1" of a pure number
   std::vector<std::string> notes{};  ///< times that were asked for and have no snapshot of their own
 };
 
@@ -60,12 +62,11 @@ bool plot_history(const PlotTask& task, const PictureFile& picture);
 /// Most shapes in one picture.
 constexpr std::size_t most_shapes = 6;
 
-/// Draws the picture of a snapshot to a PNG file.
-using FrameDrawer = std::function<void(std::size_t snapshot, const std::filesystem::path& picture)>;
+/// Draws picture number i to a PNG file.
+using FrameDrawer = std::function<void(std::size_t i, const std::filesystem::path& picture)>;
 
 /// Pictures of single shapes as those of `plot_shapes`, all at one scale and with the same colours.
-/// @param run        must outlive what is returned
-/// @param snapshots  that will be drawn
+/// @param snapshots  one for each picture; each is read once, here
 /// @throws InputError
 FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::vector<std::size_t>& snapshots);
 

@@ -35,29 +35,15 @@ bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
   return true;
 }
 
-/// Magnitude of the whole force of the membrane on the fluid.
-Vector force_magnitude(const RunReader& run, std::size_t snapshot, const SphereTransform& transform) {
-  Matrix sum = Matrix::Zero(transform.grid().n_points(), 3);
-  for (const auto& [name, sign] : forces) {
-    if (run.has_field(snapshot, name)) sum += sign * transform.synthesize(run.coefficients(snapshot, name));
-  }
-  return sum.rowwise().norm();
-}
-
-Vector values_of(const RunReader& run, std::size_t snapshot, ShapeField field, const SphereTransform& transform,
+Vector values_of(const ShapeCoefficients& read, ShapeField field, const SphereTransform& transform,
                  const Surface& surface) {
-  const auto scalar = [&](const char* name) -> Vector {
-    return transform.synthesize(run.coefficients(snapshot, name)).col(0);
-  };
   switch (field) {
     case ShapeField::potential:
-      return scalar("Vm");
     case ShapeField::charge:
-      return scalar("q");
     case ShapeField::tension:
-      return scalar("tension");
+      return transform.synthesize(read.field).col(0);
     case ShapeField::force:
-      return force_magnitude(run, snapshot, transform);
+      return transform.synthesize(read.field).rowwise().norm();
     case ShapeField::curvature:
       return surface.mean_curvature;
     case ShapeField::none:
@@ -80,11 +66,11 @@ Matrix with_mean_poles(const Matrix& values, int n_phi) {
 FieldLabel label_of(ShapeField field) {
   switch (field) {
     case ShapeField::potential:
-      return {"V_m", "potential"};
+      return {"V_m", "potential", "Vm", true};
     case ShapeField::charge:
-      return {"q", "potential/length"};
+      return {"q", "potential/length", "q", true};
     case ShapeField::tension:
-      return {"tension λ", "force/length"};
+      return {"tension λ", "force/length", "tension"};
     case ShapeField::force:
       return {"force |f|", "force/area"};
     case ShapeField::curvature:
@@ -113,19 +99,34 @@ void require_field(const RunReader& run, std::size_t snapshot, ShapeField field)
                                fmt::join(present, ", ")));
 }
 
-Shape shape_of(const RunReader& run, std::size_t snapshot, ShapeField field, int grid_order) {
-  const Matrix position = run.coefficients(snapshot, "x", 3);
+ShapeCoefficients read_shape(const RunReader& run, std::size_t snapshot, ShapeField field) {
+  ShapeCoefficients read{run.times()[snapshot], run.coefficients(snapshot, "x", 3), {}};
+  if (const std::string_view dataset = label_of(field).dataset; !dataset.empty()) {
+    read.field = run.coefficients(snapshot, std::string(dataset), 1);
+  }
+  if (field == ShapeField::force) {
+    // The whole force of the membrane on the fluid.
+    read.field = Matrix::Zero(read.position.rows(), 3);
+    for (const auto& [name, sign] : forces) {
+      if (run.has_field(snapshot, name)) read.field += sign * run.coefficients(snapshot, name, 3);
+    }
+  }
+  return read;
+}
+
+Shape shape_of(const ShapeCoefficients& read, ShapeField field, int grid_order) {
+  const Matrix& position = read.position;
   const int order = order_of(position.rows());
   const SphereTransform transform(order, make_grid(std::max(grid_order, order)));
   const Surface surface = make_surface(transform, position);
   const int n_phi = transform.grid().n_phi;
   const Vector3 centre = centroid(surface);
   Shape shape;
-  shape.time = run.times()[snapshot];
+  shape.time = read.time;
   shape.mesh.points = with_poles(surface.position, position).rowwise() - centre.transpose();
   shape.mesh.normals = with_mean_poles(surface.normal, n_phi).rowwise().normalized();
   shape.mesh.triangles = closed_triangles(transform.grid());
-  shape.values = with_mean_poles(values_of(run, snapshot, field, transform, surface), n_phi).col(0);
+  shape.values = with_mean_poles(values_of(read, field, transform, surface), n_phi).col(0);
   shape.weights = Vector::Zero(shape.values.size());
   shape.weights.head(surface.n_points()) = surface.quadrature;
   const auto& points = shape.mesh.points;

@@ -15,10 +15,12 @@ enum class ShapeField { none, potential, charge, tension, force, curvature };
 /// Their names on the command line.
 constexpr std::array<std::string_view, 6> shape_field_names = {"none", "V_m", "q", "tension", "force", "curvature"};
 
-/// How a field is called in pictures, and its physical dimension by its name in scene/units.hpp.
+/// How a field is called in pictures.
 struct FieldLabel {
   std::string_view text;
-  std::string_view dimension;
+  std::string_view dimension;  ///< by its name in scene/units.hpp
+  std::string_view dataset{};  ///< in run.h5; empty of what is computed
+  bool sign_matters = false;   ///< even where the values of a run have one sign alone
 };
 FieldLabel label_of(ShapeField field);
 
@@ -37,7 +39,16 @@ struct Shape {
   Matrix3 gyration;  ///< mean of x x^T over the area
 };
 
+/// What a picture of one snapshot needs of its file.
+struct ShapeCoefficients {
+  double time = 0.0;
+  Matrix position;  ///< [n_coefficients x 3]
+  Matrix field;     ///< [n_coefficients x 1]; of the force x 3; empty of what is computed from the position
+};
+ShapeCoefficients read_shape(const RunReader& run, std::size_t snapshot, ShapeField field);
+
+/// @param field  that was read
 /// @param grid_order  degree of the grid that is drawn, at least that of the snapshot
-Shape shape_of(const RunReader& run, std::size_t snapshot, ShapeField field, int grid_order);
+Shape shape_of(const ShapeCoefficients& read, ShapeField field, int grid_order);
 
 }  // namespace vehd

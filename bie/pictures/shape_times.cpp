@@ -25,8 +25,17 @@ Vector3 direction_number(int i) {
 
 }  // namespace
 
+std::vector<std::size_t> spread_evenly(std::size_t n, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  const std::size_t count = std::min(n, most);
+  for (std::size_t i = 0; i < count; ++i) {
+    chosen.push_back(count == 1 ? 0 : (i * (n - 1) + (count - 1) / 2) / (count - 1));
+  }
+  return chosen;
+}
+
 Vector outline_of(const RunReader& run, std::size_t snapshot) {
-  const Shape shape = shape_of(run, snapshot, ShapeField::none, outline_order);
+  const Shape shape = shape_of(read_shape(run, snapshot, ShapeField::none), ShapeField::none, outline_order);
   const Vector shares = shape.weights / shape.weights.sum();
   Vector outline(4 * n_directions);
   for (int i = 0; i < n_directions; ++i) {
@@ -69,15 +78,11 @@ std::vector<std::size_t> spread_by_change(const std::vector<double>& times, cons
 }
 
 std::vector<std::size_t> snapshots_by_change(const RunReader& run, std::size_t most) {
-  const std::size_t n = run.times().size();
-  const std::size_t n_read = std::min(n, most_read);
-  std::vector<std::size_t> read(n_read);
-  std::vector<double> times(n_read);
-  for (std::size_t i = 0; i < n_read; ++i) {
-    read[i] = n_read == 1 ? 0 : i * (n - 1) / (n_read - 1);
-    times[i] = run.times()[read[i]];
-  }
+  const std::vector<std::size_t> read = spread_evenly(run.times().size(), most_read);
+  const std::size_t n_read = read.size();
   if (n_read <= 2) return read;
+  std::vector<double> times;
+  for (const std::size_t snapshot : read) times.push_back(run.times()[snapshot]);
   Matrix outlines(static_cast<Index>(n_read), 4 * n_directions);
   for (std::size_t i = 0; i < n_read; ++i) {
     outlines.row(static_cast<Index>(i)) = outline_of(run, read[i]).transpose();

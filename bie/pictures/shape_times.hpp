@@ -7,6 +7,9 @@
 
 namespace vehd {
 
+/// Numbers of at most so many of n snapshots, evenly spread with the first and the last.
+std::vector<std::size_t> spread_evenly(std::size_t n, std::size_t most);
+
 /// Numbers that say how far a shape reaches, whatever its place and its grid: lengths.
 Vector outline_of(const RunReader& run, std::size_t snapshot);
 

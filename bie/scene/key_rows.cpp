@@ -200,7 +200,8 @@ void add_electric_keys(KeyTable& table) {
       .add("conductivity_out", not_negative, {"σ_e", "conductivity", "of the fluid outside"}, electric,
            &ElectricScene::conductivity_out)
       .required = true;
-  table.add("permittivity", positive, {"ε", "permittivity", "of the fluid outside"}, electric,
+  table.add("permittivity", positive,
+            {"ε", "permittivity", "of the fluid outside; required where the field has a unit"}, electric,
             &ElectricScene::permittivity);
   table.add("permittivity_ratio", positive, {"ε_i/ε_e", "1", "inside over outside"}, electric,
             &ElectricScene::permittivity_ratio);

@@ -7,7 +7,9 @@
 
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/scene/si_values.hpp"
 #include "bie/scene/toml_values.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -32,6 +34,7 @@ class Checks {
     if (scene_.shape.kind == ShapeKind::radial) check_radial_shape();
     if (scene_.flow && scene_.flow->kind == FlowKind::gradient) check_gradient();
     if (scene_.electric) check_conductivities();
+    if (scene_.electric) check_permittivity();
     check_effects();
     if (scene_.flow && scene_.flow->waveform) check_waveform("flow", *scene_.flow->waveform, flow_is_zero());
     if (scene_.electric && scene_.electric->waveform) {
@@ -68,6 +71,18 @@ class Checks {
     if (!scene_.membrane.mobile && !scene_.electric) {
       refuse("membrane", "mobile", "\"mobile\" in [membrane] is false without [electric]: nothing would ever change");
     }
+  }
+
+  /// Beside a field in SI units the default, 1 of the scene, is the permittivity of nothing.
+  void check_permittivity() const {
+    if (table_["electric"]["permittivity"] || !SiValues(table_).size("electric", "field")) return;
+    const double of_one = si_scale(scene_.units, "permittivity");
+    if (std::isnan(of_one)) return;
+    refuse("electric", "permittivity",
+           fmt::format("missing key \"permittivity\" in [electric]: beside a field with a unit its default of 1 would "
+                       "be {:.3g} F/m; "
+                       "accepted: as \"80 eps0\" for water, or a number",
+                       of_one));
   }
 
   [[nodiscard]] bool flow_is_zero() const {

@@ -7,7 +7,7 @@ enum class ExitCode {
   done = 0,
   wrong_input = 1,     ///< wrong input or usage
   internal_error = 2,  ///< a defect of the program
-  stopped_early = 3,   ///< and left a checkpoint that can be resumed
+  stopped_early = 3,   ///< by a signal or a full disk, say; a run leaves a checkpoint that can be resumed
   does_not_hold = 4    ///< done, and what was asked does not hold
 };
 

@@ -1,8 +1,15 @@
 #pragma once
 
 #include <csignal>
+#include <stdexcept>
 
 namespace vehd {
+
+/// A signal has ended work that is more than one run, or a trial. Exit code 3.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// While alive, SIGINT and SIGTERM wait until `requested` looks for them, so that a step is never torn. Threads
 /// started later inherit this; create it before the first parallel region.

@@ -57,7 +57,6 @@ int fail(int code, const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Session session(argc, argv);
   CLI::App program("Finite-element side of vehd: started by vehd check, mesh and bench methods.", "vehd_fem");
   program.require_subcommand(1);
   std::string json_file;
@@ -88,6 +87,12 @@ int main(int argc, char** argv) {
 
   try {
     program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? done : refused;
+  }
+  // Not for a page of help: MPI leaves files of its own where it is killed.
+  const Session session(argc, argv);
+  try {
     if (mesh_command->parsed()) return mesh(mesh_task, json_file);
     if (sources_command->parsed()) {
       write_json(json_file, json_of(run_point_sources(sources_task)));
@@ -95,8 +100,6 @@ int main(int argc, char** argv) {
     }
     check_task.refinement = quick ? Refinement::quick() : Refinement::finest();
     return check(check_task, json_file, session.rank() == 0);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? done : refused;
   } catch (const InputError& error) {
     return fail(refused, error.what());
   } catch (const vehd::meshes::MeshError& error) {

@@ -1,9 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 
+#include "bie/bench/doc_tables.hpp"
+#include "bie/bench/pages.hpp"
 #include "bie/bench/step_timer.hpp"
 #include "bie/scene/reader.hpp"
 #include "tests/app/finite_elements.hpp"
@@ -74,8 +76,9 @@ double number(const nlohmann::json& row, const std::string& key) { return row[ke
 void copy_docs(const fs::path& to) {
   const fs::path from = fs::path(VEHD_SOURCE_DIR) / "docs";
   fs::create_directories(to / "scenes");
-  for (const auto& entry : fs::directory_iterator(from)) {
-    if (entry.path().extension() == ".md") fs::copy_file(entry.path(), to / entry.path().filename());
+  for (const fs::path& page : vehd::pages_of(from)) {
+    fs::create_directories((to / page.lexically_relative(from)).parent_path());
+    fs::copy_file(page, to / page.lexically_relative(from));
   }
   for (const auto& entry : fs::directory_iterator(from / "scenes")) {
     if (entry.path().extension() != ".toml") continue;
@@ -255,19 +258,45 @@ BOOST_AUTO_TEST_CASE(one_command_renews_every_table_and_picture_of_the_pages) {
   BOOST_TEST(file_text(docs / "extra.md").find("old") == std::string::npos);
   BOOST_TEST(again.output.find("== parts") == std::string::npos);
 
-  // Every picture that a page shows, new, but for those of its own commands.
-  for (const auto& entry : fs::directory_iterator(docs)) {
-    if (entry.path().extension() != ".md") continue;
-    const std::string page = file_text(entry.path());
-    for (std::size_t at = page.find("](images/"); at != std::string::npos; at = page.find("](images/", at + 1)) {
-      const std::string image = page.substr(at + 2, page.find(')', at) - at - 2);
+  // Every picture that a page shows is new, or one of those that commands of pages make.
+  std::vector<std::string> made;
+  for (const fs::path& page : vehd::pages_of(docs)) {
+    for (std::string& picture : vehd::pictures_of(vehd::commands_of_page(page))) made.push_back(std::move(picture));
+  }
+  for (const fs::path& page : vehd::pages_of(docs)) {
+    const std::string text = file_text(page);
+    const std::regex shown("\\]\\((\\.\\./)?(images/[^)]+)\\)");
+    for (std::sregex_iterator match(text.begin(), text.end(), shown), end; match != end; ++match) {
+      const std::string image = (*match)[2];
       if (!methods && image == "images/bench_methods.png") continue;
-      const auto begins = [&](const char* name) { return image.starts_with(std::string("images/") + name); };
-      if (std::ranges::any_of(std::array{"pictures_", "first_steps_", "tutorial_", "report", "figure4"}, begins))
-        continue;
-      BOOST_TEST(fs::exists(docs / image), entry.path().filename().string() + " shows " + image);
+      BOOST_TEST((fs::exists(docs / image) || std::ranges::find(made, image) != made.end()),
+                 page.string() + " shows " + image + ", which no command makes");
     }
   }
+}
+
+// A page, its commands and a picture that one of them puts into its place where no reader sees it.
+BOOST_AUTO_TEST_CASE(pages_make_their_own_pictures) {
+  const TemporaryDirectory directory;
+  const fs::path docs = directory / "docs";
+  fs::create_directories(docs / "scenes");
+  fs::create_directories(docs / "sub");
+  write_text(docs / "scenes/small.toml", quick_scene("0.5"));
+  write_text(docs / "sub/page.md",
+             "```sh\ncmake --build nowhere\nbuild/vehd run docs/scenes/small.toml -o out/small\n```\n"
+             "<!-- sh: cp out/small/plots/shapes.png docs/images/small.png -->\n![small](../images/small.png)\n");
+  write_text(docs / "wrong.md",
+             "```sh\nbuild/vehd plot nowhere\n```\n<!-- sh: cp nowhere docs/images/never.png -->\n"
+             "```text\n<!-- sh: touch docs/images/no_command.png\n```\n");
+  write_text(docs / "other.md", "```sh\ntouch docs/other_page_was_run\n```\n");
+  const ProgramResult result =
+      run_vehd({"bench", "all", "--only", "pages", "--docs", docs.string(), "-o", directory / "out"});
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  BOOST_TEST(file_text(docs / "images/small.png").substr(1, 3) == "PNG");
+  BOOST_TEST(result.output.find("without pictures of wrong.md") != std::string::npos, result.output);
+  BOOST_TEST(result.errors.find("build/vehd plot nowhere: nowhere: holds no run") != std::string::npos, result.errors);
+  BOOST_TEST(!fs::exists(docs / "other_page_was_run"));
+  BOOST_TEST(std::distance(fs::directory_iterator(docs / "images"), {}) == 1);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

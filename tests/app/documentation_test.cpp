@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <regex>
-#include <sstream>
 
+#include "bie/bench/pages.hpp"
 #include "bie/scene/reader.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
@@ -10,23 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Lines of the ```sh blocks of a page. Commands that install, fetch or build are what runs this test, and what is
-/// installed is tested by tests/installed.
-std::vector<std::string> commands_of(const fs::path& page) {
-  std::vector<std::string> commands;
-  std::istringstream text(file_text(page));
-  bool inside = false;
-  for (std::string line; std::getline(text, line);) {
-    if (line.starts_with("```")) {
-      inside = line == "```sh";
-    } else if (inside && !line.empty() && !line.starts_with("#") &&
-               !std::regex_search(line, std::regex("^(git |cmake |ctest |apt-get |dpkg |out/(installed|package)/)"))) {
-      commands.push_back(line);
-    }
-  }
-  return commands;
-}
-
 std::vector<fs::path> pages() {
   std::vector<fs::path> found = {fs::path(VEHD_SOURCE_DIR) / "README.md"};
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(VEHD_SOURCE_DIR) / "docs")) {
@@ -34,6 +17,16 @@ std::vector<fs::path> pages() {
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+/// Modules of Python that a command needs.
+std::string modules_of(const std::string& command) {
+  if (!command.starts_with("python3 ")) return "";
+  return command.find("report_page.py") == std::string::npos ? "h5py, numpy, matplotlib" : "selenium";
+}
+
+bool is_installed(const std::string& program) {
+  return run_command({"sh", "-c", "command -v " + program}).exit_code == 0;
 }
 
 /// The command with little to measure: that it works is under test here, not its figures.
@@ -45,7 +38,8 @@ std::string shortened(std::string command) {
   command = std::regex_replace(command, std::regex("--tolerance [0-9e.,-]+"), "--tolerance 1e-1,1e-2");
   command = std::regex_replace(command, std::regex("--(at|time) [0-9.]+"), "--$1 0.3");
   command = std::regex_replace(command, std::regex("--times [0-9.,]+"), "--times 0,0.1,0.3");
-  if (command.starts_with("python3 ")) command.replace(0, 7, python_with("h5py, numpy, matplotlib"));
+  command = std::regex_replace(command, std::regex("--times \"[^\"]+\""), "--times \"0, 1 us\"");
+  if (command.starts_with("python3 ")) command.replace(0, 7, python_with(modules_of(command)));
   command = std::regex_replace(command, std::regex("bench (all|methods|stability)"), "bench $1 --quick");
   // The suite `bench` runs all of it.
   return std::regex_replace(command, std::regex("bench all"), "bench all --only space");
@@ -57,11 +51,10 @@ bool needs_finite_elements(const std::string& command) {
 
 /// What a command of a page needs and this machine does not have; empty if it has all.
 std::string missing_program(const std::string& command) {
-  if (command.find("--movie") != std::string::npos && run_command({"sh", "-c", "command -v ffmpeg"}).exit_code != 0) {
-    return "ffmpeg";
-  }
-  const bool is_python = command.starts_with("python3 ");
-  return is_python && python_with("h5py, numpy, matplotlib").empty() ? "h5py, numpy or matplotlib" : "";
+  if (command.find("--movie") != std::string::npos && !is_installed("ffmpeg")) return "ffmpeg";
+  const std::string modules = modules_of(command);
+  if (modules == "selenium" && !(is_installed("chromium") && is_installed("chromedriver"))) return "chromium";
+  return !modules.empty() && python_with(modules).empty() ? modules : "";
 }
 
 /// A folder that looks like the source tree to a reader of the pages.
@@ -80,6 +73,9 @@ struct ReaderFolder {
       }
     }
     copy_some_hard_cases(directory / "");
+    fs::create_directories(directory / "tests/app");
+    fs::copy_file(VEHD_SOURCE_DIR "/tests/app/report_page.py", directory / "tests/app/report_page.py");
+    fs::create_directories(directory / "docs/images");
   }
 };
 
@@ -121,16 +117,25 @@ BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {
   for (const fs::path& page : pages()) {
     // Each page starts afresh, as its reader does.
     const ReaderFolder folder;
-    for (const std::string& written : commands_of(page)) {
+    std::vector<std::string> done;
+    bool all_are_done = true;
+    for (const std::string& written : vehd::commands_of_page(page)) {
       if (needs_finite_elements(written)) continue;
       if (const std::string missing = missing_program(written); !missing.empty()) {
         BOOST_TEST_MESSAGE("skipped: " + written + ": " + missing + " is missing");
+        all_are_done = false;
         continue;
       }
+      // Nor is there what it would have made.
+      if (!all_are_done && written.starts_with("cp ")) continue;
       const std::string command = shortened(written);
       const ProgramResult result = run_command({"sh", "-c", "cd '" + (folder.directory / "") + "' && " + command});
       BOOST_TEST(result.exit_code == 0, page.string() + ": " + command + "\n" + result.errors);
+      done.push_back(written);
       ++count;
+    }
+    for (const std::string& picture : vehd::pictures_of(done)) {
+      BOOST_TEST(fs::exists(folder.directory / ("docs/" + picture)), page.string() + " makes no " + picture);
     }
   }
   BOOST_TEST(count >= 4);

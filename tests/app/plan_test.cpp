@@ -45,7 +45,8 @@ void plan_is_what_the_run_does(const PlannedRun& run) {
   BOOST_TEST(run.summary["rejected_steps"].get<int>() == 0);
   const auto& used = run.summary["kernel_evaluations"];
   BOOST_TEST(used.size() == run.plan["operators"].size());
-  const auto shapes = run.summary["steps"].get<std::uint64_t>() * run.plan["shapes_per_step"].get<std::uint64_t>() + 1;
+  const auto shapes = run.summary["steps"].get<std::uint64_t>() * run.plan["shapes_per_step"].get<std::uint64_t>() +
+                      run.plan["jumps"].get<std::uint64_t>() + 1;
   const auto per_shape = run.plan["kernel_evaluations_per_shape"].get<std::uint64_t>();
   for (const auto& op : run.plan["operators"]) {
     const std::string name = op["name"];
@@ -91,6 +92,15 @@ BOOST_AUTO_TEST_CASE(every_order_in_time_evaluates_as_many_shapes_as_planned) {
   for (int order = 2; order <= 4; ++order) {
     plan_is_what_the_run_does(PlannedRun(with_numerics("time_order = " + std::to_string(order) + "\n")));
   }
+}
+
+// Where the field jumps the shape is evaluated for either side of it; at a kink, and after the end, it is not.
+BOOST_AUTO_TEST_CASE(jumps_of_the_field_are_planned) {
+  const PlannedRun run(quick_scene("1.0") +
+                       "[electric.waveform]\nkind = \"table\"\ntimes = [0.0, 0.3, 0.3, 0.5, 0.75, 0.75, 2.0, 2.0]\n"
+                       "values = [1.0, 1.0, 0.5, 0.5, 0.7, 0.9, 0.9, 0.0]\n");
+  BOOST_TEST(run.plan["jumps"].get<int>() == 2);
+  plan_is_what_the_run_does(run);
 }
 
 BOOST_AUTO_TEST_CASE(symmetry_can_be_switched_off) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bie/comparison/frozen_state.hpp"
+#include "bie/runs/history.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/app/reference_run.hpp"
 
@@ -25,6 +26,19 @@ struct ShortRun : FinishedRun {
   }
   [[nodiscard]] std::string refusal(const std::string& asked, const std::string& nearest) const {
     return file() + ": no snapshot near time " + asked + "; there are 4 from 0 to 1.25, the nearest at " + nearest;
+  }
+};
+
+/// Snapshots at 0, 50, 100 and 125 us; 1 of the scene is 10 us, the history has us.
+struct ShortSiRun : FinishedRun {
+  ShortSiRun()
+      : FinishedRun(
+            "[units]\nlength = \"10 um\"\ntime = \"10 us\"\n"
+            "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n[membrane]\nbending_modulus = 1e-4\n"
+            "[numerics]\norder = 6\ndt = 2.5\nend_time = 12.5\n[output]\nevery = 5.0\n") {}
+  [[nodiscard]] ProgramResult plot(const std::string& times) const {
+    return run_vehd(
+        {"plot", output, "--times", times, "-o", directory / "shapes.svg", "--json", directory / "plot.json"});
   }
 };
 
@@ -49,16 +63,77 @@ BOOST_FIXTURE_TEST_CASE(pictures_say_which_times_they_have_taken, ShortRun) {
 }
 
 BOOST_FIXTURE_TEST_CASE(times_outside_the_run_are_refused, ShortRun) {
-  for (const auto& [asked, nearest] : {std::pair{"5", "1.25"}, {"-1", "0"}, {"1.4", "1.25"}, {"nan", "0"}}) {
+  for (const auto& [asked, nearest] : {std::pair{"5", "1.25"}, {"-1", "0"}, {"1.4", "1.25"}}) {
     const ProgramResult result = plot(std::string("0,") + asked);
     BOOST_TEST(result.exit_code == 1);
     BOOST_TEST(result.errors == refusal(asked, nearest) + "\n");
     BOOST_TEST(!std::filesystem::exists(output + "/plots/shapes.png"));
   }
+  for (const char* asked : {"nan", "five", "5 kV"}) {
+    const ProgramResult result = plot(std::string("0,") + asked);
+    BOOST_TEST(result.exit_code == 1);
+    BOOST_TEST(result.errors.find(std::string("\"") + asked + "\" is no time; accepted: a number") != std::string::npos,
+               result.errors);
+  }
+  const ProgramResult unit = plot("0,1 ms");
+  BOOST_TEST(unit.exit_code == 1);
+  BOOST_TEST(unit.errors ==
+             file() + ": the time \"1 ms\" has a unit, but the scene has none of time; accepted: a number\n");
+}
+
+// Found: a number was one of the scene, 10 us, where everything that a user reads says us.
+BOOST_FIXTURE_TEST_CASE(times_of_a_run_in_si_are_those_that_it_shows, ShortSiRun) {
+  BOOST_TEST(vehd::HistoryTable(output + "/history.csv").header("time") == "time [us]");
+  for (const char* times : {"0,50,125", "0 s, 0.05 ms, 125 µs", "0.0,50us,1.25e-4 s"}) {
+    const ProgramResult result = plot(times);
+    BOOST_TEST(result.exit_code == 0, result.errors);
+    BOOST_TEST(result.errors == "");
+    const auto json = json_of(directory / "plot.json");
+    BOOST_TEST(json.at("time_unit") == "us");
+    const auto drawn = json.at("times").get<std::vector<double>>();
+    const std::vector<double> expected = {0.0, 50.0, 125.0};
+    BOOST_TEST(drawn == expected, boost::test_tools::tolerance(1e-12) << boost::test_tools::per_element());
+  }
+  const std::string run = output + "/run.h5";
+  const ProgramResult near = plot("45");
+  BOOST_TEST(near.errors == run + ": no snapshot at time 45 us; taken: the nearest, at 50 us\n");
+  const ProgramResult far = plot("1 ms");
+  BOOST_TEST(far.exit_code == 1);
+  BOOST_TEST(far.errors ==
+             run + ": no snapshot near time 1000 us; there are 4 from 0 us to 125 us, the nearest at 125 us\n");
+}
+
+BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortSiRun) {
+  const std::string run = output + "/run.h5";
+  for (const char* time : {"50", "50 us", "0.05 ms"}) {
+    BOOST_TEST(vehd::read_frozen_state({run, {}}, time).state.time == 5.0, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(vehd::read_frozen_shape(run, time).note == "");
+  }
+  // Alone a file does not say in which unit it was shown.
+  const std::string lone = directory / "lone.h5";
+  std::filesystem::copy_file(run, lone);
+  BOOST_TEST(vehd::read_frozen_state({lone, {}}, "50 us").state.time == 5.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(vehd::read_frozen_state({lone, {}}, "0").state.time == 0.0);
+  BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_shape(lone, "50"), vehd::InputError, [&](const auto& error) {
+    return error.what() == lone +
+                               ": the time 50 has no unit, and no history.csv beside the run says which one its times "
+                               "have; accepted: as in \"50 ms\"";
+  });
+  // A scene has its start alone, in whatever unit.
+  BOOST_TEST(vehd::read_frozen_shape(scene, "0 ms").note == "");
+  BOOST_CHECK_THROW((void)vehd::read_frozen_shape(scene, "50 us"), vehd::InputError);
+}
+
+// Where a run shows numbers of the scene, a number is one of the scene.
+BOOST_AUTO_TEST_CASE(times_of_a_run_that_shows_numbers_of_the_scene_are_such) {
+  const FinishedRun run("[units]\ntime = \"10 us\"\n" + quick_scene("0.5") + "units = \"dimensionless\"\n");
+  const std::string file = run.output + "/run.h5";
+  BOOST_TEST(vehd::read_frozen_shape(file, "0.5").note == "");
+  BOOST_TEST(vehd::read_frozen_shape(file, "5 us").note == "");
 }
 
 BOOST_FIXTURE_TEST_CASE(frozen_states_take_the_same_times, ShortRun) {
-  const auto both = [&](std::optional<double> time) {
+  const auto both = [&](const std::optional<std::string>& time) {
     const vehd::FrozenState state = vehd::read_frozen_state({file(), {}}, time);
     const vehd::FrozenShape shape = vehd::read_frozen_shape(file(), time);
     BOOST_TEST((shape.position == state.state.vesicles[0].position));
@@ -66,11 +141,11 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_take_the_same_times, ShortRun) {
     return std::pair{state.state.time, state.note.empty() ? "" : state.note + "\n"};
   };
   BOOST_TEST((both(std::nullopt) == std::pair{1.25, std::string()}));
-  BOOST_TEST((both(0.5) == std::pair{0.5, std::string()}));
-  BOOST_TEST((both(0.7) == std::pair{0.5, note("0.7", "0.5")}));
+  BOOST_TEST((both("0.5") == std::pair{0.5, std::string()}));
+  BOOST_TEST((both("0.7") == std::pair{0.5, note("0.7", "0.5")}));
   const auto is_refused = [&](const vehd::InputError& error) { return error.what() == refusal("5", "1.25"); };
-  BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_state({file(), {}}, 5.0), vehd::InputError, is_refused);
-  BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_shape(file(), 5.0), vehd::InputError, is_refused);
+  BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_state({file(), {}}, "5"), vehd::InputError, is_refused);
+  BOOST_CHECK_EXCEPTION((void)vehd::read_frozen_shape(file(), "5"), vehd::InputError, is_refused);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

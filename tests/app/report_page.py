@@ -1,6 +1,6 @@
 """Opens a report in headless Chromium as a reader would, and prints what it shows as JSON.
 
-    report_page.py REPORT.html [SCREENSHOT.png]
+    report_page.py REPORT.html [SCREENSHOT.png [HEIGHT]]
 """
 
 import json
@@ -57,7 +57,7 @@ def state(browser):
             "label": browser.find_element(By.ID, "view").get_attribute("aria-label")}
 
 
-def look_at(browser, report, screenshot):
+def look_at(browser, report, screenshot=None, height=None):
     browser.get(pathlib.Path(report).resolve().as_uri())
     result = {"ready": browser.execute_script("return document.documentElement.dataset.ready"),
               "title": browser.title,
@@ -90,8 +90,8 @@ def look_at(browser, report, screenshot):
                                "const f = document.getElementById('field'); f.selectedIndex = 0;"
                                "f.dispatchEvent(new Event('change'));")
         browser.execute_script("window.scrollTo(0, 0)")
-        height = browser.execute_script("return document.documentElement.scrollHeight")
-        browser.set_window_size(1200, height + 100)
+        whole = browser.execute_script("return document.documentElement.scrollHeight") + 100
+        browser.set_window_size(1200, int(height or whole))
         browser.save_screenshot(screenshot)
     # Warnings of the software renderer about itself are no errors of the page.
     result["errors"] = [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
@@ -101,7 +101,7 @@ def look_at(browser, report, screenshot):
 def main():
     browser = open_browser()
     try:
-        print(json.dumps(look_at(browser, sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None)))
+        print(json.dumps(look_at(browser, *sys.argv[1:])))
     finally:
         browser.quit()
 

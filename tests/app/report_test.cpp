@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -97,6 +98,33 @@ BOOST_AUTO_TEST_CASE(page_needs_nothing_else_and_tells_of_the_run) {
   BOOST_TEST(page.size() < 200'000);
 }
 
+BOOST_AUTO_TEST_CASE(report_of_a_run_in_si_is_in_its_units) {
+  const ReportedRun run(
+      "[units]\nlength = \"10 um\"\ntime = \"10 us\"\n"
+      "[shape]\nkind = \"ellipsoid\"\naxes = [\"9 um\", \"9 um\", \"12 um\"]\n"
+      "[membrane]\nbending_modulus = \"1e-19 J\"\ncapacitance = \"10 mF/m^2\"\n[fluid]\nviscosity = \"1 mPa s\"\n"
+      "[electric]\nfield = [0, 0, \"0.3 kV/cm\"]\nconductivity_in = \"0.5 mS/cm\"\nconductivity_out = \"1 mS/cm\"\n"
+      "permittivity = \"80 eps0\"\n"
+      "[numerics]\norder = 6\ndt = \"25 us\"\nend_time = \"150 us\"\n[output]\nevery = \"75 us\"\n");
+  const nlohmann::json data = data_of(file_text(run.page));
+  const auto& reached = data["facts"][0];
+  BOOST_TEST(reached[0] == "time reached");
+  BOOST_TEST(reached[1] == "150 µs");
+  BOOST_TEST(data["surface"]["unit"] == "µm");
+  BOOST_TEST(data["surface"]["times"] == nlohmann::json::parse("[0.0, 75.0, 150.0]"));
+  BOOST_TEST(std::abs(data["surface"]["extents"][0][2].get<double>() - 24.0) < 1e-4);
+  BOOST_TEST(data["surface"]["fields"][0]["unit"] == "mV");
+  BOOST_TEST(data["history"]["unit"] == "µs");
+  std::map<std::string, std::string> units;
+  for (const auto& panel : data["history"]["panels"]) units[panel["title"]] = panel["unit"];
+  BOOST_TEST(units.at("potential across the membrane") == "mV");
+  BOOST_TEST(units.at("extent") == "µm");
+  BOOST_TEST(units.at("aspect ratio") == "");
+  // Of no panel but one with a column of history.csv that has this header.
+  const vehd::HistoryTable history(run.output + "/history.csv");
+  BOOST_TEST(units.at("charge density") == vehd::printed_unit(history.unit("q_north")));
+}
+
 BOOST_AUTO_TEST_CASE(long_runs_are_thinned_out_with_their_first_and_last_snapshot) {
   const ReportedRun run(quick_scene());
   const std::string page = run.directory / "a folder/of its own/page.html";
@@ -137,7 +165,7 @@ BOOST_AUTO_TEST_CASE(browser_shows_the_vesicle_and_the_slider_moves_it) {
   BOOST_TEST(shown["title"] == "a <run>");
   BOOST_TEST(shown["verdict"] == json_of(run.output + "/summary.json")["verdict"]);
   BOOST_TEST(shown["fields"] == nlohmann::json::parse(R"(["V_m", "q", "tension λ", "none"])"));
-  BOOST_TEST(shown["plots"].size() == 6, shown["plots"].dump());
+  BOOST_TEST(shown["plots"].size() == 7, shown["plots"].dump());
   BOOST_TEST(shown["shapes"] == 6);
   BOOST_TEST(shown["wider_than_window"] == false);
   BOOST_TEST(shown["playing"] == "Pause");

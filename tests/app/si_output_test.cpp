@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -64,6 +65,43 @@ BOOST_FIXTURE_TEST_CASE(units_change_what_is_shown_and_nothing_of_the_run, SiRun
   const auto data = snapshot_data(shown + "/run.h5"), reference = snapshot_data(plain + "/run.h5");
   BOOST_TEST_REQUIRE(data.size() == reference.size());
   for (std::size_t i = 0; i < data.size(); ++i) BOOST_TEST((data[i].second == reference[i].second), data[i].first);
+}
+
+// What 1 means inside is nobody's concern: a column with the dimension of another would change with it.
+BOOST_FIXTURE_TEST_CASE(a_history_in_si_does_not_depend_on_the_reference_scales, SiRun) {
+  std::string tilted = pulse();
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    tilted.replace(tilted.find(from), from.size(), to);
+  };
+  // Nothing is zero by symmetry.
+  replace("field = [0, 0, \"1 kV/cm\"]", "field = [\"0.03 kV/cm\", 0, \"0.09 kV/cm\"]");
+  replace("area = ", "centre = [\"5 um\", \"2 um\", \"3 um\"]\narea = ");
+  tilted += "[flow]\nkind = \"shear\"\nrate = \"100 1/s\"\n";
+  std::string other = tilted;
+  other.insert(other.find("temperature"),
+               "length = \"3 um\"\ntime = \"70 us\"\nviscosity = \"20 mPa s\"\npotential = \"0.3 V\"\n");
+  const vehd::HistoryTable a(run("a", tilted) + "/history.csv"), b(run("b", other) + "/history.csv");
+  BOOST_TEST_REQUIRE(a.n_rows() == b.n_rows());
+  for (const vehd::HistoryColumn& column : vehd::history_columns()) {
+    const std::string name(column.name);
+    BOOST_TEST(a.header(name) == b.header(name));
+    // What solvers and rounding leave.
+    if (name.starts_with("iterations") || name.find("drift") != std::string::npos || name == "strain_max" ||
+        name == "raw_area") {
+      continue;
+    }
+    double size = a.largest_magnitude(name);
+    if (name.starts_with("centroid")) {
+      for (const char axis : {'x', 'y', 'z'}) {
+        size = std::max(size, a.largest_magnitude(name.substr(0, name.size() - 1) + axis));
+      }
+    }
+    for (std::size_t i = 0; i < a.n_rows(); ++i) {
+      const double x = a.column(name)[i], y = b.column(name)[i];
+      BOOST_TEST((std::abs(x - y) <= 1e-6 * size || x == y || (std::isnan(x) && std::isnan(y))),
+                 a.header(name) << " row " << i << ": " << x << " and " << y);
+    }
+  }
 }
 
 BOOST_FIXTURE_TEST_CASE(numbers_are_those_of_the_experiment, SiRun) {

@@ -10,7 +10,7 @@ namespace {
 
 ColourRange range_of(const Vector& values) {
   const Vector weights = Vector::Ones(values.size());
-  return robust_range({{values, weights}});
+  return robust_range(std::vector<FieldReach>{reach_of(values, weights)}, false);
 }
 
 }  // namespace
@@ -50,6 +50,36 @@ BOOST_AUTO_TEST_CASE(constants_have_a_range_too) {
   }
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   BOOST_TEST(range_of(Vector::Constant(5, not_a_number)).upper == 1.0);
+}
+
+// Found: a value of 1e-15 counted as nothing, in whatever units.
+BOOST_AUTO_TEST_CASE(the_range_goes_with_the_unit) {
+  const Vector values = Vector::LinSpaced(101, 0.5, 2.0);
+  for (const double scale : {1e-30, 1e-15, 1e12}) {
+    const ColourRange range = range_of(scale * values);
+    BOOST_TEST(range.lower == scale * 0.5);
+    BOOST_TEST(range.upper == scale * 2.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_first_instants_do_not_take_the_colours_from_all_others) {
+  std::vector<FieldReach> times(40, FieldReach{1.0, 2.0, 1.0, 2.0});
+  times[0] = {-300.0, 500.0, -300.0, 500.0};
+  const ColourRange range = robust_range(times, false);
+  BOOST_TEST(range.lower == 1.0);
+  BOOST_TEST(range.upper == 2.0);
+  BOOST_TEST(range.below);
+  BOOST_TEST(range.above);
+  // A twentieth of a few is none.
+  times.resize(6);
+  BOOST_TEST(robust_range(times, false).upper == 500.0);
+}
+
+BOOST_AUTO_TEST_CASE(colours_diverge_where_the_sign_matters) {
+  const ColourRange range = robust_range(std::vector<FieldReach>{FieldReach{0.5, 2.0, 0.5, 2.0}}, true);
+  BOOST_TEST(range.both_signs);
+  BOOST_TEST(range.lower == -2.0);
+  BOOST_TEST(robust_range(std::vector<FieldReach>{FieldReach{3.0, 3.0, 3.0, 3.0}}, true).lower == -3.0);
 }
 
 BOOST_AUTO_TEST_CASE(every_colour_bar_has_three_ticks_and_texts_that_keep_apart) {

@@ -1,6 +1,9 @@
 #include "bie/pictures/history_panels.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 using namespace vehd;
@@ -18,8 +21,10 @@ std::vector<HistoryPanel> panels(const Scene& scene, const std::string& rows) {
 
 bool shows(const std::vector<HistoryPanel>& all, const std::string& label) {
   for (const HistoryPanel& panel : all) {
-    for (const HistoryCurve& curve : panel.curves) {
-      if (curve.label.starts_with(label)) return true;
+    for (const HistoryQuantity& axis : panel.axes) {
+      for (const HistoryCurve& curve : axis.curves) {
+        if (curve.label.starts_with(label)) return true;
+      }
     }
   }
   return false;
@@ -53,6 +58,55 @@ BOOST_AUTO_TEST_CASE(drifts_are_shown_where_they_matter) {
   BOOST_TEST(shows(panels(Scene(), start + "1e-9,1e-9,0.02\n"), "local strain"));
   // No flow turns the shape.
   BOOST_TEST(!shows(panels(Scene(), start + "0,0,0\n"), "inclination"));
+}
+
+BOOST_AUTO_TEST_CASE(a_report_tells_all_that_a_picture_does) {
+  Scene scene;
+  scene.electric.emplace();
+  scene.numerics.tolerance = 1e-3;
+  std::istringstream stream(
+      "time [ms],dt [ms],bending_energy_scaled,Vm_north [mV],Vm_max [mV],extent_x [um],extent_y [um],extent_z [um],"
+      "area_drift,order\n"
+      "0,0,15,0,0,2,4,3,1e-9,8\n1,1,14,5,6,2,3,3,-2e-6,9\n2,1,14,5,6,2,3,3,0,9\n");
+  const HistoryTable history(stream, "history.csv");
+  const auto quantities = history_quantities(scene, history);
+  std::vector<std::string> labels;
+  for (const HistoryQuantity& quantity : quantities) labels.push_back(quantity.label);
+  BOOST_TEST(labels == (std::vector<std::string>{"bending energy", "potential across the membrane", "aspect ratio",
+                                                 "errors", "extent", "step", "degree"}),
+             boost::test_tools::per_element());
+  BOOST_TEST(quantities[1].unit == "mV");
+  BOOST_TEST(quantities[1].curves.size() == 2);
+  BOOST_TEST(quantities[2].curves.front().label == "longest / shortest extent");
+  BOOST_TEST(quantities[2].curves.front().values == (std::vector<double>{2.0, 1.5, 1.5}),
+             boost::test_tools::per_element());
+  BOOST_TEST(quantities[3].is_logarithmic);
+  BOOST_TEST(std::isnan(quantities[3].curves.front().values[2]));
+  BOOST_TEST(quantities[3].curves.front().values[1] == 2e-6);
+  BOOST_TEST(quantities[4].unit == "um");
+  for (const HistoryPanel& panel : panels_of(scene, history)) {
+    for (const HistoryQuantity& axis : panel.axes) {
+      BOOST_TEST((std::ranges::find(labels, axis.label) != labels.end()), axis.label);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(thinned_curves_keep_their_peaks_and_ends) {
+  std::vector<HistoryCurve> curves = {{"low", std::vector<double>(10007, 1.0)},
+                                      {"high", std::vector<double>(10007, 1.0)}};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  curves[0].values[4321] = -7.0;
+  curves[0].values[4322] = none;
+  curves[1].values[5] = 9.0;
+  curves[1].values[0] = none;
+  const std::vector<std::size_t> rows = rows_to_draw(curves, 100);
+  for (const std::size_t row : {0, 5, 4321, 10006}) {
+    BOOST_TEST((std::ranges::find(rows, row) != rows.end()), row);
+  }
+  BOOST_TEST(std::ranges::is_sorted(rows));
+  BOOST_TEST(rows.size() < 500);
+  const std::vector<HistoryCurve> few = {{"few", {1.0, 2.0, 3.0}}};
+  BOOST_TEST(rows_to_draw(few, 100).size() == 3);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -98,6 +98,29 @@ BOOST_AUTO_TEST_CASE(a_run_that_has_begun_keeps_its_symbols) {
   BOOST_TEST(!units.of("velocity").is_si());
 }
 
+// Written out once more, by hand.
+BOOST_AUTO_TEST_CASE(every_prefix_is_what_its_name_says) {
+  const vehd::UnitsScene ones{1.0, 1.0, 1.0, 1.0};
+  for (const auto& [prefix, size] : {std::pair{"M", 1e6},
+                                     {"k", 1e3},
+                                     {"", 1.0},
+                                     {"m", 1e-3},
+                                     {"u", 1e-6},
+                                     {"n", 1e-9},
+                                     {"p", 1e-12},
+                                     {"f", 1e-15},
+                                     {"a", 1e-18},
+                                     {"z", 1e-21}}) {
+    const std::string p = prefix;
+    const vehd::OutputUnits units(ones, {{"potential", p + "V"}, {"area", p + "m^2"}, {"volume", p + "m^3"}});
+    const auto tolerance = boost::test_tools::tolerance(1e-14);
+    BOOST_TEST(units.of("potential").factor * size == 1.0, tolerance);
+    BOOST_TEST(units.of("area").factor * size * size == 1.0, tolerance);
+    BOOST_TEST(units.of("volume").factor * size * size * size == 1.0, tolerance);
+    BOOST_TEST(vehd::si_number(2.5 * size, "potential") == "2.5 " + p + "V");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(print_has_the_signs_that_ascii_lacks) {
   BOOST_TEST(vehd::printed_unit("um^3") == "µm³");
   BOOST_TEST(vehd::printed_unit("um/s") == "µm/s");

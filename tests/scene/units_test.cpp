@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <map>
 
 #include "bie/scene/dimensionless_groups.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -112,8 +113,10 @@ BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
   const auto time = [](const std::string& text) { return parsed(text).units->time.value_or(0.0); };
   const std::string start = "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\npotential = '1 V'\n" + with_appended("");
   const auto electric = [](const std::string& conductivities, const std::string& more) {
+    // A number without a unit says nothing of the time.
+    const std::string number = more.find("permittivity") == std::string::npos ? "permittivity = 1\n" : "";
     return "[membrane]\ncapacitance = '10 mF/m^2'\n[electric]\nfield = [0, '-4 kV/m', '3 kV/m']\n" + conductivities +
-           more;
+           number + more;
   };
   const std::string conducting = "conductivity_in = '0.5 mS/cm'\nconductivity_out = '1 mS/cm'\n";
   const std::string plain = "conductivity_in = 1\nconductivity_out = 0\n";
@@ -142,7 +145,7 @@ BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
   const std::string pulse = "[electric.waveform]\nkind = 'pulse'\nduration = '1 us'\n";
   BOOST_TEST(time(start + electric(conducting, "permittivity = '80 eps0'\n" + pulse)) == 1e-6, tolerance);
   // What has no unit, or is zero, says nothing.
-  BOOST_TEST(time(start + "[electric]\nfield = [0, 0, '1 kV/m']\n" + plain +
+  BOOST_TEST(time(start + "[electric]\nfield = [0, 0, '1 kV/m']\npermittivity = 1\n" + plain +
                   "[electric.waveform]\nkind = 'pulse'\nduration = 1\n") == 0.0);
   BOOST_TEST(time(start + "[flow]\nkind = 'shear'\nrate = '0 1/s'\n[membrane]\nbending_modulus = '1e-18 J'\n") == 1.0,
              tolerance);
@@ -184,6 +187,72 @@ BOOST_AUTO_TEST_CASE(numbers_convert_by_the_ratio_of_their_scales) {
   BOOST_TEST(std::isnan(vehd::si_scale(none, "length")));
 }
 
+// Written out once more, by hand: what a prefix or a composed unit is in SI base units.
+BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
+  const std::map<std::string, double> sizes = {{"m", 1},
+                                               {"mm", 1e-3},
+                                               {"um", 1e-6},
+                                               {"nm", 1e-9},
+                                               {"m^2", 1},
+                                               {"mm^2", 1e-6},
+                                               {"um^2", 1e-12},
+                                               {"1/m", 1},
+                                               {"1/mm", 1e3},
+                                               {"1/um", 1e6},
+                                               {"s", 1},
+                                               {"ms", 1e-3},
+                                               {"us", 1e-6},
+                                               {"ns", 1e-9},
+                                               {"1/s", 1},
+                                               {"1/ms", 1e3},
+                                               {"Hz", 1},
+                                               {"kHz", 1e3},
+                                               {"MHz", 1e6},
+                                               {"m/s", 1},
+                                               {"mm/s", 1e-3},
+                                               {"um/s", 1e-6},
+                                               {"m/s^2", 1},
+                                               {"kg/m^3", 1},
+                                               {"g/cm^3", 1e3},
+                                               {"Pa s", 1},
+                                               {"mPa s", 1e-3},
+                                               {"J", 1},
+                                               {"aJ", 1e-18},
+                                               {"zJ", 1e-21},
+                                               {"V", 1},
+                                               {"mV", 1e-3},
+                                               {"V/m", 1},
+                                               {"kV/m", 1e3},
+                                               {"V/cm", 1e2},
+                                               {"kV/cm", 1e5},
+                                               {"S/m", 1},
+                                               {"mS/m", 1e-3},
+                                               {"mS/cm", 1e-1},
+                                               {"uS/cm", 1e-4},
+                                               {"F/m", 1},
+                                               {"pF/m", 1e-12},
+                                               {"eps0", 8.8541878188e-12},
+                                               {"F/m^2", 1},
+                                               {"mF/m^2", 1e-3},
+                                               {"uF/cm^2", 1e-2},
+                                               {"S/m^2", 1},
+                                               {"S/cm^2", 1e4},
+                                               {"mS/cm^2", 1e1},
+                                               {"K", 1},
+                                               {"kBT", 1.380649e-23 * 300.0},
+                                               {"m^3", 1},
+                                               {"Pa", 1},
+                                               {"N/m", 1}};
+  for (const vehd::Dimension& dimension : vehd::dimensions()) {
+    for (const vehd::Unit& unit : dimension.units) {
+      const auto size = sizes.find(std::string(unit.symbol));
+      BOOST_TEST_REQUIRE((size != sizes.end()), unit.symbol);
+      const vehd::Quantity three{3.0, std::string(unit.symbol)};
+      BOOST_TEST(three.in_si(unit, 300.0) == 3.0 * size->second, boost::test_tools::tolerance(1e-15));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_thermal_energy_is_that_of_the_temperature_of_the_scene) {
   const std::string thermal = replaced(si_scene(), "\"2e-20 J\"", "\"20 kBT\"");
   const std::string warm = replaced(thermal, "[units]\n", "[units]\ntemperature = \"300 K\"\n");
@@ -200,6 +269,20 @@ BOOST_AUTO_TEST_CASE(a_thermal_energy_is_that_of_the_temperature_of_the_scene) {
   BOOST_TEST(message_with("\"10 um\"", "'10 kBT'") ==
              "scene.toml:2: \"length\" in [units] is the text '10 kBT', whose unit is none of length; accepted: m, mm, "
              "um, nm");
+}
+
+// 1 of the scene would be 5e-11 F/m here, and something else with another reference time.
+BOOST_AUTO_TEST_CASE(a_field_in_si_needs_a_permittivity) {
+  const std::string without = without_line(si_scene(), "permittivity = ");
+  const std::string message = message_of(without);
+  BOOST_TEST(
+      message.starts_with("scene.toml:19: missing key \"permittivity\" in [electric]: beside a field with a unit its "
+                          "default of 1 would be "),
+      message);
+  BOOST_TEST(message.ends_with(" F/m; accepted: as \"80 eps0\" for water, or a number"), message);
+  // A field that is a number has the default that is one.
+  BOOST_TEST(message_of(replaced(without, "\"0.1 kV/cm\"", "0.3")) == "");
+  BOOST_TEST(parsed(replaced(si_scene(), "\"80 eps0\"", "2.5")).electric->permittivity == 2.5);
 }
 
 BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {

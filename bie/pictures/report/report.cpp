@@ -15,6 +15,7 @@
 #include "bie/pictures/report/scene_data.hpp"
 #include "bie/pictures/report/surface_data.hpp"
 #include "bie/pictures/report/verdict_data.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -84,10 +85,16 @@ nlohmann::json palette_of(const ColourMap& colours) {
   return palette;
 }
 
+/// With its unit as in print.
+std::string reached_of(const HistoryTable& history) {
+  const std::string number = fmt::format("{:.6g}", history.column("time").back()), unit = history.unit("time");
+  return unit.empty() ? number : number + " " + printed_unit(unit);
+}
+
 nlohmann::json facts_of(const nlohmann::json& summary, const HistoryTable& history, const ReportSize& size) {
   nlohmann::json facts = nlohmann::json::array();
   const auto add = [&](const char* name, const std::string& value) { facts.push_back({name, value}); };
-  if (!history.column("time").empty()) add("time reached", fmt::format("{:.6g}", history.column("time").back()));
+  if (!history.column("time").empty()) add("time reached", reached_of(history));
   add("steps", std::to_string(history.n_steps()));
   if (summary.is_object()) {
     const auto number = [&](const char* key) {

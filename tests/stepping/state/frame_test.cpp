@@ -18,7 +18,7 @@ constexpr int kOrder = 12;
 
 Discretisation with(const Symmetry& symmetry) { return Discretisation(solved_to_rounding(kOrder), symmetry); }
 
-/// A model and a shape in the laboratory, and how they look in the frame that is found for them.
+/// A model and a shape in the lab frame, and how they look in the frame that is found for them.
 struct Scenario {
   Model model;
   State state;
@@ -27,8 +27,8 @@ struct Scenario {
   State state_there;
   Symmetry symmetry;
 
-  Scenario(const Model& laboratory_model, const Matrix& position)
-      : model(laboratory_model), state(start(model, with({}), position, 0.1)), frame(find_frame(model, state)) {
+  Scenario(const Model& lab_frame_model, const Matrix& position)
+      : model(lab_frame_model), state(start(model, with({}), position, 0.1)), frame(find_frame(model, state)) {
     model_there = in_frame(frame, model);
     state_there = in_frame(frame, state);
     symmetry = find_symmetry(model_there, state_there);
@@ -41,8 +41,8 @@ struct Scenario {
     return testing::difference_per_step(model_there, state_there.vesicles[0].position, reduced, full, dt, n_steps);
   }
 
-  /// The same between the frame and the laboratory, where the grid has its poles elsewhere.
-  [[nodiscard]] double difference_from_laboratory(double dt, int n_steps) const {
+  /// The same between the frame and the lab frame, where the grid has its poles elsewhere.
+  [[nodiscard]] double difference_from_lab_frame(double dt, int n_steps) const {
     const Discretisation reduced = with(symmetry);
     const State a =
         run(model_there, reduced, start(model_there, reduced, state_there.vesicles[0].position, dt), dt, n_steps);
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(axis_is_found_in_the_field_the_flow_gravity_or_the_shape) {
   BOOST_TEST(Scenario(relaxation_model(0.1), rotated_shape(oblique(), pear(kOrder))).symmetry.axisymmetric);
 }
 
-BOOST_AUTO_TEST_CASE(scene_whose_axis_is_gone_stays_in_the_laboratory) {
+BOOST_AUTO_TEST_CASE(scene_whose_axis_is_gone_stays_in_the_lab_frame) {
   const auto stays = [](const Model& model, const Matrix& position) {
     const Scenario scenario(model, position);
     return scenario.frame.is_laboratory() && !scenario.symmetry.axisymmetric;
@@ -172,11 +172,11 @@ BOOST_AUTO_TEST_CASE(axis_may_miss_the_origin_where_nothing_depends_on_the_place
   BOOST_TEST(symmetry_text(upright.symmetry, upright.frame) ==
              "axisymmetric about z, mirror z, through (0.3, -2, 0.7)");
   BOOST_TEST(upright.difference_per_step(0.2, 3) < 1e-9);
-  BOOST_TEST(upright.difference_from_laboratory(0.2, 3) < 1e-9);
+  BOOST_TEST(upright.difference_from_lab_frame(0.2, 3) < 1e-9);
   const Scenario tilted(in_field(oblique().col(2)), translated(rotated_shape(oblique(), pear(kOrder)), centre));
   BOOST_TEST(tilted.symmetry.axisymmetric);
   BOOST_TEST(tilted.difference_per_step(0.2, 3) < 1e-9);
-  // What the laboratory shows is where it was.
+  // What the lab frame shows is where it was.
   const LabFrameOutput lab_frame(upright.frame, with({}).settings());
   BOOST_TEST(max_difference(lab_frame.state(upright.state_there).vesicles[0].position,
                             upright.state.vesicles[0].position) < 1e-15);
@@ -200,12 +200,12 @@ BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps_about_any_axis) {
 }
 
 // The truncation of degree p knows no poles, but its quadratures do: they agree as well as each is resolved.
-BOOST_AUTO_TEST_CASE(frame_and_laboratory_agree_to_the_accuracy_of_the_order) {
+BOOST_AUTO_TEST_CASE(frame_and_lab_frame_agree_to_the_accuracy_of_the_order) {
   const Scenario lying(in_field({1.0, 0.0, 0.0}), ellipsoid(kOrder, {1.4, 1.0, 1.0}));
-  BOOST_TEST(lying.difference_from_laboratory(0.2, 3) < 1e-8);
+  BOOST_TEST(lying.difference_from_lab_frame(0.2, 3) < 1e-8);
   const Scenario tilted(in_field(oblique().col(2)), rotated_shape(oblique(), ellipsoid(kOrder, {1.0, 1.0, 1.4})));
   BOOST_TEST(tilted.symmetry.axisymmetric);
-  BOOST_TEST(tilted.difference_from_laboratory(0.2, 3) < 1e-8);
+  BOOST_TEST(tilted.difference_from_lab_frame(0.2, 3) < 1e-8);
 }
 
 BOOST_AUTO_TEST_CASE(as_few_targets_are_evaluated_as_about_z) {
@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(as_few_targets_are_evaluated_as_about_z) {
              stokes_evaluations(upright));
 }
 
-BOOST_AUTO_TEST_CASE(history_quantities_are_those_of_the_laboratory) {
+BOOST_AUTO_TEST_CASE(history_quantities_are_those_of_the_lab_frame) {
   const Scenario scenario(in_field(oblique().col(2)), rotated_shape(oblique(), pear(kOrder)));
   const auto charged = [](const Model& model, const Discretisation& discretisation, const State& from) {
     return run(model, discretisation, start(model, discretisation, from.vesicles[0].position, 0.2), 0.2, 1);

@@ -69,7 +69,7 @@ class HistoryPlot {
   drawing() {
     const { panel } = this, bottom = plotHeight - margin.bottom, right = plotWidth - margin.right;
     const nodes = [element("title", { text: this.summary() })];
-    const title = withUnit(panel.title, panel.unit && `(${panel.unit})`);
+    const title = withUnit(panel.title[0].toUpperCase() + panel.title.slice(1), panel.unit && `(${panel.unit})`);
     nodes.push(element("text", { class: "title", x: margin.left, y: 18, text: title }));
     const ticks = this.ticks(), texts = tickTexts(ticks);
     for (const [i, tick] of ticks.entries()) {

@@ -1,0 +1,91 @@
+#include "bie/bench/pages.hpp"
+
+#include <fmt/format.h>
+
+#include <regex>
+#include <sstream>
+
+#include "bie/bench/doc_tables.hpp"
+#include "bie/support/child_process.hpp"
+#include "bie/support/file_system.hpp"
+#include "bie/support/temporary.hpp"
+
+namespace vehd {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view hidden = "<!-- sh: ", end_of_hidden = " -->";
+
+/// Links to what a reader of the pages has around.
+void imitate_source_tree(const fs::path& folder, const fs::path& docs) {
+  make_directory(folder / "build");
+  fs::create_symlink(fs::read_symlink("/proc/self/exe"), folder / "build/vehd");
+  fs::create_directory_symlink(docs, folder / "docs");
+  const fs::path tests = docs.parent_path() / "tests";
+  if (fs::is_directory(tests)) fs::create_directory_symlink(tests, folder / "tests");
+}
+
+/// What is wrong; empty if nothing is.
+std::string failure_of(const std::string& command, const fs::path& folder) {
+  const fs::path messages = folder / "messages";
+  const ChildEnd end = run_child({{"sh", "-c", "cd \"$0\" && " + command, folder.string()}, messages});
+  if (end.start_problem == 0 && end.signal == 0 && end.exit_code == 0) return {};
+  return fmt::format("{}: {}", command, text_of_file(messages));
+}
+
+}  // namespace
+
+std::vector<std::string> commands_of_page(const fs::path& page) {
+  static const std::regex not_to_be_run("^(git |cmake |ctest |apt-get |dpkg |out/(installed|package)/)");
+  std::vector<std::string> commands;
+  std::istringstream text(text_of_file(page));
+  bool inside = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("```")) {
+      inside = line == "```sh";
+    } else if (inside && !line.empty() && !line.starts_with("#") && !std::regex_search(line, not_to_be_run)) {
+      commands.push_back(line);
+    } else if (!inside && line.starts_with(hidden) && line.ends_with(end_of_hidden)) {
+      commands.push_back(line.substr(hidden.size(), line.size() - hidden.size() - end_of_hidden.size()));
+    }
+  }
+  return commands;
+}
+
+std::vector<std::string> pictures_of(const std::vector<std::string>& commands) {
+  static const std::regex picture("docs/(images/[^ ]+)");
+  std::vector<std::string> pictures;
+  for (const std::string& command : commands) {
+    for (std::sregex_iterator match(command.begin(), command.end(), picture), end; match != end; ++match) {
+      pictures.push_back((*match)[1]);
+    }
+  }
+  return pictures;
+}
+
+std::vector<std::string> renew_pictures_of_pages(const fs::path& docs, BenchObserver& observer) {
+  std::vector<std::string> unfinished;
+  const fs::path source = fs::absolute(docs).lexically_normal();
+  for (const fs::path& page : pages_of(source)) {
+    const std::vector<std::string> commands = commands_of_page(page);
+    const std::vector<std::string> pictures = pictures_of(commands);
+    if (pictures.empty()) continue;
+    const std::string name = page.lexically_relative(source).string();
+    observer.note(fmt::format("{}: {} picture{}", name, pictures.size(), pictures.size() == 1 ? "" : "s"));
+    const TemporaryFolder folder("vehd-page");
+    imitate_source_tree(folder.path(), source);
+    BenchTasks tasks(static_cast<int>(commands.size()), observer);
+    for (const std::string& command : commands) {
+      tasks.next(command);
+      const std::string problem = failure_of(command, folder.path());
+      if (problem.empty()) continue;
+      observer.warn(fmt::format("{}: {}", name, problem));
+      unfinished.push_back(name);
+      break;
+    }
+  }
+  return unfinished;
+}
+
+}  // namespace vehd

@@ -1,0 +1,41 @@
+#include "bie/scene/given_time.hpp"
+
+#include <fmt/format.h>
+
+#include "bie/scene/units.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+const Dimension& dimension_of_time() { return *find_dimension("time"); }
+
+}  // namespace
+
+std::string problem_of_time(const std::string& text) {
+  const auto quantity = parse_quantity(text);
+  if (quantity && (quantity->unit.empty() || dimension_of_time().find(quantity->unit) != nullptr)) return {};
+  return fmt::format("\"{}\" is no time; accepted: a number, or one with a unit ({}), as \"0.5 ms\"", text,
+                     dimension_of_time().accepted());
+}
+
+double number_of_time(const std::string& text, const std::optional<UnitsScene>& scales,
+                      const std::optional<OutputUnit>& plain) {
+  if (const std::string problem = problem_of_time(text); !problem.empty()) throw InputError(problem);
+  const Quantity quantity = *parse_quantity(text);
+  if (quantity.number == 0.0) return 0.0;
+  if (quantity.unit.empty()) {
+    if (plain) return quantity.number / plain->factor;
+    throw InputError(
+        fmt::format("the time {} has no unit, and no history.csv beside the run says which one its times "
+                    "have; accepted: as in \"{} ms\"",
+                    text, text));
+  }
+  if (!scales || !scales->time) {
+    throw InputError(
+        fmt::format("the time \"{}\" has a unit, but the scene has none of time; accepted: a number", text));
+  }
+  return quantity.in_si(*dimension_of_time().find(quantity.unit)) / *scales->time;
+}
+
+}  // namespace vehd

@@ -1,0 +1,52 @@
+# Installs a package as an administrator would, into a Debian 12 that has nothing beside apt, and goes on to the first
+# picture; tells how long both take:
+#   cmake -DPACKAGE=vehd.deb -DFOLDER=work -P clean_root.cmake
+# It needs root, mmdebstrap or debootstrap, and the network; where one of the first two is missing it says so and ends.
+cmake_minimum_required(VERSION 3.25)
+include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
+
+find_program(mmdebstrap mmdebstrap NO_CACHE)
+find_program(debootstrap debootstrap NO_CACHE)
+execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
+if(NOT user EQUAL 0 OR NOT (mmdebstrap OR debootstrap))
+  message(STATUS "skipped: needs root and mmdebstrap or debootstrap (Debian packages)")
+  return()
+endif()
+
+# A bare system, made once.
+set(root "${FOLDER}/root")
+if(NOT EXISTS "${FOLDER}/bare.tar")
+  file(REMOVE_RECURSE "${FOLDER}")
+  file(MAKE_DIRECTORY "${FOLDER}")
+  if(mmdebstrap)
+    expect("" "${mmdebstrap}" --variant=apt bookworm "${FOLDER}/bare.tar")
+  else()
+    expect("" "${debootstrap}" --variant=minbase bookworm "${root}")
+    expect("" tar -C "${root}" -cf "${FOLDER}/bare.tar" .)
+  endif()
+endif()
+file(REMOVE_RECURSE "${root}")
+file(MAKE_DIRECTORY "${root}")
+expect("" tar -C "${root}" --exclude=./dev/* -xf "${FOLDER}/bare.tar")
+configure_file(/etc/resolv.conf "${root}/etc/resolv.conf" COPYONLY)
+configure_file("${PACKAGE}" "${root}/vehd.deb" COPYONLY)
+
+# Runs a line of shell within the system, whose /proc and /dev end with it.
+function(within seconds line)
+  string(TIMESTAMP start "%s")
+  expect("${ARGN}" unshare --mount sh -c
+         "mount -t proc proc '${root}/proc' && mount --rbind /dev '${root}/dev' && exec chroot '${root}' /usr/bin/env -i \
+HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive sh -c 'cd /root && ${line}'")
+  string(TIMESTAMP end "%s")
+  math(EXPR taken "${end} - ${start}")
+  set(${seconds} ${taken} PARENT_SCOPE)
+endfunction()
+
+within(updated "apt-get update -q")
+within(installed "apt-get install -q -y /vehd.deb")
+within(ran "vehd examples figure2 && vehd run figure2.toml" "picture: out/figure2/plots/shapes.png")
+if(NOT EXISTS "${root}/root/out/figure2/plots/shapes.png")
+  message(FATAL_ERROR "no picture")
+endif()
+math(EXPR sum "${installed} + ${ran}")
+message(STATUS "lists of packages ${updated} s; installed in ${installed} s; first picture ${ran} s after that: ${sum} s")
