@@ -6,6 +6,8 @@
 #include "tests/app/program.hpp"
 #include "tests/app/stopping_scenes.hpp"
 
+BOOST_AUTO_TEST_SUITE(plan)
+
 namespace {
 
 /// A scene and what a run of it says at its end.
@@ -56,8 +58,6 @@ void plan_is_what_the_run_does(const PlannedRun& run) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plan)
 
 BOOST_AUTO_TEST_CASE(run_evaluates_exactly_the_planned_kernels) {
   const PlannedRun run(quick_scene());

@@ -9,6 +9,8 @@
 #include "bie/scene/reader.hpp"
 #include "tests/app/program.hpp"
 
+BOOST_AUTO_TEST_SUITE(run_output)
+
 namespace {
 
 struct Run {
@@ -26,8 +28,6 @@ struct Run {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(run_output)
 
 BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_times, Run) {
   run(quick_scene());

@@ -13,7 +13,7 @@
 namespace vehd::fem_check::testing {
 
 /// Refinement of a block mesh by one number: cells per edge, and layers in proportion.
-struct Level {
+struct OneMesh {
   int cells_per_edge = 2;
   int blend_layers = 1;
   int shell_layers = 4;
@@ -21,7 +21,7 @@ struct Level {
   double outer_radius = 8.0;
 };
 
-inline Discretisation discretise(const meshes::FrozenShape& shape, const Level& level, Ranks ranks = Ranks::all) {
+inline Discretisation discretise(const meshes::FrozenShape& shape, const OneMesh& level, Ranks ranks = Ranks::all) {
   meshes::BlockMeshOptions options;
   options.cells_per_edge = level.cells_per_edge;
   options.blend_layers = level.blend_layers;

@@ -12,7 +12,7 @@ struct Errors {
   double potential, voltage, flux, flux_from_gradient;
 };
 
-Errors errors_on_sphere(const Level& level) {
+Errors errors_on_sphere(const OneMesh& level) {
   const Discretisation space = discretise(unit_sphere(), level);
   const SurfacePoints points = space.quadrature_points(level.degree + 3);
   const TwoSources exact = {{{1.5, -1.2, 3.0}, 10.0}, {{0.1, 0.2, -0.1}, 1.0}};

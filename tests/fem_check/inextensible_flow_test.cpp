@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_SUITE_END()
 BOOST_AUTO_TEST_SUITE(parallel)
 
 BOOST_AUTO_TEST_CASE(ranks_together_solve_the_inextensible_flow_as_one_alone) {
-  const Level level{.cells_per_edge = 1, .shell_layers = 2, .degree = 3};
+  const OneMesh level{.cells_per_edge = 1, .shell_layers = 2, .degree = 3};
   const Discretisation together = discretise(shapes::prolate(), level);
   const Discretisation alone = discretise(shapes::prolate(), level, Ranks::each_alone);
   const SurfacePoints points = alone.quadrature_points(5);

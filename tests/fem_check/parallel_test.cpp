@@ -16,7 +16,7 @@ BOOST_AUTO_TEST_CASE(ranks_together_solve_the_potential_as_one_alone) {
   const std::variant<PrescribedJump, SteadyMembrane, ChargingMembrane> membranes[] = {
       PrescribedJump{on_surface([](const Vector3& x, const Vector3&) { return 0.2 * x.z(); })},
       SteadyMembrane{5.0, 0.0}, SteadyMembrane{0.0, 0.3}};
-  const Level level{.degree = 3};
+  const OneMesh level{.degree = 3};
   const Discretisation together = discretise(shapes::shape_33(), level);
   const Discretisation alone = discretise(shapes::shape_33(), level, Ranks::each_alone);
   const SurfacePoints points = alone.quadrature_points(5);
@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(ranks_together_solve_the_flow_as_one_alone) {
   FlowProblem problem;
   problem.force = vectors_on_surface(
       [](const Vector3& x, const Vector3& n) { return Vector3(x.z() * n + Vector3(0.1, x.x() * x.y(), 0.0)); });
-  const Level level{.degree = 3};
+  const OneMesh level{.degree = 3};
   const Discretisation together = discretise(shapes::prolate(), level);
   const Discretisation alone = discretise(shapes::prolate(), level, Ranks::each_alone);
   const SurfacePoints points = alone.quadrature_points(5);
