@@ -22,6 +22,8 @@
 #                                   it they include the check where deal.II and gmsh are there already
 #   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of that of this machine;
 #                                   levels: for every x86-64, the numerical libraries for its newer levels as well
+#   -DVEHD_TEST_LEVEL=x86-64-v3     test runs the tests that rounding could change once more, on numerical libraries for this
+#                                   instruction set, which build makes as well
 #   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON   a warning of the compiler ends the build
 cmake_minimum_required(VERSION 3.25)
 
@@ -102,7 +104,6 @@ if(STEP MATCHES "^(test|sanitize)$")
   need_python_module(python3-paraview paraview.simple)
   need_program(xvfb xvfb-run)
   need_program(xauth xauth)
-  need_program(help2man help2man)
   need_program(zsh zsh)
   # They read the words of pictures back.
   need_program(poppler-utils pdftotext)
@@ -118,7 +119,8 @@ if(STEP MATCHES "^(test|sanitize|docs)$")
   need_python_module(python3-numpy numpy)
   need_python_module(python3-matplotlib matplotlib)
 endif()
-if(STEP STREQUAL "package")
+if(STEP MATCHES "^(test|sanitize|package)$")
+  # A Debian package of the build is made, read and tried.
   need_program(help2man help2man)
   need_program(dpkg-dev dpkg-shlibdeps)
   need_program(file file)
@@ -197,9 +199,11 @@ if(STEP MATCHES "^(test|sanitize|faults|fuzz)$")
 else()
   list(APPEND options -DBUILD_TESTING=OFF)
 endif()
-if(DEFINED CMAKE_COMPILE_WARNING_AS_ERROR)
-  list(APPEND options -DCMAKE_COMPILE_WARNING_AS_ERROR=${CMAKE_COMPILE_WARNING_AS_ERROR})
-endif()
+foreach(option IN ITEMS CMAKE_COMPILE_WARNING_AS_ERROR VEHD_TEST_LEVEL)
+  if(DEFINED ${option})
+    list(APPEND options "-D${option}=${${option}}")
+  endif()
+endforeach()
 if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|docs)$")
   # The other steps leave a build with the check as it is.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
@@ -258,11 +262,9 @@ if(STEP STREQUAL "fuzz")
   endforeach()
 endif()
 if(STEP STREQUAL "package")
-  file(REMOVE_RECURSE "${build}/package")
-  run_or_stop("${CMAKE_CPACK_COMMAND}" --config "${build}/CPackConfig.cmake" -G DEB -B "${build}/package")
-  file(GLOB packages "${build}/package/*.deb")
-  run_or_stop("${CMAKE_COMMAND}" "-DPACKAGE=${packages}" "-DFOLDER=${build}/installed" -P
+  run_or_stop("${CMAKE_COMMAND}" "-DBUILD=${build}" -DLEVELS=2 "-DFOLDER=${build}/installed" -P
               "${source}/tests/installed/package.cmake")
+  file(GLOB packages "${build}/package/*.deb")
   message(STATUS "Install it with: apt-get install ${packages}")
 endif()
 if(STEP STREQUAL "check")

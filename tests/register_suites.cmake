@@ -9,8 +9,11 @@ cmake_policy(VERSION 3.25)
 #
 # Freed memory is kept, as the program keeps it (keep_freed_memory): giving it back and taking it anew was a quarter of the
 # time.
+#
+# With OTHER_LIBRARIES, a folder of numerical libraries for another instruction set, each suite that is neither labelled
+# "fem" nor "once" is run with them as well, as other/MODULE/SUITE.
 function(register_suites)
-  cmake_parse_arguments(tests "" "PROGRAM;MODULE;FOLDER;SLOWER" "LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(tests "" "PROGRAM;MODULE;FOLDER;SLOWER;OTHER_LIBRARIES" "LABELS;ENVIRONMENT" ${ARGN})
   if(NOT EXISTS "${tests_PROGRAM}")
     add_test(${tests_MODULE} "${tests_PROGRAM}")
     set_tests_properties(${tests_MODULE} PROPERTIES LABELS "${tests_LABELS}")
@@ -42,9 +45,20 @@ function(register_suites)
       list(APPEND environment OMP_NUM_THREADS=1)
     endif()
     math(EXPR seconds "${seconds} * ${tests_SLOWER}")
-    add_test(${tests_MODULE}/${name} "${tests_PROGRAM}" --run_test=${name})
-    set_tests_properties(${tests_MODULE}/${name} PROPERTIES
-                         LABELS "${tests_LABELS};${labels}" TIMEOUT ${seconds} COST ${cost} RUN_SERIAL ${alone}
-                         WORKING_DIRECTORY "${tests_FOLDER}" ENVIRONMENT "${environment}")
+    list(APPEND labels ${tests_LABELS})
+    set(entries ${tests_MODULE}/${name})
+    if(tests_OTHER_LIBRARIES AND NOT "fem" IN_LIST labels AND NOT "once" IN_LIST labels)
+      list(APPEND entries other/${tests_MODULE}/${name})
+    endif()
+    foreach(entry IN LISTS entries)
+      if(entry MATCHES "^other/")
+        list(APPEND environment LD_LIBRARY_PATH=${tests_OTHER_LIBRARIES})
+        list(APPEND labels other)
+      endif()
+      add_test(${entry} "${tests_PROGRAM}" --run_test=${name})
+      set_tests_properties(${entry} PROPERTIES
+                           LABELS "${labels}" TIMEOUT ${seconds} COST ${cost} RUN_SERIAL ${alone}
+                           WORKING_DIRECTORY "${tests_FOLDER}" ENVIRONMENT "${environment}")
+    endforeach()
   endforeach()
 endfunction()
