@@ -24,7 +24,7 @@ std::string key_of(std::string part) {
 }
 
 BenchTable empty_parts_table(const std::vector<std::string>& parts) {
-  BenchTable table{"rows", {{"order", "p"}}};
+  BenchTable table{"rows", {{"order", "p"}, {"first_step_seconds", "first step", "{:.2g}", true}}};
   for (const std::string& part : parts) table.columns.push_back({"seconds_" + key_of(part), part, "{:.2g}", true});
   table.columns.push_back({"iterations_flow", "iterations", "{:.0f}", true});
   for (const std::string& part : parts) table.columns.push_back({"bytes_" + key_of(part), ""});
@@ -81,11 +81,14 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
                   {"bytes_are", "most memory beyond what was held when the part began"}};
   observer.note(fmt::format("{} threads, {:.1f} Gflop/s in matrix products, dt = {}; seconds", machine.threads,
                             peak / 1e9, *scene.numerics.dt));
-  BenchTasks tasks(static_cast<int>(orders.size()) * (repeats + 1), observer);
+  BenchTasks tasks(static_cast<int>(orders.size()) * (repeats + 2), observer);
   std::vector<std::string> parts;
   std::map<std::string, PartCurve> curves;
   for (const int order : orders) {
     scene.numerics.order = order;
+    tasks.next(fmt::format("p = {}: first step", order));
+    std::vector<double> first;
+    while (wants_repeat(first, repeats)) first.push_back(seconds_to_the_first_step(scene));
     tasks.next(fmt::format("p = {}: memory", order));
     StepTimer timer(scene);
     timer.metered_step();
@@ -118,7 +121,7 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
       fraction_cells.emplace_back();
       if (curve.operations > 0.0) fraction_cells.back() = curve.operations / seconds.median / peak;
     }
-    std::vector<BenchCell> row{std::int64_t{order}};
+    std::vector<BenchCell> row{std::int64_t{order}, spread_of(first)};
     seconds_cells.emplace_back(spread_of(timer.iterations()));
     for (const auto* cells : {&seconds_cells, &byte_cells, &fraction_cells}) {
       row.insert(row.end(), cells->begin(), cells->end());

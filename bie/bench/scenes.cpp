@@ -17,7 +17,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::array kQuantities{"extent_x", "extent_z", "bending_energy_scaled", "Vm_north", "inclination_deg"};
+constexpr std::array kShownAtTheEnd{"extent_x", "extent_z", "bending_energy_scaled", "Vm_north", "inclination_deg"};
 
 BenchTable empty_scenes_table() {
   BenchTable table{"rows",
@@ -26,7 +26,7 @@ BenchTable empty_scenes_table() {
                     {"time", "time"},
                     {"steps", "steps"},
                     {"seconds", "seconds", "{:.2g}", true}}};
-  for (const char* name : kQuantities) table.columns.push_back({name, name, "{:.5g}"});
+  for (const char* name : kShownAtTheEnd) table.columns.push_back({name, name, "{:.5g}"});
   return table;
 }
 
@@ -68,7 +68,7 @@ BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const
     const HistoryTable history(paths.history());
     std::vector<BenchCell> row{file.filename().string(), std::int64_t{scene.numerics.order},
                                last_number(history, scene, "time"), history.n_steps(), spread_of({seconds})};
-    for (const char* name : kQuantities) row.emplace_back(last_number(history, scene, name));
+    for (const char* name : kShownAtTheEnd) row.emplace_back(last_number(history, scene, name));
     add_row(result.tables.front(), std::move(row), observer);
     draw(paths, file.stem().string(), pictures, observer);
   }

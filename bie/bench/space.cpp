@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
+#include <array>
 #include <map>
 
+#include "bie/bench/equal_error.hpp"
 #include "bie/bench/example1.hpp"
 #include "bie/bench/example_prolate.hpp"
 
@@ -33,6 +35,59 @@ BenchTable empty_space_table() {
            {"seconds_velocity", "seconds, prolate", "{:.2g}", true}}};
 }
 
+constexpr std::array kEqualErrors = {1e-4, 1e-7, 1e-10};
+/// Where the search for a degree ends: as far beyond the asked ones as rates can be trusted to hold.
+int highest_degree(const std::vector<int>& orders) {
+  constexpr int kBeyond = 2, kLargest = 64;
+  return std::min(kLargest, kBeyond * *std::max_element(orders.begin(), orders.end()));
+}
+
+/// What equal errors cost, so that another code can be held beside it.
+BenchTable equal_table(const std::vector<int>& orders, int repeats, BenchTasks& tasks, BenchObserver& observer) {
+  BenchTable table{"equal",
+                   {{"field", "field", "{}", false, 22},
+                    {"error", "error", "{:.0e}"},
+                    {"order", "p"},
+                    {"error_there", "error at p", "{:.1e}"},
+                    {"seconds", "seconds", "{:.2g}", true},
+                    {"bytes", ""},
+                    {"megabytes", "MB", "{:.0f}"}}};
+  const std::array<ExactProblem, 2> problems = {
+      ExactProblem{"f_E, Example 1",
+                   [](int degree) {
+                     const Example1Result r = solve_example1(degree);
+                     return SolvedProblem{r.errors.force, r.seconds};
+                   }},
+      ExactProblem{"velocity, 2:1 prolate", [](int degree) {
+                     const ProlateResult r = solve_translating_prolate(degree);
+                     return SolvedProblem{r.error, r.seconds};
+                   }}};
+  constexpr int kLowest = 4;
+  observer.heading(table);
+  for (const ExactProblem& problem : problems) {
+    for (const double error : kEqualErrors) {
+      tasks.next(fmt::format("{}: {:.0e}", problem.field, error));
+      const std::optional<DegreeOfError> found = degree_of_error(problem, error, kLowest, highest_degree(orders));
+      std::vector<BenchCell> row(table.columns.size());
+      row[0] = problem.field;
+      row[1] = error;
+      if (found) {
+        std::vector<double> seconds;
+        while (wants_repeat(seconds, repeats)) seconds.push_back(problem.solve(found->degree).seconds);
+        row[2] = std::int64_t{found->degree};
+        row[3] = found->error;
+        row[4] = spread_of(seconds);
+        if (const auto bytes = memory_of(problem, found->degree)) {
+          row[5] = *bytes;
+          row[6] = static_cast<double>(*bytes) / 1e6;
+        }
+      }
+      add_row(table, std::move(row), observer);
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserver& observer) {
@@ -41,7 +96,8 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserv
                   {"velocity_problem", "2:1 prolate pulled along and across its axis, poles of the grid off the axis"},
                   {"seconds_are", "from the shape to the fields, tables of the degree excluded"}};
   BenchTable& table = result.tables.front();
-  BenchTasks tasks(static_cast<int>(orders.size()) * repeats, observer);
+  const int n_equal = 2 * static_cast<int>(kEqualErrors.size());
+  BenchTasks tasks(static_cast<int>(orders.size()) * repeats + n_equal, observer);
   observer.heading(table);
   for (const int order : orders) {
     std::vector<double> electric_seconds, stokes_seconds;
@@ -65,6 +121,8 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserv
              stokes.error, spread_of(stokes_seconds)},
             observer);
   }
+  BenchTable equal = equal_table(orders, repeats, tasks, observer);
+  result.tables.push_back(std::move(equal));
   return result;
 }
 

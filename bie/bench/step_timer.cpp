@@ -89,4 +89,14 @@ std::map<std::string, double> StepTimer::operations() const {
   return result;
 }
 
+double seconds_to_the_first_step(const Scene& scene) {
+  const Problem problem = problem_of(scene);
+  Instruments instruments;
+  Evolution evolution(setup_of(problem), problem.start, instruments);
+  const auto start = std::chrono::steady_clock::now();
+  evolution.evaluate_start();
+  (void)evolution.step({{}, evolution.state().time + 1e3 * problem.control.largest});
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace vehd

@@ -50,4 +50,9 @@ class StepTimer {
   std::vector<double> iterations_;
 };
 
+/// Seconds from the start of the scene to the end of its first step at its dt: the fields at the start and a step whose
+/// solves have learnt nothing yet. Tables of the degree are made before.
+/// @throws ConvergenceError
+double seconds_to_the_first_step(const Scene& scene);
+
 }  // namespace vehd

@@ -20,7 +20,8 @@ InputError::InputError(std::string message) : std::runtime_error(one_line(std::m
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t longest_shown = 60;
-  return text.size() > longest_shown ? text.substr(0, longest_shown) + " ..." : text;
+  if (text.size() <= longest_shown) return text;
+  return fmt::format("{} ...", text.substr(0, longest_shown));
 }
 
 void require_size(const char* what, long actual, long expected) {

@@ -104,6 +104,19 @@ BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
   BOOST_TEST(number(rows[1], "error_velocity") < 1e-8);
   BOOST_TEST(number(rows[1], "error_velocity") > 1e-12);
   BOOST_TEST(number(rows[1], "paper_error_q") == 2.5e-3);
+
+  // f_E is not right to 1e-7 at twice the largest degree, the velocity is right to 1e-10.
+  const auto& equal = bench.json["equal"];
+  BOOST_REQUIRE(equal.size() == 6);
+  BOOST_TEST(equal[1]["order"].is_null());
+  BOOST_TEST(equal[2]["seconds"].is_null());
+  for (const int row : {0, 3, 4, 5}) {
+    BOOST_TEST(number(equal[row], "error_there") <= number(equal[row], "error"));
+    BOOST_TEST(equal[row]["order"].get<int>() <= 24);
+    BOOST_TEST(number(equal[row], "seconds") > 0.0);
+  }
+  BOOST_TEST(equal[3]["order"].get<int>() < equal[5]["order"].get<int>());
+  BOOST_TEST(fs::exists(bench.file("_equal.csv")));
 }
 
 BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
@@ -122,6 +135,7 @@ BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
     BOOST_TEST(number(row, "seconds_other") >= 0.0);
     BOOST_TEST(number(row, "seconds_operator_assembly") > 0.0);
     BOOST_TEST(number(row, "seconds_electric") > 0.0);
+    BOOST_TEST(number(row, "first_step_seconds") > 0.0);
     scene.numerics.order = row["order"].get<int>();
     const double operations = vehd::StepTimer(scene).operations().at("operator assembly");
     BOOST_TEST(
