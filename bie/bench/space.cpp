@@ -52,16 +52,16 @@ BenchTable equal_table(const std::vector<int>& orders, int repeats, BenchTasks& 
                     {"seconds", "seconds", "{:.2g}", true},
                     {"bytes", ""},
                     {"megabytes", "MB", "{:.0f}"}}};
-  const std::array<ExactProblem, 2> problems = {
-      ExactProblem{"f_E, Example 1",
-                   [](int degree) {
-                     const Example1Result r = solve_example1(degree);
-                     return SolvedProblem{r.errors.force, r.seconds};
-                   }},
-      ExactProblem{"velocity, 2:1 prolate", [](int degree) {
-                     const ProlateResult r = solve_translating_prolate(degree);
-                     return SolvedProblem{r.error, r.seconds};
-                   }}};
+  const std::array<ExactProblem, 2> problems = {ExactProblem{"f_E, Example 1",
+                                                             [](int degree) {
+                                                               const Example1Result r = solve_example1(degree);
+                                                               return SolvedProblem{r.errors.force, r.seconds};
+                                                             }},
+                                                ExactProblem{"velocity, 2:1 prolate", [](int degree) {
+                                                               const ProlateResult r =
+                                                                   solve_translating_prolate(degree);
+                                                               return SolvedProblem{r.error, r.seconds};
+                                                             }}};
   constexpr int kLowest = 4;
   observer.heading(table);
   for (const ExactProblem& problem : problems) {
