@@ -28,22 +28,6 @@ double power_of_36(double base) {
   return ninth * ninth * ninth * ninth;
 }
 
-/// Colour of a surface point: soft key light from the upper left, weak fill light, a highlight and a slightly darker
-/// rim that separates the shape from the white paper.
-Colour lit_colour(const Colour& base, const Vector3& normal) {
-  const Vector3 to_eye = Vector3::UnitZ();
-  const Vector3 key = Vector3(-0.45, 0.62, 0.64).normalized();
-  const Vector3 fill = Vector3(0.75, -0.15, 0.64).normalized();
-  const double facing = std::clamp(normal.dot(to_eye), 0.0, 1.0);
-  const double wrapped = std::max(0.0, (normal.dot(key) + 0.25) / 1.25);
-  const double diffuse = 0.34 + 0.62 * wrapped + 0.14 * std::max(0.0, normal.dot(fill));
-  const double highlight = 0.16 * power_of_36(std::max(0.0, normal.dot((key + to_eye).normalized())));
-  const double rim = 1.0 - 0.35 * (1.0 - facing) * (1.0 - facing) * (1.0 - facing);
-  Colour colour{};
-  for (int c = 0; c < 3; ++c) colour[c] = to_linear(base[c]) * diffuse * rim + highlight;
-  return colour;
-}
-
 /// The inside of a cut membrane: paler, so that it is not taken for the outside.
 Colour inside_colour(const Colour& base) {
   constexpr double kept = 0.6;
@@ -52,21 +36,77 @@ Colour inside_colour(const Colour& base) {
   return colour;
 }
 
+/// A colour map in linear intensity, read from a table: powers took most of the time of a picture.
+class LinearColours {
+ public:
+  LinearColours(const ColourMap& colours, bool inside) : nodes_(kNodes + 1) {
+    for (int i = 0; i <= kNodes; ++i) {
+      Colour displayed = colours.at(static_cast<double>(i) / kNodes);
+      if (inside) displayed = inside_colour(displayed);
+      for (int c = 0; c < 3; ++c) nodes_[i][c] = to_linear(displayed[c]);
+    }
+  }
+
+  [[nodiscard]] Colour at(double fraction) const {
+    const double place = std::clamp(fraction, 0.0, 1.0) * kNodes;
+    const int node = std::min(static_cast<int>(place), kNodes - 1);
+    const double share = place - node;
+    Colour colour{};
+    for (int c = 0; c < 3; ++c) colour[c] = (1.0 - share) * nodes_[node][c] + share * nodes_[node + 1][c];
+    return colour;
+  }
+
+ private:
+  static constexpr int kNodes = 1024;
+  std::vector<Colour> nodes_;
+};
+
+/// Light on a surface: soft key light from the upper left, weak fill light, a highlight and a slightly darker rim that
+/// separates the shape from the white paper.
+class Light {
+ public:
+  /// Linear intensity. @param base  likewise
+  [[nodiscard]] Colour on(const Colour& base, const Vector3& normal) const {
+    const double facing = std::clamp(normal.z(), 0.0, 1.0);
+    const double wrapped = std::max(0.0, (normal.dot(key_) + 0.25) / 1.25);
+    const double diffuse = 0.34 + 0.62 * wrapped + 0.14 * std::max(0.0, normal.dot(fill_));
+    const double highlight = 0.16 * power_of_36(std::max(0.0, normal.dot(between_)));
+    const double rim = 1.0 - 0.35 * (1.0 - facing) * (1.0 - facing) * (1.0 - facing);
+    Colour colour{};
+    for (int c = 0; c < 3; ++c) colour[c] = base[c] * diffuse * rim + highlight;
+    return colour;
+  }
+
+ private:
+  Vector3 key_ = Vector3(-0.45, 0.62, 0.64).normalized();
+  Vector3 fill_ = Vector3(0.75, -0.15, 0.64).normalized();
+  Vector3 between_ = (key_ + Vector3::UnitZ()).normalized();  ///< key light and eye
+};
+
+/// What is seen at a sample.
+struct Seen {
+  Eigen::Vector3f normal;  ///< not yet of unit length
+  float shade;
+};
+
 class Canvas {
  public:
   Canvas(int width, int height, double nearest)
       : width_(width * oversampling),
         height_(height * oversampling),
         nearest_(nearest),
-        depth_(static_cast<std::size_t>(width_) * height_, -std::numeric_limits<double>::infinity()),
-        colour_(depth_.size(), Colour{1.0, 1.0, 1.0}) {}
+        depth_(static_cast<std::size_t>(width_) * height_, kNothing),
+        seen_(depth_.size()) {}
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 
-  void triangle(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c, const ColourMap& colours) {
+  void triangle(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c) {
+    // Behind the rest of a whole closed surface.
+    if (!is_cut() && a.normal.z() < 0.0 && b.normal.z() < 0.0 && c.normal.z() < 0.0) return;
     const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if (area == 0.0) return;
+    const double per_area = 1.0 / area;
     const int left = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x}))));
     const int right = std::min(width_ - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x}))));
     const int top = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y}))));
@@ -74,8 +114,8 @@ class Canvas {
     for (int row = top; row <= bottom; ++row) {
       for (int column = left; column <= right; ++column) {
         const double x = column + 0.5, y = row + 0.5;
-        const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area;
-        const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area;
+        const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) * per_area;
+        const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) * per_area;
         const double w = 1.0 - u - v;
         // Rounding must not leave a sample between two triangles to neither.
         constexpr double rounding = -1e-9;
@@ -84,42 +124,66 @@ class Canvas {
         const std::size_t sample = static_cast<std::size_t>(row) * width_ + column;
         if (depth <= depth_[sample] || depth > nearest_) continue;
         depth_[sample] = depth;
-        const Vector3 normal = (u * a.normal + v * b.normal + w * c.normal).normalized();
-        const Colour base = colours.at(u * a.shade + v * b.shade + w * c.shade);
-        const bool inside = std::isfinite(nearest_) && normal.z() < 0.0;
-        colour_[sample] = inside ? lit_colour(inside_colour(base), -normal) : lit_colour(base, normal);
+        seen_[sample] = {(u * a.normal + v * b.normal + w * c.normal).cast<float>(),
+                         static_cast<float>(u * a.shade + v * b.shade + w * c.shade)};
       }
     }
   }
 
-  [[nodiscard]] Image downsampled() const {
+  [[nodiscard]] Image downsampled(const ColourMap& colours) const {
+    const Palette palette{LinearColours(colours, false), LinearColours(colours, true), {}};
     Image image{width_ / oversampling, height_ / oversampling, {}};
     image.rgb.reserve(static_cast<std::size_t>(image.width) * image.height * 3);
     for (int row = 0; row < image.height; ++row) {
       for (int column = 0; column < image.width; ++column) {
-        for (int c = 0; c < 3; ++c) image.rgb.push_back(pixel(row, column, c));
+        for (const double linear : pixel(row, column, palette)) {
+          // Paper is most of a picture.
+          const double displayed = linear >= 1.0 ? 1.0 : to_displayed(linear);
+          image.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * displayed)));
+        }
       }
     }
     return image;
   }
 
  private:
-  [[nodiscard]] std::uint8_t pixel(int row, int column, int component) const {
-    double sum = 0.0;
+  static constexpr double kNothing = -std::numeric_limits<double>::infinity();
+
+  struct Palette {
+    LinearColours outside, inside;
+    Light light;
+  };
+
+  [[nodiscard]] bool is_cut() const { return std::isfinite(nearest_); }
+
+  [[nodiscard]] Colour colour(std::size_t sample, const Palette& palette) const {
+    if (depth_[sample] == kNothing) return {1.0, 1.0, 1.0};
+    const Vector3 normal = seen_[sample].normal.cast<double>().normalized();
+    const double shade = seen_[sample].shade;
+    const bool inside = is_cut() && normal.z() < 0.0;
+    return inside ? palette.light.on(palette.inside.at(shade), -normal)
+                  : palette.light.on(palette.outside.at(shade), normal);
+  }
+
+  /// Mean of the samples, in linear intensity.
+  [[nodiscard]] Colour pixel(int row, int column, const Palette& palette) const {
+    Colour sum{};
     for (int i = 0; i < oversampling; ++i) {
       for (int j = 0; j < oversampling; ++j) {
         const std::size_t sample =
             static_cast<std::size_t>(row * oversampling + i) * width_ + column * oversampling + j;
-        sum += std::min(1.0, colour_[sample][component]);
+        const Colour one = colour(sample, palette);
+        for (int c = 0; c < 3; ++c) sum[c] += std::min(1.0, one[c]);
       }
     }
-    return static_cast<std::uint8_t>(std::lround(255.0 * to_displayed(sum / (oversampling * oversampling))));
+    for (double& component : sum) component /= oversampling * oversampling;
+    return sum;
   }
 
   int width_, height_;
   double nearest_;  ///< what is nearer is left out
   std::vector<double> depth_;
-  std::vector<Colour> colour_;
+  std::vector<Seen> seen_;
 };
 
 }  // namespace
@@ -139,9 +203,9 @@ Image render(const RenderMesh& mesh, const ColourMap& colours, const RenderTask&
                       position.z(), task.view * mesh.normals.row(i).transpose(), mesh.shade(i)});
   }
   for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-    canvas.triangle(points[mesh.triangles[i]], points[mesh.triangles[i + 1]], points[mesh.triangles[i + 2]], colours);
+    canvas.triangle(points[mesh.triangles[i]], points[mesh.triangles[i + 1]], points[mesh.triangles[i + 2]]);
   }
-  return canvas.downsampled();
+  return canvas.downsampled(colours);
 }
 
 Matrix cut_lines(const RenderMesh& mesh, const Matrix3& view) {
