@@ -20,7 +20,7 @@ double excess(const UnitPoint& unit) {
 /// Within a tenth of its size of the box of the cell's mapping nodes, past which a curved cell hardly bulges.
 bool near(const dealii::BoundingBox<3>& box, const dealii::Point<3>& point) {
   for (unsigned d = 0; d < 3; ++d) {
-    const double margin = 0.1 * box.side_length(d) + 1e-12;
+    const double margin = 0.1 * box.side_length(d);
     if (point[d] < box.lower_bound(d) - margin || point[d] > box.upper_bound(d) + margin) return false;
   }
   return true;
@@ -86,7 +86,8 @@ VolumePoints Discretisation::locate(const Vectors& points) const {
   result.position = points;
   result.unit.resize(3, points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Candidate place = find_cell(*space_, {points(0, i), points(1, i), points(2, i)});
+    const Vector3 x = space_->dimensionless(points.col(i));
+    const Candidate place = find_cell(*space_, {x.x(), x.y(), x.z()});
     if (!place.found) {
       std::ostringstream message;
       message << "the point (" << points.col(i).transpose() << ") lies in no cell of the mesh, whose outer sphere has "
@@ -113,9 +114,10 @@ VolumePoints Discretisation::volume_lattice(int intervals) const {
   const auto per_cell = static_cast<Eigen::Index>(units.size());
   result.position.resize(3, per_cell * n_cells());
   result.unit.resize(3, per_cell * n_cells());
+  CellPoints cell(*space_, space_->dofs);
   for (int c = 0; c < n_cells(); ++c) {
-    const CellValues cell = cell_values(*space_, space_->dofs, static_cast<unsigned>(c), units, false);
-    result.position.middleCols(c * per_cell, per_cell) = cell.position;
+    cell.reinit(static_cast<unsigned>(c), units);
+    result.position.middleCols(c * per_cell, per_cell) = cell.positions();
     for (Eigen::Index i = 0; i < per_cell; ++i) {
       result.unit.col(c * per_cell + i) << units[i][0], units[i][1], units[i][2];
       result.cell.push_back(c);

@@ -13,7 +13,7 @@ struct Space;
 enum class Ranks { all, each_alone };
 
 /// Continuous elements of one degree on each side of γ, on a curved mesh. The two sides share no vertex, so a field
-/// may jump across γ. Every rank knows the whole mesh; matrices and solves are distributed.
+/// may jump across γ. Every rank knows the whole mesh; cells and unknowns are divided.
 /// Accuracy: area and volume of the membrane to 1e-6 (tests/fem_check/discretisation_test.cpp)
 class Discretisation {
  public:

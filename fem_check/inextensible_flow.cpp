@@ -1,6 +1,9 @@
 #include "fem_check/inextensible_flow.hpp"
 
-#include "fem_check/minimal_residuals.hpp"
+#include <cmath>
+
+#include "fem_check/krylov.hpp"
+#include "fem_check/membrane_trace.hpp"
 #include "fem_check/stokes_system.hpp"
 #include "fem_check/tension_elements.hpp"
 
@@ -20,72 +23,70 @@ namespace {
 /// Below this variation of H, see TensionElements, a constant tension does nothing that would be seen in the flow.
 constexpr double least_variation = 1e-3;
 
-/// Blocks of a flow and, last, the tension, all of which the first rank holds.
+/// After those of the flow. The first rank holds all of it.
 constexpr unsigned tension_block = 4;
 
-Blocks with_tension(const Blocks& flow, Eigen::Index n_tension, MPI_Comm communicator) {
-  dealii::IndexSet tension(static_cast<DofIndex>(n_tension));
-  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0) tension.add_range(0, tension.size());
-  std::vector<dealii::IndexSet> owned;
-  for (unsigned b = 0; b < flow.n_blocks(); ++b) owned.push_back(flow.block(b).locally_owned_elements());
-  owned.push_back(tension);
-  return Blocks(owned, communicator);
-}
-
-Vector on_all_ranks(const Distributed& vector) {
-  const dealii::Vector<double> copy(vector);
-  return Eigen::Map<const Vector>(copy.begin(), static_cast<Eigen::Index>(copy.size()));
-}
-
-/// [[Stokes, Cᵀ], [C, 0]].
+/// [[Stokes, Cᵀ/R], [C/R, 0]] in the units of the Stokes system: the last block is λ/μ_e, and R the length of the
+/// space.
 class InextensibleSystem {
  public:
   InextensibleSystem(const StokesSystem& stokes, const TensionElements& elements)
-      : stokes_(stokes), elements_(elements), communicator_(stokes.space().communicator) {
+      : stokes_(stokes), elements_(elements) {
     const SheetPairs& pairs = stokes.space().trace->pairs();
     const FaceNodes& nodes = elements.velocity_nodes();
-    const dealii::IndexSet owned = stokes.space().dofs.locally_owned_dofs();
     pair_of_node_.resize(static_cast<std::size_t>(nodes.size()));
     for (int f = 0; f < nodes.n_faces(); ++f) {
-      for (std::size_t i = 0; i < nodes.of_face(f).size(); ++i)
+      for (std::size_t i = 0; i < nodes.of_face(f).size(); ++i) {
         pair_of_node_[nodes.of_face(f)[i]] = pairs.of_face[f][i];
+      }
     }
     // The outer sheet stands for both.
+    const Blocks blocks = stokes.zero();
+    const auto& partition = *blocks.block(0).get_partitioner();
     for (std::size_t node = 0; node < pair_of_node_.size(); ++node) {
       const DofIndex dof = pairs.pairs[pair_of_node_[node]][1];
-      if (!owned.is_element(dof)) continue;
-      owned_nodes_.push_back(static_cast<Eigen::Index>(node));
-      owned_places_.push_back(static_cast<std::ptrdiff_t>(owned.index_within_set(dof)));
+      if (partition.in_local_range(dof))
+        own_.push_back({static_cast<Eigen::Index>(node), partition.global_to_local(dof)});
     }
   }
 
   [[nodiscard]] Blocks zero() const {
-    return with_tension(stokes_.matrix().zero(), elements_.tension_nodes().size(), communicator_);
+    const Blocks flow = stokes_.zero();
+    dealii::IndexSet own(static_cast<DofIndex>(elements_.tension_nodes().size()));
+    if (dealii::Utilities::MPI::this_mpi_process(communicator()) == 0) own.add_range(0, own.size());
+    Blocks result(tension_block + 1);
+    for (unsigned b = 0; b < tension_block; ++b) result.block(b).reinit(flow.block(b));
+    result.block(tension_block).reinit(own, communicator());
+    result.collect_sizes();
+    return result;
   }
 
-  void vmult(Blocks& result, const Blocks& x) const {
-    stokes_.matrix().vmult(result, x);
-    const Vector tension = on_all_ranks(x.block(tension_block));
+  void vmult(Blocks& to, const Blocks& from) const {
+    stokes_.vmult(to, from);
+    const Vector tension = tension_of(from) / stokes_.space().length;
     Vector expansion = Vector::Zero(tension.size());
     for (unsigned d = 0; d < 3; ++d) {
       const Vector push = elements_.divergence()[d].transpose() * tension;
       Vector velocity = Vector::Zero(push.size());
-      const double* from = x.block(d).begin();
-      double* to = result.block(d).begin();
-      for (std::size_t i = 0; i < owned_nodes_.size(); ++i) {
-        to[owned_places_[i]] += push[owned_nodes_[i]];
-        velocity[owned_nodes_[i]] = from[owned_places_[i]];
+      for (const auto& [node, place] : own_) {
+        to.block(d).local_element(place) += push[node];
+        velocity[node] = from.block(d).local_element(place);
       }
       expansion += elements_.divergence()[d] * velocity;
     }
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(expansion.data(), expansion.size()), communicator_,
-                                dealii::ArrayView<double>(expansion.data(), expansion.size()));
-    set_tension(expansion, result);
+    const dealii::ArrayView<double> values(expansion.data(), static_cast<std::size_t>(expansion.size()));
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(values), communicator(), values);
+    set_tension(expansion / stokes_.space().length, to);
   }
 
+  /// The last block on all ranks.
+  [[nodiscard]] Vector tension_of(const Blocks& x) const {
+    const dealii::Vector<double> values = on_all_ranks(x.block(tension_block), communicator());
+    return Eigen::Map<const Vector>(values.begin(), static_cast<Eigen::Index>(values.size()));
+  }
   /// Puts values known on all ranks into the last block.
-  static void set_tension(const Vector& values, Blocks& result) {
-    Distributed& block = result.block(tension_block);
+  static void set_tension(const Vector& values, Blocks& to) {
+    Distributed& block = to.block(tension_block);
     std::copy_n(values.data(), block.locally_owned_size(), block.begin());
   }
 
@@ -97,21 +98,30 @@ class InextensibleSystem {
   }
 
  private:
+  /// A node of γ whose velocity belongs to this rank.
+  struct OwnNode {
+    Eigen::Index node;
+    unsigned place;  ///< among the entries of this rank
+  };
+
+  [[nodiscard]] MPI_Comm communicator() const { return stokes_.space().communicator; }
+
   const StokesSystem& stokes_;
   const TensionElements& elements_;
-  MPI_Comm communicator_;
   std::vector<int> pair_of_node_;
-  std::vector<Eigen::Index> owned_nodes_;
-  std::vector<std::ptrdiff_t> owned_places_;
+  std::vector<OwnNode> own_;
 };
 
 struct InextensiblePreconditioner {
   const StokesSystem& stokes;
+  const InextensibleSystem& system;
   const TensionPreconditioner& tension;
 
-  void vmult(Blocks& result, const Blocks& x) const {
-    stokes.matrix().precondition(result, x);
-    InextensibleSystem::set_tension(tension.apply(on_all_ranks(x.block(tension_block))), result);
+  void vmult(Blocks& to, const Blocks& from) const {
+    stokes.precondition(to, from);
+    // The operator of the tension in the units of the blocks is μ_e/R of that of the preconditioner.
+    const double unit = stokes.space().length * stokes.space().length / stokes.functional_unit();
+    InextensibleSystem::set_tension(unit * tension.apply(system.tension_of(from)), to);
   }
 };
 
@@ -127,30 +137,36 @@ InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, c
   const TensionPreconditioner tension_preconditioner(*elements, problem.viscosity_in, problem.viscosity_out,
                                                      !constant_is_determined);
   const InextensibleSystem system(stokes, *elements);
+  const InextensiblePreconditioner preconditioner{stokes, system, tension_preconditioner};
+  Cost cost;
+  cost.seconds_assembly = watch.lap();
 
+  // f_λ has neither net force nor torque: the outer condition does not know it.
+  const FlowLoad load = stokes.load(problem.force, problem.gradient);
   Blocks b = system.zero();
-  const Blocks flow_right_side = stokes.right_side(problem);
-  for (unsigned block = 0; block < tension_block; ++block) b.block(block) = flow_right_side.block(block);
-  InextensibleSystem::set_tension(-elements->divergence_of_linear_flow(problem.gradient), b);
+  for (unsigned block = 0; block < tension_block; ++block) b.block(block) = load.functional.block(block);
+  InextensibleSystem::set_tension(-elements->divergence_of_linear_flow(problem.gradient) / space.length, b);
   // Without a force on the fluid, minimal residuals would break down in its first step: the residual would have no part
   // in the equation of momentum, and the matrix has nothing on the diagonal of the others. So it starts from a tension.
   Blocks x = system.zero();
-  InextensibleSystem::set_tension(tension_preconditioner.apply(on_all_ranks(b.block(tension_block))), x);
-  Blocks residual = system.zero();
-  system.vmult(residual, x);
-  residual.sadd(-1.0, 1.0, b);
-  Cost cost;
-  x += minimal_residuals(system, InextensiblePreconditioner{stokes, tension_preconditioner}, residual,
-                         problem.tolerance, cost.iterations);
-  cost.seconds_solve = watch.lap() - stokes.matrix().seconds_assembly();
+  InextensibleSystem::set_tension(
+      space.length * space.length / stokes.functional_unit() * tension_preconditioner.apply(system.tension_of(b)), x);
+  const double size = energy_of_residual(preconditioner, b);
+  if (!std::isfinite(size)) throw SolveError("the right-hand side of the inextensible flow is not finite");
+  if (size > 0.0) {
+    const double left =
+        minimal_residuals(system, preconditioner, b, x, problem.tolerance * size, cost.iterations, "inextensible flow");
+    cost.solver_error = left / size;
+  }
+  cost.seconds_solve = watch.lap();
 
-  const Vector tension = on_all_ranks(x.block(tension_block));
+  const Vector tension = stokes.functional_unit() / space.length * system.tension_of(x);
   Eigen::MatrixX3d force(space.trace->size(), 3);
   for (int d = 0; d < 3; ++d) {
     force.col(d) = space.trace->project(system.in_pairs(-(elements->divergence()[d].transpose() * tension)));
   }
   return InextensibleFlow(std::make_shared<const InextensibleFlow::Data>(InextensibleFlow::Data{
-      stokes.solution(problem, x, cost), space.trace, elements,
+      flow_solution(stokes, problem, load, x, cost), space.trace, elements,
       constant_is_determined ? tension : elements->without_mean(tension), force, constant_is_determined}));
 }
 

@@ -50,7 +50,34 @@ SurfacePoints first_at_each_node(const SurfacePoints& lattice, const SheetPairs&
   return result;
 }
 
+/// Values of all trace functions at the points of one face of a rule: [points x nodes].
+Eigen::MatrixXd face_values(const SurfacePoints& rule, Eigen::Index per_face, const std::vector<double>& nodes) {
+  Eigen::MatrixXd values(per_face, static_cast<Eigen::Index>(nodes.size() * nodes.size()));
+  for (Eigen::Index q = 0; q < per_face; ++q) {
+    values.row(q) = lagrange(nodes, rule.face_coordinates.col(q)).transpose();
+  }
+  return values;
+}
+
 }  // namespace
+
+Eigen::SparseMatrix<double> membrane_mass(const SurfacePoints& rule, const SheetPairs& pairs, int degree) {
+  const Eigen::Index per_face = rule.size() / static_cast<Eigen::Index>(pairs.of_face.size());
+  const Eigen::MatrixXd values = face_values(rule, per_face, edge_nodes(static_cast<unsigned>(degree)));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t f = 0; f < pairs.of_face.size(); ++f) {
+    const std::vector<int>& of_face = pairs.of_face[f];
+    const auto weights = rule.weight.segment(static_cast<Eigen::Index>(f) * per_face, per_face);
+    const Eigen::MatrixXd local = values.transpose() * weights.asDiagonal() * values;
+    for (std::size_t b = 0; b < of_face.size(); ++b) {
+      for (std::size_t a = 0; a < of_face.size(); ++a) entries.emplace_back(of_face[a], of_face[b], local(a, b));
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(pairs.pairs.size());
+  Eigen::SparseMatrix<double> mass(n, n);
+  mass.setFromTriplets(entries.begin(), entries.end());
+  return mass;
+}
 
 MembraneTrace::MembraneTrace(const Space& space)
     : pairs_(sheet_pairs(space, space.dofs)),
@@ -58,21 +85,8 @@ MembraneTrace::MembraneTrace(const Space& space)
       edge_nodes_(edge_nodes(space.element.degree)) {
   nodes_ = first_at_each_node(tensor_points(space, edge_nodes_, {}), pairs_);
   const Eigen::Index per_face = rule_.size() / static_cast<Eigen::Index>(pairs_.of_face.size());
-  shape_.resize(per_face, static_cast<Eigen::Index>(edge_nodes_.size() * edge_nodes_.size()));
-  for (Eigen::Index q = 0; q < per_face; ++q) {
-    shape_.row(q) = lagrange(edge_nodes_, rule_.face_coordinates.col(q)).transpose();
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t f = 0; f < pairs_.of_face.size(); ++f) {
-    const std::vector<int>& of_face = pairs_.of_face[f];
-    const Eigen::MatrixXd local = shape_.transpose() * weights(static_cast<int>(f)).asDiagonal() * shape_;
-    for (std::size_t b = 0; b < of_face.size(); ++b) {
-      for (std::size_t a = 0; a < of_face.size(); ++a) entries.emplace_back(of_face[a], of_face[b], local(a, b));
-    }
-  }
-  Eigen::SparseMatrix<double> mass(size(), size());
-  mass.setFromTriplets(entries.begin(), entries.end());
-  mass_.compute(mass);
+  shape_ = face_values(rule_, per_face, edge_nodes_);
+  mass_.compute(membrane_mass(rule_, pairs_, static_cast<int>(space.element.degree)));
   if (mass_.info() != Eigen::Success) throw SolveError("the mass matrix of the membrane is not positive definite");
 }
 

@@ -4,6 +4,10 @@
 
 namespace vehd::fem_check {
 
+/// ∫_γ u w dA of the trace functions of elements of a degree, on the handler of the pairs.
+/// @param rule  Gauss points of γ, equally many on each face
+Eigen::SparseMatrix<double> membrane_mass(const SurfacePoints& rule, const SheetPairs& pairs, int degree);
+
 /// Restriction of the scalar element to γ: nodal values (one per pair of coincident nodes), functionals, L2 projection.
 class MembraneTrace {
  public:

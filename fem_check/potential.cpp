@@ -3,19 +3,27 @@
 #include <cmath>
 #include <string>
 
-#include "fem_check/scalar_system.hpp"
+#include "fem_check/krylov.hpp"
+#include "fem_check/multigrid.hpp"
 
 namespace vehd::fem_check {
 
-/// Inside the unknown is φ itself, outside the disturbance ψ = φ + E_∞·x: a field that is nearly zero inside a good
-/// conductor, and the far field, are then not differences of large discrete numbers.
+/// Inside the unknown is v = φ + E_∞·x_0 − c, outside the disturbance ψ = φ + E_∞·x, x_0 the centre of the outer sphere
+/// and c a constant close to the mean of the inside: the nearly constant field inside a good conductor, and the far
+/// field, are then not differences of large discrete numbers. V_m = v − ψ + E_∞·(x − x_0) + c.
 struct PotentialSolution::Data {
   std::shared_ptr<const Space> space;
   PotentialProblem problem;
   dealii::Vector<double> nodal;
-  Vector voltage;  ///< V_m at the nodes of γ, L2 projection
-  Vector current;  ///< σ_i ∂φ_i/∂n at the nodes of γ, L2 projection of the residual of the inner side
+  double constant = 0.0;  ///< c
+  Vector voltage;         ///< V_m at the nodes of γ, L2 projection
+  Vector current;         ///< σ_i ∂φ_i/∂n at the nodes of γ, L2 projection of the residual of one side
   Cost cost;
+
+  /// What V_m is more than v − ψ.
+  [[nodiscard]] Vector background(const SurfacePoints& points) const {
+    return ((points.position.colwise() - space->centre).transpose() * problem.field).array() + constant;
+  }
 };
 
 namespace {
@@ -57,67 +65,22 @@ bool mean_is_free(const PotentialProblem& problem) {
   return steady != nullptr && steady->conductance == 0.0;
 }
 
-/// Homogeneous constraints: coincident nodes tied, outer values fixed, one inner value fixed where they float.
-Constraints make_constraints(const Space& space, const PotentialProblem& problem,
-                             const std::vector<DofIndex>& outer_dofs) {
-  const auto& pairs = space.trace->pairs().pairs;
-  Constraints constraints;
-  constraints.reinit(dealii::complete_index_set(space.dofs.n_dofs()));
+/// The better conductor is given its own values on γ and the other side follows: the jump is then carried by the side
+/// whose energy is small.
+Fixed fixed_nodes(const PotentialProblem& problem) {
+  Fixed fixed;
   if (std::holds_alternative<PrescribedJump>(problem.membrane)) {
-    for (const auto& [inner, outer] : pairs) {
-      constraints.add_line(inner);
-      constraints.add_entry(inner, outer, 1.0);
-    }
+    fixed.tie =
+        problem.conductivity_in > problem.conductivity_out ? Tie::outer_follows_inner : Tie::inner_follows_outer;
   }
-  if (problem.outer.kind == OuterCondition::Kind::dirichlet) {
-    for (const DofIndex dof : outer_dofs) constraints.add_line(dof);
-  }
-  if (mean_is_free(problem)) constraints.add_line(pairs.front()[0]);
-  constraints.close();
-  return constraints;
+  fixed.outer = problem.outer.kind == OuterCondition::Kind::dirichlet;
+  // Given fluxes leave the constant outside free; the node is far from γ.
+  fixed.outer_value = problem.outer.kind == OuterCondition::Kind::neumann;
+  fixed.inner_value = mean_is_free(problem);
+  return fixed;
 }
 
-struct OuterNodes {
-  std::vector<DofIndex> dofs;
-  std::vector<Vector3> positions;
-};
-
-OuterNodes outer_nodes(const Space& space) {
-  OuterNodes result;
-  std::vector<bool> seen(space.dofs.n_dofs(), false);
-  dealii::FEValues<3> fe(space.mapping, space.element, dealii::Quadrature<3>(space.element.get_unit_support_points()),
-                         dealii::update_quadrature_points);
-  std::vector<DofIndex> dofs(fe.dofs_per_cell);
-  for (const OuterFace& outer : space.outer) {
-    const auto cell = space.cell(outer.cell);
-    fe.reinit(cell);
-    cell->get_dof_indices(dofs);
-    for (unsigned i = 0; i < dofs.size(); ++i) {
-      if (seen[dofs[i]] || !space.element.has_support_on_face(i, outer.face)) continue;
-      seen[dofs[i]] = true;
-      result.dofs.push_back(dofs[i]);
-      const auto& x = fe.quadrature_point(i);
-      result.positions.emplace_back(x[0], x[1], x[2]);
-    }
-  }
-  return result;
-}
-
-/// u with the given jump on γ and the given values on the outer sphere, zero at all other nodes.
-dealii::Vector<double> lifting(const Space& space, const PotentialProblem& problem, const OuterNodes& outer) {
-  dealii::Vector<double> result(space.dofs.n_dofs());
-  const MembraneTrace& trace = *space.trace;
-  if (const auto* prescribed = std::get_if<PrescribedJump>(&problem.membrane)) {
-    const Vector jump = prescribed->potential_jump(trace.nodes()) - trace.nodes().position.transpose() * problem.field;
-    for (Eigen::Index p = 0; p < trace.size(); ++p) result[trace.pairs().pairs[p][0]] = jump[p];
-  }
-  if (problem.outer.kind == OuterCondition::Kind::dirichlet && problem.outer.value) {
-    for (std::size_t i = 0; i < outer.dofs.size(); ++i) result[outer.dofs[i]] = problem.outer.value(outer.positions[i]);
-  }
-  return result;
-}
-
-/// φ_i − ψ_e at the nodes of γ.
+/// v − ψ at the nodes of γ.
 Vector sheet_difference(const Space& space, const dealii::Vector<double>& nodal) {
   const auto& pairs = space.trace->pairs().pairs;
   Vector result(space.trace->size());
@@ -125,27 +88,141 @@ Vector sheet_difference(const Space& space, const dealii::Vector<double>& nodal)
   return result;
 }
 
-/// V_m = φ_i − ψ_e + E_∞·x.
 Vector membrane_voltage(const PotentialData& data, const SurfacePoints& points) {
-  return data.space->trace->evaluate(sheet_difference(*data.space, data.nodal), points) +
-         points.position.transpose() * data.problem.field;
+  return data.space->trace->evaluate(sheet_difference(*data.space, data.nodal), points) + data.background(points);
 }
 
-/// Makes the mean of V_m what it shall be by a constant inside.
-void shift_to_mean(PotentialData& data, double mean) {
-  const SurfacePoints& rule = data.space->trace->rule();
-  const double shift = mean - rule.weight.dot(membrane_voltage(data, rule)) / rule.weight.sum();
-  std::vector<bool> inner(data.nodal.size(), false);
-  std::vector<DofIndex> dofs(data.space->element.n_dofs_per_cell());
-  for (const auto& cell : data.space->dofs.active_cell_iterators()) {
-    if (!data.space->inside(static_cast<unsigned>(cell->index()))) continue;
-    cell->get_dof_indices(dofs);
-    for (const DofIndex dof : dofs) inner[dof] = true;
+/// The equations of one problem; lengths in units of the space, conductivities over that of the outside.
+class PotentialEquations {
+ public:
+  explicit PotentialEquations(PotentialData& data)
+      : data_(data),
+        space_(*data.space),
+        trace_(*space_.trace),
+        membrane_(membrane_coefficient(data.problem)),
+        unit_(data.problem.conductivity_out * space_.length),
+        multigrid_(space_, fixed_nodes(data.problem),
+                   {data.problem.conductivity_in / data.problem.conductivity_out, 1.0,
+                    membrane_ * space_.length / data.problem.conductivity_out,
+                    data.problem.outer.kind == OuterCondition::Kind::radiation ? 2.0 : 0.0}),
+        current_data_(-data.problem.conductivity_out * (trace_.rule().normal.transpose() * data.problem.field)) {
+    if (data.problem.current_jump) current_data_ += data.problem.current_jump(trace_.rule());
+    multigrid_.finest().initialize(unknowns_);
   }
-  for (DofIndex dof = 0; dof < inner.size(); ++dof) {
-    if (inner[dof]) data.nodal[dof] += shift;
+
+  /// @param memory  added to the current −g V_m of the membrane law, at the rule's points
+  void solve(const Vector& memory) {
+    // A constant inside a good conductor has no energy, and what varies there is small against it.
+    const bool shifts = data_.problem.conductivity_in > data_.problem.conductivity_out && !mean_is_free(data_.problem);
+    const double tolerance = data_.problem.tolerance;
+    if (shifts && data_.constant == 0.0) {
+      solve_for(memory, std::sqrt(tolerance));
+      move_constant();
+    }
+    solve_for(memory, tolerance);
   }
-}
+
+  /// j = σ_i ∂φ_i/∂n from the side that conducts worse: of the other one it would be a difference of large numbers.
+  [[nodiscard]] Vector current() const {
+    const PotentialProblem& problem = data_.problem;
+    const Stiffness& stiffness = multigrid_.finest();
+    if (problem.conductivity_in <= problem.conductivity_out) {
+      return trace_.project(problem.conductivity_in * space_.length *
+                            stiffness.flux_functional(data_.nodal, Side::inside));
+    }
+    return trace_.project(trace_.integrate(current_data_) -
+                          unit_ * stiffness.flux_functional(data_.nodal, Side::outside));
+  }
+
+ private:
+  /// Values at the nodes that make the jump, and those on the outer sphere; zero at all others.
+  [[nodiscard]] dealii::Vector<double> lifting() const {
+    const PotentialProblem& problem = data_.problem;
+    dealii::Vector<double> result(space_.dofs.n_dofs());
+    if (const auto* prescribed = std::get_if<PrescribedJump>(&problem.membrane)) {
+      const Vector jump = prescribed->potential_jump(trace_.nodes()) - data_.background(trace_.nodes());
+      const bool inner_follows = fixed_nodes(problem).tie == Tie::inner_follows_outer;
+      for (Eigen::Index p = 0; p < trace_.size(); ++p) {
+        const auto& pair = trace_.pairs().pairs[p];
+        result[pair[inner_follows ? 0 : 1]] = inner_follows ? jump[p] : -jump[p];
+      }
+    }
+    if (problem.outer.kind == OuterCondition::Kind::dirichlet && problem.outer.value) {
+      const OuterSphere& outer = multigrid_.finest().outer();
+      for (std::size_t i = 0; i < outer.dofs().size(); ++i) {
+        result[outer.dofs()[i]] = problem.outer.value(outer.positions()[i]);
+      }
+    }
+    return result;
+  }
+
+  /// ∫_γ (c − σ_e E·n) w_e + ∫_γ (memory − g (E·(x − x_0) + c)) [[w]] + outer terms − a(lifting, w), without units.
+  [[nodiscard]] Distributed right_side(const Vector& memory, const dealii::Vector<double>& lift) const {
+    const Stiffness& stiffness = multigrid_.finest();
+    std::vector<DofIndex> inner;
+    std::vector<DofIndex> outer;
+    for (const auto& pair : trace_.pairs().pairs) {
+      inner.push_back(pair[0]);
+      outer.push_back(pair[1]);
+    }
+    Distributed b;
+    stiffness.initialize(b);
+    const Vector law = trace_.integrate(memory - membrane_ * data_.background(trace_.rule())) / unit_;
+    stiffness.add_at(b, inner, law);
+    stiffness.add_at(b, outer, trace_.integrate(current_data_) / unit_ - law);
+    const OuterCondition& condition = data_.problem.outer;
+    if (condition.kind == OuterCondition::Kind::neumann && condition.value) {
+      const OuterSphere& sphere = stiffness.outer();
+      stiffness.add_at(b, sphere.dofs(), space_.length * sphere.integrate(condition.value));
+    }
+    stiffness.add_cells(b, -1.0, lift);
+    return b;
+  }
+
+  void solve_for(const Vector& memory, double tolerance) {
+    const dealii::Vector<double> lift = lifting();
+    const Distributed b = right_side(memory, lift);
+    const Stiffness& stiffness = multigrid_.finest();
+    const double size = energy_of_residual(multigrid_, b);
+    if (!std::isfinite(size)) throw SolveError("the right-hand side of the potential is not finite");
+    data_.cost.solver_error = 0.0;
+    if (size > 0.0) {
+      data_.cost.solver_error =
+          minimal_residuals(stiffness, multigrid_, b, unknowns_, tolerance * size, data_.cost.iterations, "potential") /
+          size;
+    } else {
+      unknowns_ = 0.0;
+    }
+    data_.nodal = on_all_ranks(unknowns_, space_.communicator);
+    stiffness.constraints().distribute(data_.nodal);
+    data_.nodal += lift;
+  }
+
+  /// Moves the value at one inner node into the constant.
+  void move_constant() {
+    const double step = data_.nodal[trace_.pairs().pairs.front()[0]];
+    data_.constant += step;
+    std::vector<DofIndex> dofs(space_.element.n_dofs_per_cell());
+    std::vector<bool> moved(space_.dofs.n_dofs(), false);
+    for (const auto& cell : space_.dofs.active_cell_iterators()) {
+      if (!space_.inside(static_cast<unsigned>(cell->index()))) continue;
+      cell->get_dof_indices(dofs);
+      for (const DofIndex dof : dofs) {
+        if (!moved[dof] && unknowns_.locally_owned_elements().is_element(dof)) unknowns_(dof) -= step;
+        moved[dof] = true;
+      }
+    }
+  }
+
+  PotentialData& data_;
+  const Space& space_;
+  const MembraneTrace& trace_;
+  double membrane_;  // coefficient of [[u]][[w]]
+  double unit_;      // of functionals: σ_e R
+  Multigrid multigrid_;
+  Vector current_data_;  // c − σ_e E·n
+  Distributed unknowns_;
+};
 
 }  // namespace
 
@@ -157,55 +234,32 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
   const Space& space = *data->space;
   const MembraneTrace& trace = *space.trace;
   const SurfacePoints& rule = trace.rule();
+  Cost& cost = data->cost;
   Stopwatch watch;
 
-  const OuterNodes outer = outer_nodes(space);
-  const Constraints constraints = make_constraints(space, problem, outer.dofs);
-  const bool radiates = problem.outer.kind == OuterCondition::Kind::radiation;
-  const double membrane = membrane_coefficient(problem);
-  const ScalarForm form{problem.conductivity_in, problem.conductivity_out, membrane,
-                        radiates ? 2.0 * problem.conductivity_out / space.mesh->outer_radius() : 0.0};
-  const ScalarSystem system(space, constraints, form);
-
-  // Data of every step: ∫_γ (c − σ_e E·n) w_e − ∫_γ g E·x [[w]] + outer terms, g the coefficient of [[u]][[w]].
-  Vector current_data = -problem.conductivity_out * (rule.normal.transpose() * problem.field);
-  if (problem.current_jump) current_data += problem.current_jump(rule);
-  const Vector outer_data = trace.integrate(current_data);
-  const Vector background = trace.integrate(-membrane * (rule.position.transpose() * problem.field));
-  const dealii::Vector<double> lift = lifting(space, problem, outer);
-  const auto boundary_value = [&](const Vector3& x) { return problem.conductivity_out * problem.outer.value(x); };
-
-  Cost& cost = data->cost;
-  const auto solve = [&](const Vector& memory) {
-    Distributed b = right_side(space, space.dofs);
-    add_membrane_functionals(space, constraints, background + memory, outer_data - background - memory, b);
-    if (problem.outer.kind == OuterCondition::Kind::neumann && problem.outer.value) {
-      add_outer_functional(space, constraints, boundary_value, b);
-    }
-    add_stiffness_action(space, constraints, form, -1.0, lift, b);
-    b.compress(dealii::VectorOperation::add);
-    data->nodal = system.solve(b, problem.tolerance, cost.iterations);
-    data->nodal += lift;
-  };
+  PotentialEquations equations(*data);
+  cost.seconds_assembly = watch.lap();
   if (const auto* charging = std::get_if<ChargingMembrane>(&problem.membrane)) {
     Vector voltage = charging->initial(rule);
     for (int step = 0; step < charging->steps; ++step) {
-      solve(trace.integrate(charging->capacitance / charging->time_step * voltage));
+      equations.solve(charging->capacitance / charging->time_step * voltage);
       voltage = membrane_voltage(*data, rule);
     }
   } else {
-    solve(Vector::Zero(trace.size()));
-    if (mean_is_free(problem)) shift_to_mean(*data, std::get<SteadyMembrane>(problem.membrane).mean);
+    equations.solve(Vector::Zero(rule.size()));
+    if (mean_is_free(problem)) {
+      const double mean = rule.weight.dot(membrane_voltage(*data, rule)) / rule.weight.sum();
+      data->constant += std::get<SteadyMembrane>(problem.membrane).mean - mean;
+    }
   }
   // E_∞·x is no trace function. Where V_m is small against it, the projection leaves that error out of V_m.
   data->voltage = trace.project(trace.integrate(membrane_voltage(*data, rule)));
-  data->current = trace.project(problem.conductivity_in * inner_flux_functional(space, data->nodal));
+  data->current = equations.current();
 
   cost.n_cells = discretisation.n_cells();
   cost.n_unknowns = discretisation.n_nodes();
   cost.seconds_setup = space.seconds_setup;
-  cost.seconds_assembly = system.seconds_assembly();
-  cost.seconds_solve = watch.lap() - system.seconds_assembly();
+  cost.seconds_solve = watch.lap();
   cost.peak_memory_bytes = peak_memory_bytes();
   return PotentialSolution(data);
 }
@@ -235,14 +289,13 @@ PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const
     return Vector3(permittivity *
                    (normal_field * tangential + 0.5 * (normal_field * normal_field - tangential.squaredNorm()) * n));
   };
+  CellPoints cell(space, space.dofs);
   for (const FaceRun& run : face_runs(points)) {
     const MembraneFace& face = space.membrane[run.face];
-    const Vectors inner =
-        cell_values(space, space.dofs, face.inner_cell, unit_points(space, points, run, Side::inside), true)
-            .gradients(data_->nodal);
-    const Vectors outer =
-        cell_values(space, space.dofs, face.outer_cell, unit_points(space, points, run, Side::outside), true)
-            .gradients(data_->nodal);
+    cell.reinit(face.inner_cell, unit_points(space, points, run, Side::inside));
+    const Vectors inner = cell.gradients(data_->nodal);
+    cell.reinit(face.outer_cell, unit_points(space, points, run, Side::outside));
+    const Vectors outer = cell.gradients(data_->nodal);
     for (Eigen::Index i = 0; i < run.size; ++i) {
       const Eigen::Index p = run.begin + i;
       const Vector3 n = points.normal.col(p);
@@ -261,12 +314,14 @@ PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const
 Vector PotentialSolution::potential(const VolumePoints& points) const {
   const Space& space = *data_->space;
   Vector result(points.size());
+  CellPoints cell(space, space.dofs);
   for (const CellRun& run : cell_runs(points)) {
-    result.segment(run.begin, run.size) =
-        cell_values(space, space.dofs, run.cell, run.units, false).values(data_->nodal);
+    cell.reinit(run.cell, run.units);
+    result.segment(run.begin, run.size) = cell.values(data_->nodal);
   }
+  const Vector3& field = data_->problem.field;
   for (Eigen::Index i = 0; i < points.size(); ++i) {
-    if (!points.inside[i]) result[i] -= data_->problem.field.dot(points.position.col(i));
+    result[i] += points.inside[i] ? data_->constant - field.dot(space.centre) : -field.dot(points.position.col(i));
   }
   return result;
 }

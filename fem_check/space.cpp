@@ -36,7 +36,10 @@ unsigned face_of(const std::array<UnitPoint, 4>& corners) {
 void create_triangulation(Space& space) {
   const meshes::VolumeMesh& mesh = *space.mesh;
   std::vector<dealii::Point<3>> vertices;
-  for (const meshes::Point& x : mesh.vertex_positions()) vertices.emplace_back(x.x(), x.y(), x.z());
+  for (const meshes::Point& place : mesh.vertex_positions()) {
+    const Vector3 x = space.dimensionless(place);
+    vertices.emplace_back(x.x(), x.y(), x.z());
+  }
   std::vector<dealii::CellData<3>> cells(mesh.n_cells());
   for (int c = 0; c < mesh.n_cells(); ++c) {
     std::copy_n(mesh.cell(c).vertices.begin(), 8, cells[c].vertices.begin());
@@ -62,7 +65,8 @@ void fill_mapping(Space& space) {
   for (unsigned c = 0; c < positions.size(); ++c) {
     std::vector<meshes::Point> mesh_units;
     for (const UnitPoint& unit : units) mesh_units.push_back(space.mesh_unit(c, unit));
-    for (const meshes::Point& x : space.mesh->physical_points(static_cast<int>(c), mesh_units)) {
+    for (const meshes::Point& place : space.mesh->physical_points(static_cast<int>(c), mesh_units)) {
+      const Vector3 x = space.dimensionless(place);
       positions[c].emplace_back(x.x(), x.y(), x.z());
     }
     space.boxes.emplace_back(positions[c]);
@@ -112,6 +116,8 @@ void require_supported(const meshes::VolumeMesh& mesh, int degree) {
 
 Space::Space(std::shared_ptr<const meshes::VolumeMesh> volume_mesh, int degree, MPI_Comm ranks)
     : mesh(std::move(volume_mesh)),
+      centre(mesh->centre()),
+      length(mesh->outer_radius()),
       communicator(ranks),
       triangulation(communicator, dealii::Triangulation<3>::none, false,
                     dealii::parallel::shared::Triangulation<3>::partition_metis),
@@ -179,49 +185,58 @@ SheetPairs sheet_pairs(const Space& space, const dealii::DoFHandler<3>& handler)
   return result;
 }
 
-Vector CellValues::values(const dealii::Vector<double>& nodal) const {
-  Vector local(dofs.size());
-  for (std::size_t i = 0; i < dofs.size(); ++i) local[i] = nodal[dofs[i]];
-  return value * local;
+CellPoints::CellPoints(const Space& space, const dealii::DoFHandler<3>& handler)
+    : space_(space),
+      handler_(handler),
+      evaluation_(space.mapping, handler.get_fe(),
+                  dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
+                      dealii::update_jacobians | dealii::update_inverse_jacobians),
+      dofs_(handler.get_fe().n_dofs_per_cell()),
+      local_(dofs_.size()) {}
+
+void CellPoints::reinit(unsigned cell, const std::vector<UnitPoint>& units) {
+  const auto iterator = space_.cell(handler_, cell);
+  evaluation_.reinit(iterator, dealii::ArrayView<const UnitPoint>(units.data(), units.size()));
+  iterator->get_dof_indices(dofs_);
+  n_points_ = units.size();
 }
 
-Vectors CellValues::gradients(const dealii::Vector<double>& nodal) const {
-  Vector local(dofs.size());
-  for (std::size_t i = 0; i < dofs.size(); ++i) local[i] = nodal[dofs[i]];
-  Vectors result(3, value.rows());
-  for (int d = 0; d < 3; ++d) result.row(d) = (gradient[d] * local).transpose();
+Vectors CellPoints::positions() const {
+  Vectors result(3, static_cast<Eigen::Index>(n_points_));
+  for (unsigned q = 0; q < n_points_; ++q) {
+    const UnitPoint place = evaluation_.real_point(q);
+    result.col(q) = space_.physical(Vector3(place[0], place[1], place[2]));
+  }
   return result;
 }
 
-CellValues cell_values(const Space& space, const dealii::DoFHandler<3>& handler, unsigned index,
-                       const std::vector<UnitPoint>& units, bool gradients) {
-  auto flags = dealii::update_values | dealii::update_quadrature_points | dealii::update_jacobians;
-  if (gradients) flags |= dealii::update_gradients;
-  dealii::FEValues<3> fe(space.mapping, handler.get_fe(), dealii::Quadrature<3>(units), flags);
-  const auto cell = space.cell(handler, index);
-  fe.reinit(cell);
-  const unsigned n_dofs = handler.get_fe().n_dofs_per_cell();
-  const auto n_points = static_cast<unsigned>(units.size());
-  CellValues result;
-  result.dofs.resize(n_dofs);
-  cell->get_dof_indices(result.dofs);
-  result.value.resize(n_points, n_dofs);
-  for (unsigned i = 0; i < n_dofs; ++i) {
-    for (unsigned q = 0; q < n_points; ++q) result.value(q, i) = fe.shape_value(i, q);
+Matrix3 CellPoints::jacobian(std::size_t point) const {
+  const auto derivative = evaluation_.jacobian(static_cast<unsigned>(point));
+  Matrix3 result;
+  for (unsigned d = 0; d < 3; ++d) {
+    for (unsigned e = 0; e < 3; ++e) result(d, e) = space_.length * derivative[d][e];
   }
-  for (unsigned d = 0; gradients && d < 3; ++d) {
-    result.gradient[d].resize(n_points, n_dofs);
-    for (unsigned i = 0; i < n_dofs; ++i) {
-      for (unsigned q = 0; q < n_points; ++q) result.gradient[d](q, i) = fe.shape_grad(i, q)[d];
-    }
-  }
-  result.position.resize(3, n_points);
-  result.jacobian.resize(n_points);
-  for (unsigned q = 0; q < n_points; ++q) {
-    for (unsigned d = 0; d < 3; ++d) {
-      result.position(d, q) = fe.quadrature_point(q)[d];
-      for (unsigned e = 0; e < 3; ++e) result.jacobian[q](d, e) = fe.jacobian(q)[d][e];
-    }
+  return result;
+}
+
+void CellPoints::evaluate(const dealii::Vector<double>& nodal, dealii::EvaluationFlags::EvaluationFlags what) {
+  for (std::size_t i = 0; i < dofs_.size(); ++i) local_[i] = nodal[dofs_[i]];
+  evaluation_.evaluate(dealii::ArrayView<const double>(local_.data(), local_.size()), what);
+}
+
+Vector CellPoints::values(const dealii::Vector<double>& nodal) {
+  evaluate(nodal, dealii::EvaluationFlags::values);
+  Vector result(static_cast<Eigen::Index>(n_points_));
+  for (unsigned q = 0; q < n_points_; ++q) result[q] = evaluation_.get_value(q);
+  return result;
+}
+
+Vectors CellPoints::gradients(const dealii::Vector<double>& nodal) {
+  evaluate(nodal, dealii::EvaluationFlags::gradients);
+  Vectors result(3, static_cast<Eigen::Index>(n_points_));
+  for (unsigned q = 0; q < n_points_; ++q) {
+    const auto& gradient = evaluation_.get_gradient(q);
+    result.col(q) = Vector3(gradient[0], gradient[1], gradient[2]) / space_.length;
   }
   return result;
 }
@@ -264,10 +279,12 @@ void fill_geometry(const Space& space, SurfacePoints& points) {
   points.position.resize(3, n);
   points.normal.resize(3, n);
   points.direction.resize(3, n);
+  CellPoints cell(space, space.dofs);
   for (const FaceRun& run : face_runs(points)) {
     const MembraneFace& face = space.membrane[run.face];
     const auto units = unit_points(space, points, run, Side::inside);
-    const CellValues cell = cell_values(space, space.dofs, face.inner_cell, units, false);
+    cell.reinit(face.inner_cell, units);
+    points.position.middleCols(run.begin, run.size) = cell.positions();
     const auto axis = [&](int k) {
       const UnitPoint& a = face.inner_corners[0];
       const UnitPoint& b = face.inner_corners[k];
@@ -278,9 +295,8 @@ void fill_geometry(const Space& space, SurfacePoints& points) {
     const Vector3 outward = Vector3(centre[0], centre[1], centre[2]) - Vector3::Constant(0.5);
     const double sign = axis(1).cross(axis(2)).dot(outward) > 0.0 ? 1.0 : -1.0;
     for (Eigen::Index i = 0; i < run.size; ++i) {
-      const Matrix3& jacobian = cell.jacobian[i];
+      const Matrix3 jacobian = cell.jacobian(static_cast<std::size_t>(i));
       const Vector3 area = sign * (jacobian * axis(1)).cross(jacobian * axis(2));
-      points.position.col(run.begin + i) = cell.position.col(i);
       points.normal.col(run.begin + i) = area.normalized();
       points.direction.col(run.begin + i) =
           space.mesh->direction(static_cast<int>(face.inner_cell), space.mesh_unit(face.inner_cell, units[i]));

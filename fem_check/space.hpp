@@ -30,7 +30,8 @@ struct OuterFace {
 
 class MembraneTrace;
 
-/// Triangulation, curved mapping and one scalar element on it.
+/// Triangulation, curved mapping and one scalar element on it. All that deal.II sees is without unit: places relative
+/// to the centre of the outer sphere, over its radius.
 struct Space {
   Space(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, MPI_Comm communicator);
 
@@ -40,10 +41,15 @@ struct Space {
   }
   [[nodiscard]] Cell cell(unsigned index) const { return cell(dofs, index); }
   [[nodiscard]] bool inside(unsigned index) const { return mesh->cell(index).region == meshes::Region::inside; }
+  /// Place without unit of a place as users know it, and back.
+  [[nodiscard]] Vector3 dimensionless(const Vector3& x) const { return (x - centre) / length; }
+  [[nodiscard]] Vector3 physical(const Vector3& x) const { return centre + length * x; }
   /// Unit coordinates in the numbering of the mesh, whose cells deal.II may have rotated.
   [[nodiscard]] meshes::Point mesh_unit(unsigned cell, const UnitPoint& unit) const;
 
   std::shared_ptr<const meshes::VolumeMesh> mesh;
+  Vector3 centre;
+  double length;  ///< the unit, R
   MPI_Comm communicator;
   dealii::parallel::shared::Triangulation<3> triangulation;
   dealii::MappingQCache<3> mapping;
@@ -52,7 +58,7 @@ struct Space {
   std::vector<std::array<int, 8>> mesh_vertex;  ///< vertex number in the mesh's cell at each vertex of deal.II's
   std::vector<MembraneFace> membrane;
   std::vector<OuterFace> outer;
-  std::vector<dealii::BoundingBox<3>> boxes;
+  std::vector<dealii::BoundingBox<3>> boxes;  ///< of the cells' mapping nodes
   std::shared_ptr<const MembraneTrace> trace;
   double seconds_setup = 0.0;
 };
@@ -69,19 +75,29 @@ struct SheetPairs {
 /// The pairs of a handler.
 SheetPairs sheet_pairs(const Space& space, const dealii::DoFHandler<3>& handler);
 
-/// Shape functions of one cell at given unit points: [n_points x n_dofs].
-struct CellValues {
-  std::vector<DofIndex> dofs;
-  Eigen::MatrixXd value;
-  std::array<Eigen::MatrixXd, 3> gradient;  ///< physical
-  Vectors position;
-  std::vector<Matrix3> jacobian;  ///< ∂x/∂unit
+/// Geometry and fields of one cell at given unit points, by sums over one direction after the other. Places and
+/// gradients as users know them.
+class CellPoints {
+ public:
+  CellPoints(const Space& space, const dealii::DoFHandler<3>& handler);
 
-  [[nodiscard]] Vector values(const dealii::Vector<double>& nodal) const;
-  [[nodiscard]] Vectors gradients(const dealii::Vector<double>& nodal) const;  ///< [3 x n_points]
+  /// Goes to points of a cell.
+  void reinit(unsigned cell, const std::vector<UnitPoint>& units);
+  [[nodiscard]] Vectors positions() const;
+  [[nodiscard]] Matrix3 jacobian(std::size_t point) const;  ///< ∂x/∂unit
+  [[nodiscard]] Vector values(const dealii::Vector<double>& nodal);
+  [[nodiscard]] Vectors gradients(const dealii::Vector<double>& nodal);  ///< [3 x n_points]
+
+ private:
+  void evaluate(const dealii::Vector<double>& nodal, dealii::EvaluationFlags::EvaluationFlags what);
+
+  const Space& space_;
+  const dealii::DoFHandler<3>& handler_;
+  dealii::FEPointEvaluation<1, 3> evaluation_;
+  std::vector<DofIndex> dofs_;
+  std::vector<double> local_;
+  std::size_t n_points_ = 0;
 };
-CellValues cell_values(const Space& space, const dealii::DoFHandler<3>& handler, unsigned cell,
-                       const std::vector<UnitPoint>& units, bool gradients);
 
 /// Run of points on one face.
 struct FaceRun {

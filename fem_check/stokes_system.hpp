@@ -1,37 +1,73 @@
 #pragma once
 
-#include <memory>
-
+#include "fem_check/discretisation.hpp"
 #include "fem_check/flow.hpp"
-#include "fem_check/saddle_point.hpp"
+#include "fem_check/multigrid.hpp"
 
 namespace vehd::fem_check {
 
-/// Stokes flow on one discretisation at one pair of viscosities: set up once, for any force and background flow.
+/// Velocity components and pressure, distributed; more blocks may follow.
+using Blocks = dealii::LinearAlgebra::distributed::BlockVector<double>;
+
+/// Of the fluids on both sides.
+struct Viscosities {
+  double inside;
+  double outside;
+};
+
+/// Right-hand side of the flow, and what of the membrane's force it had to know.
+struct FlowLoad {
+  Blocks functional;
+  Vector3 net_force = Vector3::Zero();   ///< ∫ f dA
+  Vector3 net_torque = Vector3::Zero();  ///< ∫ (x − centre) × f dA
+};
+
+/// Taylor–Hood system of Stokes flow, blocks u_x, u_y, u_z, p. The velocity form is μ∇u:∇w; where viscosities differ,
+/// ∇u:∇wᵀ comes on the side of the larger one. Lengths in units R of the space, viscosities over that of the outside:
+/// the velocity has its own unit, the pressure is p R/μ_e, and functionals of forces are divided by μ_e R. No matrix:
+/// the cells are integrated in every product.
 class StokesSystem {
  public:
   /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive
   StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity);
-  StokesSystem(const StokesSystem&) = delete;
-  StokesSystem& operator=(const StokesSystem&) = delete;
+  ~StokesSystem();
 
-  [[nodiscard]] const Space& space() const { return *space_; }
-  [[nodiscard]] const SaddlePoint& matrix() const { return *matrix_; }
-  /// Of the velocity: both sheets of γ move together.
-  [[nodiscard]] const Constraints& constraints() const { return constraints_; }
-
-  /// Right-hand side of a FlowProblem with these viscosities.
+  /// A vector of zeros with these blocks.
+  [[nodiscard]] Blocks zero() const;
+  /// Functional of the force per area of the membrane on the fluid in the background flow A x.
   /// @throws std::invalid_argument for a missing force or a gradient with a trace
-  [[nodiscard]] Blocks right_side(const FlowProblem& problem) const;
-  /// The flow of a solution.
-  [[nodiscard]] FlowSolution solution(const FlowProblem& problem, const Blocks& x, const Cost& cost) const;
+  [[nodiscard]] FlowLoad load(const VectorOnSurface& force, const Matrix3& gradient) const;
+
+  /// Symmetric: [[A, Bᵀ], [B, 0]] with B = −∫ q div u. Uses the first four blocks only, as precondition() does.
+  void vmult(Blocks& to, const Blocks& from) const;
+  /// Symmetric and positive definite: multigrid for A, the pressure mass over μ for the Schur complement, and
+  /// corrections for the few motions and pressures that these miss where viscosities differ much.
+  void precondition(Blocks& to, const Blocks& from) const;
+  /// Minimal residuals from `start` to the residual `tolerance` relative to the right-hand side, both in the norm of
+  /// the preconditioner. Adds to iterations and notes the residual in the cost.
+  /// @throws SolveError if they do not get there
+  void solve(const Blocks& right_side, double tolerance, Blocks& solution, Cost& cost) const;
+
+  /// Nodal values of a velocity component on all ranks.
+  [[nodiscard]] dealii::Vector<double> velocity(const Blocks& solution, unsigned component) const;
+  /// Nodal values of the pressure on all ranks, in the user's unit.
+  [[nodiscard]] dealii::Vector<double> pressure(const Blocks& solution) const;
+
+  [[nodiscard]] const Space& space() const { return *shared_space(); }
+  [[nodiscard]] const std::shared_ptr<const Space>& shared_space() const;
+  [[nodiscard]] const std::shared_ptr<const dealii::DoFHandler<3>>& pressure_dofs() const;
+  /// Ties of the two sheets, and where they are added up.
+  [[nodiscard]] const Stiffness& diffusion() const;
+  /// What the functional of a force is divided by, μ_e R.
+  [[nodiscard]] double functional_unit() const;
 
  private:
-  std::shared_ptr<const Space> space_;
-  Viscosities viscosity_;
-  Constraints constraints_;
-  std::shared_ptr<dealii::DoFHandler<3>> pressure_dofs_;
-  std::unique_ptr<SaddlePoint> matrix_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
+
+/// The flow of a solution, of whose blocks the first four are used.
+FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& problem, const FlowLoad& load,
+                           const Blocks& solution, Cost cost);
 
 }  // namespace vehd::fem_check

@@ -63,6 +63,9 @@ struct Cost {
   int n_cells = 0;
   long n_unknowns = 0;
   int iterations = 0;
+  /// Size of the residual over that of the right-hand side, both as the preconditioner measures energies: about the
+  /// relative error of the energy that the linear solver leaves.
+  double solver_error = 0.0;
   double seconds_setup = 0.0;  ///< triangulation, mapping and numbering
   double seconds_assembly = 0.0;
   double seconds_solve = 0.0;  ///< preconditioner included

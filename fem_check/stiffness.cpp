@@ -1,0 +1,207 @@
+#include "fem_check/stiffness.hpp"
+
+namespace vehd::fem_check {
+
+namespace {
+
+/// Fields of the loops: with the ties and fixed values, and without.
+constexpr unsigned tied_field = 0;
+constexpr unsigned untied_field = 1;
+
+/// to += Σ coefficient ∫ ∇u·∇w over a range of cells.
+void stiffness_cells(const CellLoops& loops, unsigned field, const dealii::AlignedVector<Lanes>& coefficient,
+                     Distributed& to, const Distributed& from, const CellRange& range) {
+  CellValues<1> u(loops, field);
+  for (unsigned group = range.first; group < range.second; ++group) {
+    u.reinit(group);
+    u.read_dof_values(from);
+    // A constant has no gradient: taken off, it leaves no rounding, however large it is.
+    Lanes* values = u.begin_dof_values();
+    const Lanes constant = values[0];
+    for (unsigned i = 0; i < u.dofs_per_cell; ++i) values[i] -= constant;
+    u.evaluate(dealii::EvaluationFlags::gradients);
+    for (unsigned q = 0; q < u.n_q_points; ++q) u.submit_gradient(coefficient[group] * u.get_gradient(q), q);
+    u.integrate(dealii::EvaluationFlags::gradients);
+    u.distribute_local_to_global(to);
+  }
+}
+
+/// Metric of one group of cells, times the coefficient.
+std::array<dealii::AlignedVector<Lanes>, 6> metric(const CellValues<1>& u, const Lanes& coefficient) {
+  constexpr unsigned pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  std::array<dealii::AlignedVector<Lanes>, 6> result;
+  for (unsigned entry = 0; entry < 6; ++entry) {
+    result[entry].resize(u.n_q_points);
+    for (unsigned q = 0; q < u.n_q_points; ++q) {
+      const auto inverse = u.inverse_jacobian(q);  // transposed: ∇ = inverse · ∇_unit
+      Lanes sum = 0.0;
+      for (unsigned d = 0; d < 3; ++d) sum += inverse[d][pairs[entry][0]] * inverse[d][pairs[entry][1]];
+      result[entry][q] = coefficient * u.JxW(q) * sum;
+    }
+  }
+  return result;
+}
+
+SheetPairs pairs_of(const Space& space, const dealii::DoFHandler<3>& handler) {
+  return &handler == &space.dofs ? space.trace->pairs() : sheet_pairs(space, handler);
+}
+
+/// The membrane's and the outer sphere's part of a form.
+std::unique_ptr<SurfaceTerms> surface_terms(const Space& space, const dealii::DoFHandler<3>& handler,
+                                            const Constraints& constraints, const SheetPairs& pairs,
+                                            const OuterSphere& outer, const ScalarForm& form) {
+  std::vector<DofIndex> dofs;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](const Eigen::SparseMatrix<double>& matrix, double scale, Eigen::Index row, Eigen::Index column) {
+    for (Eigen::Index j = 0; j < matrix.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, j); entry; ++entry) {
+        entries.emplace_back(row + entry.row(), column + entry.col(), scale * entry.value());
+      }
+    }
+  };
+  if (form.membrane != 0.0) {
+    const auto n = static_cast<Eigen::Index>(pairs.pairs.size());
+    for (const std::size_t side : {0, 1}) {
+      for (const auto& pair : pairs.pairs) dofs.push_back(pair[side]);
+    }
+    const Eigen::SparseMatrix<double> mass =
+        membrane_mass(space.trace->rule(), pairs, static_cast<int>(handler.get_fe().degree)) /
+        (space.length * space.length);
+    add(mass, form.membrane, 0, 0);
+    add(mass, form.membrane, n, n);
+    add(mass, -form.membrane, 0, n);
+    add(mass, -form.membrane, n, 0);
+  }
+  if (form.robin != 0.0) {
+    const auto begin = static_cast<Eigen::Index>(dofs.size());
+    dofs.insert(dofs.end(), outer.dofs().begin(), outer.dofs().end());
+    add(outer.mass(), form.robin, begin, begin);
+  }
+  Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return std::make_unique<SurfaceTerms>(space, handler, constraints, std::move(dofs), std::move(matrix));
+}
+
+}  // namespace
+
+Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
+                             const std::vector<DofIndex>& outer_dofs, const Fixed& fixed) {
+  Constraints constraints;
+  constraints.reinit(dealii::complete_index_set(handler.n_dofs()));
+  if (fixed.tie != Tie::none) {
+    const bool inner_follows = fixed.tie == Tie::inner_follows_outer;
+    for (const auto& [inner, outer] : pairs.pairs) {
+      constraints.add_line(inner_follows ? inner : outer);
+      constraints.add_entry(inner_follows ? inner : outer, inner_follows ? outer : inner, 1.0);
+    }
+  }
+  if (fixed.outer) {
+    for (const DofIndex dof : outer_dofs) constraints.add_line(dof);
+  }
+  if (fixed.outer_value && !constraints.is_constrained(outer_dofs.front())) constraints.add_line(outer_dofs.front());
+  // The first pair is a corner of the first face, whatever the degree.
+  if (fixed.inner_value) constraints.add_line(pairs.pairs.front()[0]);
+  constraints.close();
+  return constraints;
+}
+
+Stiffness::Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, const Fixed& fixed,
+                     const ScalarForm& form)
+    : space_(space),
+      handler_(handler),
+      form_(form),
+      pairs_(pairs_of(space, handler)),
+      outer_(space, handler),
+      constraints_(make_constraints(handler, pairs_, outer_.dofs(), fixed)) {
+  none_.reinit(dealii::complete_index_set(handler.n_dofs()));
+  none_.close();
+  loops_ = make_cell_loops(space, {{&handler, &constraints_}, {&handler, &none_}}, points_per_direction(degree()));
+  coefficient_ = per_cell(space, *loops_, form.inside, form.outside);
+  surface_ = surface_terms(space, handler, constraints_, pairs_, outer_, form);
+}
+
+void Stiffness::vmult(Distributed& to, const Distributed& from) const {
+  loops_->cell_loop<Distributed, Distributed>(
+      [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
+        stiffness_cells(loops, tied_field, coefficient_, t, f, range);
+      },
+      to, from, true);
+  surface_->add({&to}, {&from});
+  for (const unsigned dof : loops_->get_constrained_dofs()) to.local_element(dof) = from.local_element(dof);
+}
+
+dealii::Vector<double> Stiffness::cell_product(const dealii::Vector<double>& u,
+                                               const dealii::AlignedVector<Lanes>& coefficient) const {
+  Distributed from;
+  Distributed product;
+  loops_->initialize_dof_vector(from, untied_field);
+  loops_->initialize_dof_vector(product, untied_field);
+  for (const DofIndex dof : from.locally_owned_elements()) from(dof) = u[dof];
+  loops_->cell_loop<Distributed, Distributed>(
+      [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
+        stiffness_cells(loops, untied_field, coefficient, t, f, range);
+      },
+      product, from, true);
+  return on_all_ranks(product, space_.communicator);
+}
+
+void Stiffness::add_cells(Distributed& to, double scale, const dealii::Vector<double>& u) const {
+  const dealii::Vector<double> product = cell_product(u, coefficient_);
+  std::vector<DofIndex> dofs(product.size());
+  Vector values(static_cast<Eigen::Index>(product.size()));
+  for (DofIndex dof = 0; dof < product.size(); ++dof) {
+    dofs[dof] = dof;
+    values[static_cast<Eigen::Index>(dof)] = scale * product[dof];
+  }
+  add_at(to, dofs, values);
+}
+
+Vector Stiffness::flux_functional(const dealii::Vector<double>& u, Side side) const {
+  const bool inside = side == Side::inside;
+  const dealii::Vector<double> product =
+      cell_product(u, per_cell(space_, *loops_, inside ? 1.0 : 0.0, inside ? 0.0 : 1.0));
+  Vector result(static_cast<Eigen::Index>(pairs_.pairs.size()));
+  for (std::size_t p = 0; p < pairs_.pairs.size(); ++p) {
+    result[static_cast<Eigen::Index>(p)] = product[pairs_.pairs[p][inside ? 0 : 1]];
+  }
+  return result;
+}
+
+void Stiffness::add_at(Distributed& to, const std::vector<DofIndex>& dofs, const Vector& values) const {
+  const dealii::IndexSet owned = handler_.locally_owned_dofs();
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    DofIndex dof = dofs[i];
+    if (constraints_.is_constrained(dof)) {
+      const auto& entries = *constraints_.get_constraint_entries(dof);
+      if (entries.empty()) continue;
+      dof = entries.front().first;
+    }
+    if (owned.is_element(dof)) to(dof) += values[static_cast<Eigen::Index>(i)];
+  }
+}
+
+Distributed Stiffness::inverse_diagonal() const {
+  Distributed diagonal;
+  initialize(diagonal);
+  const CellDiagonal cells(degree(), points_per_direction(degree()));
+  const Distributed unused(diagonal);
+  loops_->cell_loop<Distributed, Distributed>(
+      [&](const CellLoops& loops, Distributed& to, const Distributed&, const CellRange& range) {
+        CellValues<1> u(loops, tied_field);
+        for (unsigned group = range.first; group < range.second; ++group) {
+          u.reinit(group);
+          const dealii::AlignedVector<Lanes> values = cells.of_stiffness(metric(u, coefficient_[group]));
+          for (unsigned i = 0; i < u.dofs_per_cell; ++i) u.begin_dof_values()[i] = values[i];
+          u.distribute_local_to_global(to);
+        }
+      },
+      diagonal, unused, true);
+  surface_->add_diagonal(diagonal);
+  for (const unsigned dof : loops_->get_constrained_dofs()) diagonal.local_element(dof) = 1.0;
+  for (unsigned i = 0; i < diagonal.locally_owned_size(); ++i) {
+    diagonal.local_element(i) = 1.0 / diagonal.local_element(i);
+  }
+  return diagonal;
+}
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "fem_check/membrane_trace.hpp"
+#include "fem_check/surface_terms.hpp"
+
+namespace vehd::fem_check {
+
+/// a(u, w) = Σ_side coefficient ∫ ∇u·∇w dV + membrane ∫_γ [[u]][[w]] dA + robin ∫_{r=R} u w dA, lengths in units of the
+/// space.
+struct ScalarForm {
+  double inside = 1.0;
+  double outside = 1.0;
+  double membrane = 0.0;
+  double robin = 0.0;
+};
+
+/// How the two values at each node of γ belong together.
+enum class Tie { none, inner_follows_outer, outer_follows_inner };
+
+/// Homogeneous constraints: ties on γ, values on the outer sphere that are given, and one value of a side that would
+/// float.
+struct Fixed {
+  Tie tie = Tie::none;
+  bool outer = false;
+  bool outer_value = false;
+  bool inner_value = false;
+};
+Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
+                             const std::vector<DofIndex>& outer_dofs, const Fixed& fixed);
+
+/// A scalar form on the elements of one handler as an operator: no matrix, the cells are integrated in every product.
+/// Rows of fixed and tied nodes are those of the identity.
+class Stiffness : public dealii::Subscriptor {
+ public:
+  /// @param handler  of scalar elements; has to live as long as this
+  Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, const Fixed& fixed, const ScalarForm& form);
+
+  void vmult(Distributed& to, const Distributed& from) const;
+  void Tvmult(Distributed& to, const Distributed& from) const { vmult(to, from); }
+  [[nodiscard]] DofIndex m() const { return handler_.n_dofs(); }
+  /// Chebyshev's polynomials would ask for entries if they were not given the diagonal.
+  [[nodiscard]] static double el(DofIndex /*row*/, DofIndex /*column*/) {
+    throw std::logic_error("no matrix is stored");
+  }
+  void initialize(Distributed& vector) const { loops_->initialize_dof_vector(vector); }
+
+  /// Adds scale · Σ coefficient ∫ ∇u·∇w for nodal values u known on all ranks, tied nodes as they are.
+  void add_cells(Distributed& to, double scale, const dealii::Vector<double>& u) const;
+  /// ∫ ∇u·∇w over one side for the trace functions w of that side: one value per pair, on all ranks.
+  [[nodiscard]] Vector flux_functional(const dealii::Vector<double>& u, Side side) const;
+  /// Adds values at nodes to the free degrees of freedom that stand for them.
+  void add_at(Distributed& to, const std::vector<DofIndex>& dofs, const Vector& values) const;
+  [[nodiscard]] Distributed inverse_diagonal() const;
+
+  [[nodiscard]] const dealii::DoFHandler<3>& handler() const { return handler_; }
+  [[nodiscard]] const Constraints& constraints() const { return constraints_; }
+  [[nodiscard]] const SheetPairs& pairs() const { return pairs_; }
+  [[nodiscard]] const OuterSphere& outer() const { return outer_; }
+  [[nodiscard]] const SurfaceTerms& surface() const { return *surface_; }
+  [[nodiscard]] const ScalarForm& form() const { return form_; }
+  [[nodiscard]] const Space& space() const { return space_; }
+
+ private:
+  /// Σ coefficient ∫ ∇u·∇w for all nodes of all ranks, tied nodes as they are.
+  [[nodiscard]] dealii::Vector<double> cell_product(const dealii::Vector<double>& u,
+                                                    const dealii::AlignedVector<Lanes>& coefficient) const;
+  [[nodiscard]] int degree() const { return static_cast<int>(handler_.get_fe().degree); }
+
+  const Space& space_;
+  const dealii::DoFHandler<3>& handler_;
+  ScalarForm form_;
+  SheetPairs pairs_;
+  OuterSphere outer_;
+  Constraints constraints_;
+  Constraints none_;
+  std::shared_ptr<const CellLoops> loops_;
+  dealii::AlignedVector<Lanes> coefficient_;
+  std::unique_ptr<SurfaceTerms> surface_;
+};
+
+}  // namespace vehd::fem_check

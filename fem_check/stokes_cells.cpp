@@ -1,0 +1,110 @@
+#include "fem_check/stokes_cells.hpp"
+
+namespace vehd::fem_check {
+
+namespace {
+
+constexpr unsigned velocity_field = 0;
+constexpr unsigned pressure_field = 1;
+
+}  // namespace
+
+StokesCells::StokesCells(const Space& space, const dealii::DoFHandler<3>& pressure_dofs,
+                         const Constraints& velocity_constraints, double viscosity_inside, double viscosity_outside)
+    : space_(space), degree_(static_cast<int>(space.element.degree)) {
+  none_.reinit(dealii::complete_index_set(pressure_dofs.n_dofs()));
+  none_.close();
+  loops_ = make_cell_loops(space, {{&space.dofs, &velocity_constraints}, {&pressure_dofs, &none_}},
+                           points_per_direction(degree_));
+  const double difference = viscosity_inside - viscosity_outside;
+  viscosity_ = per_cell(space, *loops_, viscosity_inside, viscosity_outside);
+  contrast_ = per_cell(space, *loops_, std::max(difference, 0.0), std::max(-difference, 0.0));
+  fluidity_ = per_cell(space, *loops_, 1.0 / viscosity_inside, 1.0 / viscosity_outside);
+}
+
+void StokesCells::apply(const Parts& to, const Parts& from) const {
+  loops_->cell_loop<Parts, Parts>(
+      [&](const CellLoops& loops, Parts& t, const Parts& f, const CellRange& range) {
+        CellValues<3> velocity(loops, velocity_field);
+        CellValues<1> pressure(loops, pressure_field);
+        for (unsigned group = range.first; group < range.second; ++group) {
+          velocity.reinit(group);
+          velocity.read_dof_values(f, 0);
+          // A translation has no gradient: taken off, it leaves no rounding.
+          const unsigned n = velocity.dofs_per_component;
+          for (unsigned d = 0; d < 3; ++d) {
+            Lanes* values = velocity.begin_dof_values() + d * n;
+            const Lanes constant = values[0];
+            for (unsigned i = 0; i < n; ++i) values[i] -= constant;
+          }
+          velocity.evaluate(dealii::EvaluationFlags::gradients);
+          pressure.reinit(group);
+          pressure.read_dof_values(*f[3]);
+          pressure.evaluate(dealii::EvaluationFlags::values);
+          for (unsigned q = 0; q < velocity.n_q_points; ++q) {
+            const auto gradient = velocity.get_gradient(q);  // [component][direction]
+            const Lanes p = pressure.get_value(q);
+            auto flux = gradient;
+            Lanes divergence = 0.0;
+            for (unsigned a = 0; a < 3; ++a) {
+              for (unsigned b = 0; b < 3; ++b) {
+                flux[a][b] = viscosity_[group] * gradient[a][b] + contrast_[group] * gradient[b][a];
+              }
+              flux[a][a] -= p;
+              divergence += gradient[a][a];
+            }
+            velocity.submit_gradient(flux, q);
+            pressure.submit_value(-divergence, q);
+          }
+          velocity.integrate(dealii::EvaluationFlags::gradients);
+          velocity.distribute_local_to_global(t, 0);
+          pressure.integrate(dealii::EvaluationFlags::values);
+          pressure.distribute_local_to_global(*t[3]);
+        }
+      },
+      const_cast<Parts&>(to), from, true);
+}
+
+void StokesCells::apply_pressure_mass(Distributed& to, const Distributed& from) const {
+  loops_->cell_loop<Distributed, Distributed>(
+      [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
+        CellValues<1> pressure(loops, pressure_field);
+        for (unsigned group = range.first; group < range.second; ++group) {
+          pressure.reinit(group);
+          pressure.read_dof_values(f);
+          pressure.evaluate(dealii::EvaluationFlags::values);
+          for (unsigned q = 0; q < pressure.n_q_points; ++q) {
+            pressure.submit_value(fluidity_[group] * pressure.get_value(q), q);
+          }
+          pressure.integrate(dealii::EvaluationFlags::values);
+          pressure.distribute_local_to_global(t);
+        }
+      },
+      to, from, true);
+}
+
+Distributed StokesCells::inverse_pressure_diagonal() const {
+  Distributed diagonal;
+  initialize_pressure(diagonal);
+  const Distributed unused(diagonal);
+  const CellDiagonal cells(degree_ - 1, points_per_direction(degree_));
+  loops_->cell_loop<Distributed, Distributed>(
+      [&](const CellLoops& loops, Distributed& to, const Distributed&, const CellRange& range) {
+        CellValues<1> pressure(loops, pressure_field);
+        dealii::AlignedVector<Lanes> weight(pressure.n_q_points);
+        for (unsigned group = range.first; group < range.second; ++group) {
+          pressure.reinit(group);
+          for (unsigned q = 0; q < pressure.n_q_points; ++q) weight[q] = fluidity_[group] * pressure.JxW(q);
+          const dealii::AlignedVector<Lanes> values = cells.of_mass(weight);
+          for (unsigned i = 0; i < pressure.dofs_per_cell; ++i) pressure.begin_dof_values()[i] = values[i];
+          pressure.distribute_local_to_global(to);
+        }
+      },
+      diagonal, unused, true);
+  for (unsigned i = 0; i < diagonal.locally_owned_size(); ++i) {
+    diagonal.local_element(i) = 1.0 / diagonal.local_element(i);
+  }
+  return diagonal;
+}
+
+}  // namespace vehd::fem_check

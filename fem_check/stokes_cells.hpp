@@ -1,0 +1,36 @@
+#pragma once
+
+#include "fem_check/cell_loops.hpp"
+
+namespace vehd::fem_check {
+
+/// The cells' part of the Stokes operator and of the pressure mass: velocity components in field 0 of the loops,
+/// pressure of one degree less in field 1.
+class StokesCells {
+ public:
+  /// Viscosities of both sides; on the side of the larger one their difference multiplies ∇u:∇wᵀ.
+  StokesCells(const Space& space, const dealii::DoFHandler<3>& pressure_dofs, const Constraints& velocity_constraints,
+              double viscosity_inside, double viscosity_outside);
+
+  /// u_x, u_y, u_z, p
+  using Parts = std::vector<Distributed*>;
+  /// to = the operator's product with from.
+  void apply(const Parts& to, const Parts& from) const;
+  /// to = ∫ p q/μ
+  void apply_pressure_mass(Distributed& to, const Distributed& from) const;
+  [[nodiscard]] Distributed inverse_pressure_diagonal() const;
+
+  void initialize_velocity(Distributed& vector) const { loops_->initialize_dof_vector(vector, 0); }
+  void initialize_pressure(Distributed& vector) const { loops_->initialize_dof_vector(vector, 1); }
+
+ private:
+  const Space& space_;
+  int degree_;  // of the velocity
+  Constraints none_;
+  std::shared_ptr<const CellLoops> loops_;
+  dealii::AlignedVector<Lanes> viscosity_;
+  dealii::AlignedVector<Lanes> contrast_;
+  dealii::AlignedVector<Lanes> fluidity_;  // 1/μ
+};
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "fem_check/cell_loops.hpp"
+
+namespace vehd::fem_check {
+
+/// Nodes on the outer sphere of the scalar element of a handler, and integrals over the sphere. Lengths in units of the
+/// space.
+class OuterSphere {
+ public:
+  OuterSphere(const Space& space, const dealii::DoFHandler<3>& handler);
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(dofs_.size()); }
+  [[nodiscard]] const std::vector<DofIndex>& dofs() const { return dofs_; }
+  /// Places of the nodes, as users know them.
+  [[nodiscard]] const std::vector<Vector3>& positions() const { return positions_; }
+
+  /// ∫ u w dA
+  [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
+  /// ∫ w (n_b ∂_a u − n_a ∂_b u) dA: derivatives along the sphere.
+  [[nodiscard]] Eigen::SparseMatrix<double> rotation(unsigned a, unsigned b) const;
+  /// ∫ f w dA for every node, f given at places as users know them.
+  [[nodiscard]] Vector integrate(const std::function<double(const Vector3&)>& f) const;
+
+ private:
+  struct Face {
+    std::vector<int> nodes;
+    Eigen::MatrixXd value;                    // [points x nodes]
+    std::array<Eigen::MatrixXd, 3> gradient;  // of each direction, [points x nodes]
+    Vectors normal;
+    Vectors position;
+    Vector weight;
+  };
+  template <typename Local>
+  [[nodiscard]] Eigen::SparseMatrix<double> assemble(const Local& local) const;
+
+  std::vector<DofIndex> dofs_;
+  std::vector<Vector3> positions_;
+  std::vector<Face> faces_;
+  Eigen::SparseMatrix<double> mass_;
+};
+
+/// A symmetric matrix on few degrees of freedom of one or more components, those on γ and on the outer sphere. The
+/// nodes may belong to different ranks: every rank gathers the values of all of them, and adds its own rows.
+class SurfaceTerms {
+ public:
+  /// @param dofs    nodes
+  /// @param matrix  [components x dofs] squared, the nodes of a component in a row
+  SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& handler, const Constraints& constraints,
+               std::vector<DofIndex> dofs, Eigen::SparseMatrix<double> matrix);
+
+  /// to += matrix · from, one vector per component. Fixed and tied nodes take no part.
+  void add(const std::vector<Distributed*>& to, const std::vector<const Distributed*>& from) const;
+  /// Adds the diagonal of the first component.
+  void add_diagonal(Distributed& diagonal) const;
+  [[nodiscard]] const std::vector<DofIndex>& dofs() const { return dofs_; }
+  [[nodiscard]] const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }
+
+ private:
+  MPI_Comm communicator_;
+  std::vector<DofIndex> dofs_;
+  Eigen::SparseMatrix<double> matrix_;
+  std::vector<std::size_t> own_;  // which of them belong to this rank and are free
+};
+
+/// Values at the nodes of all degrees of freedom, on all ranks.
+dealii::Vector<double> on_all_ranks(const Distributed& vector, MPI_Comm communicator);
+
+}  // namespace vehd::fem_check
