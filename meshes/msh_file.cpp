@@ -84,6 +84,37 @@ void add_region(int volume, const std::string& name, CellShape shape, const Regi
   gmsh::model::setPhysicalName(3, volume, name);
 }
 
+/// The faces of the membrane as elements of their own, on the nodes that the cells of one region have there.
+void add_membrane(int surface, const std::string& name, const VolumeMesh& mesh, Region region, NodeNumbers& numbers,
+                  std::size_t& last_tag) {
+  constexpr int kQuadrangle9 = 10;  // gmsh's element types
+  constexpr int kTriangle6 = 9;
+  const bool is_hexahedron = mesh.cell_shape() == CellShape::hexahedron;
+  std::vector<std::size_t> tags, nodes;
+  for (const InterfacePair& pair : mesh.interface()) {
+    const int cell = region == Region::inside ? pair.inside_cell : pair.outside_cell;
+    const std::array<int, 4>& inner = face_vertices(mesh.cell_shape(), pair.inside_face);
+    // Corners around the face, outwards from the inside: deal.II's own order of a quadrangle crosses it.
+    std::vector<int> corners;
+    for (const int k : is_hexahedron ? VertexList{0, 1, 3, 2} : VertexList{0, 1, 2}) {
+      corners.push_back(mesh.cell(cell).vertices[region == Region::inside ? inner[k] : pair.outside_vertex[k]]);
+    }
+    const bool is_outwards = is_hexahedron && pair.inside_face % 2 == 1;
+    if (!is_outwards) std::reverse(corners.begin(), corners.end());
+    std::vector<VertexList> sets;
+    for (const int corner : corners) sets.push_back({corner});
+    for (std::size_t k = 0; k < corners.size(); ++k) sets.push_back({corners[k], corners[(k + 1) % corners.size()]});
+    if (is_hexahedron) sets.push_back(corners);
+    bool fresh = false;
+    for (VertexList& set : sets) nodes.push_back(numbers.tag(std::move(set), fresh));
+    tags.push_back(++last_tag);
+  }
+  gmsh::model::addDiscreteEntity(2, surface);
+  gmsh::model::mesh::addElementsByType(surface, is_hexahedron ? kQuadrangle9 : kTriangle6, tags, nodes);
+  gmsh::model::addPhysicalGroup(2, {surface}, surface);
+  gmsh::model::setPhysicalName(2, surface, name);
+}
+
 int add_quality_view(const MeshQuality& quality) {
   std::string model;
   gmsh::model::getCurrent(model);
@@ -115,6 +146,9 @@ void write_msh(const std::filesystem::path& file, const VolumeMesh& mesh, const 
   try {
     add_region(1, "inside", mesh.cell_shape(), regions[0]);
     add_region(2, "outside", mesh.cell_shape(), regions[1]);
+    auto last_tag = static_cast<std::size_t>(mesh.n_cells());
+    add_membrane(1, "membrane", mesh, Region::inside, numbers, last_tag);
+    add_membrane(2, "membrane_outside", mesh, Region::outside, numbers, last_tag);
     const int view = add_quality_view(quality);
     gmsh::write(file.string());
     // A view brings its own copy of the mesh unless told otherwise: every element would be there twice.

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "fem_check/app/check_input.hpp"
 #include "meshes/msh_file.hpp"
+#include "meshes/second_order_mesh.hpp"
 #include "meshes/volume_mesh.hpp"
 
 namespace vehd::fem_check {
@@ -19,7 +19,26 @@ constexpr double refinement_step = 1.5;
 /// A number of cells when each is divided by `factor`.
 int refined(int cells, double factor) { return std::max(cells, static_cast<int>(std::lround(cells * factor))); }
 
-std::unique_ptr<meshes::VolumeMesh> make_mesh(const meshes::FrozenShape& shape, const MeshTask& task) {
+/// With the quality of what the file holds, which is not the exact map of hexahedra.
+MeshResult written(const MeshTask& task, const meshes::FrozenShape& shape, const meshes::VolumeMesh& mesh,
+                   double smallest_scaled_jacobian) {
+  MeshResult result;
+  result.family = task.family;
+  result.n_cells = mesh.n_cells();
+  result.n_faces = static_cast<int>(mesh.interface().size());
+  result.outer_radius = mesh.outer_radius();
+  result.shape_volume = shape.volume();
+  result.shape_area = shape.area();
+  result.quality = quality(mesh, shape);
+  require_quality(result.quality, smallest_scaled_jacobian);
+  meshes::write_msh(task.output, mesh, result.quality);
+  return result;
+}
+
+}  // namespace
+
+MeshResult run_mesh(const MeshTask& task) {
+  const meshes::FrozenShape shape(read_position(task.input));
   const double factor = std::pow(refinement_step, task.refine);
   if (task.family == "tet") {
     meshes::TetMeshOptions options;
@@ -27,31 +46,15 @@ std::unique_ptr<meshes::VolumeMesh> make_mesh(const meshes::FrozenShape& shape, 
     options.largest_size /= factor;
     options.growth /= factor;
     options.outer_radius = outer_radius * shape.radius();
-    return std::make_unique<meshes::TetMesh>(meshes::make_tetrahedral_mesh(shape, options));
+    return written(task, shape, meshes::make_tetrahedral_mesh(shape, options), options.smallest_scaled_jacobian);
   }
   meshes::BlockMeshOptions options;
   options.cells_per_edge = refined(options.cells_per_edge, factor);
   options.blend_layers = refined(options.blend_layers, factor);
   options.shell_layers = refined(options.shell_layers, factor);
   options.outer_radius = outer_radius * shape.radius();
-  return std::make_unique<meshes::HexMesh>(meshes::make_block_mesh(shape, options));
-}
-
-}  // namespace
-
-MeshResult run_mesh(const MeshTask& task) {
-  const meshes::FrozenShape shape(read_position(task.input));
-  const std::unique_ptr<meshes::VolumeMesh> mesh = make_mesh(shape, task);
-  MeshResult result;
-  result.family = task.family;
-  result.n_cells = mesh->n_cells();
-  result.n_faces = static_cast<int>(mesh->interface().size());
-  result.outer_radius = mesh->outer_radius();
-  result.shape_volume = shape.volume();
-  result.shape_area = shape.area();
-  result.quality = quality(*mesh, shape);
-  meshes::write_msh(task.output, *mesh, result.quality);
-  return result;
+  const meshes::HexMesh exact = meshes::make_block_mesh(shape, options);
+  return written(task, shape, meshes::SecondOrderMesh(exact), options.smallest_scaled_jacobian);
 }
 
 std::string text_of(const MeshResult& result) {
