@@ -24,6 +24,7 @@ struct CheckOptions {
   std::optional<std::string> time;
   std::string directory;
   bool quick = false;
+  std::optional<double> required;
   bool no_plot = false;
   int ranks = default_ranks();
   CommonOptions common;
@@ -56,6 +57,7 @@ ExitCode check(const CheckOptions& options) {
   CheckTask task{.frozen = read_frozen_state(options.scene.source, options.time),
                  .directory = directory_of(options),
                  .quick = options.quick,
+                 .required = options.required,
                  .n_ranks = options.ranks};
   if (!task.frozen.note.empty()) fmt::print(stderr, "{}\n", task.frozen.note);
   task.tell = [first = true](const CheckFields& fields) mutable { print_solved(fields, std::exchange(first, false)); };
@@ -80,6 +82,12 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
                    "Directory for the results; \"check\" beside a run.h5, out/NAME_check for NAME.toml")
       ->type_name("DIR");
   command->add_flag("--quick", options->quick, "Coarse finite elements: about ten seconds");
+  command
+      ->add_option(
+          "--require", options->required,
+          "Largest error of either method, as a share of each field, with which they may agree; 0.02 if left out, 0.05 "
+          "with --quick")
+      ->check(CLI::Range(1e-9, 1.0));
   command->add_option("--ranks", options->ranks, "MPI processes of the finite elements")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -87,8 +95,10 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
   add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(
-      "Compares q, V_m, the electric force and the velocity, each with both methods' own error estimates.\n"
-      "Exit code 0 if every field agrees within the two errors, 4 if one does not. See docs/check.md.");
+      "Compares q, V_m, the electric force, the charging current and the velocity, and judges the numbers of the run, "
+      "each with both methods' own error estimates.\n"
+      "Exit code 0 if every row agrees within errors that are small enough; 4 if one does not, or if its errors are "
+      "too large to tell (undecided). See docs/check.md.");
   command->callback([options, &exit_code] { exit_code = check(*options); });
 }
 

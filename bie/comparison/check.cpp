@@ -1,7 +1,11 @@
 #include "bie/comparison/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bie/comparison/check_input.hpp"
@@ -16,34 +20,57 @@ namespace {
 /// Beyond it the quick check would not be quick; an order above it is kept.
 constexpr int highest_quick_order = 28;
 
-int high_order(int order, bool quick) {
-  // Boundary integrals are cheap beside fine elements; their error must not be what the comparison ends on.
-  const int raised = quick ? (3 * order + 1) / 2 : 2 * order;
-  return std::clamp(raised, std::min(order + 2, highest_order),
-                    quick ? std::max(highest_quick_order, order + 2) : highest_order);
+/// Keeps the sample points whose values both orders know.
+void keep_known(CheckSamples& samples, CheckFields& a, CheckFields& b) {
+  std::vector<Index> known;
+  for (Index i = 0; i < samples.points.rows(); ++i) {
+    const auto knows = [i](const CheckFields& fields) {
+      return (fields.sample_potential.size() == 0 || std::isfinite(fields.sample_potential[i])) &&
+             (fields.sample_velocity.size() == 0 || fields.sample_velocity.row(i).allFinite());
+    };
+    if (knows(a) && knows(b)) known.push_back(i);
+  }
+  samples.points = Matrix(samples.points(known, Eigen::all));
+  samples.distance = Vector(samples.distance(known));
+  for (CheckFields* fields : {&a, &b}) {
+    if (fields->sample_potential.size() > 0) fields->sample_potential = Vector(fields->sample_potential(known));
+    if (fields->sample_velocity.size() > 0)
+      fields->sample_velocity = Matrix(fields->sample_velocity(known, Eigen::all));
+    std::vector<bool> sides;
+    for (const Index i : known) sides.push_back(fields->is_inside[static_cast<std::size_t>(i)]);
+    if (!fields->is_inside.empty()) fields->is_inside = std::move(sides);
+  }
 }
 
 }  // namespace
 
+int estimate_order(int order, bool quick) {
+  // Boundary integrals are cheap beside fine elements; their error must not be what the comparison ends on.
+  const int raised = std::max(quick ? std::min((3 * order + 1) / 2, highest_quick_order) : 2 * order, order + 2);
+  if (raised <= highest_order) return raised;
+  return order + 2 <= highest_order ? highest_order : 3 * order / 4;
+}
+
 FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task) {
   const FrozenState& frozen = task.frozen;
   const CheckContents contents = check_contents(frozen);
-  const Matrix force = contents.flow ? given_force(frozen) : Matrix();
+  const Matrix force = contents.flow ? total_force(frozen, frozen.fields.vesicles.front()) : Matrix();
   make_directory(task.directory);
-  const CheckSamples samples = check_samples(frozen.state.vesicles.front().position);
+  CheckSamples samples = check_samples(frozen.state.vesicles.front().position);
   const auto solved_at = [&](int order) {
     CheckFields fields = check_fields(frozen, contents, force, order, samples.points);
     if (task.tell) task.tell(fields);
     return fields;
   };
   const int order = order_of(frozen.state.vesicles.front().position.rows());
-  const CheckFields at_order = solved_at(order);
-  const CheckFields at_high_order = solved_at(high_order(order, task.quick));
+  CheckFields at_order = solved_at(order), for_error = solved_at(estimate_order(order, task.quick));
+  keep_known(samples, at_order, for_error);
   const std::filesystem::path input = task.directory / "check_input.h5";
-  write_check_input(input, {frozen, contents, force, samples, at_order, at_high_order});
+  write_check_input(input, {frozen, contents, force, samples, at_order, for_error});
 
   std::vector<std::string> arguments{"check", input.string(), "-o", task.directory.string()};
   if (task.quick) arguments.emplace_back("--quick");
+  if (task.required) arguments.insert(arguments.end(), {"--require", fmt::format("{}", *task.required)});
   return fem.run(arguments, task.n_ranks);
 }
 

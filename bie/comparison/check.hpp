@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "bie/comparison/check_fields.hpp"
 #include "bie/comparison/fem_program.hpp"
@@ -12,12 +13,19 @@ namespace vehd {
 /// What is compared, and how.
 struct CheckTask {
   FrozenState frozen;
-  std::filesystem::path directory;  ///< for the files of both sides; created if missing
-  bool quick = false;               ///< coarse elements, and boundary integrals that are not finer than they need
-  int n_ranks = 1;                  ///< processes of the finite elements
-  /// Told when the boundary integrals are solved in the degree of the state, and then in a higher one; may be empty.
+  std::filesystem::path directory;   ///< for the files of both sides; created if missing
+  bool quick = false;                ///< coarse elements, and boundary integrals that are not finer than they need
+  std::optional<double> required{};  ///< share of a field that errors may reach; absent: the finite elements' own
+  int n_ranks = 1;                   ///< processes of the finite elements
+  /// Told when the boundary integrals are solved in the degree of the state, and then in that of estimate_order();
+  /// may be empty.
   std::function<void(const CheckFields&)> tell{};
 };
+
+/// Degree of a second solution, whose difference from that of `order` is the estimated error of the latter: a higher
+/// one, or a lower one where no higher one is allowed, which makes the estimate larger than the error.
+/// @param quick  one that costs little
+int estimate_order(int order, bool quick);
 
 /// Solves the frozen state by boundary integrals, lets the finite elements solve and compare it, and waits for them.
 /// @throws InputError if the state has something that the finite elements do not know, OutputError

@@ -2,18 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
-#include <optional>
+#include <utility>
 
 #include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -22,18 +27,42 @@ namespace {
 const VesicleState& membrane_of(const FrozenState& frozen) { return frozen.state.vesicles.front(); }
 const VesicleModel& vesicle_of(const FrozenState& frozen) { return frozen.model.vesicles.front(); }
 
-MembraneSpace space_at(const FrozenState& frozen, int order) {
-  NumericalSettings settings;
+/// At another degree than that of the run only an error is estimated: its solvers must add none of their own.
+NumericalSettings settings_at(const FrozenState& frozen, int order) {
+  NumericalSettings settings = frozen.settings;
+  if (order != order_of(membrane_of(frozen).position.rows())) {
+    const NumericalSettings defaults;
+    settings.flow_tolerance = std::min(settings.flow_tolerance, defaults.flow_tolerance);
+    settings.electric_tolerance = std::min(settings.electric_tolerance, defaults.electric_tolerance);
+  }
   settings.order = order;
-  return {settings, frozen.symmetry};
+  return settings;
 }
 
-LayerSelection layers_for(const CheckContents& contents, const VesicleModel& vesicle) {
-  LayerSelection selection;
-  selection.laplace_single = selection.laplace_double = selection.laplace_adjoint = contents.electric;
-  selection.stokes_single = contents.flow;
-  selection.stokes_double = contents.flow && vesicle.viscosity_ratio != 1.0;
-  return selection;
+/// The parts of the model that are compared.
+Model compared_model(const FrozenState& frozen, const CheckContents& contents) {
+  Model model = frozen.model;
+  if (!contents.electric) model.electric.reset();
+  model.mobile = contents.flow;
+  return model;
+}
+
+/// All values in one call; where that fails each point on its own, and NaN where none is found.
+/// @param values  [n x components] of [n x 3] points; @throws ConvergenceError
+Matrix where_possible(const Matrix& points, Index components, const std::function<Matrix(const Matrix&)>& values) {
+  try {
+    return values(points);
+  } catch (const ConvergenceError&) {
+    Matrix result = Matrix::Constant(points.rows(), components, std::numeric_limits<double>::quiet_NaN());
+    for (Index i = 0; i < points.rows(); ++i) {
+      try {
+        result.row(i) = values(points.row(i));
+      } catch (const ConvergenceError&) {
+        // It stays unknown: another part of the membrane is as near, or the degree is too low for the shape.
+      }
+    }
+    return result;
+  }
 }
 
 /// The frozen problem on one membrane at one order.
@@ -41,10 +70,12 @@ class FrozenSolver {
  public:
   FrozenSolver(const FrozenState& frozen, const CheckContents& contents, int order)
       : frozen_(frozen),
-        space_(space_at(frozen, order)),
-        position_(resize_order(membrane_of(frozen).position, order)),
-        membrane_(membrane_at(space_, position_, layers_for(contents, vesicle_of(frozen)),
-                              vesicle_of(frozen).viscosity_ratio, instruments_)) {
+        settings_(settings_at(frozen, order)),
+        state_(resized(frozen.state, order)),
+        position_(state_.vesicles.front().position),
+        solved_(solve_fields(compared_model(frozen, contents), Discretisation(settings_, frozen.symmetry), state_,
+                             instruments_)),
+        membrane_(*solved_.vesicles.front().membrane) {
     result.order = order;
     if (contents.electric)
       electric_ = electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after);
@@ -53,80 +84,110 @@ class FrozenSolver {
   CheckFields result;
 
   void solve_prescribed(const Matrix& samples) {
-    const Vector potential = resize_order(membrane_of(frozen_).transmembrane_potential, result.order);
+    const VesicleFields& fields = solved_.fields.vesicles.front();
+    result.charge = fields.charge;
+    result.force_electric = fields.force_electric;
+    result.potential_rate = solved_.vesicles.front().potential_rate;
+    const Vector& potential = state_.vesicles.front().transmembrane_potential;
     const SecondKindSolution density = charge_density(potential);
-    const ElectricTraces traces = electric_traces(electric_, membrane_, potential, density);
-    result.charge = membrane_.fine.analyze(traces.charge);
-    result.force_electric =
-        membrane_.fine.analyze(electric_force(electric_.permittivity, membrane_, traces, electric_.permittivity_ratio));
     const PotentialSources sources{electric_.field, potential, conductivity_contrast(electric_) * density.weighted};
-    const PotentialSamples values = potential_at(samples, Side::principal_value, position_, sources, {}, instruments_);
-    result.sample_potential = values.potential;
-    keep_sides(values.side);
+    keep_samples(result.sample_potential, where_possible(samples, 2, [&](const Matrix& points) {
+                   const PotentialSamples at =
+                       potential_at(points, Side::principal_value, position_, sources, {}, instruments_);
+                   return with_sides(at.potential, at.side);
+                 }));
   }
 
   void solve_steady() {
     const ChargingParameters& charging = vesicle_of(frozen_).charging;
-    require_converged(steady_potential(electric_, charging, membrane_, tolerance(), result.steady_potential),
-                      "steady membrane potential");
+    require_converged(
+        steady_potential(electric_, charging, membrane_, settings_.electric_tolerance, result.steady_potential),
+        "steady membrane potential");
     result.steady_charge = membrane_.fine.analyze(
         electric_traces(electric_, membrane_, result.steady_potential, charge_density(result.steady_potential)).charge);
     if (charging.conductance == 0.0) remove_mean(result.steady_potential);
   }
 
   void solve_flow(const Matrix& force, const Matrix& samples) {
+    take_flow_of_shape();
     const Matrix padded = resize_order(force, result.order);
-    const Matrix weighted = membrane_.weighted(membrane_.fine.synthesize(padded));
-    const Matrix3 gradient = flow_gradient(frozen_);
-    const Matrix driven = position_ * gradient.transpose() + layer(weighted);
-    result.velocity = membrane_.velocity(driven);
+    result.velocity = velocity_of(padded);
     if (result.force_electric.size() > 0) {
-      const Matrix change =
-          resize_order(frozen_.fields.vesicles.front().force_electric, result.order) - result.force_electric;
-      result.velocity_own_force =
-          membrane_.velocity(driven + layer(membrane_.weighted(membrane_.fine.synthesize(change))));
+      const Matrix stored = resize_order(frozen_.fields.vesicles.front().force_electric, result.order);
+      result.velocity_own_force = velocity_of(padded + stored - result.force_electric);
     }
     // Off the membrane the velocity is known as a single layer alone.
     if (membrane_.contrast) return;
-    const auto background = [gradient](const Vector3& x) -> Vector3 { return gradient * x; };
-    const VelocitySources sources{frozen_.model.viscosity, background, weighted};
-    const VelocitySamples values = velocity_at(samples, position_, sources, {}, instruments_);
-    result.sample_velocity = values.velocity;
-    keep_sides(values.side);
+    const auto background = [gradient = flow_gradient(frozen_)](const Vector3& x) -> Vector3 { return gradient * x; };
+    const VelocitySources sources{frozen_.model.viscosity, background, weighted(padded)};
+    keep_samples(result.sample_velocity, where_possible(samples, 4, [&](const Matrix& points) {
+                   const VelocitySamples at = velocity_at(points, position_, sources, {}, instruments_);
+                   return with_sides(at.velocity, at.side);
+                 }));
   }
 
  private:
-  [[nodiscard]] double tolerance() const { return NumericalSettings{}.electric_tolerance; }
+  /// Values with a last column that is 1 inside and 0 outside.
+  static Matrix with_sides(const Matrix& values, const std::vector<Side>& sides) {
+    Matrix joined(values.rows(), values.cols() + 1);
+    joined.leftCols(values.cols()) = values;
+    for (Index i = 0; i < values.rows(); ++i) {
+      joined(i, values.cols()) = sides[static_cast<std::size_t>(i)] == Side::interior ? 1.0 : 0.0;
+    }
+    return joined;
+  }
+  /// Takes them apart again.
+  template <typename Values>
+  void keep_samples(Values& values, const Matrix& with_side) {
+    values = with_side.leftCols(with_side.cols() - 1);
+    result.is_inside.clear();
+    for (const double side : with_side.col(with_side.cols() - 1)) result.is_inside.push_back(side == 1.0);
+  }
+
+  void take_flow_of_shape() {
+    const VesicleFields& fields = solved_.fields.vesicles.front();
+    result.force_bending = fields.force_bending;
+    result.force_tension = fields.force_tension;
+    result.tension = fields.tension;
+    result.tension_is_free = solved_.vesicles.front().is_sphere;
+    result.velocity_of_shape = fields.velocity;
+    if (position_.rows() != membrane_of(frozen_).position.rows()) return;
+    result.velocity_truncation = fields.velocity - velocity_of(total_force(frozen_, fields));
+  }
 
   [[nodiscard]] SecondKindSolution charge_density(const Vector& potential) const {
     SecondKindSolution density = solve_second_kind(
         membrane_, conductivity_contrast(electric_),
-        weighted_field_flux(membrane_, electric_.field) + weighted_hypersingular(membrane_, potential), tolerance(),
-        {});
+        weighted_field_flux(membrane_, electric_.field) + weighted_hypersingular(membrane_, potential),
+        settings_.electric_tolerance, {});
     require_converged(density.report, "charge density, Eq. (12)");
     return density;
   }
 
-  [[nodiscard]] Matrix layer(const Matrix& weighted) const {
-    return membrane_.layers.stokes_single.apply(weighted) / frozen_.model.viscosity;
+  [[nodiscard]] Matrix weighted(const Matrix& coefficients) const {
+    return membrane_.weighted(membrane_.fine.synthesize(coefficients));
+  }
+  /// Of the background flow and a force, coefficients.
+  [[nodiscard]] Matrix velocity_of(const Matrix& force) const {
+    Matrix driven = position_ * flow_gradient(frozen_).transpose();
+    if (!membrane_.layers.stokes_single.empty()) {
+      driven += membrane_.layers.stokes_single.apply(weighted(force)) / frozen_.model.viscosity;
+    }
+    return membrane_.velocity(std::move(driven));
   }
 
   void remove_mean(Vector& coefficients) const {
-    const double mean = membrane_.weighted(membrane_.fine.synthesize(coefficients))(0, 0) /
-                        membrane_.fine.analyze(membrane_.surface.area_element)(0, 0);
+    const double mean = weighted(coefficients)(0, 0) / membrane_.fine.analyze(membrane_.surface.area_element)(0, 0);
     coefficients[0] -= mean * std::sqrt(4.0 * std::numbers::pi);
   }
 
-  void keep_sides(const std::vector<Side>& sides) {
-    result.is_inside.clear();
-    for (const Side side : sides) result.is_inside.push_back(side == Side::interior);
-  }
-
   const FrozenState& frozen_;
+  NumericalSettings settings_;
   Instruments instruments_;
-  MembraneSpace space_;
-  Matrix position_;
-  Membrane membrane_;
+  State state_;
+  const Matrix& position_;
+  SolvedFields solved_;
+  const Membrane& membrane_;
   ElectricParameters electric_;
 };
 
@@ -167,10 +228,9 @@ Matrix3 flow_gradient(const FrozenState& frozen) {
   return frozen.model.flow->waveform.at(frozen.state.time, Limit::after) * frozen.model.flow->gradient;
 }
 
-Matrix given_force(const FrozenState& frozen) {
+Matrix total_force(const FrozenState& frozen, const VesicleFields& fields) {
   const Matrix& position = membrane_of(frozen).position;
   Matrix force = Matrix::Zero(position.rows(), 3);
-  const VesicleFields& fields = frozen.fields.vesicles.front();
   if (fields.force_bending.size() > 0) force += fields.force_bending;
   if (fields.force_tension.size() > 0) force += fields.force_tension;
   if (fields.force_electric.size() > 0) force -= fields.force_electric;
@@ -181,7 +241,8 @@ Matrix given_force(const FrozenState& frozen) {
 
   // The run file stores no other forces: they follow from the shape and the time.
   Instruments instruments;
-  const Membrane membrane = membrane_at(space_at(frozen, order_of(position.rows())), position, {}, 1.0, instruments);
+  const MembraneSpace space(settings_at(frozen, order_of(position.rows())), frozen.symmetry);
+  const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);
   for (const auto& effect : effects) {
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};
     effect->add({membrane, position, frozen.state.time}, forcing);

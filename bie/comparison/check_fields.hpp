@@ -20,8 +20,18 @@ CheckContents check_contents(const FrozenState& frozen);
 /// Boundary-integral solution at one order: coefficients of that order, empty where absent.
 struct CheckFields {
   int order = 0;
-  Vector charge;                ///< q, V_m prescribed
-  Matrix force_electric;        ///< f_E, V_m prescribed
+  // From x, V_m and the time alone, as a run computes them.
+  Vector charge;                 ///< q
+  Matrix force_electric;         ///< f_E
+  Vector potential_rate;         ///< dV_m/dt of material points
+  Matrix force_bending;          ///< f_b
+  Matrix force_tension;          ///< f_λ
+  Vector tension;                ///< λ
+  bool tension_is_free = false;  ///< a uniform tension does nothing: a sphere
+  Matrix velocity_of_shape;      ///< v of all these forces
+  /// v of what these forces lose when they are truncated to the degree of the state; that degree only.
+  Matrix velocity_truncation;
+
   Vector steady_potential;      ///< V_m under the membrane law, its mean over the area zero if nothing else fixes it
   Vector steady_charge;         ///< q that goes with it
   Matrix velocity;              ///< from the given force
@@ -33,17 +43,20 @@ struct CheckFields {
   double seconds = 0.0;
 };
 
-/// f on the fluid: f_b + f_λ − f_E of the frozen fields, and whatever else acts.
-Matrix given_force(const FrozenState& frozen);
+/// f on the fluid, coefficients: f_b + f_λ − f_E of the fields, and whatever else acts on the shape.
+/// @param fields  of the degree of the frozen state, stored or computed anew
+/// @throws InputError for a background flow that the finite-element side does not know
+Matrix total_force(const FrozenState& frozen, const VesicleFields& fields);
 
 /// E_∞ at the frozen time.
 Vector3 applied_field(const FrozenState& frozen);
 /// ∂v_i/∂x_j of the background flow at the frozen time.
 Matrix3 flow_gradient(const FrozenState& frozen);
 
-/// Solves at an order not below that of the frozen state: shape, V_m and force are continued by zeros.
-/// @param force    given_force, [n_coefficients x 3]
-/// @param samples  [n_points x 3]
+/// Solves at the order of the frozen state with the settings of its run, at another with shape, V_m and force continued
+/// by zeros or cut, and solvers no coarser than their defaults.
+/// @param force    total_force of the stored fields, [n_coefficients x 3]
+/// @param samples  [n_points x 3]; where no value can be found it is NaN
 /// @throws ConvergenceError where a solve fails
 /// Accuracy: spectral in the order; the comparison takes the difference of two orders for its error (docs/check.md)
 /// Source: paper Eqs. (5), (11), (12), (14)

@@ -25,6 +25,8 @@ void write_physics(Hdf5Writer& file, const CheckInput& input) {
   file.group("/physics");
   const auto number = [&](const std::string& name, double value) { file.attribute("/physics", name, value); };
   const VesicleModel& vesicle = model.vesicles.front();
+  file.attribute("/physics", "inextensible", std::int64_t{vesicle.inextensible});
+  number("bending_modulus", vesicle.bending ? vesicle.bending->modulus : 0.0);
   number("viscosity_in", vesicle.viscosity_ratio * model.viscosity);
   number("viscosity_out", model.viscosity);
   const Matrix gradient = flow_gradient(input.frozen).transpose();
@@ -46,11 +48,26 @@ void write_given(Hdf5Writer& file, const CheckInput& input) {
     write(file, "/given/Vm", input.frozen.state.vesicles.front().transmembrane_potential,
           {"potential", "V_m of the snapshot"});
   }
+  if (input.contents.flow)
+    write(file, "/given/force", input.force, {"force/area", "f on the fluid, f_b + f_lambda - f_E and others"});
+}
+
+/// The numbers of the snapshot that are judged.
+void write_stored(Hdf5Writer& file, const CheckInput& input) {
+  file.group("/stored");
+  const VesicleFields& fields = input.frozen.fields.vesicles.front();
+  const auto field = [&](const std::string& name, const Matrix& values, const DatasetLabel& label) {
+    write(file, "/stored/" + name, values, label);
+  };
+  if (input.contents.electric) {
+    field("q", fields.charge, {"potential/length", "q"});
+    field("force_electric", fields.force_electric, {"force/area", "f_E"});
+  }
   if (!input.contents.flow) return;
-  write(file, "/given/force", input.force, {"force/area", "f on the fluid, f_b + f_lambda - f_E and others"});
-  write(file, "/given/force_electric", input.frozen.fields.vesicles.front().force_electric,
-        {"force/area", "the f_E in it"});
-  write(file, "/given/velocity", input.frozen.fields.vesicles.front().velocity, {"velocity", "dx/dt of the snapshot"});
+  field("force_bending", fields.force_bending, {"force/area", "f_b"});
+  field("force_tension", fields.force_tension, {"force/area", "f_lambda"});
+  field("tension", fields.tension, {"force/length", "lambda"});
+  field("velocity", fields.velocity, {"velocity", "dx/dt"});
 }
 
 void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields& fields) {
@@ -62,6 +79,14 @@ void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields&
   };
   field("q", fields.charge, {"potential/length", "q = [[d phi/d n]] of the given V_m"});
   field("force_electric", fields.force_electric, {"force/area", "f_E of the given V_m"});
+  field("Vm_rate", fields.potential_rate, {"potential/time", "dV_m/dt of the given V_m"});
+  field("force_bending", fields.force_bending, {"force/area", "f_b of the shape"});
+  field("force_tension", fields.force_tension, {"force/area", "f_lambda of the shape and the given V_m"});
+  field("tension", fields.tension, {"force/length", "lambda of the shape and the given V_m"});
+  field("velocity_of_shape", fields.velocity_of_shape, {"velocity", "v of the shape and the given V_m"});
+  field("velocity_truncation", fields.velocity_truncation,
+        {"velocity", "v of what its forces lose when they are truncated to this degree"});
+  file.attribute(group, "tension_is_free", std::int64_t{fields.tension_is_free});
   field("Vm_steady", fields.steady_potential, {"potential", "steady V_m of the membrane law"});
   field("q_steady", fields.steady_charge, {"potential/length", "q of the steady V_m"});
   field("velocity", fields.velocity, {"velocity", "v of the given force"});
@@ -71,8 +96,8 @@ void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields&
 }
 
 void write_samples(Hdf5Writer& file, const CheckInput& input) {
-  const std::vector<bool>& inside = input.at_high_order.is_inside;
-  if (inside.empty()) return;
+  const std::vector<bool>& inside = input.at_order.is_inside;
+  if (inside.empty() || input.samples.points.rows() == 0) return;
   file.group("/samples");
   const CheckSamples& samples = input.samples;
   write(file, "/samples/points", samples.points, {"length", "points off the membrane"});
@@ -91,8 +116,9 @@ void write_check_input(const std::filesystem::path& path, const CheckInput& inpu
   file.attribute("/", "time", input.frozen.state.time);
   write_physics(file, input);
   write_given(file, input);
+  write_stored(file, input);
   write_fields(file, "/bie", input.at_order);
-  write_fields(file, "/bie_high", input.at_high_order);
+  write_fields(file, "/bie_high", input.for_error);
   write_samples(file, input);
   file.close();
 }

@@ -10,16 +10,16 @@
 namespace vehd {
 
 /// Version of the layout, which both sides must agree in.
-constexpr std::int64_t check_schema_version = 1;
+constexpr std::int64_t check_schema_version = 2;
 
 /// All that the file holds.
 struct CheckInput {
   const FrozenState& frozen;
   const CheckContents& contents;
-  const Matrix& force;  ///< given_force
+  const Matrix& force;  ///< total_force of the stored fields
   const CheckSamples& samples;
   const CheckFields& at_order;
-  const CheckFields& at_high_order;
+  const CheckFields& for_error;  ///< at estimate_order()
 };
 
 /// @throws OutputError

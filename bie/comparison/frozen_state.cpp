@@ -51,6 +51,7 @@ FrozenState start_of_scene(const SceneSource& source) {
   frozen.fields = in_laboratory(problem.frame, solve_fields(problem.model, discretisation, start, instruments).fields);
   frozen.state = in_laboratory(problem.frame, start);
   frozen.symmetry = symmetry_of(scene, frozen);
+  frozen.settings = settings_of(scene);
   return frozen;
 }
 
@@ -58,6 +59,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   const RunReader run(file);
   const SnapshotChoice choice = choice_of(run, file, time);
   const std::size_t snapshot = choice.snapshot;
+  run.require_sealed(snapshot);
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   FrozenState frozen;
   frozen.source = file.string();
@@ -72,6 +74,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   vesicle.position = run.coefficients(snapshot, "x", 3);
   vesicle.area_strain = Vector::Zero(vesicle.position.rows());
   if (frozen.model.electric) vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
+  if (frozen.model.vesicles.front().inextensible) vesicle.tension = Vector::Zero(vesicle.position.rows());
   VesicleFields& fields = frozen.fields.vesicles.emplace_back();
   fields.velocity = read("velocity", 3);
   fields.force_bending = read("force_bending", 3);
@@ -80,6 +83,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   fields.tension = read("tension", 1);
   fields.charge = read("q", 1);
   frozen.symmetry = symmetry_of(scene, frozen);
+  frozen.settings = settings_of(scene);
   return frozen;
 }
 

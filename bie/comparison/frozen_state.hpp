@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bie/scene/settings.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/fields.hpp"
 #include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
@@ -17,9 +18,10 @@ struct FrozenState {
   std::string source;  ///< file that it comes from
   Model model;
   Symmetry symmetry;
-  State state;       ///< time, x and V_m; V_m empty without electricity
-  Fields fields;     ///< as the run stored them; where the forcing jumps, those just after the jump
-  std::string note;  ///< if it has another time than the one asked for
+  NumericalSettings settings;  ///< that its run computes with
+  State state;                 ///< time, x and V_m; V_m empty without electricity
+  Fields fields;               ///< as the run stored them; where the forcing jumps, those just after the jump
+  std::string note;            ///< if it has another time than the one asked for
 };
 
 /// A shape alone.

@@ -88,6 +88,12 @@ bool RunReader::has_field(std::size_t snapshot, const std::string& name) const {
   return file_.has(path_of(snapshot, name));
 }
 
+void RunReader::require_sealed(std::size_t snapshot) const {
+  const std::string group = group_of(snapshot);
+  if (file_.has_attribute(group, "checksum")) return;
+  file_.refuse(fmt::format("{} has no checksum, so that its numbers cannot be told from damaged ones", group));
+}
+
 Matrix RunReader::coefficients(std::size_t snapshot, const std::string& name) const {
   if (file_.has_attribute(group_of(snapshot), "checksum")) {
     require_checksum(file_, group_of(snapshot), snapshot_checksum(file_, group_of(snapshot)));

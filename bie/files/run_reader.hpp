@@ -54,6 +54,8 @@ class RunReader {
   [[nodiscard]] std::string scene() const { return file_.text("/scene"); }
   /// Whether a snapshot has the coefficients of this field.
   [[nodiscard]] bool has_field(std::size_t snapshot, const std::string& name) const;
+  /// Where the numbers themselves are judged. @throws InputError if the snapshot has no checksum
+  void require_sealed(std::size_t snapshot) const;
   /// Harmonic coefficients, [n_coefficients x components], of a snapshot that is intact as a whole. A run.h5 without
   /// checksums is of an earlier program and is read as it is.
   [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name) const;

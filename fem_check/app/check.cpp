@@ -1,21 +1,20 @@
 #include "fem_check/app/check.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "fem_check/app/field_files.hpp"
-#include "fem_check/app/flow_levels.hpp"
 #include "fem_check/app/hdf5_input.hpp"
-#include "fem_check/app/potential_levels.hpp"
 #include "fem_check/app/questions.hpp"
 #include "fem_check/app/surface_series.hpp"
 
 namespace vehd::fem_check {
 namespace {
 
-void add(CheckResult& result, const std::vector<FieldQuestion>& questions, const LevelSequence& sequence) {
-  for (const FieldQuestion& question : questions) result.fields.push_back(compare(question, sequence));
-  for (const Level& level : sequence.levels) result.levels.push_back(level);
+void add(CheckResult& result, const std::vector<FieldQuestion>& questions, const LevelSequence& sequence,
+         double required) {
+  for (const FieldQuestion& question : questions) result.fields.push_back(compare(question, sequence, required));
 }
 
 /// Before the work, not after it.
@@ -29,62 +28,100 @@ double root_mean_square(const Eigen::MatrixXd& values, const Vector& weight) {
   return std::sqrt(values.colwise().squaredNorm().dot(weight) / weight.sum());
 }
 
-SurfaceDivergence divergence_of(const CheckInput& input, const LevelSequence& sequence, const Vector& weight,
-                                double radius) {
+SurfaceDivergence divergence_of(const CheckInput& input, const LevelSequence& sequence,
+                                const ComparisonPlaces& places) {
+  const Vector& weight = places.surface.weight;
   const Level& last = sequence.levels.back();
   const Eigen::MatrixXd& values = last.surface.at("divergence");
   const Eigen::MatrixXd change = values - sequence.levels[sequence.levels.size() - 2].surface.at("divergence");
   const double rate = std::max(
-      input.physics.flow_gradient.norm() + root_mean_square(last.surface.at("velocity"), weight) / radius, 1e-300);
+      input.physics.flow_gradient.norm() + root_mean_square(last.surface.at("velocity"), weight) / places.radius,
+      1e-300);
   const auto norms = [&](const Eigen::MatrixXd& field) {
     return Norms{root_mean_square(field, weight) / rate, field.cwiseAbs().maxCoeff() / rate};
   };
   return {norms(values), norms(change)};
 }
 
+/// Relative difference of the snapshot's velocity from v of its truncated forces.
+double stored_velocity_difference(const CheckInput& input, const SurfacePoints& points) {
+  const Eigen::MatrixXd own = SurfaceSeries(input.bie.velocity)(points);
+  const Eigen::MatrixXd change = SurfaceSeries(input.stored.velocity)(points) - own;
+  return root_mean_square(change, points.weight) / std::max(root_mean_square(own, points.weight), 1e-300);
+}
+
+/// Targets that leave room for what is required.
+Refinement refined_for(Refinement refinement, double required) {
+  constexpr double share = 0.5;
+  refinement.potential_target = std::min(refinement.potential_target, share * required);
+  refinement.flow_target = std::min(refinement.flow_target, share * required);
+  return refinement;
+}
+
 }  // namespace
 
-CheckResult run_check(const CheckTask& task, const Report& report) {
-  const auto start = std::chrono::steady_clock::now();
-  const CheckInput input = read_check_input(task.input);
-  if (task.writes) require_directory(task.directory);
+SolvedState solve_state(const CheckInput& input, const Meshes& meshes, const Discretisation& geometry,
+                        const Refinement& refinement, const Report& report) {
   const meshes::FrozenShape shape(input.position);
-  const Meshes meshes(shape, task.refinement);
+  SolvedState solved;
   // Fields are taken at the same points of γ on every level: those of the finest geometry that any level has.
-  const Discretisation geometry = meshes.discretise(task.refinement.potential_last);
-  const SurfacePoints points = geometry.quadrature_points(task.refinement.points_per_edge);
+  solved.places = {geometry.quadrature_points(refinement.points_per_edge), shape.radius(), shape.centroid()};
+  solved.outer_radius = meshes.outer_radius();
+  solved.far_outer_radius = meshes.far_outer_radius();
+  if (input.electric()) solved.potential = solve_potential_levels(input, meshes, refinement, report);
+  if (!input.flow()) return solved;
+  solved.flow = solve_flow_levels(input, meshes, refinement, report);
+  if (solved.potential) add_own_force(input, meshes, refinement, *solved.potential, solved.flow->sequence, report);
+  return solved;
+}
 
+CheckResult judge(const CheckInput& input, const SolvedState& solved, double required) {
   CheckResult result;
   result.source = input.source;
   result.time = input.time;
   result.order = input.bie.order;
   result.high_order = input.bie_high.order;
-  result.outer_radius = meshes.outer_radius();
-  result.far_outer_radius = meshes.far_outer_radius();
-  PotentialLevels potential;
-  FlowLevels flow;
-  FinestSolutions finest;
-  if (input.electric()) {
-    potential = solve_potential_levels(input, meshes, task.refinement, report);
-    finest.potential = &potential;
-    add(result, electric_questions(input, points, shape.radius(), task.refinement), potential.sequence);
+  result.required = required;
+  result.outer_radius = solved.outer_radius;
+  result.far_outer_radius = solved.far_outer_radius;
+  const ComparisonPlaces& places = solved.places;
+  if (solved.potential) {
+    const LevelSequence& sequence = solved.potential->sequence;
+    result.levels = sequence.levels;
+    add(result, electric_questions(input, places, sequence), sequence, required);
+    add(result, stored_electric_questions(input, places), sequence, required);
   }
-  if (input.flow()) {
-    flow = solve_flow_levels(input, meshes, task.refinement, report);
-    finest.flow = &flow;
-    if (input.electric()) add_own_force(input, meshes, task.refinement, potential, flow.sequence, report);
-    add(result, flow_questions(input, points, shape.radius(), task.refinement), flow.sequence);
-    result.divergence = divergence_of(input, flow.sequence, points.weight, shape.radius());
-    if (input.velocity.size() > 0) {
-      const Eigen::MatrixXd own = SurfaceSeries(input.bie.velocity)(points);
-      const Eigen::MatrixXd change = SurfaceSeries(input.velocity)(points) - own;
-      result.stored_velocity =
-          root_mean_square(change, points.weight) / std::max(root_mean_square(own, points.weight), 1e-300);
-    }
+  if (solved.flow) {
+    const LevelSequence& sequence = solved.flow->sequence;
+    result.levels.insert(result.levels.end(), sequence.levels.begin(), sequence.levels.end());
+    add(result, flow_questions(input, places, sequence), sequence, required);
+    add(result, stored_flow_questions(input, places), sequence, required);
+    result.divergence = divergence_of(input, sequence, places);
+    result.stored_velocity = stored_velocity_difference(input, places.surface);
   }
-  if (task.writes) write_field_files(task.directory, input, finest, geometry);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
+}
+
+std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) {
+  const auto start = std::chrono::steady_clock::now();
+  const CheckInput input = read_check_input(task.input);
+  std::vector<CheckInput> further;
+  for (const std::filesystem::path& path : task.further_inputs) further.push_back(read_check_input(path));
+  if (task.writes) require_directory(task.directory);
+  const Refinement refinement = refined_for(task.refinement, task.required);
+  const Meshes meshes(meshes::FrozenShape(input.position), refinement);
+  const Discretisation geometry = meshes.discretise(refinement.potential_last);
+  const SolvedState solved = solve_state(input, meshes, geometry, refinement, report);
+
+  std::vector<CheckResult> results{judge(input, solved, task.required)};
+  for (const CheckInput& other : further) results.push_back(judge(other, solved, task.required));
+  if (task.writes) {
+    const FinestSolutions finest{solved.potential ? &*solved.potential : nullptr,
+                                 solved.flow ? &*solved.flow : nullptr};
+    write_field_files(task.directory, input, finest, geometry);
+  }
+  results.front().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return results;
 }
 
 }  // namespace vehd::fem_check

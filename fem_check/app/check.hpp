@@ -1,8 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "fem_check/app/flow_levels.hpp"
+#include "fem_check/app/potential_levels.hpp"
 #include "fem_check/app/progress.hpp"
+#include "fem_check/app/question_maker.hpp"
 #include "fem_check/app/refinement.hpp"
 #include "fem_check/app/result.hpp"
 
@@ -11,13 +15,33 @@ namespace vehd::fem_check {
 /// What is compared, and where the files go.
 struct CheckTask {
   std::filesystem::path input;
-  std::filesystem::path directory;  ///< for the files of fields
+  std::filesystem::path directory;                      ///< for the files of fields
+  std::vector<std::filesystem::path> further_inputs{};  ///< of the same state, see run_check()
   Refinement refinement;
-  bool writes = true;  ///< false on all ranks but the first
+  double required = default_requirement;  ///< see compare()
+  bool writes = true;                     ///< false on all ranks but the first
 };
 
+/// What the finite elements find for one state: everything that boundary-integral numbers are compared with.
+struct SolvedState {
+  ComparisonPlaces places;
+  std::optional<PotentialLevels> potential;
+  std::optional<FlowLevels> flow;
+  double outer_radius = 0.0, far_outer_radius = 0.0;
+};
+
+/// Solves the problems that the input has, at rising degree. @throws SolveError
+/// @param geometry  mesh of the finest geometry, on which fields are compared
+SolvedState solve_state(const CheckInput& input, const Meshes& meshes, const Discretisation& geometry,
+                        const Refinement& refinement, const Report& report);
+
+/// Compares; nothing is solved. The rows of the table are made here.
+/// @param input  of the state that was solved; its boundary-integral and stored numbers are the ones judged
+CheckResult judge(const CheckInput& input, const SolvedState& solved, double required);
+
 /// Solves, compares and writes the files of fields.
+/// @return the result of the input, then that of each further one, judged by the solutions of the first
 /// @throws InputError, meshes::MeshError, SolveError
-CheckResult run_check(const CheckTask& task, const Report& report);
+std::vector<CheckResult> run_check(const CheckTask& task, const Report& report);
 
 }  // namespace vehd::fem_check

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "fem_check/app/hdf5_input.hpp"
 
 namespace vehd::fem_check {
 namespace {
 
-constexpr double schema_version = 1;
+constexpr double schema_version = 2;
 
 void require_schema(const Hdf5Input& file) {
   const double version = file.number("/", "schema_version");
@@ -31,6 +33,8 @@ Physics read_physics(const Hdf5Input& file) {
   physics.field = matrix_of_size(file, "/physics/field", 3, 1);
   physics.viscosity_in = file.number("/physics", "viscosity_in");
   physics.viscosity_out = file.number("/physics", "viscosity_out");
+  physics.bending_modulus = file.number("/physics", "bending_modulus");
+  physics.inextensible = file.number("/physics", "inextensible") != 0.0;
   // Rows of the file are columns here.
   physics.flow_gradient = matrix_of_size(file, "/physics/flow_gradient", 3, 3).transpose();
   if (!file.has("/given/Vm")) return physics;
@@ -38,26 +42,77 @@ Physics read_physics(const Hdf5Input& file) {
   physics.conductivity_out = file.number("/physics", "conductivity_out");
   physics.permittivity_in = file.number("/physics", "permittivity_in");
   physics.permittivity_out = file.number("/physics", "permittivity_out");
+  physics.capacitance = file.number("/physics", "capacitance");
   physics.conductance = file.number("/physics", "conductance");
   return physics;
 }
 
-BieFields read_fields(const Hdf5Input& file, const std::string& group) {
-  const auto field = [&](const std::string& name) { return file.matrix_or_empty(group + "/" + name); };
-  return {static_cast<int>(file.number(group, "order")),
-          field("q"),
-          field("force_electric"),
-          field("Vm_steady"),
-          field("q_steady"),
-          field("velocity"),
-          field("velocity_own_force"),
-          field("sample_potential"),
-          field("sample_velocity")};
+Eigen::Index n_coefficients(int order) { return Eigen::Index{order + 1} * (order + 1); }
+
+/// What every file with this problem has, and what only some have: [n_coefficients x components].
+class Coefficients {
+ public:
+  Coefficients(const Hdf5Input& file, std::string group, int order)
+      : file_(file), group_(std::move(group)), rows_(n_coefficients(order)) {}
+
+  [[nodiscard]] Eigen::MatrixXd required(const std::string& name, Eigen::Index components) const {
+    return matrix_of_size(file_, group_ + "/" + name, rows_, components);
+  }
+  [[nodiscard]] Eigen::MatrixXd optional(const std::string& name, Eigen::Index components) const {
+    return file_.has(group_ + "/" + name) ? required(name, components) : Eigen::MatrixXd();
+  }
+
+ private:
+  const Hdf5Input& file_;
+  std::string group_;
+  Eigen::Index rows_;
+};
+
+BieFields read_fields(const Hdf5Input& file, const std::string& group, const CheckInput& input) {
+  BieFields fields;
+  fields.order = static_cast<int>(file.number(group, "order"));
+  const Coefficients of(file, group, fields.order);
+  if (input.electric()) {
+    fields.charge = of.required("q", 1);
+    fields.force_electric = of.required("force_electric", 3);
+    fields.potential_rate = of.required("Vm_rate", 1);
+    fields.steady_potential = of.optional("Vm_steady", 1);
+    if (input.physics.field.norm() > 0.0) fields.steady_potential = of.required("Vm_steady", 1);
+    if (fields.steady_potential.size() > 0) fields.steady_charge = of.required("q_steady", 1);
+  }
+  if (!input.flow()) return fields;
+  fields.velocity = of.required("velocity", 3);
+  if (input.electric()) fields.velocity_own_force = of.required("velocity_own_force", 3);
+  fields.velocity_of_shape = of.required("velocity_of_shape", 3);
+  fields.velocity_truncation = of.optional("velocity_truncation", 3);
+  if (input.physics.bending_modulus > 0.0) fields.force_bending = of.required("force_bending", 3);
+  if (!input.physics.inextensible) return fields;
+  fields.force_tension = of.required("force_tension", 3);
+  fields.tension = of.required("tension", 1);
+  fields.tension_is_free = file.number(group, "tension_is_free") != 0.0;
+  return fields;
 }
 
-Samples read_samples(const Hdf5Input& file) {
-  Samples samples;
-  if (!file.has("/samples")) return samples;
+StoredFields read_stored(const Hdf5Input& file, const CheckInput& input) {
+  StoredFields stored;
+  const Coefficients of(file, "/stored", static_cast<int>(file.number("/", "order")));
+  if (input.electric()) {
+    stored.charge = of.required("q", 1);
+    stored.force_electric = of.required("force_electric", 3);
+  }
+  if (!input.flow()) return stored;
+  stored.velocity = of.required("velocity", 3);
+  if (input.physics.bending_modulus > 0.0) stored.force_bending = of.required("force_bending", 3);
+  if (!input.physics.inextensible) return stored;
+  stored.force_tension = of.required("force_tension", 3);
+  stored.tension = of.required("tension", 1);
+  return stored;
+}
+
+/// With the values of both orders at the points.
+void read_samples(const Hdf5Input& file, CheckInput& input) {
+  if (!file.has("/samples")) return;
+  Samples& samples = input.samples;
   const Eigen::MatrixXd points = file.matrix("/samples/points");
   samples.points = matrix_of_size(file, "/samples/points", points.rows(), 3).transpose();
   const Eigen::MatrixXd distance = file.matrix("/samples/distance"), inside = file.matrix("/samples/inside");
@@ -68,7 +123,19 @@ Samples read_samples(const Hdf5Input& file) {
     samples.inside.push_back(inside(i, 0) > 0.0);
     samples.near.push_back(distance(i, 0) > 0.0);
   }
-  return samples;
+  const auto at_samples = [&](const std::string& dataset, Eigen::Index components) {
+    return file.has(dataset) ? matrix_of_size(file, dataset, samples.points.cols(), components) : Eigen::MatrixXd();
+  };
+  const auto read_values = [&](const std::string& group, BieFields& fields) {
+    if (input.electric()) fields.sample_potential = at_samples(group + "/sample_potential", 1);
+    if (input.flow()) fields.sample_velocity = at_samples(group + "/sample_velocity", 3);
+  };
+  read_values("/bie", input.bie);
+  read_values("/bie_high", input.bie_high);
+  if (input.bie.sample_potential.size() != input.bie_high.sample_potential.size() ||
+      input.bie.sample_velocity.size() != input.bie_high.sample_velocity.size()) {
+    file.refuse("/bie and /bie_high differ in their fields at the sample points");
+  }
 }
 
 }  // namespace
@@ -79,15 +146,16 @@ CheckInput read_check_input(const std::filesystem::path& path) {
   CheckInput input;
   input.source = file.text("/", "source");
   input.time = file.number("/", "time");
-  input.position = file.matrix("/x");
+  const int order = static_cast<int>(file.number("/", "order"));
+  input.position = Coefficients(file, "", order).required("x", 3);
   input.physics = read_physics(file);
-  input.potential = file.matrix_or_empty("/given/Vm");
-  input.force = file.matrix_or_empty("/given/force");
-  input.force_electric = file.matrix_or_empty("/given/force_electric");
-  input.velocity = file.matrix_or_empty("/given/velocity");
-  input.bie = read_fields(file, "/bie");
-  input.bie_high = read_fields(file, "/bie_high");
-  input.samples = read_samples(file);
+  input.potential = Coefficients(file, "/given", order).optional("Vm", 1);
+  input.force = Coefficients(file, "/given", order).optional("force", 3);
+  if (!input.electric() && !input.flow()) file.refuse("has neither /given/Vm nor /given/force: nothing to compare");
+  input.stored = read_stored(file, input);
+  input.bie = read_fields(file, "/bie", input);
+  input.bie_high = read_fields(file, "/bie_high", input);
+  read_samples(file, input);
   return input;
 }
 

@@ -14,18 +14,31 @@ struct Physics {
   Vector3 field = Vector3::Zero();  ///< E_∞
   double conductivity_in = 1.0, conductivity_out = 1.0;
   double permittivity_in = 1.0, permittivity_out = 1.0;
-  double conductance = 0.0;
+  double capacitance = 1.0, conductance = 0.0;
   double viscosity_in = 1.0, viscosity_out = 1.0;
+  double bending_modulus = 0.0;
+  bool inextensible = true;
   Matrix3 flow_gradient = Matrix3::Zero();
 };
 
 /// Boundary-integral solution at one order.
 struct BieFields {
   int order = 0;
-  Eigen::MatrixXd charge, force_electric;             ///< V_m given
+  // Of x and V_m alone.
+  Eigen::MatrixXd charge, force_electric, potential_rate;
+  Eigen::MatrixXd force_bending, force_tension, tension;
+  bool tension_is_free = false;         ///< a uniform tension does nothing
+  Eigen::MatrixXd velocity_of_shape;    ///< of all these forces
+  Eigen::MatrixXd velocity_truncation;  ///< of what these forces lose in truncation; in the order of the state only
+
   Eigen::MatrixXd steady_potential, steady_charge;    ///< membrane law
   Eigen::MatrixXd velocity, velocity_own_force;       ///< force given; with the f_E of this order in it
   Eigen::MatrixXd sample_potential, sample_velocity;  ///< [n_samples x components]
+};
+
+/// Numbers of the snapshot that are judged.
+struct StoredFields {
+  Eigen::MatrixXd charge, force_electric, force_bending, force_tension, tension, velocity;
 };
 
 /// Points off the membrane at which φ and v are compared.
@@ -41,19 +54,19 @@ struct CheckInput {
   double time = 0.0;
   Eigen::MatrixXd position;
   Physics physics;
-  Eigen::MatrixXd potential;       ///< V_m of the snapshot
-  Eigen::MatrixXd force;           ///< f on the fluid
-  Eigen::MatrixXd force_electric;  ///< the f_E in it
-  Eigen::MatrixXd velocity;        ///< of the snapshot
-  BieFields bie, bie_high;
+  Eigen::MatrixXd potential;  ///< V_m of the snapshot
+  Eigen::MatrixXd force;      ///< f on the fluid
+  StoredFields stored;
+  BieFields bie;       ///< in the order of the state: what is compared
+  BieFields bie_high;  ///< in another one: what estimates the error of the first
   Samples samples;
 
-  [[nodiscard]] bool electric() const { return bie.charge.size() > 0; }
+  [[nodiscard]] bool electric() const { return potential.size() > 0; }
   [[nodiscard]] bool steady() const { return bie.steady_potential.size() > 0; }
-  [[nodiscard]] bool flow() const { return bie.velocity.size() > 0; }
+  [[nodiscard]] bool flow() const { return force.size() > 0; }
 };
 
-/// @throws InputError
+/// @throws InputError if the file cannot be used or lacks a field that is compared
 CheckInput read_check_input(const std::filesystem::path& path);
 
 /// Coefficients of x alone. @throws InputError

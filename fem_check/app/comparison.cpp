@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace vehd::fem_check {
 namespace {
 
-/// A field below this share of its natural size counts as zero: its difference is taken relative to that.
-constexpr double negligible = 1e-6;
-/// Error of a solution over the residual at which its solver stops.
-constexpr double solver_amplification = 10.0;
+/// A field below this share of its natural size is zero but for the rounding of its derivatives: what it should be
+/// small against is its natural size.
+constexpr double rounding = 1e-9;
+/// Error that a tolerance leaves over what it changes when it is made coarser by rough_factor: ten times what it would
+/// be if errors fell like residuals.
+constexpr double solver_share = 10.0 / rough_factor;
 /// Slowest power of the radius with which the error of the outer sphere falls: with u = 0 there.
 constexpr double slowest_truncation_order = 3.0;
 
@@ -19,22 +23,33 @@ double truncation_tail(const LevelSequence& sequence) {
   return 1.0 / (1.0 - std::pow(ratio, slowest_truncation_order));
 }
 
-Eigen::MatrixXd selected(const Eigen::MatrixXd& values, const std::vector<Eigen::Index>& columns) {
-  return columns.empty() ? values : Eigen::MatrixXd(values(Eigen::all, columns));
+/// Of a level, as the question wants them; empty where the level has none.
+Eigen::MatrixXd values_of(const FieldQuestion& question, const Level& level) {
+  const FieldValues& fields = question.is_sample ? level.samples : level.surface;
+  const auto found = fields.find(question.values);
+  if (found == fields.end()) return {};
+  Eigen::MatrixXd values = found->second;
+  if (!question.columns.empty()) values = Eigen::MatrixXd(values(Eigen::all, question.columns));
+  return question.from_level ? question.from_level(values) : values;
 }
 
+/// Relative to the field: to the larger of what is judged and what it is judged by, so that neither hides the other.
 class Measure {
  public:
-  explicit Measure(const FieldQuestion& question) : weight_(question.weight) {
-    const double smallest = negligible * question.natural_size;
-    l2_ = std::max(norm(question.bie_high), smallest * std::sqrt(weight_.sum()));
-    max_ = std::max(largest(question.bie_high), smallest);
+  Measure(const FieldQuestion& question, const Eigen::MatrixXd& by) : weight_(question.weight) {
+    const double natural_l2 = question.natural_size * std::sqrt(weight_.sum());
+    l2_ = std::max(norm(question.judged), norm(by));
+    max_ = std::max(largest(question.judged), largest(by));
+    l2_ = std::max(l2_, question.whole_size * std::sqrt(weight_.sum()));
+    max_ = std::max(max_, question.whole_size);
+    if (question.is_remainder || norm(question.judged) <= rounding * natural_l2) {
+      l2_ = std::max(natural_l2, std::numeric_limits<double>::min());
+      max_ = std::max(question.natural_size, std::numeric_limits<double>::min());
+    }
   }
-  [[nodiscard]] Norms operator()(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) const {
-    return {norm(a - b) / l2_, largest(a - b) / max_};
+  [[nodiscard]] Norms operator()(const Eigen::MatrixXd& difference) const {
+    return {norm(difference) / l2_, largest(difference) / max_};
   }
-  /// An absolute root mean square as a relative one.
-  [[nodiscard]] double relative(double size) const { return size * std::sqrt(weight_.sum()) / l2_; }
 
  private:
   [[nodiscard]] double norm(const Eigen::MatrixXd& field) const {
@@ -46,47 +61,75 @@ class Measure {
   double l2_, max_;
 };
 
+Verdict verdict_of(const FieldComparison& field, double required) {
+  // Written so that a NaN never agrees.
+  if (!(field.difference.l2 <= field.fem_error() + field.bie_error())) return Verdict::does_not;
+  const bool precise = field.fem_error() <= required && field.bie_error() <= required;
+  return precise ? Verdict::agree : Verdict::undecided;
+}
+
+/// By the last levels, which have the values.
+void compare_with_levels(const FieldQuestion& question, const LevelSequence& sequence,
+                         const std::vector<Eigen::MatrixXd>& values, const std::vector<double>& n_unknowns,
+                         FieldComparison& result) {
+  const Measure measure(question, values.back());
+  for (const Eigen::MatrixXd& of_level : values) result.of_levels.push_back(measure(question.judged - of_level));
+  const std::size_t last = values.size() - 1;
+  result.difference = result.of_levels.back();
+  // One level alone says nothing of its error.
+  const double unknown = std::numeric_limits<double>::infinity();
+  result.levels_change = last > 0 ? measure(values[last] - values[last - 1]) : Norms{unknown, unknown};
+  const Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
+  const Eigen::MatrixXd far = values_of(question, sequence.far);
+  if (far.size() > 0) {
+    const double tail = truncation_tail(sequence);
+    const Norms change = measure(far - values_of(question, repeated));
+    result.truncation = {tail * change.l2, tail * change.max};
+  }
+  const Eigen::MatrixXd rough = values_of(question, sequence.rough);
+  if (rough.size() > 0) {
+    result.solver = solver_share * measure(rough - values_of(question, repeated)).l2;
+  }
+  if (values.size() < 3) return;
+  const double before = measure(values[last - 1] - values[last - 2]).l2;
+  if (result.levels_change.l2 > 0.0 && before > 0.0) {
+    result.order =
+        3.0 * std::log(before / result.levels_change.l2) / std::log(n_unknowns[last - 1] / n_unknowns[last - 2]);
+  }
+}
+
 }  // namespace
 
-FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence) {
+const char* name_of(Verdict verdict) {
+  if (verdict == Verdict::agree) return "agree";
+  return verdict == Verdict::does_not ? "does not" : "undecided";
+}
+
+FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence, double required) {
   FieldComparison result;
   result.name = question.name;
   result.label = question.label;
-  const Measure measure(question);
-  const auto values_of = [&](const Level& level) {
-    const FieldValues& fields = question.is_sample ? level.samples : level.surface;
-    const auto found = fields.find(question.values);
-    return found == fields.end() ? Eigen::MatrixXd() : selected(found->second, question.columns);
-  };
+  result.is_stored = question.is_stored;
   std::vector<Eigen::MatrixXd> values;
   std::vector<double> n_unknowns;
   for (const Level& level : sequence.levels) {
-    values.push_back(values_of(level));
-    if (values.back().size() == 0) {
-      values.pop_back();
-      continue;
-    }
+    Eigen::MatrixXd of_level = values_of(question, level);
+    if (of_level.size() == 0) continue;
+    values.push_back(std::move(of_level));
     n_unknowns.push_back(static_cast<double>(level.n_unknowns));
-    result.of_levels.push_back(measure(values.back(), question.bie_high));
   }
-  const std::size_t last = values.size() - 1;
-  result.difference = result.of_levels.back();
-  result.levels_change = measure(values[last], values[last - 1]);
-  const Eigen::MatrixXd far = values_of(sequence.far);
-  if (far.size() > 0) {
-    const double tail = truncation_tail(sequence);
-    const Norms change = measure(far, values_of(sequence.levels[sequence.repeated]));
-    result.truncation = {tail * change.l2, tail * change.max};
+  if (values.empty() && !question.values.empty()) {
+    throw std::logic_error("no level has the values \"" + question.values + "\" of " + question.name);
   }
-  result.solver = measure.relative(solver_amplification * question.solver_tolerance * question.natural_size);
-  result.bie_change = measure(question.bie, question.bie_high);
-  if (values.size() >= 3) {
-    const double before = measure(values[last - 1], values[last - 2]).l2;
-    if (result.levels_change.l2 > 0.0 && before > 0.0) {
-      result.order =
-          3.0 * std::log(before / result.levels_change.l2) / std::log(n_unknowns[last - 1] / n_unknowns[last - 2]);
-    }
+  const Measure measure(question, values.empty() ? question.bie : values.back());
+  if (values.empty()) {
+    result.difference = measure(question.judged - question.bie);
+  } else {
+    compare_with_levels(question, sequence, values, n_unknowns, result);
   }
+  result.bie_change = measure(question.bie - question.bie_high);
+  if (question.further_error.size() > 0) result.bie_further = measure(question.further_error).l2;
+  result.verdict = verdict_of(result, required);
   return result;
 }
 

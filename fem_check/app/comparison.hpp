@@ -1,10 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "fem_check/app/check_input.hpp"
 #include "fem_check/app/level.hpp"
 
 namespace vehd::fem_check {
@@ -15,37 +15,60 @@ struct Norms {
   double max = 0.0;
 };
 
-/// One field by both methods. The finest level stands against the higher order.
+/// What a comparison says.
+enum class Verdict {
+  agree,     ///< the difference is within the errors, and both errors are as small as required
+  does_not,  ///< the difference is larger than both errors together
+  undecided  ///< the errors are too large to tell
+};
+
+/// "agree", "does not", "undecided".
+const char* name_of(Verdict verdict);
+
+/// One field by both methods: the finest level against the boundary integrals in the order of the state.
 struct FieldComparison {
-  std::string name;   ///< in the JSON
-  std::string label;  ///< in the table
+  std::string name;        ///< in the JSON
+  std::string label;       ///< in the table
+  bool is_stored = false;  ///< the number judged is one of the snapshot
   Norms difference;
   Norms levels_change;           ///< last level against the one before
   Norms truncation;              ///< of the outer sphere, from one further out
-  double solver = 0.0;           ///< what the linear solvers leave
-  Norms bie_change;              ///< order p against the higher order
+  double solver = 0.0;           ///< what the linear solvers leave, from coarser ones
+  Norms bie_change;              ///< order p against the other order
+  double bie_further = 0.0;      ///< FieldQuestion::further_error
   std::optional<double> order;   ///< observed, in the mesh size N^(−1/3), N unknowns
   std::vector<Norms> of_levels;  ///< difference of every level that has the field
+  Verdict verdict = Verdict::undecided;
 
   [[nodiscard]] double fem_error() const { return levels_change.l2 + truncation.l2 + solver; }
-  [[nodiscard]] double bie_error() const { return bie_change.l2; }
-  [[nodiscard]] bool agrees() const { return difference.l2 <= fem_error() + bie_error(); }
+  [[nodiscard]] double bie_error() const { return bie_change.l2 + bie_further; }
 };
 
-/// How a field is compared.
+/// What is compared with what: values at points, [components x points].
 struct FieldQuestion {
   std::string name;
   std::string label;
-  std::string values;                 ///< its name in the levels
-  Eigen::MatrixXd bie, bie_high;      ///< boundary-integral values at the points, [components x n]
+  bool is_stored = false;
+  Eigen::MatrixXd judged;         ///< the number under judgement
+  Eigen::MatrixXd bie, bie_high;  ///< boundary integrals at both orders, whose change is the error of the judged number
+  Eigen::MatrixXd further_error;  ///< what else that number may be off by; empty: nothing
+  /// Name in the levels of what it is judged by; empty: by `bie`, no finite elements.
+  std::string values;
+  /// From what the levels have to what is judged; empty: the same.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> from_level;
   Vector weight;                      ///< of the points
   std::vector<Eigen::Index> columns;  ///< of the level's values; empty: all
   bool is_sample = false;
-  double natural_size = 1.0;  ///< of such a field in this problem
-  double solver_tolerance = 0.0;
+  /// Of such a field in this problem, root mean square.
+  double natural_size = 1.0;
+  /// Of the whole field, root mean square, where the points are a part of those that it is known at; 0: these are all.
+  double whole_size = 0.0;
+  /// Relative to the natural size even where the field is smaller: a sum of terms of that size that may cancel.
+  bool is_remainder = false;
 };
 
 /// The errors of both methods and what stands between them.
-FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence);
+/// @param required  share of the field that each error may reach for both to agree
+FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence, double required);
 
 }  // namespace vehd::fem_check

@@ -31,15 +31,15 @@ std::vector<BothFields> fields_on_surface(const CheckInput& input, const FinestS
   };
   if (finest.potential != nullptr) {
     const PotentialTraces traces = finest.potential->solutions.back().on_surface(points);
-    add("q", traces.charge.transpose(), input.bie_high.charge);
+    add("q", traces.charge.transpose(), input.bie.charge);
     if (finest.potential->steady) {
       add("Vm", finest.potential->steady->on_surface(points).transmembrane_potential.transpose(),
-          input.bie_high.steady_potential);
+          input.bie.steady_potential);
     }
-    add("force", traces.force, input.bie_high.force_electric);
+    add("force", traces.force, input.bie.force_electric);
   }
   if (finest.flow != nullptr) {
-    add("velocity", finest.flow->solutions.back().on_surface(points).velocity, input.bie_high.velocity);
+    add("velocity", finest.flow->solutions.back().on_surface(points).velocity, input.bie.velocity);
   }
   return fields;
 }

@@ -1,6 +1,9 @@
 #include "fem_check/app/flow_levels.hpp"
 
+#include <utility>
+
 #include "fem_check/app/level_loop.hpp"
+#include "fem_check/app/sample_values.hpp"
 #include "fem_check/app/surface_series.hpp"
 
 namespace vehd::fem_check {
@@ -24,45 +27,88 @@ FlowLevels solve_flow_levels(const CheckInput& input, const Meshes& meshes, cons
   problem.force = [&](const SurfacePoints& points) { return Vectors(force(points)); };
 
   FlowLevels result;
-  const auto solve = [&](const Discretisation& discretisation) {
+  const auto solve = [&](const Discretisation& discretisation, double tolerance) {
+    problem.tolerance = tolerance;
     const FlowSolution solution = solve_flow(discretisation, problem);
     const FlowTraces traces = solution.on_surface(discretisation.quadrature_points(refinement.points_per_edge));
     Solved solved{solution.cost(), {{"velocity", traces.velocity}, {"divergence", traces.divergence.transpose()}}, {}};
     if (input.bie.sample_velocity.size() > 0) {
-      solved.samples["velocity"] = solution.velocity(discretisation.locate(input.samples.points));
+      solved.samples["velocity"] = at_samples(discretisation, input.samples.points, [&](const VolumePoints& places) {
+        return Eigen::MatrixXd(solution.velocity(places));
+      });
     }
     result.solutions.push_back(solution);
     return solved;
   };
-  const LevelPlan plan{"flow", {refinement.flow_first, refinement.flow_last}, refinement.flow_target, {"velocity"}};
+  const LevelPlan plan{"flow",
+                       {refinement.flow_first, refinement.flow_last},
+                       refinement.flow_tolerance,
+                       refinement.flow_target,
+                       {"velocity"}};
   result.sequence = run_levels(plan, meshes, report, solve);
-  result.solutions.pop_back();  // the one with the outer sphere further out
+  result.solutions.erase(result.solutions.begin() + static_cast<std::ptrdiff_t>(result.sequence.levels.size()),
+                         result.solutions.end());
   return result;
 }
 
+namespace {
+
+/// Velocity on γ of forces alone, without a background flow, at any degree.
+class ForceFlows {
+ public:
+  ForceFlows(const CheckInput& input, const Meshes& meshes, const Refinement& refinement, const Report& report)
+      : meshes_(meshes), refinement_(refinement), report_(report), problem_(problem_of(input, refinement)) {}
+
+  [[nodiscard]] Eigen::MatrixXd velocity(int degree, VectorOnSurface force) {
+    problem_.force = std::move(force);
+    const auto solve = [&](const Discretisation& space) {
+      const FlowSolution solution = solve_flow(space, problem_);
+      const SurfacePoints points = space.quadrature_points(refinement_.points_per_edge);
+      return Solved{solution.cost(), {{"velocity", solution.on_surface(points).velocity}}, {}};
+    };
+    return solve_level("flow by the change of f_E", meshes_.discretise(degree), meshes_.outer_radius(), report_, solve)
+        .surface.at("velocity");
+  }
+
+ private:
+  const Meshes& meshes_;
+  const Refinement& refinement_;
+  const Report& report_;
+  FlowProblem problem_;
+};
+
+}  // namespace
+
 void add_own_force(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
                    const PotentialLevels& potential, LevelSequence& sequence, const Report& report) {
-  const std::size_t last = sequence.levels.size() - 1;
-  const Discretisation discretisation = meshes.discretise(sequence.levels[sequence.repeated].degree);
-  const SurfacePoints points = discretisation.quadrature_points(refinement.points_per_edge);
-  const SurfaceSeries given(input.force_electric);
-  FlowProblem problem = problem_of(input, refinement);
-  for (std::size_t back = 0; back < 2; ++back) {
-    const PotentialSolution& electric = potential.solutions[potential.solutions.size() - 1 - back];
-    problem.force = [&](const SurfacePoints& at) { return Vectors(given(at) - electric.on_surface(at).force); };
-    const Level change = solve_level(
-        "flow by the change of f_E", discretisation, meshes.outer_radius(), report, [&](const Discretisation& space) {
-          const FlowSolution solution = solve_flow(space, problem);
-          return Solved{solution.cost(), {{"velocity", solution.on_surface(points).velocity}}, {}};
-        });
-    const Eigen::MatrixXd& velocity = change.surface.at("velocity");
-    Level& level = sequence.levels[last - back];
-    level.surface["velocity_own_force"] = level.surface.at("velocity") + velocity;
-    if (back == 0) {
-      for (Level* other : {&sequence.far, &sequence.levels[sequence.repeated]}) {
-        other->surface["velocity_own_force"] = other->surface.at("velocity") + velocity;
-      }
-    }
+  // An error of this share of the flow's own hides behind it.
+  constexpr double negligible_share = 0.25;
+  Level &last = sequence.levels.back(), &before = sequence.levels[sequence.levels.size() - 2];
+  const SurfaceSeries given(input.stored.force_electric);
+  const PotentialSolution &electric = potential.solutions.back(),
+                          &electric_before = potential.solutions[potential.solutions.size() - 2];
+  ForceFlows flows(input, meshes, refinement, report);
+  // f = … − f_E: what the elements' own f_E does in place of the snapshot's.
+  const VectorOnSurface change = [&](const SurfacePoints& at) {
+    return Vectors(given(at) - electric.on_surface(at).force);
+  };
+  const VectorOnSurface electric_change = [&](const SurfacePoints& at) {
+    return Vectors(electric.on_surface(at).force - electric_before.on_surface(at).force);
+  };
+  const int first = sequence.levels.front().degree;
+  const double enough = negligible_share * (last.surface.at("velocity") - before.surface.at("velocity")).norm();
+  Eigen::MatrixXd coarse = flows.velocity(first, change), fine = coarse;
+  for (int degree = first + 1; degree <= last.degree; ++degree) {
+    coarse = std::exchange(fine, flows.velocity(degree, change));
+    if ((fine - coarse).norm() <= enough) break;
+  }
+  // The two levels differ by the errors of all that went into them: flow, change and f_E.
+  last.surface["velocity_own_force"] = last.surface.at("velocity") + fine;
+  before.surface["velocity_own_force"] =
+      before.surface.at("velocity") + coarse + flows.velocity(first, electric_change);
+  Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
+  for (Level* level : {&sequence.far, &sequence.rough, &repeated}) {
+    level->surface["velocity_own_force"] = level->surface.at("velocity") + fine;
   }
 }
 

@@ -24,11 +24,16 @@ struct Level {
   FieldValues samples;
 };
 
-/// All levels of one problem on one mesh, coarse to fine, and one of them again with the outer sphere further out.
+/// Tolerance of LevelSequence::rough over that of the levels.
+constexpr double rough_factor = 100.0;
+
+/// All levels of one problem on one mesh, coarse to fine, and one of them twice again: with the outer sphere further
+/// out, and with linear solvers that stop sooner.
 struct LevelSequence {
   std::vector<Level> levels;
   int repeated = 0;  ///< which of them
-  Level far;         ///< its repetition
+  Level far;         ///< its repetition with the outer sphere further out
+  Level rough;       ///< its repetition with a tolerance larger by rough_factor
 };
 
 }  // namespace vehd::fem_check

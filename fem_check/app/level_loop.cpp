@@ -42,23 +42,26 @@ Level solve_level(const std::string& problem, const Discretisation& discretisati
   return level;
 }
 
-LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Report& report,
-                         const std::function<Solved(const Discretisation&)>& solve) {
+LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Report& report, const SolveLevel& solve) {
+  const auto solve_to = [&](double tolerance) {
+    return [&solve, tolerance](const Discretisation& discretisation) { return solve(discretisation, tolerance); };
+  };
   // An observed order takes three levels.
   constexpr std::size_t fewest = 3;
   LevelSequence result;
   auto& levels = result.levels;
   for (int degree = plan.degrees.first; degree <= plan.degrees.last; ++degree) {
-    levels.push_back(solve_level(plan.problem, meshes.discretise(degree), meshes.outer_radius(), report, solve));
+    levels.push_back(
+        solve_level(plan.problem, meshes.discretise(degree), meshes.outer_radius(), report, solve_to(plan.tolerance)));
     if (levels.size() < fewest) continue;
-    // The change is the error of the level before; this one's is smaller by the factor of the last step.
-    const double before = largest_change(levels[levels.size() - 3], levels[levels.size() - 2], plan.judged_by);
-    const double change = largest_change(levels[levels.size() - 2], levels.back(), plan.judged_by);
-    if (change * std::min(1.0, change / before) <= plan.target) break;
+    if (largest_change(levels[levels.size() - 2], levels.back(), plan.judged_by) <= plan.target) break;
   }
   result.repeated = static_cast<int>(levels.size() - fewest);
-  result.far = solve_level(plan.problem, meshes.discretise_far(levels[result.repeated].degree),
-                           meshes.far_outer_radius(), report, solve);
+  const int degree = levels[static_cast<std::size_t>(result.repeated)].degree;
+  result.far = solve_level(plan.problem, meshes.discretise_far(degree), meshes.far_outer_radius(), report,
+                           solve_to(plan.tolerance));
+  result.rough = solve_level(plan.problem + " with a coarse solver", meshes.discretise(degree), meshes.outer_radius(),
+                             report, solve_to(rough_factor * plan.tolerance));
   return result;
 }
 

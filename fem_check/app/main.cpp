@@ -15,6 +15,9 @@ namespace {
 
 using namespace vehd::fem_check;
 
+/// What coarse elements are asked for: signs, sides and conditions, and the first digit of small remainders.
+constexpr double required_when_quick = 0.05;
+
 /// Exit codes of vehd: done; wrong input; internal error; methods that do not agree.
 enum ExitCode { done = 0, refused = 1, internal_error = 2, does_not_hold = 4 };
 
@@ -26,20 +29,30 @@ void write_json(const std::string& path, const nlohmann::json& json) {
   if (!file) throw InputError(path + ": cannot be written");
 }
 
+/// Names the rows that do not agree.
+void print_reasons(const CheckResult& result) {
+  const std::string wrong = result.rows_with(Verdict::does_not), open = result.rows_with(Verdict::undecided);
+  if (!wrong.empty()) fmt::print(stderr, "{}: the two methods do not agree in: {}\n", result.source, wrong);
+  if (!open.empty()) {
+    fmt::print(stderr, "{}: undecided, errors above {:.3g} of the field: {}\n", result.source, result.required, open);
+  }
+}
+
 int check(CheckTask task, const std::string& json_file, bool first_rank) {
   task.writes = first_rank;
-  const CheckResult result = run_check(task, [&](const std::string& line) {
+  const std::vector<CheckResult> results = run_check(task, [&](const std::string& line) {
     if (first_rank) fmt::print(stderr, "{}\n", line);
   });
+  const CheckResult& result = results.front();
   if (first_rank) {
     fmt::print("{}files: {}\n", table_of(result), task.directory.string());
     std::fflush(stdout);
-    write_json(json_file, json_of(result));
-    if (!result.agrees()) {
-      fmt::print(stderr, "{}: the two methods do not agree in: {}\n", result.source, result.disagreeing());
-    }
+    nlohmann::json json = json_of(result);
+    for (std::size_t i = 1; i < results.size(); ++i) json["further"].push_back(json_of(results[i]));
+    write_json(json_file, json);
+    print_reasons(result);
   }
-  return result.agrees() ? done : does_not_hold;
+  return result.verdict() == Verdict::agree ? done : does_not_hold;
 }
 
 int mesh(const MeshTask& task, const std::string& json_file) {
@@ -66,6 +79,11 @@ int main(int argc, char** argv) {
   CLI::App* check_command = program.add_subcommand("check", "Solve and compare");
   check_command->add_option("INPUT", check_task.input, "check_input.h5")->required();
   check_command->add_option("-o,--output", check_task.directory, "Directory for the results")->required();
+  const CLI::Option* required =
+      check_command->add_option("--require", check_task.required, "Largest error of a field over the field")
+          ->check(CLI::Range(1e-9, 1.0));
+  check_command->add_option("--further", check_task.further_inputs,
+                            "Inputs of the same state with other numbers, judged as well; for the JSON");
   check_command->add_flag("--quick", quick, "Coarse elements");
   check_command->add_option("--json", json_file, "Also write the result as JSON");
 
@@ -99,6 +117,7 @@ int main(int argc, char** argv) {
       return done;
     }
     check_task.refinement = quick ? Refinement::quick() : Refinement::finest();
+    if (quick && required->empty()) check_task.required = required_when_quick;
     return check(check_task, json_file, session.rank() == 0);
   } catch (const InputError& error) {
     return fail(refused, error.what());

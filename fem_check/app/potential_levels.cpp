@@ -1,19 +1,19 @@
 #include "fem_check/app/potential_levels.hpp"
 
 #include "fem_check/app/level_loop.hpp"
+#include "fem_check/app/sample_values.hpp"
 #include "fem_check/app/surface_series.hpp"
 
 namespace vehd::fem_check {
 namespace {
 
-PotentialProblem base_problem(const CheckInput& input, const Refinement& refinement) {
+PotentialProblem base_problem(const CheckInput& input) {
   PotentialProblem problem;
   problem.field = input.physics.field;
   problem.conductivity_in = input.physics.conductivity_in;
   problem.conductivity_out = input.physics.conductivity_out;
   problem.permittivity_in = input.physics.permittivity_in;
   problem.permittivity_out = input.physics.permittivity_out;
-  problem.tolerance = refinement.potential_tolerance;
   return problem;
 }
 
@@ -21,19 +21,24 @@ PotentialProblem base_problem(const CheckInput& input, const Refinement& refinem
 
 PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
                                        const Report& report) {
-  PotentialProblem prescribed = base_problem(input, refinement), steady = prescribed;
+  PotentialProblem prescribed = base_problem(input), steady = prescribed;
   prescribed.membrane = PrescribedJump{SurfaceSeries(input.potential).scalar()};
   steady.membrane = SteadyMembrane{input.physics.conductance, 0.0};
 
   PotentialLevels result;
   std::vector<PotentialSolution> steady_solutions;
-  const auto solve = [&](const Discretisation& discretisation) {
+  const auto solve = [&](const Discretisation& discretisation, double tolerance) {
+    prescribed.tolerance = steady.tolerance = tolerance;
     const SurfacePoints points = discretisation.quadrature_points(refinement.points_per_edge);
     const PotentialSolution solution = solve_potential(discretisation, prescribed);
     const PotentialTraces traces = solution.on_surface(points);
-    Solved solved{solution.cost(), {{"q", traces.charge.transpose()}, {"force", traces.force}}, {}};
-    if (input.samples.points.cols() > 0) {
-      solved.samples["potential"] = solution.potential(discretisation.locate(input.samples.points)).transpose();
+    Solved solved{solution.cost(),
+                  {{"q", traces.charge.transpose()}, {"flux_in", traces.flux_in.transpose()}, {"force", traces.force}},
+                  {}};
+    if (input.bie.sample_potential.size() > 0) {
+      solved.samples["potential"] = at_samples(discretisation, input.samples.points, [&](const VolumePoints& places) {
+        return Eigen::MatrixXd(solution.potential(places).transpose());
+      });
     }
     if (input.steady()) {
       steady_solutions.push_back(solve_potential(discretisation, steady));
@@ -46,11 +51,13 @@ PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& me
   };
   const LevelPlan plan{"potential",
                        {refinement.potential_first, refinement.potential_last},
+                       refinement.potential_tolerance,
                        refinement.potential_target,
                        {"q", "Vm", "q_steady"}};
   result.sequence = run_levels(plan, meshes, report, solve);
-  result.solutions.pop_back();  // the one with the outer sphere further out
-  if (input.steady()) result.steady = steady_solutions[steady_solutions.size() - 2];
+  const std::size_t n_levels = result.sequence.levels.size();
+  result.solutions.erase(result.solutions.begin() + static_cast<std::ptrdiff_t>(n_levels), result.solutions.end());
+  if (input.steady()) result.steady = steady_solutions[n_levels - 1];
   return result;
 }
 

@@ -11,8 +11,8 @@
 
 namespace vehd::fem_check {
 
-/// Potentials at rising degree. Surface fields: q and force (V_m given), Vm and q_steady (membrane law); samples:
-/// potential.
+/// Potentials at rising degree. Surface fields: q, flux_in = ∂φ_i/∂n and force (V_m given), Vm and q_steady (membrane
+/// law); samples: potential.
 struct PotentialLevels {
   LevelSequence sequence;
   std::vector<PotentialSolution> solutions;  ///< of every level, V_m given

@@ -1,102 +1,109 @@
 #include "fem_check/app/questions.hpp"
 
 #include <cmath>
-
-#include "fem_check/app/surface_series.hpp"
+#include <utility>
 
 namespace vehd::fem_check {
 namespace {
 
-/// Root mean square over γ.
-double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& points) {
-  if (coefficients.size() == 0) return 0.0;
-  const Eigen::MatrixXd values = SurfaceSeries(coefficients)(points);
-  return std::sqrt(values.colwise().squaredNorm().dot(points.weight) / points.weight.sum());
+/// Which sample points every level has found.
+std::vector<bool> found_by_all(const LevelSequence& sequence, const std::string& values, std::size_t n_samples) {
+  std::vector<bool> found(n_samples, true);
+  const auto look_at = [&](const Level& level) {
+    const auto at = level.samples.find(values);
+    for (std::size_t i = 0; i < n_samples; ++i) {
+      found[i] = found[i] && at != level.samples.end() && at->second.cols() == static_cast<Eigen::Index>(n_samples) &&
+                 at->second.col(static_cast<Eigen::Index>(i)).allFinite();
+    }
+  };
+  for (const Level& level : sequence.levels) look_at(level);
+  look_at(sequence.far);
+  look_at(sequence.rough);
+  return found;
 }
 
 class Questions {
  public:
-  Questions(const CheckInput& input, const SurfacePoints& points, double solver_tolerance)
-      : input_(input), points_(points), solver_tolerance_(solver_tolerance) {}
+  Questions(const CheckInput& input, const ComparisonPlaces& places, const LevelSequence& sequence)
+      : input_(input), sequence_(sequence), maker_(places) {}
 
-  void on_surface(const std::string& name, const std::string& label, Eigen::MatrixXd BieFields::*field, double size) {
-    if ((input_.bie.*field).size() == 0) return;
-    FieldQuestion question = base(name, label, name, size);
-    question.bie = SurfaceSeries(input_.bie.*field)(points_);
-    question.bie_high = SurfaceSeries(input_.bie_high.*field)(points_);
-    question.weight = points_.weight;
-    list.push_back(std::move(question));
+  [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label,
+                                         Eigen::MatrixXd BieFields::*field, double size) const {
+    return maker_.on_surface(name, label, name, input_.bie.*field, input_.bie.*field, input_.bie_high.*field, size);
   }
 
-  /// Three questions: inside, outside and near γ.
-  void at_samples(const std::string& name, const std::string& symbol, Eigen::MatrixXd BieFields::*field, double size) {
+  /// Three questions, inside, outside and near γ, about what is left without `background`, [components x samples].
+  void at_samples(const std::string& name, const std::string& symbol, Eigen::MatrixXd BieFields::*field, double size,
+                  const Eigen::MatrixXd& background) {
     if ((input_.bie.*field).size() == 0) return;
     const Samples& samples = input_.samples;
-    group(name + "_inside", symbol + " inside", name, field, size,
-          [&](std::size_t i) { return !samples.near[i] && samples.inside[i]; });
-    group(name + "_outside", symbol + " outside", name, field, size,
-          [&](std::size_t i) { return !samples.near[i] && !samples.inside[i]; });
-    group(name + "_near", symbol + " near", name, field, size, [&](std::size_t i) { return samples.near[i]; });
+    const std::vector<bool> found = found_by_all(sequence_, name, samples.near.size());
+    const Eigen::MatrixXd left = (input_.bie.*field).transpose() - background;
+    const double whole = std::sqrt(left.squaredNorm() / static_cast<double>(left.cols()));
+    const auto group = [&](const std::string& place, const auto& belongs) {
+      std::vector<Eigen::Index> columns;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] && belongs(i)) columns.push_back(static_cast<Eigen::Index>(i));
+      }
+      if (columns.empty()) return;
+      FieldQuestion question;
+      question.name = name + "_" + place;
+      question.label = symbol + " " + place;
+      question.values = name;
+      question.is_sample = true;
+      question.columns = columns;
+      question.judged = (input_.bie.*field)(columns, Eigen::all).transpose();
+      question.bie = question.judged;
+      question.bie_high = (input_.bie_high.*field)(columns, Eigen::all).transpose();
+      question.weight = Vector::Ones(static_cast<Eigen::Index>(columns.size()));
+      question.natural_size = size;
+      question.whole_size = whole;
+      list.push_back(without(std::move(question), background(Eigen::all, columns)));
+    };
+    group("inside", [&](std::size_t i) { return !samples.near[i] && samples.inside[i]; });
+    group("outside", [&](std::size_t i) { return !samples.near[i] && !samples.inside[i]; });
+    group("near", [&](std::size_t i) { return bool{samples.near[i]}; });
   }
 
   std::vector<FieldQuestion> list;
 
  private:
-  [[nodiscard]] FieldQuestion base(const std::string& name, const std::string& label, const std::string& values,
-                                   double size) const {
-    FieldQuestion question;
-    question.name = name;
-    question.label = label;
-    question.values = values;
-    question.natural_size = size;
-    question.solver_tolerance = solver_tolerance_;
-    return question;
-  }
-
-  template <typename Belongs>
-  void group(const std::string& name, const std::string& label, const std::string& values,
-             Eigen::MatrixXd BieFields::*field, double size, const Belongs& belongs) {
-    FieldQuestion question = base(name, label, values, size);
-    question.is_sample = true;
-    for (std::size_t i = 0; i < input_.samples.near.size(); ++i) {
-      if (belongs(i)) question.columns.push_back(static_cast<Eigen::Index>(i));
-    }
-    if (question.columns.empty()) return;
-    question.bie = (input_.bie.*field)(question.columns, Eigen::all).transpose();
-    question.bie_high = (input_.bie_high.*field)(question.columns, Eigen::all).transpose();
-    question.weight = Vector::Ones(static_cast<Eigen::Index>(question.columns.size()));
-    list.push_back(std::move(question));
-  }
-
   const CheckInput& input_;
-  const SurfacePoints& points_;
-  double solver_tolerance_;
+  const LevelSequence& sequence_;
+  QuestionMaker maker_;
 };
 
 }  // namespace
 
-std::vector<FieldQuestion> electric_questions(const CheckInput& input, const SurfacePoints& points, double radius,
-                                              const Refinement& refinement) {
-  const double potential = input.physics.field.norm() * radius + mean_size(input.potential, points);
-  const double field = potential / radius;
-  Questions questions(input, points, refinement.potential_tolerance);
-  questions.on_surface("q", "q", &BieFields::charge, field);
-  questions.on_surface("Vm", "V_m steady", &BieFields::steady_potential, potential);
-  questions.on_surface("q_steady", "q steady", &BieFields::steady_charge, field);
-  questions.on_surface("force", "f_E", &BieFields::force_electric, input.physics.permittivity_out * field * field);
-  questions.at_samples("potential", "phi", &BieFields::sample_potential, potential);
+std::vector<FieldQuestion> electric_questions(const CheckInput& input, const ComparisonPlaces& places,
+                                              const LevelSequence& sequence) {
+  const NaturalSizes sizes = natural_sizes(input, places);
+  Questions questions(input, places, sequence);
+  questions.list.push_back(questions.on_surface("q", "q", &BieFields::charge, sizes.charge));
+  if (input.steady()) {
+    questions.list.push_back(questions.on_surface("Vm", "V_m steady", &BieFields::steady_potential, sizes.potential));
+    questions.list.push_back(questions.on_surface("q_steady", "q steady", &BieFields::steady_charge, sizes.charge));
+  }
+  questions.list.push_back(questions.on_surface("force", "f_E", &BieFields::force_electric, sizes.electric_force));
+  // Without what the field alone makes at the place of the shape: far from the origin it would hide all else.
+  const double at_centre = -input.physics.field.dot(places.centre);
+  questions.at_samples("potential", "phi", &BieFields::sample_potential, sizes.potential,
+                       Eigen::MatrixXd::Constant(1, input.samples.points.cols(), at_centre));
   return std::move(questions.list);
 }
 
-std::vector<FieldQuestion> flow_questions(const CheckInput& input, const SurfacePoints& points, double radius,
-                                          const Refinement& refinement) {
-  const Physics& physics = input.physics;
-  const double velocity =
-      physics.flow_gradient.norm() * radius + mean_size(input.force, points) * radius / physics.viscosity_out;
-  Questions questions(input, points, refinement.flow_tolerance);
-  questions.on_surface("velocity", "v", &BieFields::velocity, velocity);
-  questions.on_surface("velocity_own_force", "v, own f_E", &BieFields::velocity_own_force, velocity);
-  questions.at_samples("velocity", "v", &BieFields::sample_velocity, velocity);
+std::vector<FieldQuestion> flow_questions(const CheckInput& input, const ComparisonPlaces& places,
+                                          const LevelSequence& sequence) {
+  const NaturalSizes sizes = natural_sizes(input, places);
+  const Eigen::MatrixXd background = input.physics.flow_gradient * places.surface.position;
+  Questions questions(input, places, sequence);
+  const auto add = [&](const std::string& name, const std::string& label, Eigen::MatrixXd BieFields::*field) {
+    questions.list.push_back(without(questions.on_surface(name, label, field, sizes.velocity), background));
+  };
+  add("velocity", "v", &BieFields::velocity);
+  if (input.electric()) add("velocity_own_force", "v, own f_E", &BieFields::velocity_own_force);
+  questions.at_samples("velocity", "v", &BieFields::sample_velocity, sizes.velocity,
+                       input.physics.flow_gradient * input.samples.points);
   return std::move(questions.list);
 }
 

@@ -2,18 +2,24 @@
 
 #include <vector>
 
-#include "fem_check/app/comparison.hpp"
-#include "fem_check/app/refinement.hpp"
+#include "fem_check/app/question_maker.hpp"
 
+/// One row of the table for each question.
 namespace vehd::fem_check {
 
-/// The fields of the electric problem: q, Vm, force, q_steady and φ at the sample points.
-/// @param points  of the comparison on γ
-std::vector<FieldQuestion> electric_questions(const CheckInput& input, const SurfacePoints& points, double radius,
-                                              const Refinement& refinement);
+/// The fields of the electric problem: q, Vm, q_steady, force and φ at the sample points.
+std::vector<FieldQuestion> electric_questions(const CheckInput& input, const ComparisonPlaces& places,
+                                              const LevelSequence& sequence);
 
-/// The fields of the flow: velocity, velocity_own_force and v at the sample points.
-std::vector<FieldQuestion> flow_questions(const CheckInput& input, const SurfacePoints& points, double radius,
-                                          const Refinement& refinement);
+/// The fields of the flow without the background flow: velocity, velocity_own_force and v at the sample points.
+std::vector<FieldQuestion> flow_questions(const CheckInput& input, const ComparisonPlaces& places,
+                                          const LevelSequence& sequence);
+
+/// Numbers of the snapshot that the electric problem determines: q, f_E and the charging current.
+std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, const ComparisonPlaces& places);
+
+/// Numbers of the snapshot that belong to the flow: v by the finite elements; f_b, f_λ, λ and ∇_γ·v by what the
+/// boundary integrals find for the shape, the last by derivatives of this side.
+std::vector<FieldQuestion> stored_flow_questions(const CheckInput& input, const ComparisonPlaces& places);
 
 }  // namespace vehd::fem_check

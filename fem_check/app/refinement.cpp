@@ -8,10 +8,10 @@ Refinement Refinement::quick() {
   Refinement refinement;
   refinement.cells_per_edge = 2;
   refinement.points_per_edge = 8;
-  refinement.potential_first = 3;
-  refinement.potential_last = 5;
-  refinement.flow_first = 2;
-  refinement.flow_last = 4;
+  refinement.potential_first = 4;
+  refinement.potential_last = 6;
+  refinement.flow_first = 4;
+  refinement.flow_last = 6;
   refinement.potential_target = 0.0;
   refinement.flow_target = 0.0;
   refinement.potential_tolerance = 1e-9;

@@ -20,13 +20,13 @@ struct Refinement {
 
   int potential_first = 4, potential_last = 9;  ///< degrees
   int flow_first = 4, flow_last = 8;
-  double potential_target = 5e-6;  ///< estimated relative error at which degrees stop rising before the last
-  double flow_target = 5e-5;
+  double potential_target = 1e-5;  ///< relative change at which degrees stop rising before the last
+  double flow_target = 1e-4;
   double potential_tolerance = 1e-11;  ///< of the linear solvers
   double flow_tolerance = 1e-7;
 
   static Refinement finest() { return {}; }
-  /// Three levels each, ten seconds in all.
+  /// Three levels each.
   static Refinement quick();
 };
 

@@ -18,14 +18,15 @@ nlohmann::json json_of(const FieldComparison& field) {
           {"fem_solver", field.solver},
           {"bie_error", field.bie_error()},
           {"bie_change", json_of(field.bie_change)},
-          {"verdict", field.agrees() ? "agree" : "does not"}};
+          {"bie_further", field.bie_further},
+          {"verdict", name_of(field.verdict)}};
 }
 
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
 nlohmann::json level_fields(const CheckResult& result, const Level& level, std::size_t index, std::size_t n_levels) {
   nlohmann::json json = nlohmann::json::object();
   for (const FieldComparison& field : result.fields) {
-    const bool of_problem = level.surface.contains(field.name);
+    const bool of_problem = level.surface.contains(field.name) && !field.is_stored;
     if (of_problem && field.of_levels.size() == n_levels) json[field.name] = json_of(field.of_levels[index]);
   }
   return json;
@@ -50,56 +51,63 @@ nlohmann::json levels_json(const CheckResult& result) {
   return json;
 }
 
+std::string label_of(const FieldComparison& field) { return (field.is_stored ? "stored " : "") + field.label; }
+
 std::string row_of(const FieldComparison& field) {
-  return fmt::format("{:<12} {:>9.1e} {:>9.1e}   {:>9.1e} {:>6}   {:>9.1e}   {}\n", field.label, field.difference.l2,
-                     field.difference.max, field.fem_error(), field.order ? fmt::format("{:.1f}", *field.order) : "-",
-                     field.bie_error(), field.agrees() ? "agree" : "does not");
+  const std::string fem = field.of_levels.empty() ? "-" : fmt::format("{:.1e}", field.fem_error());
+  return fmt::format("{:<18} {:>9.1e} {:>9.1e}   {:>9} {:>6}   {:>9.1e}   {}\n", label_of(field), field.difference.l2,
+                     field.difference.max, fem, field.order ? fmt::format("{:.1f}", *field.order) : "-",
+                     field.bie_error(), name_of(field.verdict));
 }
 
 }  // namespace
 
-bool CheckResult::agrees() const {
-  return std::all_of(fields.begin(), fields.end(), [](const FieldComparison& field) { return field.agrees(); });
+Verdict CheckResult::verdict() const {
+  const auto has = [&](Verdict verdict) {
+    return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.verdict == verdict; });
+  };
+  if (has(Verdict::does_not)) return Verdict::does_not;
+  return has(Verdict::undecided) || fields.empty() ? Verdict::undecided : Verdict::agree;
 }
 
-std::string CheckResult::disagreeing() const {
+std::string CheckResult::rows_with(Verdict verdict) const {
   std::string text;
   for (const FieldComparison& field : fields) {
-    if (!field.agrees()) text += (text.empty() ? "" : ", ") + field.label;
+    if (field.verdict == verdict) text += (text.empty() ? "" : ", ") + label_of(field);
   }
   return text;
 }
 
 std::string table_of(const CheckResult& result) {
-  std::string text =
-      fmt::format("{} at time {:g}: boundary integrals of degree {} and {}, finite elements to R = {:.3g}\n",
-                  result.source, result.time, result.order, result.high_order, result.outer_radius);
-  text += fmt::format("{:<12} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
+  std::string text = fmt::format(
+      "{} at time {:g}: boundary integrals of degree {}, their error from degree {}, finite elements to R = "
+      "{:.3g}\nrequired: errors below {:.3g} of each field\n",
+      result.source, result.time, result.order, result.high_order, result.outer_radius, result.required);
+  text += fmt::format("{:<18} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
                       "order", "BIE error", "verdict");
   for (const FieldComparison& field : result.fields) text += row_of(field);
   if (result.divergence) {
-    text += fmt::format("surface divergence of v: {:.1e} of the strain rate (levels differ by {:.1e})\n",
-                        result.divergence->size.l2, result.divergence->levels_change.l2);
-  }
-  if (result.stored_velocity) {
-    text += fmt::format("velocity of the snapshot against v of its own truncated forces: {:.1e}\n",
-                        *result.stored_velocity);
+    text += fmt::format(
+        "surface divergence of v as the elements see it: {:.1e} of the strain rate (levels differ by {:.1e})\n",
+        result.divergence->size.l2, result.divergence->levels_change.l2);
   }
   return text;
 }
 
 nlohmann::json json_of(const CheckResult& result) {
-  nlohmann::json fields = nlohmann::json::object(), orders = nlohmann::json::object();
+  nlohmann::json fields = nlohmann::json::object(), stored = fields, orders = fields;
   for (const FieldComparison& field : result.fields) {
-    fields[field.name] = json_of(field);
-    if (field.order) orders[field.name] = *field.order;
+    (field.is_stored ? stored : fields)[field.name] = json_of(field);
+    if (field.order && !field.is_stored) orders[field.name] = *field.order;
   }
   nlohmann::json json{{"source", result.source},
                       {"time", result.time},
                       {"order", result.order},
                       {"high_order", result.high_order},
-                      {"verdict", result.agrees() ? "agree" : "does not"},
+                      {"required", result.required},
+                      {"verdict", name_of(result.verdict())},
                       {"fields", fields},
+                      {"stored", stored},
                       {"order_observed", orders},
                       {"levels", levels_json(result)},
                       {"truncation_radius", result.outer_radius},

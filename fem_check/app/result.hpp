@@ -15,21 +15,26 @@ struct SurfaceDivergence {
   Norms levels_change;
 };
 
+/// Share of a field that the error of either method may reach for both to agree, unless asked for another.
+constexpr double default_requirement = 0.02;
+
 /// What a check found.
 struct CheckResult {
   std::string source;
   double time = 0.0;
   int order = 0, high_order = 0;
+  double required = default_requirement;
   std::vector<FieldComparison> fields;
   std::vector<Level> levels;
   std::optional<SurfaceDivergence> divergence;
-  std::optional<double> stored_velocity;  ///< relative L2 of the snapshot's dx/dt against v at the same order
+  std::optional<double> stored_velocity;  ///< relative L2 of the snapshot's dx/dt against v of its truncated forces
   double outer_radius = 0.0, far_outer_radius = 0.0;
   double seconds = 0.0;
 
-  [[nodiscard]] bool agrees() const;
-  /// Labels of the fields that do not agree, separated by commas.
-  [[nodiscard]] std::string disagreeing() const;
+  /// Of all rows together: the worst of them.
+  [[nodiscard]] Verdict verdict() const;
+  /// Labels of the rows with this verdict, separated by commas.
+  [[nodiscard]] std::string rows_with(Verdict verdict) const;
 };
 
 /// The table for the terminal.

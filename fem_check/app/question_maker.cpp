@@ -1,0 +1,56 @@
+#include "fem_check/app/question_maker.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "fem_check/app/surface_series.hpp"
+
+namespace vehd::fem_check {
+
+double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& points) {
+  if (coefficients.size() == 0) return 0.0;
+  const Eigen::MatrixXd values = SurfaceSeries(coefficients)(points);
+  return std::sqrt(values.colwise().squaredNorm().dot(points.weight) / points.weight.sum());
+}
+
+NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& places) {
+  const Physics& physics = input.physics;
+  const double radius = places.radius, potential = mean_size(input.potential, places.surface);
+  const double inside = physics.conductivity_in, outside = physics.conductivity_out;
+  NaturalSizes sizes;
+  sizes.potential = physics.field.norm() * radius + potential;
+  sizes.field = sizes.potential / radius;
+  sizes.charge = sizes.field * std::abs(inside - outside) / (inside + outside);
+  sizes.electric_force = physics.permittivity_out * sizes.field * sizes.field;
+  sizes.current = inside * outside / (inside + outside) * sizes.field + physics.conductance * potential;
+  const double shear = physics.flow_gradient.norm();
+  sizes.force = physics.bending_modulus / (radius * radius * radius) + physics.viscosity_out * shear +
+                mean_size(input.force, places.surface);
+  sizes.velocity = shear * radius + mean_size(input.force, places.surface) * radius / physics.viscosity_out;
+  sizes.rate = sizes.velocity / radius;
+  return sizes;
+}
+
+FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::string& label, const std::string& values,
+                                        const Eigen::MatrixXd& judged, const Eigen::MatrixXd& bie,
+                                        const Eigen::MatrixXd& bie_high, double natural_size) const {
+  const SurfacePoints& points = places_.surface;
+  FieldQuestion question;
+  question.name = name;
+  question.label = label;
+  question.values = values;
+  question.judged = SurfaceSeries(judged)(points);
+  question.bie = SurfaceSeries(bie)(points);
+  question.bie_high = SurfaceSeries(bie_high)(points);
+  question.weight = points.weight;
+  question.natural_size = natural_size;
+  return question;
+}
+
+FieldQuestion without(FieldQuestion question, const Eigen::MatrixXd& of_points) {
+  for (Eigen::MatrixXd* field : {&question.judged, &question.bie, &question.bie_high}) *field -= of_points;
+  question.from_level = [of_points](const Eigen::MatrixXd& values) { return Eigen::MatrixXd(values - of_points); };
+  return question;
+}
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,106 @@
+#include <utility>
+
+#include "fem_check/app/questions.hpp"
+#include "fem_check/app/surface_divergence.hpp"
+#include "fem_check/app/surface_series.hpp"
+
+namespace vehd::fem_check {
+namespace {
+
+FieldQuestion stored(FieldQuestion question) {
+  question.is_stored = true;
+  return question;
+}
+
+/// −(σ_i ∂φ_i/∂n + G_m V_m), the current that charges the membrane, from ∂φ_i/∂n of a level; C_m dV_m/dt of the run.
+FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces& places, const NaturalSizes& sizes,
+                                const QuestionMaker& maker) {
+  const Physics& physics = input.physics;
+  const Eigen::MatrixXd rate = physics.capacitance * input.bie.potential_rate;
+  FieldQuestion question = stored(maker.on_surface("charging_current", "C dV_m/dt", "flux_in", rate, rate,
+                                                   physics.capacitance * input.bie_high.potential_rate, sizes.current));
+  question.is_remainder = true;
+  const Eigen::MatrixXd leak = physics.conductance * SurfaceSeries(input.potential)(places.surface);
+  question.from_level = [leak, sigma = physics.conductivity_in](const Eigen::MatrixXd& flux_in) {
+    return Eigen::MatrixXd(-sigma * flux_in - leak);
+  };
+  return question;
+}
+
+/// A tension, or a force of one, that is known up to a uniform one.
+Eigen::MatrixXd without_uniform_tension(const Eigen::MatrixXd& values, const SurfacePoints& points) {
+  const Eigen::MatrixXd direction = values.rows() == 1 ? Eigen::MatrixXd::Ones(1, points.size()) : points.normal;
+  const double mean = values.cwiseProduct(direction).colwise().sum().dot(points.weight) / points.weight.sum();
+  return values - mean * direction;
+}
+
+/// ∇_γ·v of the stored velocity, which the constraint makes zero: what the boundary integrals leave of it at both
+/// orders is the error.
+FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlaces& places, double rate) {
+  const SurfacePoints& points = places.surface;
+  const auto divergence = [&](const Eigen::MatrixXd& velocity) {
+    return Eigen::MatrixXd(surface_divergence(input.position, velocity, points.direction).transpose());
+  };
+  const Eigen::MatrixXd at_order = divergence(input.bie.velocity_of_shape),
+                        for_error = divergence(input.bie_high.velocity_of_shape);
+  FieldQuestion question;
+  question.name = "surface_divergence";
+  question.label = "div_S v";
+  question.is_stored = true;
+  question.is_remainder = true;
+  question.natural_size = rate;
+  question.weight = points.weight;
+  question.judged = divergence(input.stored.velocity);
+  question.bie = Eigen::MatrixXd::Zero(1, points.size());
+  question.bie_high = question.bie;
+  question.further_error = (at_order - for_error).cwiseAbs() + for_error.cwiseAbs();
+  return question;
+}
+
+}  // namespace
+
+std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, const ComparisonPlaces& places) {
+  const NaturalSizes sizes = natural_sizes(input, places);
+  const QuestionMaker maker(places);
+  return {stored(maker.on_surface("q", "q", "q", input.stored.charge, input.bie.charge, input.bie_high.charge,
+                                  sizes.charge)),
+          stored(maker.on_surface("force", "f_E", "force", input.stored.force_electric, input.bie.force_electric,
+                                  input.bie_high.force_electric, sizes.electric_force)),
+          charging_question(input, places, sizes, maker)};
+}
+
+std::vector<FieldQuestion> stored_flow_questions(const CheckInput& input, const ComparisonPlaces& places) {
+  const NaturalSizes sizes = natural_sizes(input, places);
+  const QuestionMaker maker(places);
+  const SurfacePoints& points = places.surface;
+  std::vector<FieldQuestion> list;
+  const auto add_reproduced = [&](const std::string& name, const std::string& label, const Eigen::MatrixXd& judged,
+                                  Eigen::MatrixXd BieFields::*field, double size) {
+    if (judged.size() == 0) return;
+    FieldQuestion question =
+        stored(maker.on_surface(name, label, "", judged, input.bie.*field, input.bie_high.*field, size));
+    if (input.bie.tension_is_free && name != "force_bending") {
+      for (Eigen::MatrixXd* values : {&question.judged, &question.bie, &question.bie_high}) {
+        *values = without_uniform_tension(*values, points);
+      }
+    }
+    list.push_back(std::move(question));
+  };
+  add_reproduced("force_bending", "f_b", input.stored.force_bending, &BieFields::force_bending, sizes.force);
+  add_reproduced("force_tension", "f_lambda", input.stored.force_tension, &BieFields::force_tension, sizes.force);
+  add_reproduced("tension", "lambda", input.stored.tension, &BieFields::tension, sizes.force * places.radius);
+
+  FieldQuestion velocity =
+      without(stored(maker.on_surface("velocity", "v", "velocity", input.stored.velocity, input.bie.velocity,
+                                      input.bie_high.velocity, sizes.velocity)),
+              input.physics.flow_gradient * points.position);
+  // The run has v of its forces, the elements that of the forces in the file, which are truncated.
+  if (input.bie.velocity_truncation.size() > 0) {
+    velocity.further_error = SurfaceSeries(input.bie.velocity_truncation)(points);
+  }
+  list.push_back(std::move(velocity));
+  if (input.physics.inextensible) list.push_back(divergence_question(input, places, sizes.rate));
+  return list;
+}
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "fem_check/types.hpp"
+
+namespace vehd::fem_check {
+
+/// ∇_γ·v = Σ g^{ab} ∂_a x · ∂_b v of a velocity on γ, from the derivatives of both series.
+/// @param position, velocity  coefficients, [n_coefficients x 3], of any two orders
+/// @param directions          r̂ of the points, [3 x n]
+/// Accuracy: rounding; of v = x it is 2 (tests/fem_check/app/surface_divergence_test.cpp)
+Vector surface_divergence(const Eigen::MatrixXd& position, const Eigen::MatrixXd& velocity, const Vectors& directions);
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,245 @@
+#include <boost/test/unit_test.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "bie/comparison/check_input.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "tests/app/finite_elements.hpp"
+#include "tests/app/program.hpp"
+
+// The finite elements are one process for each processor.
+BOOST_AUTO_TEST_SUITE(check_damage, *boost::unit_test::precondition(finite_elements_are_built) *
+                                        boost::unit_test::label("slow") * boost::unit_test::label("alone") *
+                                        boost::unit_test::label("once"))
+
+namespace {
+
+using vehd::CheckFields;
+using vehd::FrozenState;
+using vehd::Matrix;
+using vehd::Vector;
+
+const std::filesystem::path fem_program = std::filesystem::path(VEHD_PROGRAM).parent_path() / "vehd_fem";
+
+/// Everything on, nothing symmetric, and a shape on which coarse elements have three digits.
+const std::string scene_text =
+    "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\ncentre = [100.0, 0.0, "
+    "50.0]\n"
+    "[membrane]\nbending_modulus = 0.1\ncapacitance = 1.0\nconductance = 0.5\n"
+    "[flow]\nkind = 'shear'\nrate = 1.0\n"
+    "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\npermittivity_ratio = "
+    "0.5\ninitial_Vm = 'steady'\n"
+    "[numerics]\norder = 12\ndt = 0.1\nend_time = 0.0\n";
+
+/// What the boundary-integral side hands over.
+struct Numbers {
+  FrozenState frozen;
+  vehd::CheckContents contents;
+  Matrix force;
+  vehd::CheckSamples samples;
+  CheckFields bie, high;
+
+  void both(const std::function<void(CheckFields&)>& change) {
+    change(bie);
+    change(high);
+  }
+  /// What code would find that has the wrong coefficients, data or conditions.
+  void solve(const FrozenState& state) {
+    for (CheckFields* fields : {&bie, &high}) {
+      *fields = vehd::check_fields(state, contents, force, fields->order, samples.points);
+    }
+  }
+};
+
+struct Damage {
+  std::string name;
+  std::function<void(Numbers&)> apply;
+  std::string row;  ///< "fields/q": one that has to see it
+};
+
+Numbers right_numbers() {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", scene_text);
+  Numbers numbers;
+  numbers.frozen = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
+  FrozenState& frozen = numbers.frozen;
+  frozen.source = "scene";
+  // A membrane that charges, so that its current says something.
+  frozen.state.vesicles.front().transmembrane_potential *= 0.6;
+  numbers.contents = vehd::check_contents(frozen);
+  numbers.force = vehd::total_force(frozen, frozen.fields.vesicles.front());
+  numbers.samples = vehd::check_samples(frozen.state.vesicles.front().position);
+  numbers.bie.order = 12;
+  numbers.high.order = 18;
+  numbers.solve(frozen);
+  const CheckFields& of_run = numbers.bie;
+  frozen.fields.vesicles.front() = {of_run.velocity_of_shape, of_run.force_bending,   of_run.force_tension,
+                                    of_run.force_electric,    Vector(of_run.tension), of_run.charge};
+  numbers.force = vehd::total_force(frozen, frozen.fields.vesicles.front());
+  numbers.solve(frozen);
+  return numbers;
+}
+
+/// A field that both orders find wrongly in the same way, as code with a wrong factor would.
+template <typename Values>
+void add_field(std::vector<Damage>& damages, const std::string& name, Values CheckFields::*field,
+               const std::string& row, const std::vector<double>& factors) {
+  for (const double factor : factors) {
+    damages.push_back({name + " x " + std::to_string(factor),
+                       [=](Numbers& numbers) { numbers.both([&](CheckFields& f) { f.*field *= factor; }); }, row});
+  }
+}
+
+template <typename Values>
+void add_stored(std::vector<Damage>& damages, const std::string& name, Values vehd::VesicleFields::*field,
+                const std::vector<double>& factors) {
+  for (const double factor : factors) {
+    damages.push_back({"stored " + name + " x " + std::to_string(factor),
+                       [=](Numbers& n) { n.frozen.fields.vesicles.front().*field *= factor; }, "stored/" + name});
+  }
+}
+
+void add_coefficient(std::vector<Damage>& damages, const std::string& name, const std::string& row,
+                     const std::function<void(FrozenState&)>& change) {
+  damages.push_back({name,
+                     [=](Numbers& numbers) {
+                       FrozenState wrong = numbers.frozen;
+                       change(wrong);
+                       numbers.solve(wrong);
+                     },
+                     row});
+}
+
+/// @param small     of the flow, and of coefficients
+/// @param smallest  of the electric fields, which coarse elements find with a digit more
+std::vector<Damage> all_damages(double small, double smallest) {
+  const double larger = 1.0 + small;
+  const std::vector<double> factors{larger, -1.0, 0.5}, electric{1.0 + smallest, -1.0, 0.5};
+  std::vector<Damage> damages;
+  add_field(damages, "q", &CheckFields::charge, "fields/q", electric);
+  add_field(damages, "f_E", &CheckFields::force_electric, "fields/force", electric);
+  add_field(damages, "steady V_m", &CheckFields::steady_potential, "fields/Vm", electric);
+  add_field(damages, "steady q", &CheckFields::steady_charge, "fields/q_steady", electric);
+  add_field(damages, "dV_m/dt", &CheckFields::potential_rate, "stored/charging_current", electric);
+  add_field(damages, "f_b", &CheckFields::force_bending, "stored/force_bending", factors);
+  add_field(damages, "f_lambda", &CheckFields::force_tension, "stored/force_tension", factors);
+  add_field(damages, "lambda", &CheckFields::tension, "stored/tension", factors);
+  add_field(damages, "v", &CheckFields::velocity, "fields/velocity", factors);
+  add_field(damages, "v of own f_E", &CheckFields::velocity_own_force, "fields/velocity_own_force", factors);
+  add_field(damages, "phi", &CheckFields::sample_potential, "fields/potential_outside", electric);
+  add_field(damages, "v off the membrane", &CheckFields::sample_velocity, "fields/velocity_near", factors);
+  using Stored = vehd::VesicleFields;
+  add_stored(damages, "q", &Stored::charge, electric);
+  add_stored(damages, "force", &Stored::force_electric, electric);
+  add_stored(damages, "force_bending", &Stored::force_bending, factors);
+  add_stored(damages, "force_tension", &Stored::force_tension, factors);
+  add_stored(damages, "tension", &Stored::tension, factors);
+  add_stored(damages, "velocity", &Stored::velocity, factors);
+  damages.push_back({"stored v that stretches",
+                     [=](Numbers& n) {
+                       Stored& stored = n.frozen.fields.vesicles.front();
+                       Matrix swelling = n.frozen.state.vesicles.front().position;
+                       swelling.row(0).setZero();
+                       stored.velocity += small * swelling * stored.velocity.norm() / swelling.norm();
+                     },
+                     "stored/surface_divergence"});
+  // The layer alone, with the background flow as it is.
+  damages.push_back({"Stokes layer x 0.95",
+                     [](Numbers& numbers) {
+                       const Matrix& x = numbers.frozen.state.vesicles.front().position;
+                       const Matrix background = x * vehd::flow_gradient(numbers.frozen).transpose();
+                       numbers.both([&](CheckFields& f) {
+                         f.velocity = 0.95 * f.velocity + 0.05 * vehd::resize_order(background, f.order);
+                       });
+                     },
+                     "fields/velocity"});
+  const auto random = [](CheckFields& fields) {
+    const auto fill = [](auto& values) { values.setRandom(); };
+    fill(fields.charge);
+    fill(fields.force_electric);
+    fill(fields.potential_rate);
+    fill(fields.force_bending);
+    fill(fields.force_tension);
+    fill(fields.tension);
+    fill(fields.velocity_of_shape);
+    fill(fields.steady_potential);
+    fill(fields.steady_charge);
+    fill(fields.velocity);
+    fill(fields.velocity_own_force);
+    fill(fields.sample_potential);
+    fill(fields.sample_velocity);
+  };
+  for (const char* row : {"fields/q", "fields/force", "fields/Vm", "fields/velocity", "stored/q", "stored/velocity"}) {
+    damages.push_back({"order of the run random", [=](Numbers& n) { random(n.bie); }, row});
+    damages.push_back({"other order random", [=](Numbers& n) { random(n.high); }, row});
+  }
+  // One side of the comparison has another coefficient, or exchanges the sides.
+  add_coefficient(damages, "C_m x 100", "stored/charging_current",
+                  [](FrozenState& s) { s.model.vesicles[0].charging.capacitance *= 100.0; });
+  add_coefficient(damages, "C_m", "stored/charging_current",
+                  [=](FrozenState& s) { s.model.vesicles[0].charging.capacitance *= larger; });
+  add_coefficient(damages, "G_m", "fields/Vm",
+                  [=](FrozenState& s) { s.model.vesicles[0].charging.conductance *= 1.0 + 5.0 * small; });
+  add_coefficient(damages, "sigma_i", "fields/q",
+                  [=](FrozenState& s) { s.model.vesicles[0].inside.conductivity *= larger; });
+  add_coefficient(damages, "sigma_e", "fields/q", [=](FrozenState& s) { s.model.electric->conductivity *= larger; });
+  add_coefficient(damages, "wrong side of q", "fields/q", [](FrozenState& s) {
+    std::swap(s.model.vesicles[0].inside.conductivity, s.model.electric->conductivity);
+  });
+  add_coefficient(damages, "epsilon", "fields/force",
+                  [=](FrozenState& s) { s.model.electric->permittivity *= larger; });
+  add_coefficient(damages, "epsilon_i", "fields/force",
+                  [=](FrozenState& s) { s.model.vesicles[0].inside.permittivity_ratio *= larger; });
+  add_coefficient(damages, "wrong side of f_E", "fields/force", [](FrozenState& s) {
+    s.model.electric->permittivity *= s.model.vesicles[0].inside.permittivity_ratio;
+    s.model.vesicles[0].inside.permittivity_ratio = 1.0 / s.model.vesicles[0].inside.permittivity_ratio;
+  });
+  add_coefficient(damages, "E", "fields/q", [=](FrozenState& s) { s.model.electric->field *= larger; });
+  add_coefficient(damages, "V_m", "fields/q",
+                  [=](FrozenState& s) { s.state.vesicles[0].transmembrane_potential *= 1.0 + smallest; });
+  add_coefficient(damages, "wrong side of V_m", "fields/q",
+                  [](FrozenState& s) { s.state.vesicles[0].transmembrane_potential *= -1.0; });
+  add_coefficient(damages, "mu", "fields/velocity", [=](FrozenState& s) { s.model.viscosity *= larger; });
+  add_coefficient(damages, "mu_i", "fields/velocity",
+                  [=](FrozenState& s) { s.model.vesicles[0].viscosity_ratio *= 1.0 + 5.0 * small; });
+  add_coefficient(damages, "rate of the flow", "fields/velocity",
+                  [=](FrozenState& s) { s.model.flow->gradient *= larger; });
+  add_coefficient(damages, "kappa_B", "stored/force_bending",
+                  [=](FrozenState& s) { s.model.vesicles[0].bending->modulus *= larger; });
+  return damages;
+}
+
+std::string verdict_of(const nlohmann::json& result, const std::string& row) {
+  const std::size_t slash = row.find('/');
+  return result[row.substr(0, slash)][row.substr(slash + 1)]["verdict"];
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(whatever_is_damaged_is_noticed) {
+  const TemporaryDirectory directory;
+  const Numbers right = right_numbers();
+  const auto write = [&](const std::string& name, const Numbers& n) {
+    vehd::write_check_input(directory / name, {n.frozen, n.contents, n.force, n.samples, n.bie, n.high});
+    return directory / name;
+  };
+  std::vector<std::string> command{fem_program.string(), "check",  write("right.h5", right), "--quick", "-o",
+                                   directory / "out",    "--json", directory / "result.json"};
+  const std::vector<Damage> damages = all_damages(0.01, 0.002);
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    Numbers wrong = right;
+    damages[i].apply(wrong);
+    command.insert(command.end(), {"--further", write("wrong" + std::to_string(i) + ".h5", wrong)});
+  }
+  const ProgramResult program = run_command(command);
+  BOOST_TEST(program.exit_code == 0, program.output + program.errors);
+  const nlohmann::json json = json_of(directory / "result.json");
+  BOOST_TEST_REQUIRE(json["further"].size() == damages.size());
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    const nlohmann::json& result = json["further"][i];
+    BOOST_TEST(result["verdict"] != "agree", damages[i].name);
+    BOOST_TEST(verdict_of(result, damages[i].row) != "agree", damages[i].name + " in " + damages[i].row);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

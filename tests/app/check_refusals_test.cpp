@@ -1,0 +1,114 @@
+#include <hdf5.h>
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "bie/comparison/check_input.hpp"
+#include "bie/files/hdf5_handle.hpp"
+#include "bie/files/run_reader.hpp"
+#include "tests/app/finite_elements.hpp"
+#include "tests/app/reference_run.hpp"
+
+BOOST_AUTO_TEST_SUITE(check_refusals, *boost::unit_test::precondition(finite_elements_are_built) *
+                                          boost::unit_test::label("alone") * boost::unit_test::label("once"))
+
+namespace {
+
+const std::filesystem::path elements = std::filesystem::path(VEHD_PROGRAM).parent_path() / "vehd_fem";
+
+vehd::Hdf5Handle open_for_damage(const std::string& path) {
+  return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+}
+
+/// Every number of a dataset times a factor.
+void scale_dataset(hid_t file, const std::string& dataset, double factor) {
+  const vehd::Hdf5Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const vehd::Hdf5Handle space(H5Dget_space(data.id()), H5Sclose);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id())));
+  BOOST_TEST_REQUIRE(H5Dread(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
+  for (double& value : values) value *= factor;
+  BOOST_TEST_REQUIRE(H5Dwrite(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
+}
+
+/// As a program would have written it that computes the field wrongly.
+void scale_field_of_run(const std::string& path, const std::string& group, const std::string& field, double factor) {
+  {
+    const vehd::Hdf5Handle file = open_for_damage(path);
+    for (const std::string_view part : vehd::snapshot_parts) {
+      scale_dataset(file.id(), group + "/" + std::string(part) + field, factor);
+    }
+  }
+  const std::int64_t checksum = vehd::snapshot_checksum(vehd::Hdf5Reader(path), group);
+  const vehd::Hdf5Handle file = open_for_damage(path);
+  // HDF5 1.10 does not write an attribute of a group of these files a second time.
+  BOOST_TEST_REQUIRE(H5Adelete_by_name(file.id(), group.c_str(), "checksum", H5P_DEFAULT) >= 0);
+  const vehd::Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const vehd::Hdf5Handle attribute(H5Acreate_by_name(file.id(), group.c_str(), "checksum", H5T_NATIVE_INT64, space.id(),
+                                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                   H5Aclose);
+  BOOST_TEST_REQUIRE(H5Awrite(attribute.id(), H5T_NATIVE_INT64, &checksum) >= 0);
+}
+
+const std::string moving_scene =
+    "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.1, 1.25]\n[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
+    "[flow]\nkind = 'shear'\nrate = 1.0\n"
+    "[electric]\nfield = [0.0, 0.2, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+    "[numerics]\norder = 10\ndt = 0.1\nend_time = 0.0\n";
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(stored_number_that_is_wrong_by_a_percent_is_noticed) {
+  const FinishedRun run(moving_scene);
+  const std::string file = run.output + "/run.h5";
+  scale_field_of_run(file, "/snapshots/000000", "tension", 1.01);
+  scale_field_of_run(file, "/snapshots/000000", "velocity", 1.01);
+  const ProgramResult wrong =
+      run_vehd({"check", file, "--quick", "--no-plot", "--json", run.directory / "result.json"});
+  BOOST_TEST(wrong.exit_code == 4);
+  BOOST_TEST(wrong.errors.find("do not agree in: stored lambda, stored v") != std::string::npos, wrong.errors);
+  for (const auto& [row, values] : json_of(run.directory / "result.json")["stored"].items()) {
+    const bool is_damaged = row == "tension" || row == "velocity";
+    BOOST_TEST((values["verdict"] == "does not") == is_damaged, row);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(snapshot_without_its_checksum_is_refused) {
+  const FinishedRun run;
+  const std::string file = run.output + "/run.h5";
+  {
+    const vehd::Hdf5Handle damaged = open_for_damage(file);
+    BOOST_TEST_REQUIRE(H5Adelete_by_name(damaged.id(), "/snapshots/000001", "checksum", H5P_DEFAULT) >= 0);
+  }
+  const ProgramResult result = run_vehd({"check", file, "--time", "0.5", "--quick"});
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(result.errors ==
+             file + ": /snapshots/000001 has no checksum, so that its numbers cannot be told from damaged ones\n");
+}
+
+BOOST_AUTO_TEST_CASE(input_without_what_is_compared_is_refused) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", moving_scene);
+  const vehd::FrozenState frozen = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
+  const vehd::CheckContents contents = vehd::check_contents(frozen);
+  const vehd::Matrix force = vehd::total_force(frozen, frozen.fields.vesicles.front());
+  const vehd::CheckFields fields = vehd::check_fields(frozen, contents, force, 10, vehd::Matrix(0, 3));
+  const std::string file = directory / "input.h5";
+  const auto refused = [&](const std::string& object, const std::string& message) {
+    vehd::write_check_input(file, {frozen, contents, force, {}, fields, fields});
+    {
+      const vehd::Hdf5Handle damaged = open_for_damage(file);
+      BOOST_TEST_REQUIRE(H5Ldelete(damaged.id(), object.c_str(), H5P_DEFAULT) >= 0);
+    }
+    const ProgramResult result = run_command({elements.string(), "check", file, "--quick", "-o", directory / "out"});
+    BOOST_TEST(result.exit_code == 1, object);
+    BOOST_TEST(result.errors == file + ": " + message + "\n");
+  };
+  refused("/bie/q", "dataset /bie/q is missing or damaged");
+  refused("/bie_high/velocity", "dataset /bie_high/velocity is missing or damaged");
+  refused("/bie/tension", "dataset /bie/tension is missing or damaged");
+  refused("/stored/q", "dataset /stored/q is missing or damaged");
+  refused("/bie", "attribute order of /bie is missing or damaged");
+  refused("/given", "has neither /given/Vm nor /given/force: nothing to compare");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

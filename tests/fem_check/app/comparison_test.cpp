@@ -1,0 +1,161 @@
+#include "fem_check/app/comparison.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+
+#include "fem_check/app/question_maker.hpp"
+
+using namespace vehd::fem_check;
+
+BOOST_AUTO_TEST_SUITE(comparison)
+
+namespace {
+
+constexpr double fine_error = 1e-4, solver_error = 1e-6;
+
+/// A field with the values 1 … n over equal weights.
+Eigen::MatrixXd field(double factor = 1.0) { return factor * Vector::LinSpaced(50, 1.0, 50.0).transpose(); }
+
+Level level(double error, long n_unknowns, double radius = 8.0) {
+  Level result;
+  result.problem = "potential";
+  result.n_unknowns = n_unknowns;
+  result.outer_radius = radius;
+  result.surface["q"] = field(1.0 + error);
+  return result;
+}
+
+/// Three levels whose error falls by 10, the outer sphere without an effect.
+LevelSequence levels() {
+  LevelSequence sequence;
+  sequence.levels = {level(100 * fine_error, 1000), level(10 * fine_error, 8000), level(fine_error, 64000)};
+  sequence.far = level(100 * fine_error, 1000, 16.0);
+  sequence.rough = level(100 * fine_error + solver_error, 1000);
+  return sequence;
+}
+
+/// Boundary integrals that are right to 1e-4.
+FieldQuestion question() {
+  FieldQuestion result;
+  result.name = result.label = result.values = "q";
+  result.judged = result.bie = field();
+  result.bie_high = field(1.0 + fine_error);
+  result.weight = Vector::Ones(50);
+  result.natural_size = 30.0;
+  return result;
+}
+
+Verdict verdict(const FieldQuestion& asked, double required = 0.02) {
+  return compare(asked, levels(), required).verdict;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_what_levels_and_orders_differ_by) {
+  const FieldComparison result = compare(question(), levels(), 0.02);
+  BOOST_TEST((result.verdict == Verdict::agree));
+  BOOST_TEST(result.difference.l2 == fine_error, boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(result.levels_change.l2 == 9.0 * fine_error, boost::test_tools::tolerance(1e-3));
+  // Not the ninth of it that is left if errors go on falling by 10: how fast they fall is known from two changes alone.
+  BOOST_TEST(result.fem_error() == 9.0 * fine_error, boost::test_tools::tolerance(1e-2));
+  BOOST_TEST(result.bie_error() == fine_error, boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(result.order.value() == 3.0 * std::log(10.0) / std::log(8.0), boost::test_tools::tolerance(1e-3));
+}
+
+BOOST_AUTO_TEST_CASE(wrong_numbers_do_not) {
+  for (const double factor : {1.003, 0.997, -1.0, 0.5, 100.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    FieldQuestion wrong = question();
+    for (Eigen::MatrixXd* numbers : {&wrong.judged, &wrong.bie, &wrong.bie_high}) *numbers *= factor;
+    BOOST_TEST((verdict(wrong) == Verdict::does_not), factor);
+  }
+}
+
+// One right order used to suffice: the other half of the verdict could not fail.
+BOOST_AUTO_TEST_CASE(neither_order_may_be_random) {
+  FieldQuestion random = question();
+  random.bie_high = Eigen::MatrixXd::Random(1, 50);
+  BOOST_TEST((verdict(random) == Verdict::undecided));
+  random = question();
+  random.judged = random.bie = Eigen::MatrixXd::Random(1, 50);
+  BOOST_TEST((verdict(random) != Verdict::agree));
+}
+
+BOOST_AUTO_TEST_CASE(errors_above_what_is_required_decide_nothing) {
+  BOOST_TEST((verdict(question(), 1e-3) == Verdict::agree));
+  BOOST_TEST((verdict(question(), 2e-4) == Verdict::undecided));
+  FieldQuestion coarse = question();
+  coarse.bie_high = field(1.05);
+  BOOST_TEST((verdict(coarse) == Verdict::undecided));
+  coarse = question();
+  coarse.further_error = field(0.05);
+  BOOST_TEST((verdict(coarse) == Verdict::undecided));
+}
+
+// A small field is a remainder of large ones: half of it wrong is not hidden by the size of those.
+BOOST_AUTO_TEST_CASE(small_fields_are_judged_by_their_own_size) {
+  FieldQuestion small = question();
+  small.natural_size = 30.0e7;
+  BOOST_TEST((verdict(small) == Verdict::agree));
+  small.judged *= 1.01;
+  BOOST_TEST((verdict(small) == Verdict::does_not));
+}
+
+BOOST_AUTO_TEST_CASE(zero_is_judged_by_the_natural_size) {
+  FieldQuestion zero = question();
+  for (Eigen::MatrixXd* numbers : {&zero.judged, &zero.bie, &zero.bie_high}) numbers->setZero();
+  BOOST_TEST((verdict(zero) == Verdict::does_not), "the elements have a field");
+  zero.natural_size = 1e6;
+  LevelSequence rounded = levels();
+  for (Level* each : {&rounded.levels[0], &rounded.levels[1], &rounded.levels[2], &rounded.far, &rounded.rough}) {
+    each->surface["q"].setZero();
+  }
+  BOOST_TEST((compare(zero, rounded, 0.02).verdict == Verdict::agree));
+  rounded.levels[2].surface["q"].setConstant(27.0);
+  rounded.levels[1].surface["q"].setConstant(26.0);
+  BOOST_TEST((compare(zero, rounded, 0.02).verdict == Verdict::does_not), "27 times an error is no zero");
+}
+
+// At a ratio of conductivities of 1e7 a residual of 1e-11 left 5 % of q.
+BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_measured) {
+  LevelSequence sequence = levels();
+  sequence.rough = level(0.5, 1000);
+  const FieldComparison result = compare(question(), sequence, 0.02);
+  BOOST_TEST(result.solver > 0.04);
+  BOOST_TEST((result.verdict == Verdict::undecided));
+}
+
+BOOST_AUTO_TEST_CASE(background_does_not_hide_what_is_left) {
+  FieldQuestion asked = question();
+  const Eigen::MatrixXd background = Eigen::MatrixXd::Constant(1, 50, 1e5);
+  LevelSequence shifted = levels();
+  for (Level* each : {&shifted.levels[0], &shifted.levels[1], &shifted.levels[2], &shifted.far, &shifted.rough}) {
+    each->surface["q"] += background;
+  }
+  for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers = 1.01 * *numbers + background;
+  BOOST_TEST((compare(without(asked, background), shifted, 0.02).verdict == Verdict::does_not));
+}
+
+BOOST_AUTO_TEST_CASE(numbers_without_finite_elements_are_judged_by_the_boundary_integrals) {
+  FieldQuestion asked = question();
+  asked.values.clear();
+  BOOST_TEST((verdict(asked) == Verdict::agree));
+  BOOST_TEST(compare(asked, levels(), 0.02).fem_error() == 0.0);
+  asked.judged *= 1.001;
+  BOOST_TEST((verdict(asked) == Verdict::does_not));
+}
+
+// The last change is no larger than the error itself where levels come near in a row.
+BOOST_AUTO_TEST_CASE(difference_of_the_size_of_the_last_change_is_no_disagreement) {
+  FieldQuestion asked = question();
+  for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers *= 1.0 + 9.0 * fine_error;
+  BOOST_TEST((verdict(asked) == Verdict::agree));
+}
+
+BOOST_AUTO_TEST_CASE(single_level_has_an_unknown_error) {
+  LevelSequence one = levels();
+  one.levels = {one.levels.back()};
+  BOOST_TEST((compare(question(), one, 0.02).verdict == Verdict::undecided));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
