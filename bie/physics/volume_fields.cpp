@@ -1,5 +1,11 @@
 #include "bie/physics/volume_fields.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bie/support/errors.hpp"
+
 namespace vehd {
 
 namespace {
@@ -33,10 +39,14 @@ PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& pos
 
 VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const VelocitySources& sources,
                             const OffSurfaceSettings& settings, Instruments& instruments) {
+  const double ratio = sources.viscosity_ratio;
+  if (!(ratio > 0.0)) throw InputError(fmt::format("viscosity ratio of {}; accepted: > 0", ratio));
   LayerDensities densities;
   densities.stokes_single = or_zero(sources.weighted_force, position, 3);
+  if (ratio != 1.0) densities.stokes_double = sources.membrane_velocity;
+  // The outer limit is the one that needs no division.
   OffSurfaceValues layers =
-      OffSurfaceLayers(position, std::move(densities), settings).evaluate(points, Side::principal_value, instruments);
+      OffSurfaceLayers(position, std::move(densities), settings).evaluate(points, Side::exterior, instruments);
   require_resolved(layers, points);
   VelocitySamples samples;
   samples.velocity = layers.stokes_single.values / sources.viscosity;
@@ -44,6 +54,15 @@ VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const 
     samples.velocity.row(i) += sources.background(points.row(i).transpose()).transpose();
   }
   samples.velocity_error = layers.stokes_single.error / sources.viscosity;
+  if (ratio != 1.0) {
+    samples.velocity += (1.0 - ratio) * layers.stokes_double.values;
+    samples.velocity_error += std::abs(1.0 - ratio) * layers.stokes_double.error;
+    for (Index i = 0; i < points.rows(); ++i) {
+      if (layers.side[i] != Side::interior) continue;
+      samples.velocity.row(i) /= ratio;
+      samples.velocity_error[i] /= ratio;
+    }
+  }
   samples.side = std::move(layers.side);
   samples.distance = std::move(layers.distance);
   return samples;

@@ -36,11 +36,13 @@ struct PotentialSamples {
 PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& position, const PotentialSources& sources,
                               const OffSurfaceSettings& settings, Instruments& instruments);
 
-/// What the velocity off the membrane is made of, the same viscosity on both sides; an empty force is zero.
+/// What the velocity off the membrane is made of; an empty force is zero.
 struct VelocitySources {
-  double viscosity = 1.0;
+  double viscosity = 1.0;                             ///< μ of the outside
   std::function<Vector3(const Vector3&)> background;  ///< v_∞ at a point; empty in a quiescent fluid
-  Matrix weighted_force;  ///< J f, f = f_b + f_λ − f_E acting on the fluid, coefficients [n_coefficients x 3]
+  Matrix weighted_force;         ///< J f, f = f_b + f_λ − f_E acting on the fluid, coefficients [n_coefficients x 3]
+  double viscosity_ratio = 1.0;  ///< inside over outside, > 0
+  Matrix membrane_velocity;      ///< v on γ, coefficients [n_coefficients x 3]; read where the ratio is not 1
 };
 
 /// The velocity at points off the membrane.
@@ -51,14 +53,17 @@ struct VelocitySamples {
   Vector distance;
 };
 
-/// v(x) = v_∞(x) + (1/8πμ) ∫ (I/|r| + r rᵀ/|r|³) f dA, Eq. (5), r = x − y: continuous across the membrane, so that
-/// points on it need no side.
+/// v(x) = w(x) outside and w(x)/Λ inside, Λ the ratio of the viscosities, with
+///   w(x) = v_∞(x) + (1/8πμ) ∫ (I/|r| + r rᵀ/|r|³) f dA + (1 − Λ) D[v](x), r = x − y,
+/// D the Stokes double layer (stokes_double_kernel): Eq. (5) where Λ = 1. Continuous across the membrane, so that
+/// points on it need no side. Where Λ is small, errors of w count 1/Λ times inside.
 /// @throws ConvergenceError if the quadrature is not resolved at some point
+/// @throws InputError unless Λ > 0
 /// @param points    [n_points x 3]
 /// @param position  coefficients of the membrane, [n_coefficients x 3]
-/// Accuracy: that of the force at degree p; around a translating sphere to 1e-10, around a 2:1 prolate to 1e-7
-/// (tests/physics/volume_fields_test.cpp)
-/// Source: paper Eq. (5)
+/// Accuracy: that of the densities at degree p; around a translating sphere to 1e-10, around a 2:1 prolate to 1e-7, a
+/// flow common to two fluids to 1e-5 at p = 24 (tests/physics/volume_fields_test.cpp) Source: paper Eq. (5); two
+/// viscosities: Pozrikidis 1992
 VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const VelocitySources& sources,
                             const OffSurfaceSettings& settings, Instruments& instruments);
 

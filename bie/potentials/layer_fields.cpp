@@ -37,6 +37,12 @@ LayerFields make_layer_fields(const Matrix& position, const LayerDensities& dens
     columns.stokes = columns.count;
     columns.count += 3;
   }
+  if (densities.stokes_double.size() > 0) {
+    require_size("density of the Stokes double layer (Cartesian components)", densities.stokes_double.cols(), 3);
+    fields.stokes_double = append("density of the Stokes double layer", densities.stokes_double);
+    columns.stokes_double = columns.count;
+    columns.count += 3;
+  }
   return fields;
 }
 

@@ -10,13 +10,15 @@ struct LayerDensities {
   Vector laplace_single;   ///< J f, [n_coefficients]
   Vector laplace_double;   ///< f, [n_coefficients]
   Matrix stokes_single;    ///< J f, [n_coefficients x 3]
+  Matrix stokes_double;    ///< v, [n_coefficients x 3]
   bool gradients = false;  ///< of the Laplace layers
 };
 
 /// Position and densities side by side: what is rotated and synthesised together, and which node columns follow.
 struct LayerFields {
-  Matrix coefficients;                              ///< [n_coefficients x fields], the position first
-  int single = -1, double_layer = -1, stokes = -1;  ///< first field of each density, −1 if absent
+  Matrix coefficients;  ///< [n_coefficients x fields], the position first
+  /// First field of each density, −1 if absent.
+  int single = -1, double_layer = -1, stokes = -1, stokes_double = -1;
   NodeColumns columns;
 };
 

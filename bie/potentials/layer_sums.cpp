@@ -101,6 +101,23 @@ void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Ve
     }
     sums.stokes += Vector3(sx, sy, sz);
   }
+  if (columns.stokes_double >= 0) {
+    const double* fx = nodes.column(columns.stokes_double);
+    const double* fy = nodes.column(columns.stokes_double + 1);
+    const double* fz = nodes.column(columns.stokes_double + 2);
+    double sx = 0.0, sy = 0.0, sz = 0.0;
+#pragma omp simd reduction(+ : sx, sy, sz)
+    for (Index i = 0; i < n; ++i) {
+      const Separation r = separation(offset, px, py, pz, i);
+      const double r_dot_area = r.x * (uy[i] * vz[i] - uz[i] * vy[i]) + r.y * (uz[i] * vx[i] - ux[i] * vz[i]) +
+                                r.z * (ux[i] * vy[i] - uy[i] * vx[i]);
+      const auto k = stokes_double_kernel(r.x, r.y, r.z, r_dot_area, r.inverse);
+      sx += weight[i] * (k[0] * fx[i] + k[1] * fy[i] + k[2] * fz[i]);
+      sy += weight[i] * (k[1] * fx[i] + k[3] * fy[i] + k[4] * fz[i]);
+      sz += weight[i] * (k[2] * fx[i] + k[4] * fy[i] + k[5] * fz[i]);
+    }
+    sums.stokes_double += Vector3(sx, sy, sz);
+  }
 }
 
 }  // namespace vehd

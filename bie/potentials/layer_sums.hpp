@@ -11,7 +11,7 @@ struct NodeColumns {
   int tangent_1 = 3;  ///< 3 columns
   int tangent_2 = 6;  ///< 3 columns
   int single = -1, double_layer = -1, double_1 = -1, double_2 = -1;
-  int stokes = -1;  ///< 3 columns
+  int stokes = -1, stokes_double = -1;  ///< 3 columns each
   int count = 9;
   bool single_gradient = false;
 };
@@ -23,6 +23,7 @@ struct LayerSums {
   double double_layer = 0.0;                  ///< ∫ f r·J n/|r|³ dω
   Vector3 double_gradient = Vector3::Zero();  ///< −∫ r/|r|³ × (J n×∇_γ f) dω
   Vector3 stokes = Vector3::Zero();           ///< ∫ (I/|r| + r rᵀ/|r|³)(J f) dω
+  Vector3 stokes_double = Vector3::Zero();    ///< ∫ r rᵀ v r·J n/|r|⁵ dω
   double solid_angle = 0.0;                   ///< ∫ r·J n/|r|³ dω: −4π inside, 0 outside
 };
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "bie/potentials/foot_point.hpp"
+#include "bie/potentials/near_rule.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/potentials/target_frame.hpp"
 #include "bie/potentials/target_values.hpp"
@@ -20,11 +20,8 @@ namespace vehd {
 
 namespace {
 
-constexpr double kNodeGrowth = 1.25;
 /// Distance over spacing of the coarser smooth grid from which the smooth rule has a chance: exp(−2π 3.5) = 3e-10.
 constexpr double kFarSpacings = 3.5;
-/// Finest grading, t = 2^−50: beyond it every distance is rounding.
-constexpr int kFinestLevel = 50;
 
 /// What the one-sided limits of the gradients take from the densities at the foot point.
 struct FootDensities {
@@ -39,26 +36,13 @@ struct FreeTarget {
   FootPoint foot;
   bool near = false;
   bool on_membrane = false;
-  int level = 0;    ///< grading scale 2^−level
-  int azimuth = 0;  ///< n_phi starts at kNodeGrowth^azimuth times the least
+  NearRule rule;
   Side side = Side::exterior;
   double distance = 0.0;
   TargetValues values;
   LayerSizes last_change;
   bool resolved = false;
 };
-
-int even(double n) { return 2 * static_cast<int>(std::ceil(0.5 * n)); }
-
-/// Levels of the azimuthal ladder above the least node count: along a circle about the pole |x − y| oscillates with the
-/// ratio of the stretches, and the trapezoidal rule gains the factor (a + b)/(a − b) with every two nodes.
-int azimuth_level(const FootPoint& foot, int least, double tolerance) {
-  constexpr int kHighest = 5;
-  const double gain =
-      (foot.largest_stretch + foot.smallest_stretch) / (foot.largest_stretch - foot.smallest_stretch + 1e-300);
-  const double needed = 2.0 * std::log(1.0 / tolerance) / std::log(std::max(gain, 1.0 + 1e-6));
-  return std::clamp(static_cast<int>(std::ceil(std::log(needed / least) / std::log(kNodeGrowth))), 0, kHighest);
-}
 
 }  // namespace
 
@@ -83,10 +67,6 @@ struct OffSurfaceLayers::Data {
         radius(mean_radius(coarse)),
         sizes(density_sizes(coarse, fields.columns)) {}
 
-  [[nodiscard]] FootPoint foot_from(Index node, const Vector3& point) const {
-    return find_foot_point(position, coarse.directions.row(node).transpose(), point);
-  }
-
   /// Smooth rule where it suffices. @return nodes visited
   Index try_far(FreeTarget& target) const {
     target.nearest = nearest_nodes(coarse, target.point);
@@ -102,29 +82,12 @@ struct OffSurfaceLayers::Data {
     return coarse.n_nodes() + fine.n_nodes();
   }
 
-  [[nodiscard]] int least_n_theta(int level) const { return static_cast<int>(std::ceil(1.15 * order)) + 8 + level; }
-  [[nodiscard]] int least_n_phi() const { return 2 * order + 12; }
-
   void locate(FreeTarget& target, Side membrane_side) const {
-    target.foot = foot_from(target.nearest.first, target.point);
-    if (target.nearest.opposite_counts) {
-      const FootPoint opposite = foot_from(target.nearest.opposite, target.point);
-      if (std::abs(opposite.height) < std::abs(target.foot.height)) target.foot = opposite;
-    }
+    target.foot = nearest_foot(position, coarse, target.nearest, target.point);
     target.distance = std::abs(target.foot.height);
     target.on_membrane = target.distance < settings.membrane_distance * radius;
     target.side = target.on_membrane ? membrane_side : target.foot.height < 0.0 ? Side::interior : Side::exterior;
-    if (!target.on_membrane) {
-      const double ratio = target.foot.largest_stretch / target.distance;
-      target.level = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(ratio, 1.0)))), 0, kFinestLevel);
-    }
-    target.azimuth = azimuth_level(target.foot, least_n_phi(), settings.tolerance);
-  }
-
-  [[nodiscard]] GradedRule rule(int level, int azimuth, int stage) const {
-    return make_graded_rule(order, std::exp2(-level),
-                            static_cast<int>(std::ceil(least_n_theta(level) * std::pow(kNodeGrowth, stage))),
-                            even(least_n_phi() * std::pow(kNodeGrowth, azimuth + stage)));
+    target.rule = near_rule(target.foot, order, settings.tolerance, target.on_membrane);
   }
 
   [[nodiscard]] FootDensities foot_densities(const FootPoint& foot) const {
@@ -148,6 +111,9 @@ struct OffSurfaceLayers::Data {
                                          const FootDensities& at_foot, const LayerSums& sums) const {
     TargetValues v = with_prefactors(sums);
     if (fields.double_layer >= 0) v.double_layer += frame.pole()[fields.double_layer] * enclosure_of(target.side);
+    if (fields.stokes_double >= 0) {
+      v.stokes_double += frame.pole().segment<3>(fields.stokes_double).transpose() * enclosure_of(target.side);
+    }
     if (target.on_membrane) {
       // The sums are principal values there; the interior limits add ½ f n to ∇S and −½ ∇_γ f to ∇D.
       const double jump = enclosure_of(Side::principal_value) - enclosure_of(target.side);
@@ -208,6 +174,7 @@ OffSurfaceValues collect(const std::vector<FreeTarget>& targets, const NodeColum
   prepare(out.laplace_double, columns.double_layer >= 0, 1);
   prepare(out.laplace_double_gradient, columns.double_1 >= 0, 3);
   prepare(out.stokes_single, columns.stokes >= 0, 3);
+  prepare(out.stokes_double, columns.stokes_double >= 0, 3);
   out.side.resize(targets.size());
   out.distance.resize(n);
   out.resolved.resize(n);
@@ -225,6 +192,7 @@ OffSurfaceValues collect(const std::vector<FreeTarget>& targets, const NodeColum
     put(out.laplace_double, i, double_layer, t.last_change.double_layer);
     put(out.laplace_double_gradient, i, t.values.double_gradient.transpose(), t.last_change.double_gradient);
     put(out.stokes_single, i, t.values.stokes.transpose(), t.last_change.stokes);
+    put(out.stokes_double, i, t.values.stokes_double.transpose(), t.last_change.stokes_double);
     out.side[i] = t.side;
     out.distance[i] = t.distance;
     out.resolved[i] = t.resolved;
@@ -238,6 +206,7 @@ void count(Instruments& instruments, const NodeColumns& columns, std::uint64_t e
   if (columns.double_layer >= 0) instruments.count_kernel("laplace_double", evaluations);
   if (columns.double_1 >= 0) instruments.count_kernel("laplace_double_gradient", evaluations);
   if (columns.stokes >= 0) instruments.count_kernel("stokes_single", evaluations);
+  if (columns.stokes_double >= 0) instruments.count_kernel("stokes_double", evaluations);
 }
 
 }  // namespace
@@ -265,15 +234,15 @@ OffSurfaceValues OffSurfaceLayers::evaluate(const Matrix& points, Side side, Ins
 
   // Targets that share the tables of their rules.
   for (int stage = 1; stage < data.settings.max_rules; ++stage) {
-    std::map<std::pair<int, int>, std::vector<Index>> groups;
+    std::map<NearRule, std::vector<Index>> groups;
     for (Index i = 0; i < n; ++i) {
-      if (!targets[i].resolved) groups[{targets[i].level, targets[i].azimuth}].push_back(i);
+      if (!targets[i].resolved) groups[targets[i].rule].push_back(i);
     }
-    for (const auto& [key, group] : groups) {
+    for (const auto& [choice, group] : groups) {
       const std::vector<Index>& members = group;  // OpenMP takes no structured binding
       std::vector<GradedRule> rules;
-      if (stage == 1) rules.push_back(data.rule(key.first, key.second, 0));
-      rules.push_back(data.rule(key.first, key.second, stage));
+      if (stage == 1) rules.push_back(make_near_rule(data.order, choice, 0));
+      rules.push_back(make_near_rule(data.order, choice, stage));
       const Index n_members = static_cast<Index>(members.size());
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : evaluations)
       for (Index i = 0; i < n_members; ++i) evaluations += data.run_rules(targets[members[i]], rules, stage == 1);

@@ -32,22 +32,24 @@ struct OffSurfaceValues {
   LayerField laplace_single, laplace_single_gradient;
   LayerField laplace_double, laplace_double_gradient;
   LayerField stokes_single;  ///< at μ = 1
-  std::vector<Side> side;    ///< where each target stands; on the membrane as stated in the call
-  Vector distance;           ///< from the membrane; of far targets, from its nearest quadrature node
+  LayerField stokes_double;
+  std::vector<Side> side;  ///< where each target stands; on the membrane as stated in the call
+  Vector distance;         ///< from the membrane; of far targets, from its nearest quadrature node
   Eigen::Array<bool, Eigen::Dynamic, 1> resolved;
 };
 
 /// Layer potentials of given densities at any points, near and far, inside and outside:
-///   S[f](x) = ∫ G f dA, D[f](x) = ∫ ∂G/∂n(y) f dA, their gradients, and the Stokes single layer, Eqs. (6), (8), (9).
+///   S[f](x) = ∫ G f dA, D[f](x) = ∫ ∂G/∂n(y) f dA, their gradients, and both Stokes layers, Eqs. (6), (8), (9) and
+/// stokes_double_kernel.
 /// Far targets take the smooth rule of upsampled grids. Near ones take a rule whose pole is the nearest point y0 of the
 /// membrane and whose nodes crowd there in step with the distance (GradedRule), positions relative to y0 so that
 /// nothing cancels, and
 ///   D[f] = D[f − f(y0)] + f(y0) D[1], D[1] = −1 inside, 0 outside, −½ on the membrane,
 ///   ∇D[f] = ∫ ∇G × (n×∇_γ f) dA,
-/// in place of the strongly singular forms. Every target goes through rules of rising size until two agree.
-/// Accuracy: that of the densities and of the surface at degree p, whatever the distance (docs/near_membrane.md).
-/// Layers of harmonics on a sphere to 1e-9 at every distance on either side (tests/potentials/off_surface_test.cpp).
-/// Source: paper Eqs. (6), (8), (9); D[1] of Gauss's theorem
+/// the Stokes double layer like D, in place of the strongly singular forms. Every target goes through rules of rising
+/// size until two agree. Accuracy: that of the densities and of the surface at degree p, whatever the distance
+/// (docs/near_membrane.md). Layers of harmonics on a sphere to 1e-9 at every distance on either side
+/// (tests/potentials/off_surface_test.cpp). Source: paper Eqs. (6), (8), (9); D[1] of Gauss's theorem
 class OffSurfaceLayers {
  public:
   /// @param position  coefficients of the membrane, [n_coefficients x 3]

@@ -31,6 +31,9 @@ void put_columns(const LayerFields& fields, const SphereDerivatives& f, Matrix& 
     nodes.col(columns.double_2) = f.d2.col(fields.double_layer);
   }
   if (columns.stokes >= 0) nodes.middleCols(columns.stokes, 3) = f.value.middleCols(fields.stokes, 3);
+  if (columns.stokes_double >= 0) {
+    nodes.middleCols(columns.stokes_double, 3) = f.value.middleCols(fields.stokes_double, 3);
+  }
 }
 
 }  // namespace

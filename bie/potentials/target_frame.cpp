@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/sphere/rotation.hpp"
 
 namespace vehd {
 
@@ -12,9 +11,10 @@ TargetFrame::TargetFrame(const LayerFields& fields, double theta, double phi)
     : fields_(fields),
       order_(order_of(fields.coefficients.rows())),
       n_fields_(fields.coefficients.cols()),
+      phi_(phi),
+      rotation_(rotation_y(order_, theta)),
       pole_(Eigen::RowVectorXd::Zero(n_fields_)) {
   for (int m = 0; m <= order_; ++m) rotated_.emplace_back(Matrix::Zero(order_ + 1 - m, 2 * n_fields_));
-  const RotationY rotation = rotation_y(order_, theta);
   Matrix cosine, sine;
   for (int n = 0; n <= order_; ++n) {
     cosine.resize(n + 1, n_fields_);
@@ -31,8 +31,8 @@ TargetFrame::TargetFrame(const LayerFields& fields, double theta, double phi)
       cosine.row(m) = c * a + s * b;
       sine.row(m - 1) = c * b - s * a;
     }
-    const Matrix cosine_after = rotation.cosine[n] * cosine;
-    const Matrix sine_after = rotation.sine[n] * sine;
+    const Matrix cosine_after = rotation_.cosine[n] * cosine;
+    const Matrix sine_after = rotation_.sine[n] * sine;
     for (int m = 0; m <= n; ++m) {
       rotated_[m].row(n - m).head(n_fields_) = cosine_after.row(m);
       if (m > 0) rotated_[m].row(n - m).tail(n_fields_) = sine_after.row(m - 1);
@@ -66,6 +66,9 @@ RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
     if (columns.double_layer >= 0) put_value(columns.double_layer, fields_.double_layer);
     if (columns.double_1 >= 0) put_tangents(columns.double_1, columns.double_2, fields_.double_layer);
     for (int i = 0; i < 3 && columns.stokes >= 0; ++i) put_value(columns.stokes + i, fields_.stokes + i);
+    for (int i = 0; i < 3 && columns.stokes_double >= 0; ++i) {
+      put_value(columns.stokes_double + i, fields_.stokes_double + i);
+    }
   }
   // The tables hold differences from the pole.
   const auto add_pole = [&](int column, Index field) {
@@ -76,12 +79,38 @@ RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
   return result;
 }
 
+RowMatrix TargetFrame::nodes(const GradedRule& rule) const { return rule.fourier * amplitudes(rule); }
+
+RowMatrix TargetFrame::rotated_back(const std::vector<Matrix>& rotated) const {
+  const Index n_columns = rotated.front().cols() / 2;
+  RowMatrix result(n_columns, fields_.coefficients.rows());
+  Matrix cosine, sine;
+  for (int n = 0; n <= order_; ++n) {
+    cosine.resize(n + 1, n_columns);
+    sine.resize(n, n_columns);
+    for (int m = 0; m <= n; ++m) {
+      cosine.row(m) = rotated[m].row(n - m).head(n_columns);
+      if (m > 0) sine.row(m - 1) = rotated[m].row(n - m).tail(n_columns);
+    }
+    const Matrix cosine_before = rotation_.cosine[n].transpose() * cosine;
+    const Matrix sine_before = rotation_.sine[n].transpose() * sine;
+    result.col(coefficient_index(n, 0)) = cosine_before.row(0).transpose();
+    for (int m = 1; m <= n; ++m) {
+      const double c = std::cos(m * phi_);
+      const double s = std::sin(m * phi_);
+      result.col(coefficient_index(n, m)) = (c * cosine_before.row(m) - s * sine_before.row(m - 1)).transpose();
+      result.col(coefficient_index(n, -m)) = (s * cosine_before.row(m) + c * sine_before.row(m - 1)).transpose();
+    }
+  }
+  return result;
+}
+
 LayerSums TargetFrame::integrate(const GradedRule& rule, const Vector3& offset) const {
   const Index n_theta = rule.theta.size();
-  const RowMatrix nodes = rule.fourier * amplitudes(rule);
+  const RowMatrix values = nodes(rule);
   LayerSums sums;
   for (int k = 0; k < rule.n_phi; ++k) {
-    add_layer_sums(fields_.columns, {nodes.row(k).data(), n_theta, n_theta, rule.weight.data()}, offset, sums);
+    add_layer_sums(fields_.columns, {values.row(k).data(), n_theta, n_theta, rule.weight.data()}, offset, sums);
   }
   return sums;
 }

@@ -4,6 +4,7 @@
 
 #include "bie/potentials/graded_rule.hpp"
 #include "bie/potentials/layer_fields.hpp"
+#include "bie/sphere/rotation.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -19,8 +20,17 @@ class TargetFrame {
   /// Values of the fields at the pole.
   [[nodiscard]] const Eigen::RowVectorXd& pole() const { return pole_; }
 
-  /// Sums over the nodes of a rule for a target at `offset` from the position of the pole. The double layer is that of
-  /// f − f(pole): the rest of D is the caller's.
+  /// Fields at the nodes of a rule, one row per azimuth: column c of NodeColumns at node i is entry c * n_theta + i.
+  /// Positions are relative to that of the pole, and so are the densities of double layers.
+  [[nodiscard]] RowMatrix nodes(const GradedRule& rule) const;
+  /// Coefficients of the pole's frame taken back to those of the sphere, by the adjoint of the rotation: a row over the
+  /// former that is applied to rotated densities becomes one that is applied to the densities.
+  /// @param rotated  per m [(order + 1 − m) x 2 columns], cosines and sines
+  /// @return         [columns x n_coefficients]
+  [[nodiscard]] RowMatrix rotated_back(const std::vector<Matrix>& rotated) const;
+
+  /// Sums over the nodes of a rule for a target at `offset` from the position of the pole. The double layers are those
+  /// of f − f(pole): the rest of D is the caller's.
   [[nodiscard]] LayerSums integrate(const GradedRule& rule, const Vector3& offset) const;
 
  private:
@@ -30,6 +40,8 @@ class TargetFrame {
   const LayerFields& fields_;
   int order_;
   Index n_fields_;
+  double phi_;
+  RotationY rotation_;
   std::vector<Matrix> rotated_;  ///< per m [(order + 1 − m) x 2 n_fields], cosines and sines
   Eigen::RowVectorXd pole_;
 };

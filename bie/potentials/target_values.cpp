@@ -15,6 +15,7 @@ TargetValues with_prefactors(const LayerSums& sums) {
   v.double_layer = kLaplacePrefactor * sums.double_layer;
   v.double_gradient = kLaplacePrefactor * sums.double_gradient;
   v.stokes = stokes_single_layer_prefactor(1.0) * sums.stokes;
+  v.stokes_double = kStokesDoubleLayerPrefactor * sums.stokes_double;
   v.enclosure = kLaplacePrefactor * sums.solid_angle;
   return v;
 }
@@ -32,9 +33,12 @@ double enclosure_of(Side side) {
 }
 
 LayerSizes change(const TargetValues& a, const TargetValues& b) {
-  return {std::abs(a.single - b.single), std::abs(a.double_layer - b.double_layer),
-          (a.single_gradient - b.single_gradient).norm(), (a.double_gradient - b.double_gradient).norm(),
-          (a.stokes - b.stokes).norm()};
+  return {std::abs(a.single - b.single),
+          std::abs(a.double_layer - b.double_layer),
+          (a.single_gradient - b.single_gradient).norm(),
+          (a.double_gradient - b.double_gradient).norm(),
+          (a.stokes - b.stokes).norm(),
+          (a.stokes_double - b.stokes_double).norm()};
 }
 
 LayerSizes density_sizes(const SmoothGrid& grid, const NodeColumns& columns) {
@@ -59,13 +63,17 @@ LayerSizes density_sizes(const SmoothGrid& grid, const NodeColumns& columns) {
     const Vector weighted = grid.nodes.middleCols(columns.stokes, 3).rowwise().norm();
     sizes.stokes = radius * weighted.cwiseQuotient(area).maxCoeff();
   }
+  if (columns.stokes_double >= 0) {
+    sizes.stokes_double = grid.nodes.middleCols(columns.stokes_double, 3).rowwise().norm().maxCoeff();
+  }
   return sizes;
 }
 
 bool is_small(const LayerSizes& change, const LayerSizes& sizes, double tolerance) {
   return change.single <= tolerance * sizes.single && change.double_layer <= tolerance * sizes.double_layer &&
          change.single_gradient <= tolerance * sizes.single_gradient &&
-         change.double_gradient <= tolerance * sizes.double_gradient && change.stokes <= tolerance * sizes.stokes;
+         change.double_gradient <= tolerance * sizes.double_gradient && change.stokes <= tolerance * sizes.stokes &&
+         change.stokes_double <= tolerance * sizes.stokes_double;
 }
 
 }  // namespace vehd

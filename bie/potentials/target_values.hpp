@@ -10,11 +10,12 @@ namespace vehd {
 /// Layer potentials at one target.
 struct TargetValues {
   double single = 0.0, double_layer = 0.0;
-  Vector3 single_gradient = Vector3::Zero(), double_gradient = Vector3::Zero(), stokes = Vector3::Zero();
+  Vector3 single_gradient = Vector3::Zero(), double_gradient = Vector3::Zero();
+  Vector3 stokes = Vector3::Zero(), stokes_double = Vector3::Zero();
   double enclosure = 0.0;  ///< D[1]
 };
 
-/// The sums with 1/(4π), and 1/(8π) for the Stokes layer at μ = 1.
+/// The sums with 1/(4π), 1/(8π) for the Stokes single layer at μ = 1 and 3/(4π) for the Stokes double layer.
 /// Source: paper Eqs. (6), (9)
 TargetValues with_prefactors(const LayerSums& sums);
 
@@ -24,7 +25,8 @@ double enclosure_of(Side side);
 
 /// One size per layer: of a change, or of what a change is small against.
 struct LayerSizes {
-  double single = 0.0, double_layer = 0.0, single_gradient = 0.0, double_gradient = 0.0, stokes = 0.0;
+  double single = 0.0, double_layer = 0.0, single_gradient = 0.0, double_gradient = 0.0, stokes = 0.0,
+         stokes_double = 0.0;
 };
 
 /// Absolute change of every layer from one evaluation to another.

@@ -8,6 +8,7 @@
 #include "bie/physics/point_sources.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/electric.hpp"
+#include "tests/support/point_force.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/targets.hpp"
 
@@ -278,6 +279,47 @@ BOOST_AUTO_TEST_CASE(translating_prolate_carries_its_fluid_along_up_to_the_membr
     const Matrix exact = speed * Vector3::UnitZ().transpose().replicate(found.rows(), 1);
     BOOST_TEST(max_difference(found, exact) < 1e-7 * speed, "height " << height);
   }
+}
+
+// The flow of a point force far away fills both fluids where the membrane supplies the difference of the tractions,
+// f = (Λ − 1) t.
+BOOST_AUTO_TEST_CASE(flow_common_to_two_fluids_is_found_inside_on_and_outside_the_membrane) {
+  const Vector3 far(2.4, 1.1, -1.6), force(0.7, -0.4, 0.6);
+  const auto exact_at = [&](const Vector3& x) -> Vector3 {
+    const Vector3 r = x - far;
+    const double d = r.norm();
+    return stokes_single_layer_prefactor(1.0) * (force / d + r.dot(force) / (d * d * d) * r);
+  };
+  for (const auto& [order, bound] : {std::pair{16, 2e-3}, {24, 1e-5}}) {
+    const Space space(order);
+    const Matrix position = asymmetric_shape(order);
+    const Surface surface = make_surface(space.fine, position);
+    const PointForce flow = point_force(surface, far, force);
+    const MembranePoints points = membrane_points(position, scattered_angles(20));
+    for (const double ratio : {0.2, 1.0, 5.0, 300.0}) {
+      VelocitySources sources;
+      sources.background = exact_at;
+      sources.viscosity_ratio = ratio;
+      sources.weighted_force = (ratio - 1.0) * weighted(space, surface, flow.traction);
+      sources.membrane_velocity = space.fine.analyze(flow.velocity);
+      std::vector<double> all = heights(0.2);
+      all.push_back(0.0);
+      for (const double height : all) {
+        const Matrix x = points.at_height(height);
+        Matrix exact(x.rows(), 3);
+        for (Index i = 0; i < x.rows(); ++i) exact.row(i) = exact_at(x.row(i).transpose()).transpose();
+        const double scale = std::abs(ratio - 1.0) * (height < 0.0 ? 1.0 / ratio : 1.0) + 1e-9;
+        BOOST_TEST(relative_difference(velocity(x, position, sources), exact) < bound * scale,
+                   "degree " << order << " ratio " << ratio << " height " << height);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_ratio_of_viscosities_that_divides_by_zero_is_refused) {
+  VelocitySources sources;
+  sources.viscosity_ratio = 0.0;
+  BOOST_CHECK_THROW(velocity(Matrix::Ones(1, 3), sphere(8, 1.0), sources), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(unresolved_points_are_refused_by_name) {

@@ -110,9 +110,10 @@ BOOST_AUTO_TEST_CASE(threads_change_no_bit_and_every_kernel_is_counted) {
   omp_set_num_threads(threads);
   BOOST_TEST(max_difference(serial.laplace_double.values, parallel.laplace_double.values) == 0.0);
   BOOST_TEST(max_difference(serial.stokes_single.values, parallel.stokes_single.values) == 0.0);
+  BOOST_TEST(max_difference(serial.stokes_double.values, parallel.stokes_double.values) == 0.0);
   BOOST_TEST(max_difference(serial.laplace_double_gradient.values, parallel.laplace_double_gradient.values) == 0.0);
-  for (const char* kernel :
-       {"laplace_single", "laplace_single_gradient", "laplace_double", "laplace_double_gradient", "stokes_single"}) {
+  for (const char* kernel : {"laplace_single", "laplace_single_gradient", "laplace_double", "laplace_double_gradient",
+                             "stokes_single", "stokes_double"}) {
     BOOST_TEST(one.kernel_evaluations().at(kernel) > 36u * 1000u);
     BOOST_TEST(one.kernel_evaluations().at(kernel) == three.kernel_evaluations().at(kernel));
   }
@@ -123,7 +124,7 @@ BOOST_AUTO_TEST_CASE(cost_grows_with_the_logarithm_of_the_distance) {
   for (const int order : {12, 16, 24}) {
     const Matrix position = shape_33(order);
     LayerDensities laplace = all_densities(order);
-    laplace.stokes_single = {};
+    laplace.stokes_single = laplace.stokes_double = {};
     LayerDensities stokes;
     stokes.stokes_single = all_densities(order).stokes_single;
     const OffSurfaceLayers potential(position, laplace);

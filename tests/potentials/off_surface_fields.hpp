@@ -113,6 +113,7 @@ inline LayerDensities all_densities(int order) {
   d.laplace_single = smooth_coefficients(order, 6, 1, 61);
   d.laplace_double = smooth_coefficients(order, 6, 1, 62);
   d.stokes_single = smooth_coefficients(order, 6, 3, 63);
+  d.stokes_double = smooth_coefficients(order, 6, 3, 64);
   d.gradients = true;
   return d;
 }

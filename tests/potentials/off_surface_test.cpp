@@ -96,6 +96,34 @@ BOOST_AUTO_TEST_CASE(double_layer_of_a_constant_is_the_solid_angle_and_tells_the
   }
 }
 
+// On shape (33), whose nearest nodes are not the same for all directions: D[a + b × y] is −(a + b × x) inside, 0
+// outside.
+BOOST_AUTO_TEST_CASE(stokes_double_layer_of_a_rigid_motion_is_the_motion_inside_and_nothing_outside) {
+  const Matrix position = shape_33(16);
+  const Vector3 a(0.3, -0.7, 1.1), b(-0.4, 0.9, 0.2);
+  const auto motion = [&](const Matrix& x) {
+    Matrix v(x.rows(), 3);
+    for (Index i = 0; i < x.rows(); ++i) v.row(i) = b.cross(Vector3(x.row(i).transpose())).transpose();
+    return v;
+  };
+  LayerDensities densities;
+  densities.stokes_double = motion(position);
+  densities.stokes_double.row(0) += std::sqrt(4.0 * std::numbers::pi) * a.transpose();
+  const OffSurfaceLayers layers(position, densities);
+  const MembranePoints points = membrane_points(position, scattered_angles(30));
+  for (const double height : heights(0.1)) {
+    const Matrix targets = points.at_height(height);
+    const Matrix expected = (height < 0.0 ? -1.0 : 0.0) * (motion(targets).rowwise() + a.transpose());
+    BOOST_TEST(max_difference(evaluate(layers, targets).stokes_double.values, expected) < 1e-9, "height " << height);
+  }
+  const Matrix on_membrane = motion(points.position).rowwise() + a.transpose();
+  for (const auto& [side, share] :
+       {std::pair{Side::interior, -1.0}, {Side::exterior, 0.0}, {Side::principal_value, -0.5}}) {
+    const OffSurfaceValues v = evaluate(layers, points.position, side);
+    BOOST_TEST(max_difference(v.stokes_double.values, share * on_membrane) < 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(green_representation_is_as_accurate_near_the_membrane_as_on_it) {
   for (const int order : {12, 16, 24}) {
     const PointField field(order, asymmetric_shape(order), {0.25, -0.1, 0.3}, {2.4, 1.1, -1.6});
@@ -141,13 +169,14 @@ BOOST_AUTO_TEST_CASE(values_agree_with_a_very_fine_smooth_rule) {
   const Matrix gradient = surface_gradient(surface, f);
   const Matrix weighted_single = fine.synthesize(densities.laplace_single);
   const Matrix weighted_stokes = fine.synthesize(densities.stokes_single);
+  const Matrix velocity = fine.synthesize(densities.stokes_double);
   const MembranePoints points = membrane_points(position, scattered_angles(5));
   for (const double height : {-0.12, 0.1}) {
     const Matrix targets = points.at_height(height);
     const OffSurfaceValues v = evaluate(OffSurfaceLayers(position, densities), targets);
     for (Index i = 0; i < targets.rows(); ++i) {
       double s = 0.0, d = 0.0;
-      Vector3 grad_s = Vector3::Zero(), grad_d = Vector3::Zero(), u = Vector3::Zero();
+      Vector3 grad_s = Vector3::Zero(), grad_d = Vector3::Zero(), u = Vector3::Zero(), w = Vector3::Zero();
       for (Index k = 0; k < surface.n_points(); ++k) {
         const Vector3 r = (targets.row(i) - surface.position.row(k)).transpose();
         const double r1 = r.norm();
@@ -162,6 +191,7 @@ BOOST_AUTO_TEST_CASE(values_agree_with_a_very_fine_smooth_rule) {
         // The gradient of the kernel itself: n/r³ − 3 (r·n) r/r⁵.
         grad_d += dA * f.value(k) * (n / r3 - 3.0 * r.dot(n) / (r3 * r1 * r1) * r);
         u += dw * (force / r1 + r.dot(force) / r3 * r);
+        w += dA * velocity.row(k).dot(r) * r.dot(n) / (r3 * r1 * r1) * r;
       }
       const double four_pi = 4.0 * std::numbers::pi;
       BOOST_TEST(std::abs(v.laplace_single.values(i) - s / four_pi) < 1e-10);
@@ -169,6 +199,7 @@ BOOST_AUTO_TEST_CASE(values_agree_with_a_very_fine_smooth_rule) {
       BOOST_TEST((v.laplace_single_gradient.values.row(i).transpose() - grad_s / four_pi).norm() < 1e-9);
       BOOST_TEST((v.laplace_double_gradient.values.row(i).transpose() - grad_d / four_pi).norm() < 1e-8);
       BOOST_TEST((v.stokes_single.values.row(i).transpose() - u / (2.0 * four_pi)).norm() < 1e-10);
+      BOOST_TEST((v.stokes_double.values.row(i).transpose() - 3.0 * w / four_pi).norm() < 1e-9);
     }
   }
 }
@@ -178,7 +209,9 @@ BOOST_AUTO_TEST_CASE(layers_approach_the_operators_on_the_membrane) {
   const Space space(kOrder);
   const Matrix position = asymmetric_shape(kOrder);
   const LayerDensities densities = all_densities(kOrder);
-  const LayerOperators operators = assemble(space, position, kAllLayers);
+  LayerSelection selection = kAllLayers;
+  selection.stokes_double = true;
+  const LayerOperators operators = assemble(space, position, selection);
   const GridAngles angles = scattered_angles(30);
   const MembranePoints points = membrane_points(position, angles);
   const auto on_membrane = [&](const Matrix& coefficients) {
@@ -188,6 +221,8 @@ BOOST_AUTO_TEST_CASE(layers_approach_the_operators_on_the_membrane) {
   const Matrix mean = on_membrane(operators.laplace_double.apply(densities.laplace_double));
   const Matrix f = on_membrane(densities.laplace_double);
   const Matrix stokes = on_membrane(operators.stokes_single.apply(densities.stokes_single));
+  const Matrix mean_flow = on_membrane(operators.stokes_double.apply(densities.stokes_double));
+  const Matrix velocity = on_membrane(densities.stokes_double);
   const OffSurfaceLayers layers(position, densities);
   for (const double height : {-1e-8, 0.0, 1e-8}) {
     const OffSurfaceValues v = evaluate(layers, points.at_height(height));
@@ -196,6 +231,7 @@ BOOST_AUTO_TEST_CASE(layers_approach_the_operators_on_the_membrane) {
       BOOST_TEST(relative_difference(v.stokes_single.values, stokes) < 1e-7);
       const double share = height < 0.0 ? -0.5 : height > 0.0 ? 0.5 : 0.0;
       BOOST_TEST(relative_difference(v.laplace_double.values, mean + share * f) < 1e-7);
+      BOOST_TEST(relative_difference(v.stokes_double.values, mean_flow + share * velocity) < 5e-7);
     }
   }
 }
@@ -214,6 +250,7 @@ BOOST_AUTO_TEST_CASE(single_layers_are_continuous_and_the_others_jump_by_their_d
   Vector f(n);
   Matrix charge_jump(n, 3);
   Matrix gradient_jump(n, 3);
+  const Matrix velocity = evaluate_harmonics(densities.stokes_double, angles.theta, angles.phi);
   for (Index i = 0; i < n; ++i) {
     const PointDerivatives x = point_derivatives(position, {angles.theta[i], angles.phi[i]});
     const PointDerivatives d = point_derivatives(densities.laplace_double, {angles.theta[i], angles.phi[i]});
@@ -232,6 +269,7 @@ BOOST_AUTO_TEST_CASE(single_layers_are_continuous_and_the_others_jump_by_their_d
   BOOST_TEST(max_difference(in.laplace_single.values, out.laplace_single.values) < 1e-9);
   BOOST_TEST(max_difference(in.stokes_single.values, out.stokes_single.values) < 1e-9);
   BOOST_TEST(max_difference(in.laplace_double.values - out.laplace_double.values, -f) < 1e-9);
+  BOOST_TEST(max_difference(in.stokes_double.values - out.stokes_double.values, -velocity) < 1e-9);
   BOOST_TEST(max_difference(in.laplace_single_gradient.values - out.laplace_single_gradient.values, charge_jump) <
              1e-8);
   BOOST_TEST(max_difference(in.laplace_double_gradient.values - out.laplace_double_gradient.values, gradient_jump) <

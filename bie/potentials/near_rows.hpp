@@ -1,0 +1,44 @@
+#pragma once
+
+#include "bie/potentials/target_frame.hpp"
+
+namespace vehd {
+
+/// Layers of one membrane that are wanted at points of another; N is the normal there.
+struct PairSelection {
+  bool laplace_single = false;
+  bool laplace_single_normal = false;  ///< N·∇S, S′ where source and target are the same membrane
+  bool laplace_double = false;
+  bool laplace_double_normal = false;  ///< N·∇D
+  bool stokes_single = false;
+  bool stokes_double = false;
+};
+
+/// Which rows belong to which layer: one for a scalar layer, six (xx, xy, xz, yy, yz, zz) for a Stokes layer, −1 for a
+/// layer that is not selected.
+struct PairColumns {
+  int single = -1, single_normal = -1, double_layer = -1, double_normal = -1, stokes = -1, stokes_double = -1;
+  int count = 0;
+
+  explicit PairColumns(const PairSelection& selection);
+};
+
+/// Layers at one target outside the membrane as rows over the coefficients of their densities.
+struct NearRows {
+  RowMatrix rows;          ///< [PairColumns::count x n_coefficients], with prefactors, Stokes single layer at μ = 1
+  double enclosure = 0.0;  ///< D[1] by the same nodes, 0 in exact arithmetic
+};
+
+/// The kernels on the nodes of a rule about the point of the membrane that is nearest to the target, taken back to
+/// coefficients by the adjoint of "rotation, synthesis". Single layers act on J f, double layers on f; these are those
+/// of f − f(foot), which is all of them outside.
+/// @param frame   of the membrane, its pole at the foot of the target; fields without densities
+/// @param offset  target minus foot
+/// @param normal  N at the target
+/// Accuracy: rounding of the rule's sums; the rows give what OffSurfaceLayers gives to 1e-9
+/// (tests/potentials/pair_layers_test.cpp)
+/// Source: paper Eqs. (6), (8), (9); stokes_double_kernel
+NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vector3& offset, const Vector3& normal,
+                   const PairColumns& columns);
+
+}  // namespace vehd

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+
+#include "bie/potentials/near_rows.hpp"
+#include "bie/support/instruments.hpp"
+
+namespace vehd {
+
+/// How far the rules of PairLayers go.
+struct PairSettings {
+  /// Error of the rules relative to the largest density, times the radius √(area/4π) of the source for the single
+  /// layers.
+  double tolerance = 1e-10;
+  /// Rules of near targets at most, each with a quarter more nodes in either direction.
+  int max_rules = 9;
+};
+
+/// How many targets take which way.
+struct PairCounts {
+  Index far = 0;        ///< by the smooth rule
+  Index near = 0;       ///< by rows of coefficients
+  Index far_nodes = 0;  ///< of all far targets together
+};
+
+/// Layers of one membrane at points of another, all outside the first, as linear maps that are made once and applied
+/// many times. Far targets take the smooth rule of a grid as coarse as their distance allows; near ones a row over the
+/// coefficients of the density, made once by the adjoint of the rule about the nearest point (near_rows).
+/// Applications are sums in fixed order: the same bits for any count of threads.
+/// Accuracy: the tolerance, times the density, at every gap; layers of given densities on two shapes without symmetry
+/// at gaps from 1e-3 to 10 to 1e-9 (tests/potentials/pair_layers_test.cpp) Source: paper Eqs. (6), (8), (9) with source
+/// and target on different membranes
+class PairLayers {
+ public:
+  /// @param source   coefficients of the source membrane, [n_coefficients x 3]
+  /// @param points   targets, [n_targets x 3]
+  /// @param normals  N at the targets, [n_targets x 3]
+  /// @throws ConvergenceError if the nearest point of a target is not found, if a target is not outside the source, or
+  /// if
+  ///     the rules do not settle
+  PairLayers(const Matrix& source, const Matrix& points, const Matrix& normals, const PairSelection& selection,
+             const PairSettings& settings, Instruments& instruments);
+  ~PairLayers();
+  PairLayers(PairLayers&&) noexcept;
+  PairLayers& operator=(PairLayers&&) noexcept;
+
+  // Each throws std::logic_error if it was not selected, and ShapeError for a density of another degree.
+
+  /// S[f] at the targets from the coefficients of J f. @return [n_targets]
+  [[nodiscard]] Vector laplace_single(const Vector& weighted) const;
+  /// N·∇S[f] from J f. @return [n_targets]
+  [[nodiscard]] Vector laplace_single_normal(const Vector& weighted) const;
+  /// D[f] from f. @return [n_targets]
+  [[nodiscard]] Vector laplace_double(const Vector& density) const;
+  /// N·∇D[f] from f. @return [n_targets]
+  [[nodiscard]] Vector laplace_double_normal(const Vector& density) const;
+  /// Stokes single layer at μ = 1 from J f, [n_coefficients x 3]. @return [n_targets x 3]
+  [[nodiscard]] Matrix stokes_single(const Matrix& weighted) const;
+  /// Stokes double layer from v, [n_coefficients x 3]. @return [n_targets x 3]
+  [[nodiscard]] Matrix stokes_double(const Matrix& velocity) const;
+
+  [[nodiscard]] const PairCounts& counts() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+}  // namespace vehd
