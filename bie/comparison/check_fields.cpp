@@ -116,10 +116,9 @@ class FrozenSolver {
       const Matrix stored = resize_order(frozen_.fields.vesicles.front().force_electric, result.order);
       result.velocity_own_force = velocity_of(padded + stored - result.force_electric);
     }
-    // Off the membrane the velocity is known as a single layer alone.
-    if (membrane_.contrast) return;
     const auto background = [gradient = flow_gradient(frozen_)](const Vector3& x) -> Vector3 { return gradient * x; };
-    const VelocitySources sources{frozen_.model.viscosity, background, weighted(padded)};
+    const VelocitySources sources{frozen_.model.viscosity, background, weighted(padded),
+                                  vesicle_of(frozen_).viscosity_ratio, result.velocity};
     keep_samples(result.sample_velocity, where_possible(samples, 4, [&](const Matrix& points) {
                    const VelocitySamples at = velocity_at(points, position_, sources, {}, instruments_);
                    return with_sides(at.velocity, at.side);

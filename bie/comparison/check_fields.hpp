@@ -37,8 +37,7 @@ struct CheckFields {
   Matrix velocity;              ///< from the given force
   Matrix velocity_own_force;    ///< with this solution's own f_E in the force
   Vector sample_potential;      ///< φ at the sample points, V_m prescribed
-  Matrix sample_velocity;       ///< v at the sample points, [n_points x 3], from the given force;
-                                ///< empty where viscosities differ
+  Matrix sample_velocity;       ///< v at the sample points, [n_points x 3], from the given force
   std::vector<bool> is_inside;  ///< side of each sample point
   double seconds = 0.0;
 };

@@ -102,4 +102,16 @@ BOOST_AUTO_TEST_CASE(points_without_a_value_are_told_by_it) {
   BOOST_TEST(unknown > 0);
 }
 
+// Between fluids of different viscosity as well: a higher degree finds the same velocity inside and outside.
+BOOST_AUTO_TEST_CASE(velocity_off_the_membrane_is_found_at_another_viscosity_inside) {
+  const Frozen frozen(scene_in_shear());
+  const vehd::CheckSamples samples = vehd::check_samples(frozen.position());
+  const vehd::Matrix low = frozen.at(12, samples.points).sample_velocity;
+  const vehd::Matrix middle = frozen.at(16, samples.points).sample_velocity;
+  const vehd::Matrix high = frozen.at(24, samples.points).sample_velocity;
+  BOOST_TEST_REQUIRE(low.rows() == samples.points.rows());
+  BOOST_TEST(difference(middle, high) < 0.5 * difference(low, high));
+  BOOST_TEST(difference(middle, high) < 1e-2);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
