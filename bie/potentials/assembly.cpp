@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "bie/potentials/layer_operators.hpp"
+#include "bie/potentials/longitude_sums.hpp"
+#include "bie/potentials/small_product.hpp"
 #include "bie/potentials/target_images.hpp"
 #include "bie/potentials/target_rows.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -13,30 +15,12 @@ namespace vehd {
 
 namespace {
 
-/// Rows: cos mφ_k for m = 0..order, then sin mφ_k for m = 1..order, scaled so that sums over k give Fourier amplitudes.
-RowMatrix fourier_matrix(const SphereGrid& grid, int order) {
-  RowMatrix fourier(2 * order + 1, grid.n_phi);
-  for (int k = 0; k < grid.n_phi; ++k) {
-    for (int m = 0; m <= order; ++m) {
-      const double scale = (m == 0 ? 1.0 : 2.0) / grid.n_phi;
-      fourier(m, k) = scale * std::cos(m * grid.phi[k]);
-      if (m > 0) fourier(order + m, k) = scale * std::sin(m * grid.phi[k]);
-    }
-  }
-  return fourier;
-}
-
-constexpr std::size_t kLargestChunk = 12;
-
 /// Targets that share the matrix products: enough columns for efficiency, few enough to stay in cache.
-std::size_t chunk_size(std::size_t n_targets) {
-  const std::size_t n_chunks = (n_targets + kLargestChunk - 1) / kLargestChunk;
-  return (n_targets + n_chunks - 1) / n_chunks;
-}
+constexpr std::size_t kChunk = 8;
 
 /// Latitudes that share a chunk where each has few targets.
 int batch_count(int n_latitudes, int n_targets) {
-  const int shared = std::max(1, static_cast<int>(kLargestChunk) / n_targets);
+  const int shared = std::max(1, static_cast<int>(kChunk) / n_targets);
   return (n_latitudes + shared - 1) / shared;
 }
 
@@ -74,45 +58,53 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const TargetImages images({reflections, fold}, kernels, active, grid.n_phi);
   const std::vector<int>& originals = images.originals();
   const Index n = active.count();
-  const Index n_modes = 2 * azimuthal_order + 1;
-  const RowMatrix fourier = fourier_matrix(grid, azimuthal_order);
+  const LongitudeSums longitudes(grid, azimuthal_order);
+  const Index n_modes = longitudes.n_modes();
   const int n_originals = static_cast<int>(originals.size());
   const int n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
   const int n_batches = batch_count(n_latitudes, n_originals);
   const std::uint64_t evaluations = evaluations_per_assembly(quadrature, transform, reflections, fold);
   // Kernel values below which waking a second thread costs more than it saves.
   constexpr std::uint64_t kParallelEvaluations = 50000;
+  const Index n_columns = kernels.count * n;
+  const Index width = (n_columns + kLanes - 1) / kLanes * kLanes;
   // Per Fourier mode of the target azimuth: [kernels * coefficients x latitudes].
-  std::vector<Matrix> modes(n_modes, Matrix(kernels.count * n, grid.n_theta));
-#pragma omp parallel for schedule(dynamic, 1) if (evaluations > kParallelEvaluations)
-  for (int batch = 0; batch < n_batches; ++batch) {
-    const int first_latitude = batch * n_latitudes / n_batches;
-    const int end_latitude = (batch + 1) * n_latitudes / n_batches;
+  std::vector<Matrix> modes(n_modes, Matrix(width, grid.n_theta));
+#pragma omp parallel if (evaluations > kParallelEvaluations)
+  {
+    TargetRows worker(quadrature, kernels, position, azimuthal_order, static_cast<int>(kChunk), images.in_mirror());
+    RowMatrix rows = RowMatrix::Zero(grid.n_phi * ((n_latitudes + n_batches - 1) / n_batches), width);
     std::vector<Target> targets;
-    for (int j = first_latitude; j < end_latitude; ++j) {
-      for (const int k : originals) {
-        const Index i = Index{j} * grid.n_phi + k;
-        targets.push_back(
-            {j, grid.phi[k], x.value.row(i), area_vector.row(i), Index{j - first_latitude} * grid.n_phi + k});
+    std::vector<double*> amplitudes(n_modes);
+#pragma omp for schedule(dynamic, 1)
+    for (int batch = 0; batch < n_batches; ++batch) {
+      const int first_latitude = batch * n_latitudes / n_batches;
+      const int end_latitude = (batch + 1) * n_latitudes / n_batches;
+      targets.clear();
+      for (int j = first_latitude; j < end_latitude; ++j) {
+        for (const int k : originals) {
+          const Index i = Index{j} * grid.n_phi + k;
+          targets.push_back(
+              {j, grid.phi[k], x.value.row(i), area_vector.row(i), Index{j - first_latitude} * grid.n_phi + k});
+        }
       }
-    }
-    const std::size_t chunk = chunk_size(targets.size());
-    TargetRows worker(quadrature, kernels, position, azimuthal_order, static_cast<int>(chunk), images.in_mirror());
-    RowMatrix rows(Index{end_latitude - first_latitude} * grid.n_phi, kernels.count * n);
-    for (std::size_t done = 0; done < targets.size(); done += chunk) {
-      // The last chunk reaches back over targets that are done already.
-      worker.run(std::span(targets).subspan(std::min(done, targets.size() - chunk), chunk), rows);
-    }
-    for (int j = first_latitude; j < end_latitude; ++j) {
-      auto rows_of_latitude = rows.middleRows(Index{j - first_latitude} * grid.n_phi, grid.n_phi);
-      images.fill(rows_of_latitude);
-      const RowMatrix spectrum = fourier * rows_of_latitude;
-      for (Index mode = 0; mode < n_modes; ++mode) {
-        modes[mode].col(j) = spectrum.row(mode);
+      // Copies of the last target fill the last chunk.
+      while (targets.size() % kChunk != 0) targets.push_back(Target(targets.back()));
+      for (std::size_t done = 0; done < targets.size(); done += kChunk) {
+        worker.run(std::span(targets).subspan(done, kChunk), rows);
+      }
+      for (int j = first_latitude; j < end_latitude; ++j) {
+        auto rows_of_latitude = rows.middleRows(Index{j - first_latitude} * grid.n_phi, grid.n_phi);
+        images.fill(rows_of_latitude.leftCols(n_columns));
+        for (Index mode = 0; mode < n_modes; ++mode) amplitudes[mode] = modes[mode].col(j).data();
+        longitudes.run(rows_of_latitude.data(), width, amplitudes);
         if (!images.flip()) continue;
-        const int m = static_cast<int>(mode <= azimuthal_order ? mode : azimuthal_order - mode);
-        modes[mode].col(grid.n_theta - 1 - j) =
-            images.flip()->azimuthal_parity(m) * spectrum.row(mode).cwiseProduct(images.flip_signs());
+        for (Index mode = 0; mode < n_modes; ++mode) {
+          const int m = static_cast<int>(mode <= azimuthal_order ? mode : azimuthal_order - mode);
+          modes[mode].col(grid.n_theta - 1 - j).head(n_columns) =
+              images.flip()->azimuthal_parity(m) *
+              modes[mode].col(j).head(n_columns).cwiseProduct(images.flip_signs().transpose());
+        }
       }
     }
   }
@@ -121,7 +113,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
 #pragma omp parallel for schedule(dynamic, 1) if (evaluations > kParallelEvaluations)
   for (Index mode = 0; mode < n_modes; ++mode) {
     const int m = static_cast<int>(mode <= azimuthal_order ? mode : mode - azimuthal_order);
-    const Matrix product = modes[mode] * quadrature.target_analysis[m];
+    const Matrix product = modes[mode].topRows(n_columns) * quadrature.target_analysis[m];
     for (Index i = 0; i < n; ++i) {
       if (active.m[i] != (mode <= azimuthal_order ? m : -m)) continue;
       for (int c = 0; c < kernels.count; ++c) {
