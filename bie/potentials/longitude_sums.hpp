@@ -33,7 +33,7 @@ class LongitudeSums {
 
   int n_phi_;
   int order_;
-  Index n_quarter_;             ///< longitudes from 0 to π/2
+  Index n_quarter_;               ///< longitudes from 0 to π/2
   std::vector<Family> families_;  ///< cosines of even, of odd, sines of even, of odd m
 };
 

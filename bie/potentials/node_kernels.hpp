@@ -11,7 +11,7 @@ namespace vehd {
 /// A node of the target grid.
 struct Target {
   int latitude = 0;
-  double phi = 0.0;
+  int longitude = 0;
   Vector3 position;
   Vector3 area_vector;  ///< J n
   Index row = 0;        ///< where its kernel rows go

@@ -44,10 +44,17 @@ void panel(Index rows, Index inner, Factor a, const double* b, Index b_stride, d
   for (Index i = 0, done = 0; i < n_blocks; ++i) {
     const Index height = rows * (i + 1) / n_blocks - done;
     switch (height) {
-      case 4: block<4, kPieces>(inner, a, b, b_stride, c, c_stride); break;
-      case 3: block<3, kPieces>(inner, a, b, b_stride, c, c_stride); break;
-      case 2: block<2, kPieces>(inner, a, b, b_stride, c, c_stride); break;
-      default: block<1, kPieces>(inner, a, b, b_stride, c, c_stride);
+      case 4:
+        block<4, kPieces>(inner, a, b, b_stride, c, c_stride);
+        break;
+      case 3:
+        block<3, kPieces>(inner, a, b, b_stride, c, c_stride);
+        break;
+      case 2:
+        block<2, kPieces>(inner, a, b, b_stride, c, c_stride);
+        break;
+      default:
+        block<1, kPieces>(inner, a, b, b_stride, c, c_stride);
     }
     done += height;
     a.data += height * a.row_stride;
@@ -66,9 +73,14 @@ void small_product(Index rows, Index inner, Index columns, const Factor& a, cons
     const double* from = b + done * kLanes;
     double* to = c + done * kLanes;
     switch (width) {
-      case 3: panel<3>(rows, inner, a, from, b_stride, to, c_stride); break;
-      case 2: panel<2>(rows, inner, a, from, b_stride, to, c_stride); break;
-      default: panel<1>(rows, inner, a, from, b_stride, to, c_stride);
+      case 3:
+        panel<3>(rows, inner, a, from, b_stride, to, c_stride);
+        break;
+      case 2:
+        panel<2>(rows, inner, a, from, b_stride, to, c_stride);
+        break;
+      default:
+        panel<1>(rows, inner, a, from, b_stride, to, c_stride);
     }
     done += width;
   }

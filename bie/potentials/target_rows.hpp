@@ -23,22 +23,44 @@ FourierColumns shape_columns(bool mirrored);
 /// Likewise of the kernels.
 FourierColumns row_columns(const KernelColumns& kernels, bool mirrored);
 
+/// Are there harmonics of even, of odd degree?
+struct DegreeParities {
+  std::array<bool, 2> shape{true, true};  ///< in x
+  std::array<bool, 2> rows{true, true};   ///< in the entries of the rows that are wanted
+};
+
+/// Which entries of the rows are wanted, and where they go.
+struct RowPlaces {
+  /// [kernels * active coefficients], order-major: column of each entry, −1 for none; empty: all where they are.
+  std::vector<Index> columns;
+  DegreeParities degrees;
+};
+
+/// What is the same for all targets of an assembly; it and what it refers to must outlive the rows.
+struct TargetContext {
+  const RotatedQuadrature& quadrature;
+  const KernelColumns& kernels;
+  const Matrix& position;  ///< coefficients of x, [n_coefficients x 3]
+  const Vector& phi;       ///< longitudes of the target grid
+  int azimuthal_order;
+  bool mirrored;  ///< all targets lie in a plane of symmetry y = 0
+};
+
 /// Work of one thread: the kernel rows of a chunk of targets, which share the matrix products. Targets of one latitude
 /// stand together. Where all targets lie in a plane of symmetry y = 0, what they see at azimuths φ and −φ about them is
 /// equal up to signs, so that one half of the nodes is enough. Latitudes θ and π − θ of the rotated grid share their
 /// Legendre sums, four azimuths their Fourier sums, and the nodes of one latitude go from coefficients of the shape to
-/// those of the kernels before the next one is begun, so that they stay in cache.
-/// Source: Gimbutas and Veerapaneni 2013 for phase shift, rotation and synthesis; here the same chain runs backwards as
-/// well, so that a kernel row becomes a row over coefficients
+/// those of the kernels before the next one is begun, so that they stay in cache. Where x and all wanted entries have
+/// odd degrees alone, x(−s) = −x(s), opposite nodes share all sums. Source: Gimbutas and Veerapaneni 2013 for phase
+/// shift, rotation and synthesis; here the same chain runs backwards as well, so that a kernel row becomes a row over
+/// coefficients
 class TargetRows {
  public:
-  /// @param position  coefficients of x, [n_coefficients x 3]; it and the other references must outlive the rows
-  /// @param chunk     targets at a time, a multiple of kLanes
-  /// @param mirrored  all targets lie in a plane of symmetry y = 0
-  TargetRows(const RotatedQuadrature& quadrature, const KernelColumns& kernels, const Matrix& position,
-             int azimuthal_order, int chunk, bool mirrored);
+  /// @param places  must outlive the rows
+  /// @param chunk   targets at a time, a multiple of kLanes
+  TargetRows(const TargetContext& context, const RowPlaces& places, int chunk);
 
-  /// Fills rows of `rows`, [targets x at least kernels * active coefficients], coefficients in order-major order.
+  /// Fills rows of `rows` where the places say.
   /// @param targets  as many as the chunk
   void run(std::span<const Target> targets, RowMatrix& rows);
 
@@ -55,6 +77,8 @@ class TargetRows {
   void evaluate_latitude(int i);
   void fourier_synthesis(int kind, int i);
   void load_nodes(Index quarter_node);
+  /// All images of the node, in values_.
+  void evaluate_nodes(double weight);
   void add_values(Index quarter_node);
   void fourier_adjoint(int i);
   void legendre_adjoint(bool sine);
@@ -71,10 +95,13 @@ class TargetRows {
   const RotatedQuadrature& q_;
   const KernelColumns& kernels_;
   const Matrix& position_;
+  const RowPlaces& places_;
   Index chunk_;
   int order_;
   int azimuthal_order_;
   bool mirrored_;
+  bool inverted_;  ///< degrees are odd: the southern latitudes of the rotated grid follow from the northern ones
+  int n_latitudes_;
   int n_images_;  ///< azimuths that share the Fourier sums of one
   int shape_kinds_;
   Index n_quarter_;
@@ -88,6 +115,8 @@ class TargetRows {
   std::array<std::vector<double>, kParts> row_parts_;
   std::vector<double> nodes_;   ///< [images][3 kinds][component][target]
   std::vector<double> values_;  ///< [images][kernel][target]
+  std::vector<double> opposite_values_;
+  Matrix cosines_, sines_;                           ///< of mφ, [longitude x m]
   std::vector<double> cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
   std::vector<double> rotation_entries_;
   std::vector<double> nothing_;   ///< zeros
