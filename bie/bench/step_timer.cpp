@@ -71,17 +71,15 @@ std::uint64_t StepTimer::kernel_evaluations() const {
 
 std::map<std::string, double> StepTimer::operations() const {
   const MembraneSpace space(problem_.settings, problem_.symmetry);
-  const Symmetry& symmetry = problem_.symmetry;
   std::map<std::string, double> result;
   result["operator assembly"] =
       evaluations_per_step(problem_.settings.time_order) *
       operations_per_assembly(space.quadrature(), space.targets(),
-                              needed_layers(problem_.model, problem_.model.vesicles.front(), true),
-                              symmetry.reflections, space.fold());
+                              needed_layers(problem_.model, problem_.model.vesicles.front(), true), space.subspace(),
+                              space.fold());
   const StokesOperator& stokes = evolution_.evaluation().vesicles.front().membrane->layers.stokes_single;
   if (problem_.settings.time_order == 1 && !stokes.empty()) {
-    constexpr double kBlocks = 9.0;
-    const double of_an_iteration = 2.0 * kBlocks * static_cast<double>(stokes.transposed()[0].size());
+    const double of_an_iteration = 2.0 * stokes.multiplications();
     const int in_tension = evolution_.evaluation().iterations_flow;
     result["tension solve"] = of_an_iteration * in_tension;
     result["velocity solve"] = of_an_iteration * (last_.iterations_flow - in_tension);

@@ -14,41 +14,6 @@ namespace vehd {
 
 namespace {
 
-/// One coefficient of one Cartesian component.
-struct Unknown {
-  Index position;  ///< among the operator's coefficients
-  Index entry;     ///< in the column-major [n_coefficients x 3]
-  int component;
-};
-
-/// @param active  coefficient_index of each row of the operator, ascending; empty: all
-std::vector<Unknown> symmetric_unknowns(const SymmetrySubspace& subspace, Index n_all,
-                                        const std::vector<Index>& active) {
-  std::vector<Unknown> result;
-  for (const Index entry : subspace.vectors()) {
-    const Index index = entry % n_all;
-    const auto row = std::lower_bound(active.begin(), active.end(), index);
-    const Index position = active.empty() ? index : row - active.begin();
-    result.push_back({position, entry, static_cast<int>(entry / n_all)});
-  }
-  return result;
-}
-
-/// ½ − D on the unknowns.
-Matrix half_minus(const StokesOperator& double_layer, const std::vector<Unknown>& unknowns) {
-  constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  const Index n = static_cast<Index>(unknowns.size());
-  Matrix result(n, n);
-  for (Index j = 0; j < n; ++j) {
-    for (Index i = 0; i < n; ++i) {
-      const Matrix& block = double_layer.transposed()[kBlock[unknowns[i].component][unknowns[j].component]];
-      result(i, j) = -block(unknowns[j].position, unknowns[i].position);
-    }
-  }
-  result.diagonal().array() += 0.5;
-  return result;
-}
-
 /// Orthonormal basis of the translations and rotations among the unknowns.
 Matrix rigid_motions(const Matrix& position, double radius, const std::vector<Index>& entries) {
   Matrix centred = position / radius;
@@ -80,16 +45,15 @@ ViscosityContrast::ViscosityContrast(const ViscosityContrastParameters& paramete
     : n_coefficients_(n_coefficients(fine.order())), largest_(std::max(1.0, parameters.ratio)) {
   const double ratio = parameters.ratio;
   if (!(ratio >= 0.0)) throw InputError(fmt::format("viscosity ratio is {} but must not be negative", ratio));
-  const std::vector<Unknown> unknowns = symmetric_unknowns(subspace, n_coefficients_, double_layer.active());
-  for (const Unknown& unknown : unknowns) unknowns_.push_back(unknown.entry);
-
+  unknowns_ = subspace.vectors();
   const double radius = std::cbrt(std::abs(enclosed_volume(surface)));
   rigid_ = rigid_motions(fine.analyze(surface.position), radius, unknowns_);
   // Of degree p, as v is: the product with its coefficients is the flux of v.
   const Matrix area_vector = fine.analyze(surface.area_element.asDiagonal() * surface.normal);
   const Vector flux = Vector(area_vector.reshaped()(unknowns_)).normalized();
 
-  Matrix system = half_minus(double_layer, unknowns);
+  Matrix system = -double_layer.between(n_coefficients_, unknowns_);  // ½ − D
+  system.diagonal().array() += 0.5;
   const Matrix defect = rigid_ - system * rigid_;
   system.noalias() += defect * rigid_.transpose();
   const Vector outflow = system.transpose() * flux;

@@ -1,46 +1,15 @@
-#include <algorithm>
-#include <cmath>
-#include <span>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "bie/potentials/layer_operators.hpp"
-#include "bie/potentials/target_images.hpp"
-#include "bie/potentials/target_rows.hpp"
+#include "bie/potentials/longitude_sums.hpp"
+#include "bie/potentials/small_product.hpp"
+#include "bie/potentials/target_sweep.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
-
-namespace {
-
-/// Rows: cos mφ_k for m = 0..order, then sin mφ_k for m = 1..order, scaled so that sums over k give Fourier amplitudes.
-RowMatrix fourier_matrix(const SphereGrid& grid, int order) {
-  RowMatrix fourier(2 * order + 1, grid.n_phi);
-  for (int k = 0; k < grid.n_phi; ++k) {
-    for (int m = 0; m <= order; ++m) {
-      const double scale = (m == 0 ? 1.0 : 2.0) / grid.n_phi;
-      fourier(m, k) = scale * std::cos(m * grid.phi[k]);
-      if (m > 0) fourier(order + m, k) = scale * std::sin(m * grid.phi[k]);
-    }
-  }
-  return fourier;
-}
-
-constexpr std::size_t kLargestChunk = 12;
-
-/// Targets that share the matrix products: enough columns for efficiency, few enough to stay in cache.
-std::size_t chunk_size(std::size_t n_targets) {
-  const std::size_t n_chunks = (n_targets + kLargestChunk - 1) / kLargestChunk;
-  return (n_targets + n_chunks - 1) / n_chunks;
-}
-
-/// Latitudes that share a chunk where each has few targets.
-int batch_count(int n_latitudes, int n_targets) {
-  const int shared = std::max(1, static_cast<int>(kLargestChunk) / n_targets);
-  return (n_latitudes + shared - 1) / shared;
-}
-
-}  // namespace
 
 std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                        const std::vector<Reflection>& reflections, int fold) {
@@ -52,78 +21,56 @@ std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, cons
   return n_targets * quadrature.n_nodes() / (images.in_mirror() ? 2 : 1);
 }
 
+void count_evaluations(const LayerSelection& selection, std::uint64_t evaluations, Instruments& instruments) {
+  if (selection.laplace_single) instruments.count_kernel("laplace_single", evaluations);
+  if (selection.laplace_double) instruments.count_kernel("laplace_double", evaluations);
+  if (selection.laplace_adjoint) instruments.count_kernel("laplace_adjoint", evaluations);
+  if (selection.stokes_single) instruments.count_kernel("stokes_single", evaluations);
+  if (selection.stokes_double) instruments.count_kernel("stokes_double", evaluations);
+}
+
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                         const Matrix& position, const LayerSelection& selection,
                                         Instruments& instruments, const std::vector<Reflection>& reflections,
                                         int fold) {
-  const int order = quadrature.order;
-  const int azimuthal_order = transform.azimuthal_order();
-  require_size("position", position.rows(), n_coefficients(order));
-  const SphereGrid& grid = transform.grid();
-  require_size("target grid (order)", grid.order, order);
-  const KernelColumns kernels(selection);
+  const TargetSweep sweep(quadrature, transform, position, selection, reflections, fold);
+  const KernelColumns& kernels = sweep.kernels();
   if (kernels.count == 0) return {};
-
-  const SphereDerivatives x = transform.synthesize_gradient(position);
-  Matrix area_vector(grid.n_points(), 3);  // J n
-  for (Index i = 0; i < area_vector.rows(); ++i) {
-    area_vector.row(i) = Vector3(x.d1.row(i)).cross(Vector3(x.d2.row(i))).transpose();
-  }
-
-  const ActiveCoefficients active(order, azimuthal_order);
-  const TargetImages images({reflections, fold}, kernels, active, grid.n_phi);
-  const std::vector<int>& originals = images.originals();
+  const SphereGrid& grid = transform.grid();
+  const ActiveCoefficients& active = sweep.active();
+  const TargetImages& images = sweep.images();
+  const LongitudeSums longitudes(grid, transform.azimuthal_order());
   const Index n = active.count();
-  const Index n_modes = 2 * azimuthal_order + 1;
-  const RowMatrix fourier = fourier_matrix(grid, azimuthal_order);
-  const int n_originals = static_cast<int>(originals.size());
-  const int n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
-  const int n_batches = batch_count(n_latitudes, n_originals);
-  const std::uint64_t evaluations = evaluations_per_assembly(quadrature, transform, reflections, fold);
-  // Kernel values below which waking a second thread costs more than it saves.
-  constexpr std::uint64_t kParallelEvaluations = 50000;
+  const Index n_modes = longitudes.n_modes();
+  const Index n_columns = kernels.count * n;
+  const Index width = (n_columns + kLanes - 1) / kLanes * kLanes;
+  const auto order_of_mode = [&](Index mode) {
+    return static_cast<int>(mode <= transform.azimuthal_order() ? mode : transform.azimuthal_order() - mode);
+  };
   // Per Fourier mode of the target azimuth: [kernels * coefficients x latitudes].
-  std::vector<Matrix> modes(n_modes, Matrix(kernels.count * n, grid.n_theta));
-#pragma omp parallel for schedule(dynamic, 1) if (evaluations > kParallelEvaluations)
-  for (int batch = 0; batch < n_batches; ++batch) {
-    const int first_latitude = batch * n_latitudes / n_batches;
-    const int end_latitude = (batch + 1) * n_latitudes / n_batches;
-    std::vector<Target> targets;
-    for (int j = first_latitude; j < end_latitude; ++j) {
-      for (const int k : originals) {
-        const Index i = Index{j} * grid.n_phi + k;
-        targets.push_back(
-            {j, grid.phi[k], x.value.row(i), area_vector.row(i), Index{j - first_latitude} * grid.n_phi + k});
-      }
+  std::vector<Matrix> modes(n_modes);
+  for (Matrix& mode : modes) mode.resize(width, grid.n_theta);
+  sweep.run({width, {}, true}, [&](int j, const double* rows) {
+    std::vector<double*> amplitudes;
+    for (Matrix& mode : modes) amplitudes.push_back(mode.col(j).data());
+    longitudes.run(rows, width, amplitudes);
+    if (!images.flip()) return;
+    for (Index i = 0; i < n_modes; ++i) {
+      modes[i].col(grid.n_theta - 1 - j).head(n_columns) =
+          images.flip()->azimuthal_parity(order_of_mode(i)) *
+          modes[i].col(j).head(n_columns).cwiseProduct(images.flip_signs().transpose());
     }
-    const std::size_t chunk = chunk_size(targets.size());
-    TargetRows worker(quadrature, kernels, position, azimuthal_order, static_cast<int>(chunk), images.in_mirror());
-    RowMatrix rows(Index{end_latitude - first_latitude} * grid.n_phi, kernels.count * n);
-    for (std::size_t done = 0; done < targets.size(); done += chunk) {
-      // The last chunk reaches back over targets that are done already.
-      worker.run(std::span(targets).subspan(std::min(done, targets.size() - chunk), chunk), rows);
-    }
-    for (int j = first_latitude; j < end_latitude; ++j) {
-      auto rows_of_latitude = rows.middleRows(Index{j - first_latitude} * grid.n_phi, grid.n_phi);
-      images.fill(rows_of_latitude);
-      const RowMatrix spectrum = fourier * rows_of_latitude;
-      for (Index mode = 0; mode < n_modes; ++mode) {
-        modes[mode].col(j) = spectrum.row(mode);
-        if (!images.flip()) continue;
-        const int m = static_cast<int>(mode <= azimuthal_order ? mode : azimuthal_order - mode);
-        modes[mode].col(grid.n_theta - 1 - j) =
-            images.flip()->azimuthal_parity(m) * spectrum.row(mode).cwiseProduct(images.flip_signs());
-      }
-    }
-  }
+  });
 
-  std::vector<Matrix> operators(kernels.count, Matrix(n, n));
-#pragma omp parallel for schedule(dynamic, 1) if (evaluations > kParallelEvaluations)
+  std::vector<Matrix> operators(kernels.count);
+  for (Matrix& of_kernel : operators) of_kernel.resize(n, n);
+#pragma omp parallel for schedule(dynamic, 1) if (sweep.is_parallel())
   for (Index mode = 0; mode < n_modes; ++mode) {
-    const int m = static_cast<int>(mode <= azimuthal_order ? mode : mode - azimuthal_order);
-    const Matrix product = modes[mode] * quadrature.target_analysis[m];
+    const int m = std::abs(order_of_mode(mode));
+    const Matrix product = modes[mode].topRows(n_columns) * quadrature.target_analysis[m];
+    modes[mode].resize(0, 0);
     for (Index i = 0; i < n; ++i) {
-      if (active.m[i] != (mode <= azimuthal_order ? m : -m)) continue;
+      if (active.m[i] != order_of_mode(mode)) continue;
       for (int c = 0; c < kernels.count; ++c) {
         const double* from = product.col(active.n[i] - m).data() + c * n;
         double* to = operators[c].col(active.position[i]).data();
@@ -133,31 +80,27 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   }
 
   LayerOperators result;
-  if (selection.laplace_single) {
-    result.laplace_single = ScalarOperator(std::move(operators[kernels.single]), active.indices);
-    instruments.count_kernel("laplace_single", evaluations);
-  }
-  if (selection.laplace_double) {
-    result.laplace_double = ScalarOperator(std::move(operators[kernels.double_layer]), active.indices);
-    instruments.count_kernel("laplace_double", evaluations);
-  }
-  if (selection.laplace_adjoint) {
-    result.laplace_adjoint = ScalarOperator(std::move(operators[kernels.adjoint]), active.indices);
-    instruments.count_kernel("laplace_adjoint", evaluations);
-  }
+  const auto scalar_operator = [&](int kernel) {
+    std::vector<Index> indices = active.indices;
+    if (indices.empty()) {
+      indices.resize(n);
+      std::iota(indices.begin(), indices.end(), Index{0});
+    }
+    std::vector<ScalarOperator::Part> parts;
+    parts.push_back({std::move(indices), std::move(operators[kernel])});
+    return ScalarOperator(n_coefficients(quadrature.order), std::move(parts));
+  };
+  if (selection.laplace_single) result.laplace_single = scalar_operator(kernels.single);
+  if (selection.laplace_double) result.laplace_double = scalar_operator(kernels.double_layer);
+  if (selection.laplace_adjoint) result.laplace_adjoint = scalar_operator(kernels.adjoint);
   const auto stokes_operator = [&](int first) {
     std::array<Matrix, 6> blocks;
     for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators[first + c]);
     return StokesOperator(std::move(blocks), active.indices);
   };
-  if (selection.stokes_single) {
-    result.stokes_single = stokes_operator(kernels.stokes);
-    instruments.count_kernel("stokes_single", evaluations);
-  }
-  if (selection.stokes_double) {
-    result.stokes_double = stokes_operator(kernels.stokes_double);
-    instruments.count_kernel("stokes_double", evaluations);
-  }
+  if (selection.stokes_single) result.stokes_single = stokes_operator(kernels.stokes);
+  if (selection.stokes_double) result.stokes_double = stokes_operator(kernels.stokes_double);
+  count_evaluations(selection, sweep.n_evaluations(), instruments);
   return result;
 }
 

@@ -1,10 +1,13 @@
 #include "bie/potentials/assembly_arithmetic.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <set>
 
-#include "bie/potentials/kernel_columns.hpp"
-#include "bie/potentials/target_images.hpp"
-#include "bie/potentials/target_rows.hpp"
+#include "bie/potentials/operator_blocks.hpp"
+#include "bie/potentials/target_sweep.hpp"
+#include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
 
@@ -13,30 +16,34 @@ namespace {
 double product(double rows, double inner, double columns) { return 2.0 * rows * inner * columns; }
 
 /// Wigner rotation of so many columns of coefficients, or its adjoint.
-double rotation(int order, int azimuthal_order, const FourierColumns& columns) {
+double rotation(int order, int azimuthal_order, const FourierColumns& columns, const std::array<bool, 2>& degrees) {
   const auto cosines = static_cast<double>(columns.cosine.size());
   const auto sines = static_cast<double>(columns.sine.size());
   double operations = 0.0;
   for (int n = 0; n <= order; ++n) {
+    if (!degrees[n % 2]) continue;
     const int m = std::min(n, azimuthal_order);
     operations += product(n + 1, m + 1, cosines) + product(n, m, sines);
   }
   return operations;
 }
 
-/// Legendre sums at the nodes of the rotated grid, or their adjoint; a column has cosines or sines.
-double legendre_sums(const RotatedQuadrature& quadrature, double columns) {
+/// Legendre sums on a hemisphere of the rotated grid, or their adjoint; a column has cosines or sines.
+double legendre_sums(const RotatedQuadrature& quadrature, double columns, const std::array<bool, 2>& degrees) {
+  const double hemisphere = (quadrature.n_theta + 1) / 2;
   double operations = 0.0;
   for (int m = 0; m <= quadrature.order; ++m) {
-    operations += product(quadrature.n_theta, quadrature.order + 1 - m, columns);
+    for (int n = m; n <= quadrature.order; ++n) {
+      if (degrees[n % 2]) operations += product(hemisphere, 1.0, columns);
+    }
   }
   return operations;
 }
 
 /// Sums over the azimuth, even and odd orders apart on a quarter of it, or their adjoint.
-double fourier_sums(const RotatedQuadrature& quadrature, double columns) {
+double fourier_sums(const RotatedQuadrature& quadrature, double columns, double n_latitudes) {
   const double quarter = quadrature.n_phi / 4;
-  return product(quarter, quadrature.order + 1, quadrature.n_theta * columns);
+  return product(quarter, quadrature.order + 1, n_latitudes * columns);
 }
 
 /// Kernel values at one node.
@@ -52,35 +59,59 @@ double kernel_values(const KernelColumns& kernels) {
   return operations;
 }
 
+/// From kernel rows to the matrices of the operators, over longitudes and then over latitudes.
+double analysis(const TargetSweep& sweep, const SphereTransform& transform, const SymmetrySubspace& subspace,
+                bool turned) {
+  const SphereGrid& grid = transform.grid();
+  const double n_latitudes = sweep.n_latitudes();
+  const int azimuthal_order = transform.azimuthal_order();
+  double operations = 0.0;
+  if (!subspace.symmetry().any()) {
+    const double n_rows = static_cast<double>(sweep.kernels().count) * static_cast<double>(sweep.active().count());
+    operations = n_latitudes * product(2 * azimuthal_order + 1, grid.n_phi / 4 + 1, n_rows);
+    for (int m = -azimuthal_order; m <= azimuthal_order; ++m) {
+      operations += product(n_rows, grid.n_theta, transform.order() + 1 - std::abs(m));
+    }
+    return operations;
+  }
+  const double n_targets = turned ? grid.n_phi : static_cast<double>(sweep.images().originals().size());
+  for (const OperatorBlock& block : symmetric_layout(sweep.kernels(), subspace, azimuthal_order).blocks) {
+    std::set<int> orders;
+    for (const Index i : block.out) orders.insert(order_of_index(i));
+    const auto columns = static_cast<double>(block.n_columns());
+    operations += n_latitudes * product(static_cast<double>(orders.size()), n_targets, columns);
+    operations += product(columns, n_latitudes, static_cast<double>(block.out.size()));
+  }
+  return operations;
+}
+
 }  // namespace
 
 double operations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
-                               const LayerSelection& selection, const std::vector<Reflection>& reflections, int fold) {
+                               const LayerSelection& selection, const SymmetrySubspace& subspace, int fold) {
   const KernelColumns kernels(selection);
   if (kernels.count == 0) return 0.0;
-  const SphereGrid& grid = transform.grid();
   const int order = quadrature.order;
   const int azimuthal_order = transform.azimuthal_order();
-  const ActiveCoefficients active(order, azimuthal_order);
-  const TargetImages images({reflections, fold}, kernels, active, grid.n_phi);
-  const double n_latitudes = images.flip() ? (grid.n_theta + 1) / 2 : grid.n_theta;
-  const FourierColumns shape = shape_columns(images.in_mirror());
-  const FourierColumns row = row_columns(kernels, images.in_mirror());
+  const Matrix any_shape = Matrix::Zero(n_coefficients(order), 3);
+  const TargetSweep sweep(quadrature, transform, any_shape, selection, subspace.symmetry().reflections, fold);
+  const bool mirrored = sweep.images().in_mirror();
+  const DegreeParities degrees = degree_parities(kernels, subspace, fold > 1);
+  const bool inverted = !degrees.shape[0] && !degrees.rows[0];
+  const double n_rotated_latitudes = inverted ? (quadrature.n_theta + 1) / 2 : quadrature.n_theta;
+  const FourierColumns shape = shape_columns(mirrored);
+  const FourierColumns row = row_columns(kernels, mirrored);
   const double shape_fields = static_cast<double>(shape.count()) * (kernels.need_source_normal() ? 3.0 : 1.0);
   const double row_fields = static_cast<double>(row.count());
-  const double n_nodes = static_cast<double>(quadrature.n_nodes()) / (images.in_mirror() ? 2.0 : 1.0);
+  const double n_nodes = static_cast<double>(quadrature.n_nodes()) / (mirrored ? 2.0 : 1.0);
 
-  const double of_a_target = rotation(order, azimuthal_order, shape) + legendre_sums(quadrature, shape_fields) +
-                             fourier_sums(quadrature, shape_fields) + n_nodes * kernel_values(kernels) +
-                             fourier_sums(quadrature, row_fields) + legendre_sums(quadrature, row_fields) +
-                             rotation(order, azimuthal_order, row);
-  const double n_rows = static_cast<double>(kernels.count) * static_cast<double>(active.count());
-  const double to_modes = n_latitudes * product(2 * azimuthal_order + 1, grid.n_phi, n_rows);
-  double to_degrees = 0.0;
-  for (int m = -azimuthal_order; m <= azimuthal_order; ++m) {
-    to_degrees += product(n_rows, grid.n_theta, order + 1 - std::abs(m));
-  }
-  return n_latitudes * static_cast<double>(images.originals().size()) * of_a_target + to_modes + to_degrees;
+  const double of_a_target =
+      rotation(order, azimuthal_order, shape, degrees.shape) + legendre_sums(quadrature, shape_fields, degrees.shape) +
+      fourier_sums(quadrature, shape_fields, n_rotated_latitudes) + n_nodes * kernel_values(kernels) +
+      fourier_sums(quadrature, row_fields, n_rotated_latitudes) + legendre_sums(quadrature, row_fields, degrees.rows) +
+      rotation(order, azimuthal_order, row, degrees.rows);
+  const auto n_originals = static_cast<double>(sweep.images().originals().size());
+  return sweep.n_latitudes() * n_originals * of_a_target + analysis(sweep, transform, subspace, fold > 1);
 }
 
 }  // namespace vehd

@@ -8,10 +8,11 @@
 namespace vehd {
 
 /// Floating-point operations of one assembly: its matrix products, a multiplication and an addition each counting one,
-/// and its kernels, where a square root or a division counts one as well. Arguments as in assemble_layer_operators.
+/// and its kernels, where a square root or a division counts one as well. Arguments as in
+/// assemble_symmetric_operators.
 /// Accuracy: a count of the loops as they are written; between orders 4.3 and 5 in p
 /// (tests/potentials/assembly_arithmetic_test.cpp)
 double operations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
-                               const LayerSelection& selection, const std::vector<Reflection>& reflections, int fold);
+                               const LayerSelection& selection, const SymmetrySubspace& subspace, int fold);
 
 }  // namespace vehd

@@ -1,5 +1,7 @@
 #include "bie/potentials/layer_operators.hpp"
 
+#include <algorithm>
+
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
 
@@ -26,25 +28,69 @@ Matrix scattered(const Matrix& values, const std::vector<Index>& active, Index s
   return result;
 }
 
-}  // namespace
-
-Matrix ScalarOperator::apply(const Matrix& density) const {
-  require_density(density, transposed_.rows(), active_);
-  if (!active_.empty()) {
-    return scattered(transposed_.transpose() * gathered(density, active_), active_, density.rows());
-  }
-  Matrix result(transposed_.cols(), density.cols());
-  for_each_index(transposed_.cols(), transposed_.size() > kParallelEntries, [&](Index out) {
-    for (Index f = 0; f < density.cols(); ++f) result(out, f) = transposed_.col(out).dot(density.col(f));
+/// transposedᵗ · density, every entry by one thread.
+Matrix product(const Matrix& transposed, const Matrix& density) {
+  Matrix result(transposed.cols(), density.cols());
+  for_each_index(transposed.cols(), transposed.size() > kParallelEntries, [&](Index out) {
+    for (Index f = 0; f < density.cols(); ++f) result(out, f) = transposed.col(out).dot(density.col(f));
   });
   return result;
 }
 
+}  // namespace
+
+Matrix ScalarOperator::apply(const Matrix& density) const {
+  require_size("density", density.rows(), n_coefficients_);
+  if (parts_.size() == 1 && parts_[0].transposed.rows() == n_coefficients_) {
+    return product(parts_[0].transposed, density);
+  }
+  Matrix result = Matrix::Zero(density.rows(), density.cols());
+  for (const Part& part : parts_) {
+    result(part.indices, Eigen::all) = product(part.transposed, gathered(density, part.indices));
+  }
+  return result;
+}
+
 Matrix StokesOperator::apply(const Matrix& density) const {
-  require_density(density, transposed_[0].rows(), active_);
   require_size("density (Cartesian components)", density.cols(), 3);
+  if (!entries_.empty()) {
+    require_size("density", density.rows(), n_coefficients_);
+    Matrix result = Matrix::Zero(density.rows(), 3);
+    result.reshaped()(entries_) = product(on_entries_, density.reshaped()(entries_)).col(0);
+    return result;
+  }
+  require_density(density, transposed_[0].rows(), active_);
   if (!active_.empty()) return scattered(apply_blocks(gathered(density, active_)), active_, density.rows());
   return apply_blocks(density);
+}
+
+double StokesOperator::multiplications() const {
+  return static_cast<double>(entries_.empty() ? 9 * transposed_[0].size() : on_entries_.size());
+}
+
+Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& entries) const {
+  constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const std::vector<Index>& known = entries_.empty() ? active_ : entries_;
+  // Where the matrices have each entry, −1: nowhere.
+  std::vector<Index> place;
+  for (const Index entry : entries) {
+    const Index wanted = entries_.empty() ? entry % n_coefficients : entry;
+    const auto found = std::lower_bound(known.begin(), known.end(), wanted);
+    const bool has = found != known.end() && *found == wanted;
+    place.push_back(known.empty() ? wanted : has ? found - known.begin() : -1);
+  }
+  const auto n = static_cast<Index>(entries.size());
+  Matrix result = Matrix::Zero(n, n);
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      if (place[i] < 0 || place[j] < 0) continue;
+      const Matrix& from = entries_.empty()
+                               ? transposed_[kBlock[entries[i] / n_coefficients][entries[j] / n_coefficients]]
+                               : on_entries_;
+      result(i, j) = from(place[j], place[i]);
+    }
+  }
+  return result;
 }
 
 Matrix StokesOperator::apply_blocks(const Matrix& density) const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bie/potentials/rotated_quadrature.hpp"
-#include "bie/sphere/reflection.hpp"
+#include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/instruments.hpp"
 #include "bie/support/types.hpp"
@@ -18,53 +18,70 @@ namespace vehd {
 /// area element. The densities of D and of the Stokes double layer enter plain, because J n(y) belongs to their
 /// kernels.
 
-/// Scalar layer operator from coefficients to coefficients of degree p. Stored transposed, so that applying it runs
-/// down contiguous columns. Where only some coefficients are active the matrix holds those alone, and all others are
-/// neither read nor found (they come out zero).
+/// Scalar layer operator from coefficients to coefficients of degree p: one matrix for each class of coefficients that
+/// it takes to themselves, all others being zero. Stored transposed, so that applying it runs down contiguous columns.
+/// Coefficients of no class are neither read nor found (they come out zero).
 class ScalarOperator {
  public:
-  ScalarOperator() = default;
-  /// @param active  coefficient_index of each row, or empty if all coefficients are there
-  explicit ScalarOperator(Matrix transposed, std::vector<Index> active = {})
-      : transposed_(std::move(transposed)), active_(std::move(active)) {}
+  /// The operator on some coefficients.
+  struct Part {
+    std::vector<Index> indices;  ///< coefficient_index of each row, ascending
+    Matrix transposed;
+  };
 
-  [[nodiscard]] bool empty() const { return transposed_.size() == 0; }
+  ScalarOperator() = default;
+  /// @param n_coefficients  of a density
+  ScalarOperator(Index n_coefficients, std::vector<Part> parts)
+      : n_coefficients_(n_coefficients), parts_(std::move(parts)) {}
+
+  [[nodiscard]] bool empty() const { return parts_.empty(); }
   /// Every column of the density separately. @throws ShapeError
   /// @param density  [n_coefficients x n_fields], weighted where the layer asks for it (LayerOperators)
   /// @return         [n_coefficients x n_fields]
   [[nodiscard]] Matrix apply(const Matrix& density) const;
-  [[nodiscard]] const Matrix& transposed() const { return transposed_; }
 
  private:
-  Matrix transposed_;
-  std::vector<Index> active_;
+  Index n_coefficients_ = 0;
+  std::vector<Part> parts_;
 };
 
 /// Stokes layer from [n_coefficients x 3] to [n_coefficients x 3]. The kernels of both layers are symmetric in their
-/// two components.
+/// two components. The operator on symmetric fields is one matrix over the entries that these have.
 class StokesOperator {
  public:
   StokesOperator() = default;
   /// @param transposed  blocks xx, xy, xz, yy, yz, zz
-  /// @param active      as for ScalarOperator
+  /// @param active      coefficient_index of each row, or empty if all coefficients are there
   explicit StokesOperator(std::array<Matrix, 6> transposed, std::vector<Index> active = {})
       : transposed_(std::move(transposed)), active_(std::move(active)) {}
+  /// The operator on fields that differ from zero at some entries alone; all others are neither read nor found.
+  /// @param n_coefficients  of each component
+  /// @param entries         of the column-major [n_coefficients x 3], ascending
+  /// @param transposed      [entries x entries]
+  StokesOperator(Index n_coefficients, std::vector<Index> entries, Matrix transposed)
+      : n_coefficients_(n_coefficients), entries_(std::move(entries)), on_entries_(std::move(transposed)) {}
 
-  [[nodiscard]] bool empty() const { return transposed_[0].size() == 0; }
+  [[nodiscard]] bool empty() const { return transposed_[0].size() == 0 && on_entries_.size() == 0; }
   /// @throws ShapeError
   /// @param density  force per area of the single layer as J f, velocity of the double layer as it is, [n_coefficients
   ///     x 3]
   /// @return         velocity, [n_coefficients x 3]
   [[nodiscard]] Matrix apply(const Matrix& density) const;
-  [[nodiscard]] const std::array<Matrix, 6>& transposed() const { return transposed_; }
-  /// coefficient_index of each row, empty if all coefficients are there.
-  [[nodiscard]] const std::vector<Index>& active() const { return active_; }
+  /// The operator between some entries of the column-major [n_coefficients x 3], row: velocity, column: density.
+  /// @param n_coefficients  of each component
+  /// @param entries         ascending; entries that the operator knows nothing of give zeros
+  [[nodiscard]] Matrix between(Index n_coefficients, const std::vector<Index>& entries) const;
+  /// Multiplications of one application.
+  [[nodiscard]] double multiplications() const;
 
  private:
   [[nodiscard]] Matrix apply_blocks(const Matrix& density) const;
 
   std::array<Matrix, 6> transposed_;
   std::vector<Index> active_;
+  Index n_coefficients_ = 0;
+  std::vector<Index> entries_;
+  Matrix on_entries_;
 };
 
 /// Which operators an assembly makes; whatever is false costs nothing.
@@ -91,6 +108,9 @@ struct LayerOperators {
 std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                        const std::vector<Reflection>& reflections, int fold = 1);
 
+/// Counts those of one assembly.
+void count_evaluations(const LayerSelection& selection, std::uint64_t evaluations, Instruments& instruments);
+
 /// Assembles the selected operators for one surface at cost O(p^5): each target's kernel row on the rotated
 /// quadrature is taken back to coefficients by the adjoint of "phase shift, Wigner rotation, synthesis", and the rows
 /// of all targets are analysed on the order-p grid.
@@ -109,5 +129,15 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
                                         const Matrix& position, const LayerSelection& selection,
                                         Instruments& instruments, const std::vector<Reflection>& reflections = {},
                                         int fold = 1);
+
+/// The same operators for symmetric surfaces and fields: the Stokes layers between the entries that fields which are
+/// their own image have, the Laplace layers in the classes of SymmetrySubspace. Targets that are images of one another
+/// count as one, and products and matrices shrink with the order of the group.
+/// @param subspace  of the surface and of all fields that meet Stokes layers
+/// @param fold      of the longitudes: turns by 2π/fold that take surface and longitudes to themselves
+/// Accuracy: rounding; the full operators on symmetric fields to 1e-12 (tests/potentials/symmetric_operators_test.cpp)
+LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
+                                            const Matrix& position, const LayerSelection& selection,
+                                            Instruments& instruments, const SymmetrySubspace& subspace, int fold);
 
 }  // namespace vehd

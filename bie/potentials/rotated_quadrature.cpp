@@ -23,7 +23,6 @@ RotatedQuadrature make_rotated_quadrature(const SphereGrid& targets, double over
     RowMatrix stack(3 * q.n_theta, order + 1 - m);
     stack << legendre.value[m], legendre.d_theta[m], legendre.m_over_sin[m];
     q.synthesis.push_back(std::move(stack));
-    q.adjoint.emplace_back(legendre.value[m].transpose());
   }
 
   const int quarter = q.n_phi / 4;

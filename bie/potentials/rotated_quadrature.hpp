@@ -17,7 +17,6 @@ struct RotatedQuadrature {
   int n_phi = 0;                     ///< a multiple of four
   Vector weight;                     ///< [n_theta], Gauss weight sin θ 2π/n_phi
   std::vector<RowMatrix> synthesis;  ///< per m tables of T, dT/dθ, mT/sin θ stacked [3 n_theta x (order + 1 − m)]
-  std::vector<RowMatrix> adjoint;    ///< per m Tᵗ, [(order + 1 − m) x n_theta]
   /// Fourier sums on one quarter of the circle, [n_phi/4 x modes]; parity gives the other three.
   RowMatrix cosine_even, cosine_odd, sine_even, sine_odd;
   std::vector<RotationY> rotations;     ///< one per target latitude of the order-p grid

@@ -72,6 +72,15 @@ TargetImages::TargetImages(const SurfaceMaps& maps, const KernelColumns& kernels
   in_mirror_ = originals_.size() == 1 && std::find(all.begin(), all.end(), Reflection{1, -1, 1}) != all.end();
 }
 
+std::vector<int> TargetImages::multiplicities() const {
+  std::vector<int> result;
+  for (const int k : originals_) {
+    const auto is_image = [&](const Image& image) { return image.original == k; };
+    result.push_back(1 + static_cast<int>(std::count_if(images_.begin(), images_.end(), is_image)));
+  }
+  return result;
+}
+
 void TargetImages::fill(Eigen::Ref<RowMatrix> rows) const {
   for (std::size_t k = 0; k < images_.size(); ++k) {
     const Image& image = images_[k];

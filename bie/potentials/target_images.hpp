@@ -38,6 +38,8 @@ class TargetImages {
 
   /// Azimuths whose rows have to be computed.
   [[nodiscard]] const std::vector<int>& originals() const { return originals_; }
+  /// How many azimuths each of them stands for.
+  [[nodiscard]] std::vector<int> multiplicities() const;
   /// Do these alone lie at azimuth 0, in a plane y = 0 that the surface is symmetric about?
   [[nodiscard]] bool in_mirror() const { return in_mirror_; }
   /// The reflection that takes a latitude to the other hemisphere, if there is one.

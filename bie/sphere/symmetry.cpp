@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <utility>
 
 #include "bie/sphere/harmonics.hpp"
@@ -114,9 +115,26 @@ std::vector<Index> SymmetrySubspace::vectors() const {
     for (const Index i : kept_coefficients(mirrors, component_signs(mirrors, component), order_)) {
       const int n = degree_of(i);
       const auto m = static_cast<int>(i - coefficient_index(n, 0));
-      if (!symmetry_.axisymmetric || std::abs(m) <= 1) result.push_back(component * n_coefficients(order_) + i);
+      const bool kept = !symmetry_.axisymmetric || std::abs(m) <= 1;
+      if (kept) result.push_back(component * n_coefficients() + i);
     }
   }
+  return result;
+}
+
+std::vector<std::vector<Index>> SymmetrySubspace::scalar_classes() const {
+  // A class is known by its |m| modulo the turns and by its signs under the reflections.
+  std::map<std::vector<int>, std::vector<Index>> classes;
+  for (int n = 0; n <= order_; ++n) {
+    for (int m = -n; m <= n; ++m) {
+      const int rest = std::abs(m) % symmetry_.fold;
+      std::vector<int> key{symmetry_.axisymmetric ? std::abs(m) : std::min(rest, symmetry_.fold - rest)};
+      for (const Reflection& g : symmetry_.reflections) key.push_back(g.parity(n, m));
+      classes[key].push_back(coefficient_index(n, m));
+    }
+  }
+  std::vector<std::vector<Index>> result;
+  for (auto& [key, indices] : classes) result.push_back(std::move(indices));
   return result;
 }
 

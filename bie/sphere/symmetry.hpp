@@ -34,6 +34,8 @@ class SymmetrySubspace {
   SymmetrySubspace(Symmetry symmetry, int order);
 
   [[nodiscard]] const Symmetry& symmetry() const { return symmetry_; }
+  /// Of a scalar, symmetric or not.
+  [[nodiscard]] Index n_coefficients() const { return Index{order_ + 1} * (order_ + 1); }
 
   /// coefficient_index of what is left of a scalar that is its own image, as H and λ are; ascending.
   [[nodiscard]] const std::vector<Index>& scalars() const { return scalars_; }
@@ -42,6 +44,9 @@ class SymmetrySubspace {
   /// Positions in a column-major [n_coefficients x 3] of what mirrors and the axis leave of a vector field; ascending.
   /// Turns relate its components to one another and leave no position out.
   [[nodiscard]] std::vector<Index> vectors() const;
+  /// coefficient_index of all scalars in classes, each ascending: an operator that is its own image under the
+  /// symmetries takes none to another.
+  [[nodiscard]] std::vector<std::vector<Index>> scalar_classes() const;
 
   /// Means of a field and its images: what rounding breaks of a symmetry an instability would feed on.
   [[nodiscard]] Vector symmetric_scalar(const Vector& field) const;

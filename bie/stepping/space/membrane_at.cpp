@@ -10,8 +10,8 @@ Membrane membrane_at(const MembraneSpace& space, const Matrix& position, const L
   const SymmetrySubspace& subspace = space.subspace();
   Surface surface = make_surface(space.fine_transform(), position);
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
-  LayerOperators layers = assemble_layer_operators(space.quadrature(), space.targets(), position, selection,
-                                                   instruments, subspace.symmetry().reflections, space.fold());
+  LayerOperators layers = assemble_symmetric_operators(space.quadrature(), space.targets(), position, selection,
+                                                       instruments, subspace, space.fold());
   std::optional<ViscosityContrast> contrast;
   if (selection.stokes_double) {
     contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, space.fine_transform(), surface,

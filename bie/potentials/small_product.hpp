@@ -1,0 +1,26 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Doubles that one instruction handles where targets stand side by side; columns of small_product are a multiple of
+/// it.
+constexpr int kLanes = 4;
+
+/// A factor whose entry (i, k) is at data[i * row_stride + k * column_stride]: a table, a part of it, or its transpose.
+struct Factor {
+  const double* data;
+  Index row_stride, column_stride;
+};
+
+/// C = A B where B and C have contiguous rows and A is small. Nothing is copied: libraries rearrange both factors
+/// before they multiply, which for A of ten to forty rows takes as long as the product itself.
+/// @param inner     columns of A and rows of B; 0 makes C zero
+/// @param columns   of B and C, a multiple of kLanes
+/// @param b_stride  from a row of B to the next, c_stride likewise
+/// Accuracy: rounding; terms are added in the order of k (tests/potentials/small_product_test.cpp)
+void small_product(Index rows, Index inner, Index columns, const Factor& a, const double* b, Index b_stride, double* c,
+                   Index c_stride);
+
+}  // namespace vehd

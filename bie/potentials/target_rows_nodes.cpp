@@ -1,0 +1,230 @@
+// What TargetRows does on the rotated grid: Legendre and Fourier sums, kernels, and the sums of these.
+#include <array>
+
+#include "bie/potentials/small_product.hpp"
+#include "bie/potentials/target_rows.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// Part of a table of Fourier sums and the orders that belong to it.
+struct FourierTable {
+  const RowMatrix& table;
+  bool sine;
+  int first_order;  ///< sin 0φ takes no part
+
+  [[nodiscard]] Index skipped() const { return first_order / 2; }
+  [[nodiscard]] Index n_orders() const { return table.cols() - skipped(); }
+  [[nodiscard]] Factor synthesis() const { return {table.data() + skipped(), table.cols(), 1}; }
+  [[nodiscard]] Factor adjoint() const { return {table.data() + skipped(), 1, table.cols()}; }
+};
+
+std::array<FourierTable, 4> fourier_tables(const RotatedQuadrature& q) {
+  return {{{q.cosine_even, false, 0}, {q.cosine_odd, false, 1}, {q.sine_even, true, 2}, {q.sine_odd, true, 1}}};
+}
+
+/// Table T of degrees m + parity, m + parity + 2, ... on one hemisphere.
+struct HalfLegendre {
+  Factor synthesis;
+  Index n_degrees;
+
+  HalfLegendre(const RotatedQuadrature& q, int kind, int m, int parity)
+      : synthesis{q.synthesis[m].data() + kind * q.n_theta * (q.order + 1 - m) + parity, q.order + 1 - m, 2},
+        n_degrees((q.order - m - parity + 2) / 2) {}
+  [[nodiscard]] Factor adjoint() const { return {synthesis.data, synthesis.column_stride, synthesis.row_stride}; }
+};
+
+}  // namespace
+
+/// Amplitudes of the shape data along all latitudes. T and mT/sin θ have the parity (−1)^(n+m) about the equator, dT/dθ
+/// the opposite one.
+void TargetRows::legendre_synthesis(int kind, bool sine) {
+  const Index columns = rotated_shape_.columns(sine);
+  const Index n_half = (q_.n_theta + 1) / 2;
+  // ∂/∂φ takes cosines to minus sines, sines to cosines.
+  const bool into_sine = (kind == 2) != sine;
+  const double sign = kind == 2 && !sine ? -1.0 : 1.0;
+  const double south = kind == 1 ? -sign : sign;
+  for (int m = sine ? 1 : 0; m <= order_; ++m) {
+    for (const int parity : {0, 1}) {
+      const HalfLegendre table(q_, kind, m, parity);
+      const Index n_degrees = places_.degrees.shape[(m + parity) % 2] ? table.n_degrees : 0;
+      small_product(n_half, n_degrees, columns, table.synthesis, rotated_shape_.row(sine, m, m) + parity * columns,
+                    2 * columns, half_[parity].data(), columns);
+    }
+    for (Index i = 0; i < n_half; ++i) {
+      const double* even = half_[0].data() + i * columns;
+      const double* odd = half_[1].data() + i * columns;
+      const int mirror_image = q_.n_theta - 1 - static_cast<int>(i);
+      double* to_north = shape_amplitudes_[kind].of_order(into_sine, static_cast<int>(i), m);
+      if (mirror_image > i && !inverted_) {
+        double* to_south = shape_amplitudes_[kind].of_order(into_sine, mirror_image, m);
+#pragma omp simd
+        for (Index c = 0; c < columns; ++c) to_south[c] = south * (even[c] - odd[c]);
+      }
+#pragma omp simd
+      for (Index c = 0; c < columns; ++c) to_north[c] = sign * (even[c] + odd[c]);
+    }
+  }
+}
+
+void TargetRows::fourier_synthesis(int kind, int i) {
+  AzimuthalAmplitudes& amplitudes = shape_amplitudes_[kind];
+  int part = 0;
+  for (const FourierTable& fourier : fourier_tables(q_)) {
+    const Index columns = amplitudes.columns(fourier.sine);
+    small_product(n_quarter_, fourier.n_orders(), columns, fourier.synthesis(),
+                  amplitudes.of_order(fourier.sine, i, fourier.first_order), columns, shape_parts_[kind][part].data(),
+                  columns);
+    ++part;
+  }
+}
+
+/// Shape data at azimuths φ, π − φ, π + φ, −φ; in the mirror at the first two.
+void TargetRows::load_nodes(Index quarter_node) {
+  for (int kind = 0; kind < shape_kinds_; ++kind) {
+    const auto& cosines = components_.of(kind == 2);
+    const auto& sines = components_.of(kind != 2);
+    const auto part = [&](int which, std::size_t position) {
+      const Index columns = shape_amplitudes_[kind].columns(which >= 2);
+      return shape_parts_[kind][which].data() + quarter_node * columns + static_cast<Index>(position) * chunk_;
+    };
+    const auto node = [&](int image, int component) {
+      return nodes_.data() + ((image * kShapeKinds + kind) * 3 + component) * chunk_;
+    };
+    if (!mirrored_) {
+      for (int component = 0; component < 3; ++component) {
+        const auto c = static_cast<std::size_t>(component);
+        const double *ce = part(0, c), *co = part(1, c), *se = part(2, c), *so = part(3, c);
+        double *first = node(0, component), *second = node(1, component);
+        double *third = node(2, component), *fourth = node(3, component);
+#pragma omp simd
+        for (Index t = 0; t < chunk_; ++t) {
+          const double even = ce[t] + co[t], odd = ce[t] - co[t], plus = se[t] + so[t], minus = se[t] - so[t];
+          first[t] = even + plus;
+          second[t] = odd - minus;
+          third[t] = odd + minus;
+          fourth[t] = even - plus;
+        }
+      }
+      continue;
+    }
+    for (std::size_t c = 0; c < cosines.size(); ++c) {
+      for (Index t = 0; t < chunk_; ++t) {
+        node(0, cosines[c])[t] = part(0, c)[t] + part(1, c)[t];
+        node(1, cosines[c])[t] = part(0, c)[t] - part(1, c)[t];
+      }
+    }
+    for (std::size_t c = 0; c < sines.size(); ++c) {
+      for (Index t = 0; t < chunk_; ++t) {
+        node(0, sines[c])[t] = part(3, c)[t] + part(2, c)[t];
+        node(1, sines[c])[t] = part(3, c)[t] - part(2, c)[t];
+      }
+    }
+  }
+}
+
+/// The other way for kernel values.
+void TargetRows::add_values(Index quarter_node) {
+  const auto part = [&](int which, std::size_t position) {
+    return row_parts_[which].data() + quarter_node * rows_.columns(which >= 2) + static_cast<Index>(position) * chunk_;
+  };
+  const auto value = [&](int image, int kernel) { return values_.data() + (image * kernels_.count + kernel) * chunk_; };
+  if (!mirrored_) {
+    for (int kernel = 0; kernel < kernels_.count; ++kernel) {
+      const auto c = static_cast<std::size_t>(kernel);
+      const double *k1 = value(0, kernel), *k2 = value(1, kernel), *k3 = value(2, kernel), *k4 = value(3, kernel);
+      double *ce = part(0, c), *co = part(1, c), *se = part(2, c), *so = part(3, c);
+#pragma omp simd
+      for (Index t = 0; t < chunk_; ++t) {
+        const double right = k1[t] + k4[t], left = k2[t] + k3[t], up = k1[t] - k4[t], down = k2[t] - k3[t];
+        ce[t] = right + left;
+        co[t] = right - left;
+        se[t] = up - down;
+        so[t] = up + down;
+      }
+    }
+    return;
+  }
+  for (const bool sine : {false, true}) {
+    const auto& columns = kernel_columns_.of(sine);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const double *k1 = value(0, columns[c]), *k2 = value(1, columns[c]);
+      double *sum = part(sine ? 3 : 0, c), *difference = part(sine ? 2 : 1, c);
+      for (Index t = 0; t < chunk_; ++t) {
+        sum[t] = 2.0 * (k1[t] + k2[t]);
+        difference[t] = 2.0 * (k1[t] - k2[t]);
+      }
+    }
+  }
+}
+
+void TargetRows::evaluate_nodes(double weight) {
+  const Index of_image = kernels_.count * chunk_;
+  const Index of_node = kShapeKinds * 3 * chunk_;
+  for (int image = 0; image < n_images_; ++image) {
+    node_kernels_.evaluate(nodes_.data() + image * of_node, weight, values_.data() + image * of_image);
+  }
+  if (!inverted_) return;
+  // The opposite node lies at −x with −J n, and all harmonics have the opposite value there.
+  for (int image = 0; image < n_images_; ++image) {
+    double* node = nodes_.data() + image * of_node;
+    for (Index i = 0; i < 6 * chunk_; ++i) node[i] = -node[i];  // x and ∂x/∂θ
+    node_kernels_.evaluate(node, weight, opposite_values_.data() + image * of_image);
+  }
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] -= opposite_values_[i];
+}
+
+void TargetRows::evaluate_latitude(int i) {
+  for (int kind = 0; kind < shape_kinds_; ++kind) fourier_synthesis(kind, i);
+  // Nodes on the equator would meet their opposites twice.
+  const bool twice = inverted_ && 2 * i + 1 == q_.n_theta;
+  const double weight = twice ? 0.5 * q_.weight[i] : q_.weight[i];
+  for (Index quarter_node = 0; quarter_node < n_quarter_; ++quarter_node) {
+    load_nodes(quarter_node);
+    evaluate_nodes(weight);
+    add_values(quarter_node);
+  }
+  fourier_adjoint(i);
+}
+
+void TargetRows::fourier_adjoint(int i) {
+  int part = 0;
+  for (const FourierTable& fourier : fourier_tables(q_)) {
+    const Index columns = row_amplitudes_.columns(fourier.sine);
+    small_product(fourier.n_orders(), n_quarter_, columns, fourier.adjoint(), row_parts_[part].data(), columns,
+                  row_amplitudes_.of_order(fourier.sine, i, fourier.first_order), columns);
+    ++part;
+  }
+}
+
+void TargetRows::legendre_adjoint(bool sine) {
+  const Index columns = rotated_rows_.columns(sine);
+  const Index n_half = (q_.n_theta + 1) / 2;
+  for (int m = sine ? 1 : 0; m <= order_; ++m) {
+    for (Index i = 0; i < n_half; ++i) {
+      double* even = half_[0].data() + i * columns;
+      double* odd = half_[1].data() + i * columns;
+      const int mirror_image = q_.n_theta - 1 - static_cast<int>(i);
+      const double* north = row_amplitudes_.of_order(sine, static_cast<int>(i), m);
+      // The equator is its own image; of the odd harmonics it knows nothing.
+      const bool has_south = mirror_image > i && !inverted_;
+      const double* south = has_south ? row_amplitudes_.of_order(sine, mirror_image, m) : north;
+      const double share = has_south ? 1.0 : 0.0;
+#pragma omp simd
+      for (Index c = 0; c < columns; ++c) {
+        even[c] = north[c] + share * south[c];
+        odd[c] = north[c] - share * south[c];
+      }
+    }
+    for (const int parity : {0, 1}) {
+      if (!places_.degrees.rows[(m + parity) % 2]) continue;
+      const HalfLegendre table(q_, 0, m, parity);
+      small_product(table.n_degrees, n_half, columns, table.adjoint(), half_[parity].data(), columns,
+                    rotated_rows_.row(sine, m, m) + parity * columns, 2 * columns);
+    }
+  }
+}
+
+}  // namespace vehd

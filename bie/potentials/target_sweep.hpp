@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "bie/potentials/target_images.hpp"
+#include "bie/potentials/target_rows.hpp"
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+
+/// The kernel rows of all targets that an assembly needs, latitude by latitude.
+class TargetSweep {
+ public:
+  /// Arguments as those of assemble_layer_operators, which the sweep must not outlive.
+  TargetSweep(const RotatedQuadrature& quadrature, const SphereTransform& transform, const Matrix& position,
+              const LayerSelection& selection, const std::vector<Reflection>& reflections, int fold);
+
+  [[nodiscard]] const KernelColumns& kernels() const { return kernels_; }
+  [[nodiscard]] const ActiveCoefficients& active() const { return active_; }
+  [[nodiscard]] const TargetImages& images() const { return images_; }
+  /// The northern ones alone where a reflection makes the southern ones of them.
+  [[nodiscard]] int n_latitudes() const { return n_latitudes_; }
+  /// See evaluations_per_assembly.
+  [[nodiscard]] std::uint64_t n_evaluations() const { return n_evaluations_; }
+  /// Is there enough work to wake a second thread?
+  [[nodiscard]] bool is_parallel() const;
+
+  /// What rows look like.
+  struct RowLayout {
+    Index width = 0;  ///< a multiple of kLanes
+    RowPlaces places;
+    /// A row for each longitude, where those of the originals are filled in; otherwise for the originals alone.
+    bool all_longitudes = false;
+  };
+  /// @param use  called with each latitude and its rows, [longitudes or originals x width], by any thread
+  void run(const RowLayout& layout, const std::function<void(int latitude, double* rows)>& use) const;
+
+ private:
+  const RotatedQuadrature& quadrature_;
+  const SphereTransform& transform_;
+  const Matrix& position_;
+  KernelColumns kernels_;
+  ActiveCoefficients active_;
+  TargetImages images_;
+  int n_latitudes_;
+  std::uint64_t n_evaluations_;
+  Matrix target_positions_, area_vectors_;  ///< [n_points x 3], the latter J n
+};
+
+}  // namespace vehd
