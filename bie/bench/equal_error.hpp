@@ -25,13 +25,13 @@ struct DegreeOfError {
   double error = 0.0;  ///< at this degree
 };
 
-/// The lowest degree from lowest to highest at which the error is at most `error`, by bisection; nothing if the highest is
-/// not enough. Where errors do not fall from degree to degree the result is enough and the degree below is not.
+/// The lowest degree from lowest to highest at which the error is at most `error`, by bisection; nothing if the highest
+/// is not enough. Where errors do not fall from degree to degree the result is enough and the degree below is not.
 /// @param lowest  ≥ 1
 std::optional<DegreeOfError> degree_of_error(const ExactProblem& problem, double error, int lowest, int highest);
 
-/// Most memory that a solution takes beyond what the process held before, tables of the degree included, see MemoryMeter;
-/// nothing where the system does not say.
+/// Most memory that a solution takes beyond what the process held before, tables of the degree included, see
+/// MemoryMeter; nothing where the system does not say.
 std::optional<std::int64_t> memory_of(const ExactProblem& problem, int degree);
 
 }  // namespace vehd

@@ -15,7 +15,8 @@ BOOST_AUTO_TEST_CASE(degree_is_the_lowest_that_is_enough) {
                                solved.insert(degree);
                                return SolvedProblem{std::pow(10.0, -0.25 * degree), 1.0};
                              }};
-  for (const auto& [error, degree] : {std::pair{1e-3, 12}, {0.9e-3, 13}, {1.1e-3, 12}, {1e-8, 32}, {0.2, 4}, {0.4, 4}}) {
+  for (const auto& [error, degree] :
+       {std::pair{1e-3, 12}, {0.9e-3, 13}, {1.1e-3, 12}, {1e-8, 32}, {0.2, 4}, {0.4, 4}}) {
     const auto found = degree_of_error(problem, error, 4, 32);
     BOOST_TEST_REQUIRE(found.has_value());
     BOOST_TEST(found->degree == degree, error);
