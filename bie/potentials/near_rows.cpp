@@ -27,24 +27,24 @@ PairColumns::PairColumns(const PairSelection& selection) {
 namespace {
 
 /// What a kernel multiplies at a node.
-enum class Factor { value, difference, tangents };
+enum class NodeFactor { value, difference, tangents };
 
 struct KernelKind {
-  Factor factor;
+  NodeFactor factor;
   double prefactor;
 };
 
 /// Of every row.
 std::vector<KernelKind> kinds_of(const PairColumns& columns) {
   std::vector<KernelKind> kinds(columns.count);
-  if (columns.single >= 0) kinds[columns.single] = {Factor::value, kLaplacePrefactor};
-  if (columns.single_normal >= 0) kinds[columns.single_normal] = {Factor::value, kLaplacePrefactor};
-  if (columns.double_layer >= 0) kinds[columns.double_layer] = {Factor::difference, kLaplacePrefactor};
-  if (columns.double_normal >= 0) kinds[columns.double_normal] = {Factor::tangents, kLaplacePrefactor};
+  if (columns.single >= 0) kinds[columns.single] = {NodeFactor::value, kLaplacePrefactor};
+  if (columns.single_normal >= 0) kinds[columns.single_normal] = {NodeFactor::value, kLaplacePrefactor};
+  if (columns.double_layer >= 0) kinds[columns.double_layer] = {NodeFactor::difference, kLaplacePrefactor};
+  if (columns.double_normal >= 0) kinds[columns.double_normal] = {NodeFactor::tangents, kLaplacePrefactor};
   for (int i = 0; i < 6; ++i) {
-    if (columns.stokes >= 0) kinds[columns.stokes + i] = {Factor::value, stokes_single_layer_prefactor(1.0)};
+    if (columns.stokes >= 0) kinds[columns.stokes + i] = {NodeFactor::value, stokes_single_layer_prefactor(1.0)};
     if (columns.stokes_double >= 0)
-      kinds[columns.stokes_double + i] = {Factor::difference, kStokesDoubleLayerPrefactor};
+      kinds[columns.stokes_double + i] = {NodeFactor::difference, kStokesDoubleLayerPrefactor};
   }
   return kinds;
 }
@@ -120,7 +120,7 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
     for (int c = 0; c < columns.count; ++c) {
       auto cosine = part.col(c);
       auto sine = part.col(columns.count + c);
-      if (kinds[c].factor == Factor::tangents) {
+      if (kinds[c].factor == NodeFactor::tangents) {
         cosine = table(1) * cosines(c);
         if (m > 0) {
           cosine -= table(2) * sines(columns.count);
@@ -130,7 +130,7 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
         cosine = table(0) * cosines(c);
         if (m > 0) sine = table(0) * sines(c);
       }
-      if (m == 0 && kinds[c].factor == Factor::value) {
+      if (m == 0 && kinds[c].factor == NodeFactor::value) {
         // The tables hold differences from the pole.
         const double sum = cosines(c).sum();
         for (int n = 0; n <= order; ++n) cosine[n] += std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi)) * sum;
