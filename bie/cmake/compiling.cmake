@@ -30,7 +30,7 @@ if(architecture)
   set(level $<TARGET_PROPERTY:VEHD_LEVEL>)
   target_compile_options(vehd_compilation INTERFACE -march=$<IF:$<BOOL:${level}>,${level},${architecture}>)
 endif()
-# Tests: what they do by themselves takes no time.
+# What takes no time by itself.
 set(quickly_compiled)
 if(BUILD_SHARED_LIBS)
   # A library calls its own functions, which nobody replaces, and keeps its own instance of a template, which may be

@@ -296,15 +296,13 @@ BOOST_AUTO_TEST_CASE(flow_common_to_two_fluids_is_found_inside_on_and_outside_th
     const Surface surface = make_surface(space.fine, position);
     const PointForce flow = point_force(surface, far, force);
     const MembranePoints points = membrane_points(position, scattered_angles(20));
-    for (const double ratio : {0.2, 1.0, 5.0, 300.0}) {
+    for (const double ratio : {0.2, 1.0, 300.0}) {
       VelocitySources sources;
       sources.background = exact_at;
       sources.viscosity_ratio = ratio;
       sources.weighted_force = (ratio - 1.0) * weighted(space, surface, flow.traction);
       sources.membrane_velocity = space.fine.analyze(flow.velocity);
-      std::vector<double> all = heights(0.2);
-      all.push_back(0.0);
-      for (const double height : all) {
+      for (const double height : {-0.1, -1e-3, -1e-8, 0.0, 1e-8, 0.03, 1.0}) {
         const Matrix x = points.at_height(height);
         Matrix exact(x.rows(), 3);
         for (Index i = 0; i < x.rows(); ++i) exact.row(i) = exact_at(x.row(i).transpose()).transpose();
