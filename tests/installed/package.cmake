@@ -1,6 +1,5 @@
 # Makes a Debian package of a build, in BUILD/package, lets lintian read it and runs what is in it from a folder of its own.
-# LEVELS is how many instruction sets its numerical libraries are for beside that of the rest, COMPRESSION is that of the
-# package (xz if not given):
+# LEVELS is how many instruction sets its numerical libraries are for beside that of the rest:
 #   cmake -DBUILD=build -DLEVELS=2 -DFOLDER=work -P package.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
@@ -16,10 +15,7 @@ if(NOT shlibdeps)
 endif()
 find_program(cpack cpack REQUIRED NO_CACHE)
 file(REMOVE_RECURSE "${BUILD}/package")
-if(NOT COMPRESSION)
-  set(COMPRESSION xz)
-endif()
-expect("" "${cpack}" -D CPACK_DEBIAN_COMPRESSION_TYPE=${COMPRESSION} --config "${BUILD}/CPackConfig.cmake" -G DEB -B "${BUILD}/package")
+expect("" "${cpack}" --config "${BUILD}/CPackConfig.cmake" -G DEB -B "${BUILD}/package")
 file(GLOB PACKAGE "${BUILD}/package/*.deb")
 find_program(lintian lintian NO_CACHE)
 if(lintian)
