@@ -25,7 +25,43 @@ struct Nodes {
         count(grid.n_nodes()) {}
 };
 
-double inverse_norm(double x, double y, double z) { return 1.0 / std::sqrt(x * x + y * y + z * z); }
+/// r = x − y at one node, y the source, and its products with J n there.
+struct NodeSeparation {
+  double x, y, z, inverse;  ///< r and 1/|r|
+  double source;            ///< r·J n(y)
+
+  NodeSeparation(const Nodes& at, Index i, const Vector3& target)
+      : x(target[0] - at.x[i]),
+        y(target[1] - at.y[i]),
+        z(target[2] - at.z[i]),
+        inverse(1.0 / std::sqrt(x * x + y * y + z * z)),
+        source(x * at.nx[i] + y * at.ny[i] + z * at.nz[i]) {}
+  [[nodiscard]] double dot(const Vector3& v) const { return x * v[0] + y * v[1] + z * v[2]; }
+};
+
+/// Σ kernel(r, node) f over the nodes.
+template <class Kernel>
+double scalar_sum(const Nodes& at, const Vector3& target, const double* f, const Kernel& kernel) {
+  double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+  for (Index i = 0; i < at.count; ++i) sum += f[i] * kernel(NodeSeparation(at, i, target), i);
+  return sum;
+}
+
+/// Σ kernel(r) f over the nodes, the kernel given as xx, xy, xz, yy, yz, zz. @param charges  [n_nodes x 3]
+template <class Kernel>
+Vector3 tensor_sum(const Nodes& at, const Vector3& target, const Matrix& charges, const Kernel& kernel) {
+  const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
+  double sx = 0.0, sy = 0.0, sz = 0.0;
+#pragma omp simd reduction(+ : sx, sy, sz)
+  for (Index i = 0; i < at.count; ++i) {
+    const auto g = kernel(NodeSeparation(at, i, target));
+    sx += g[0] * fx[i] + g[1] * fy[i] + g[2] * fz[i];
+    sy += g[1] * fx[i] + g[3] * fy[i] + g[4] * fz[i];
+    sz += g[2] * fx[i] + g[4] * fy[i] + g[5] * fz[i];
+  }
+  return {sx, sy, sz};
+}
 
 }  // namespace
 
@@ -38,85 +74,42 @@ Matrix FarRule::charges(const Matrix& density) const {
 }
 
 double FarRule::laplace_single(const Vector3& x, const Matrix& charges) const {
-  const Nodes at(grid_);
-  const double* f = charges.data();
-  double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-  for (Index i = 0; i < at.count; ++i) {
-    sum += f[i] * laplace_single_kernel(inverse_norm(x[0] - at.x[i], x[1] - at.y[i], x[2] - at.z[i]));
-  }
-  return kLaplacePrefactor * sum;
+  return kLaplacePrefactor * scalar_sum(Nodes(grid_), x, charges.data(), [](const NodeSeparation& r, Index) {
+           return laplace_single_kernel(r.inverse);
+         });
 }
 
 double FarRule::laplace_single_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const {
-  const Nodes at(grid_);
-  const double* f = charges.data();
-  double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-  for (Index i = 0; i < at.count; ++i) {
-    const double rx = x[0] - at.x[i], ry = x[1] - at.y[i], rz = x[2] - at.z[i];
-    sum += f[i] * laplace_adjoint_kernel(rx * normal[0] + ry * normal[1] + rz * normal[2], inverse_norm(rx, ry, rz));
-  }
-  return kLaplacePrefactor * sum;
+  return kLaplacePrefactor * scalar_sum(Nodes(grid_), x, charges.data(), [&normal](const NodeSeparation& r, Index) {
+           return laplace_adjoint_kernel(r.dot(normal), r.inverse);
+         });
 }
 
 double FarRule::laplace_double(const Vector3& x, const Matrix& charges) const {
-  const Nodes at(grid_);
-  const double* f = charges.data();
-  double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-  for (Index i = 0; i < at.count; ++i) {
-    const double rx = x[0] - at.x[i], ry = x[1] - at.y[i], rz = x[2] - at.z[i];
-    sum += f[i] * laplace_double_kernel(rx * at.nx[i] + ry * at.ny[i] + rz * at.nz[i], inverse_norm(rx, ry, rz));
-  }
-  return kLaplacePrefactor * sum;
+  return kLaplacePrefactor * scalar_sum(Nodes(grid_), x, charges.data(), [](const NodeSeparation& r, Index) {
+           return laplace_double_kernel(r.source, r.inverse);
+         });
 }
 
 double FarRule::laplace_double_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const {
   const Nodes at(grid_);
-  const double* f = charges.data();
-  double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-  for (Index i = 0; i < at.count; ++i) {
-    const double rx = x[0] - at.x[i], ry = x[1] - at.y[i], rz = x[2] - at.z[i];
-    const double inverse = inverse_norm(rx, ry, rz), inverse2 = inverse * inverse;
-    const double source = rx * at.nx[i] + ry * at.ny[i] + rz * at.nz[i];
-    const double target = rx * normal[0] + ry * normal[1] + rz * normal[2];
-    const double both = at.nx[i] * normal[0] + at.ny[i] * normal[1] + at.nz[i] * normal[2];
-    sum += f[i] * inverse2 * inverse * (both - 3.0 * source * target * inverse2);
-  }
-  return kLaplacePrefactor * sum;
+  return kLaplacePrefactor * scalar_sum(at, x, charges.data(), [&](const NodeSeparation& r, Index i) {
+           const double inverse2 = r.inverse * r.inverse;
+           const double both = at.nx[i] * normal[0] + at.ny[i] * normal[1] + at.nz[i] * normal[2];
+           return inverse2 * r.inverse * (both - 3.0 * r.source * r.dot(normal) * inverse2);
+         });
 }
 
 Vector3 FarRule::stokes_single(const Vector3& x, const Matrix& charges) const {
-  const Nodes at(grid_);
-  const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
-  double sx = 0.0, sy = 0.0, sz = 0.0;
-#pragma omp simd reduction(+ : sx, sy, sz)
-  for (Index i = 0; i < at.count; ++i) {
-    const double rx = x[0] - at.x[i], ry = x[1] - at.y[i], rz = x[2] - at.z[i];
-    const auto g = stokeslet(rx, ry, rz, inverse_norm(rx, ry, rz));
-    sx += g[0] * fx[i] + g[1] * fy[i] + g[2] * fz[i];
-    sy += g[1] * fx[i] + g[3] * fy[i] + g[4] * fz[i];
-    sz += g[2] * fx[i] + g[4] * fy[i] + g[5] * fz[i];
-  }
-  return stokes_single_layer_prefactor(1.0) * Vector3(sx, sy, sz);
+  return stokes_single_layer_prefactor(1.0) * tensor_sum(Nodes(grid_), x, charges, [](const NodeSeparation& r) {
+           return stokeslet(r.x, r.y, r.z, r.inverse);
+         });
 }
 
 Vector3 FarRule::stokes_double(const Vector3& x, const Matrix& charges) const {
-  const Nodes at(grid_);
-  const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
-  double sx = 0.0, sy = 0.0, sz = 0.0;
-#pragma omp simd reduction(+ : sx, sy, sz)
-  for (Index i = 0; i < at.count; ++i) {
-    const double rx = x[0] - at.x[i], ry = x[1] - at.y[i], rz = x[2] - at.z[i];
-    const double source = rx * at.nx[i] + ry * at.ny[i] + rz * at.nz[i];
-    const auto g = stokes_double_kernel(rx, ry, rz, source, inverse_norm(rx, ry, rz));
-    sx += g[0] * fx[i] + g[1] * fy[i] + g[2] * fz[i];
-    sy += g[1] * fx[i] + g[3] * fy[i] + g[4] * fz[i];
-    sz += g[2] * fx[i] + g[4] * fy[i] + g[5] * fz[i];
-  }
-  return kStokesDoubleLayerPrefactor * Vector3(sx, sy, sz);
+  return kStokesDoubleLayerPrefactor * tensor_sum(Nodes(grid_), x, charges, [](const NodeSeparation& r) {
+           return stokes_double_kernel(r.x, r.y, r.z, r.source, r.inverse);
+         });
 }
 
 double FarRule::enclosure(const Vector3& x) const { return laplace_double(x, grid_.weight); }
