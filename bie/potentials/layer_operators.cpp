@@ -11,6 +11,8 @@ namespace {
 
 /// Matrix entries below which waking a second thread costs more than it saves.
 constexpr Index kParallelEntries = 250000;
+/// More than the Cartesian components that a solve applies an operator to.
+constexpr Index kFewDensities = 9;
 
 void require_density(const Matrix& density, Index size, const std::vector<Index>& active) {
   if (active.empty()) {
@@ -30,6 +32,8 @@ Matrix scattered(const Matrix& values, const std::vector<Index>& active, Index s
 
 /// transposedᵗ · density, every entry by one thread.
 Matrix product(const Matrix& transposed, const Matrix& density) {
+  // Read once for each density, a matrix costs as much as the sums while they are few. Of many, a blocked product.
+  if (density.cols() > kFewDensities) return transposed.transpose() * density;
   Matrix result(transposed.cols(), density.cols());
   for_each_index(transposed.cols(), transposed.size() > kParallelEntries, [&](Index out) {
     for (Index f = 0; f < density.cols(); ++f) result(out, f) = transposed.col(out).dot(density.col(f));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double bend = 2.2;
 /// Area and volume are then exact to rounding, at the sharp rim of a thin wall as well.
-constexpr int n_nodes = 512;
+constexpr int n_meridian_nodes = 512;
 
 /// The bowl with R = 1.
 struct Bowl {
@@ -56,7 +56,7 @@ struct Bowl {
 }  // namespace
 
 Matrix stomatocyte_position(double reduced_volume, int order) {
-  const GaussLegendre rule = gauss_legendre(n_nodes);
+  const GaussLegendre rule = gauss_legendre(n_meridian_nodes);
   constexpr double thinnest = 0.01, thickest = 0.6;
   const double wall =
       rising_zero([&](double trial) { return Bowl{trial}.reduced_volume(rule) - reduced_volume; }, thinnest, thickest);

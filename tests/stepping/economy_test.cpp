@@ -11,6 +11,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(economy)
+
 namespace {
 
 /// Adds nothing, and fails as a solve would wherever its condition holds.
@@ -67,8 +69,6 @@ const EventTimes kEvents{{}, 4.0};
 constexpr int kSteps = 8;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(economy)
 
 BOOST_AUTO_TEST_CASE(degree_that_cannot_be_lowered_stays_and_the_run_goes_on) {
   constexpr int kOrder = 20;

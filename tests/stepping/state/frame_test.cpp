@@ -12,6 +12,8 @@
 using namespace vehd;
 using namespace vehd::testing;
 
+BOOST_AUTO_TEST_SUITE(frame)
+
 namespace {
 
 constexpr int kOrder = 12;
@@ -84,8 +86,6 @@ std::uint64_t stokes_evaluations(const Scenario& scenario) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(frame)
 
 BOOST_AUTO_TEST_CASE(coordinate_axes_are_reached_by_exact_right_handed_permutations) {
   for (int i = 0; i < 3; ++i) {
