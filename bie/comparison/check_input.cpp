@@ -1,6 +1,8 @@
 #include "bie/comparison/check_input.hpp"
 
 #include "bie/files/hdf5_writer.hpp"
+#include "bie/physics/gravity.hpp"
+#include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
@@ -20,6 +22,25 @@ void write_header(Hdf5Writer& file, const Matrix& position) {
   write(file, "/x", position, {"length", "coefficients of the membrane position"});
 }
 
+/// What vesicles have beside bending and tension, as the finite elements take it.
+struct FurtherForces {
+  double spontaneous_curvature = 0.0;
+  Vector3 weight = Vector3::Zero();
+};
+
+FurtherForces further_forces(const VesicleModel& vesicle) {
+  FurtherForces result;
+  for (const auto& effect : vesicle.effects) {
+    if (const auto* curvature = dynamic_cast<const SpontaneousCurvatureEffect*>(effect.get())) {
+      result.spontaneous_curvature = curvature->parameters().curvature;
+    }
+    if (const auto* gravity = dynamic_cast<const GravityEffect*>(effect.get())) {
+      result.weight += gravity->parameters().density_difference * gravity->parameters().acceleration;
+    }
+  }
+  return result;
+}
+
 void write_physics(Hdf5Writer& file, const CheckInput& input) {
   const Model& model = input.frozen.model;
   file.group("/physics");
@@ -27,6 +48,10 @@ void write_physics(Hdf5Writer& file, const CheckInput& input) {
   const VesicleModel& vesicle = model.vesicles.front();
   file.attribute("/physics", "inextensible", std::int64_t{vesicle.inextensible});
   number("bending_modulus", vesicle.bending ? vesicle.bending->modulus : 0.0);
+  const FurtherForces further = further_forces(vesicle);
+  number("spontaneous_curvature", further.spontaneous_curvature);
+  const Matrix weight = further.weight;
+  write(file, "/physics/weight", weight, {"force/volume", "density difference times acceleration"});
   number("viscosity_in", vesicle.viscosity_ratio * model.viscosity);
   number("viscosity_out", model.viscosity);
   const Matrix gradient = flow_gradient(input.frozen).transpose();

@@ -19,6 +19,8 @@ class GravityEffect : public ExplicitEffect {
  public:
   explicit GravityEffect(GravityParameters parameters) : parameters_(std::move(parameters)) {}
 
+  [[nodiscard]] const GravityParameters& parameters() const { return parameters_; }
+
   [[nodiscard]] EffectDescription description() const override;
   void add(const EffectInput& input, Forcing& forcing) const override;
   [[nodiscard]] bool is_invariant_under(const Reflection& g) const override;

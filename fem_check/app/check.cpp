@@ -7,6 +7,7 @@
 #include "fem_check/app/field_files.hpp"
 #include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/questions.hpp"
+#include "fem_check/app/shape_levels.hpp"
 #include "fem_check/app/surface_series.hpp"
 
 namespace vehd::fem_check {
@@ -72,6 +73,8 @@ SolvedState solve_state(const CheckInput& input, const Meshes& meshes, const Dis
   if (!input.flow()) return solved;
   solved.flow = solve_flow_levels(input, meshes, refinement, report);
   if (solved.potential) add_own_force(input, meshes, refinement, *solved.potential, solved.flow->sequence, report);
+  solved.shape_flow = solve_shape_levels(input, solved.places.centre, meshes, refinement,
+                                         solved.potential ? &*solved.potential : nullptr, report);
   return solved;
 }
 
@@ -96,6 +99,8 @@ CheckResult judge(const CheckInput& input, const SolvedState& solved, double req
     result.levels.insert(result.levels.end(), sequence.levels.begin(), sequence.levels.end());
     add(result, flow_questions(input, places, sequence), sequence, required);
     add(result, stored_flow_questions(input, places), sequence, required);
+    add(result, shape_questions(input, places), *solved.shape_flow, required);
+    result.levels.insert(result.levels.end(), solved.shape_flow->levels.begin(), solved.shape_flow->levels.end());
     result.divergence = divergence_of(input, sequence, places);
     result.stored_velocity = stored_velocity_difference(input, places.surface);
   }

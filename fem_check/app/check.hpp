@@ -27,6 +27,7 @@ struct SolvedState {
   ComparisonPlaces places;
   std::optional<PotentialLevels> potential;
   std::optional<FlowLevels> flow;
+  std::optional<LevelSequence> shape_flow;
   double outer_radius = 0.0, far_outer_radius = 0.0;
 };
 

@@ -34,6 +34,8 @@ Physics read_physics(const Hdf5Input& file) {
   physics.viscosity_in = file.number("/physics", "viscosity_in");
   physics.viscosity_out = file.number("/physics", "viscosity_out");
   physics.bending_modulus = file.number("/physics", "bending_modulus");
+  physics.spontaneous_curvature = file.number("/physics", "spontaneous_curvature");
+  physics.weight = matrix_of_size(file, "/physics/weight", 3, 1);
   physics.inextensible = file.number("/physics", "inextensible") != 0.0;
   // Rows of the file are columns here.
   physics.flow_gradient = matrix_of_size(file, "/physics/flow_gradient", 3, 3).transpose();

@@ -17,6 +17,8 @@ struct Physics {
   double capacitance = 1.0, conductance = 0.0;
   double viscosity_in = 1.0, viscosity_out = 1.0;
   double bending_modulus = 0.0;
+  double spontaneous_curvature = 0.0;  ///< c of κ_B ∫ (H − c)² dA, H = −1 on the unit sphere
+  Vector3 weight = Vector3::Zero();    ///< (ρ_i − ρ_e) g, force per volume: (weight·x) n on the membrane
   bool inextensible = true;
   Matrix3 flow_gradient = Matrix3::Zero();
 };

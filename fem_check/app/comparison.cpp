@@ -109,7 +109,7 @@ FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequ
   FieldComparison result;
   result.name = question.name;
   result.label = question.label;
-  result.is_stored = question.is_stored;
+  result.group = question.group;
   std::vector<Eigen::MatrixXd> values;
   std::vector<double> n_unknowns;
   for (const Level& level : sequence.levels) {

@@ -25,11 +25,18 @@ enum class Verdict {
 /// "agree", "does not", "undecided".
 const char* name_of(Verdict verdict);
 
+/// Part of the table that a row belongs to.
+enum class RowGroup {
+  fields,      ///< shape, V_m and force given
+  from_shape,  ///< shape, V_m and the physics given
+  stored       ///< the number judged is one of the snapshot
+};
+
 /// One field by both methods: the finest level against the boundary integrals in the order of the state.
 struct FieldComparison {
-  std::string name;        ///< in the JSON
-  std::string label;       ///< in the table
-  bool is_stored = false;  ///< the number judged is one of the snapshot
+  std::string name;   ///< in the JSON
+  std::string label;  ///< in the table
+  RowGroup group = RowGroup::fields;
   Norms difference;
   Norms levels_change;           ///< last level against the one before
   Norms truncation;              ///< of the outer sphere, from one further out
@@ -48,7 +55,7 @@ struct FieldComparison {
 struct FieldQuestion {
   std::string name;
   std::string label;
-  bool is_stored = false;
+  RowGroup group = RowGroup::fields;
   Eigen::MatrixXd judged;         ///< the number under judgement
   Eigen::MatrixXd bie, bie_high;  ///< boundary integrals at both orders, whose change is the error of the judged number
   Eigen::MatrixXd further_error;  ///< what else that number may be off by; empty: nothing

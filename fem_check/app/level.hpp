@@ -11,9 +11,12 @@ namespace vehd::fem_check {
 /// Fields by name: one column per point of the comparison on γ, or per sample point.
 using FieldValues = std::map<std::string, Eigen::MatrixXd>;
 
+/// Name of the flow that follows from the shape.
+constexpr const char* shape_flow_problem = "flow from the shape";
+
 /// One discrete solution: its fields at the points of the comparison, and what it took.
 struct Level {
-  std::string problem;  ///< "potential" or "flow"
+  std::string problem;  ///< "potential", "flow" or shape_flow_problem
   int degree = 0;
   double outer_radius = 0.0;
   int n_cells = 0;

@@ -47,6 +47,15 @@ FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::stri
   return question;
 }
 
+FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoints& points) {
+  for (Eigen::MatrixXd* values : {&question.judged, &question.bie, &question.bie_high}) {
+    const Eigen::MatrixXd direction = values->rows() == 1 ? Eigen::MatrixXd::Ones(1, points.size()) : points.normal;
+    const double mean = values->cwiseProduct(direction).colwise().sum().dot(points.weight) / points.weight.sum();
+    *values -= mean * direction;
+  }
+  return question;
+}
+
 FieldQuestion without(FieldQuestion question, const Eigen::MatrixXd& of_points) {
   for (Eigen::MatrixXd* field : {&question.judged, &question.bie, &question.bie_high}) *field -= of_points;
   question.from_level = [of_points](const Eigen::MatrixXd& values) { return Eigen::MatrixXd(values - of_points); };

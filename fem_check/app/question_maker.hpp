@@ -43,6 +43,9 @@ class QuestionMaker {
   const ComparisonPlaces& places_;
 };
 
+/// The same question about a tension, or a force of one, that is known up to a uniform one.
+FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoints& points);
+
 /// The same question about what is left when `of_points` is taken from everything that is compared.
 FieldQuestion without(FieldQuestion question, const Eigen::MatrixXd& of_points);
 

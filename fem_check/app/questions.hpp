@@ -15,6 +15,9 @@ std::vector<FieldQuestion> electric_questions(const CheckInput& input, const Com
 std::vector<FieldQuestion> flow_questions(const CheckInput& input, const ComparisonPlaces& places,
                                           const LevelSequence& sequence);
 
+/// What follows from the shape, V_m and the physics alone: f_b, tension and velocity, the last without the background flow.
+std::vector<FieldQuestion> shape_questions(const CheckInput& input, const ComparisonPlaces& places);
+
 /// Numbers of the snapshot that the electric problem determines: q, f_E and the charging current.
 std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, const ComparisonPlaces& places);
 

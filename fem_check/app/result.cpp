@@ -25,8 +25,10 @@ nlohmann::json json_of(const FieldComparison& field) {
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
 nlohmann::json level_fields(const CheckResult& result, const Level& level, std::size_t index, std::size_t n_levels) {
   nlohmann::json json = nlohmann::json::object();
+  // Both flows have a velocity.
+  const RowGroup group = level.problem == shape_flow_problem ? RowGroup::from_shape : RowGroup::fields;
   for (const FieldComparison& field : result.fields) {
-    const bool of_problem = level.surface.contains(field.name) && !field.is_stored;
+    const bool of_problem = level.surface.contains(field.name) && field.group == group;
     if (of_problem && field.of_levels.size() == n_levels) json[field.name] = json_of(field.of_levels[index]);
   }
   return json;
@@ -51,7 +53,10 @@ nlohmann::json levels_json(const CheckResult& result) {
   return json;
 }
 
-std::string label_of(const FieldComparison& field) { return (field.is_stored ? "stored " : "") + field.label; }
+std::string label_of(const FieldComparison& field) {
+  if (field.group == RowGroup::stored) return "stored " + field.label;
+  return field.group == RowGroup::from_shape ? field.label + " from shape" : field.label;
+}
 
 std::string row_of(const FieldComparison& field) {
   const std::string fem = field.of_levels.empty() ? "-" : fmt::format("{:.1e}", field.fem_error());
@@ -95,10 +100,14 @@ std::string table_of(const CheckResult& result) {
 }
 
 nlohmann::json json_of(const CheckResult& result) {
-  nlohmann::json fields = nlohmann::json::object(), stored = fields, orders = fields;
+  nlohmann::json fields = nlohmann::json::object(), from_shape = fields, stored = fields, orders = fields;
   for (const FieldComparison& field : result.fields) {
-    (field.is_stored ? stored : fields)[field.name] = json_of(field);
-    if (field.order && !field.is_stored) orders[field.name] = *field.order;
+    nlohmann::json& group = field.group == RowGroup::stored       ? stored
+                            : field.group == RowGroup::from_shape ? from_shape
+                                                                  : fields;
+    group[field.name] = json_of(field);
+    if (field.order && field.group == RowGroup::from_shape) group[field.name]["order_observed"] = *field.order;
+    if (field.order && field.group == RowGroup::fields) orders[field.name] = *field.order;
   }
   nlohmann::json json{{"source", result.source},
                       {"time", result.time},
@@ -107,6 +116,7 @@ nlohmann::json json_of(const CheckResult& result) {
                       {"required", result.required},
                       {"verdict", name_of(result.verdict())},
                       {"fields", fields},
+                      {"from_shape", from_shape},
                       {"stored", stored},
                       {"order_observed", orders},
                       {"levels", levels_json(result)},

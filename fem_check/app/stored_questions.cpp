@@ -8,7 +8,7 @@ namespace vehd::fem_check {
 namespace {
 
 FieldQuestion stored(FieldQuestion question) {
-  question.is_stored = true;
+  question.group = RowGroup::stored;
   return question;
 }
 
@@ -27,13 +27,6 @@ FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces&
   return question;
 }
 
-/// A tension, or a force of one, that is known up to a uniform one.
-Eigen::MatrixXd without_uniform_tension(const Eigen::MatrixXd& values, const SurfacePoints& points) {
-  const Eigen::MatrixXd direction = values.rows() == 1 ? Eigen::MatrixXd::Ones(1, points.size()) : points.normal;
-  const double mean = values.cwiseProduct(direction).colwise().sum().dot(points.weight) / points.weight.sum();
-  return values - mean * direction;
-}
-
 /// ∇_γ·v of the stored velocity, which the constraint makes zero: what the boundary integrals leave of it at both
 /// orders is the error.
 FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlaces& places, double rate) {
@@ -46,7 +39,7 @@ FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlace
   FieldQuestion question;
   question.name = "surface_divergence";
   question.label = "div_S v";
-  question.is_stored = true;
+  question.group = RowGroup::stored;
   question.is_remainder = true;
   question.natural_size = rate;
   question.weight = points.weight;
@@ -79,12 +72,8 @@ std::vector<FieldQuestion> stored_flow_questions(const CheckInput& input, const 
     if (judged.size() == 0) return;
     FieldQuestion question =
         stored(maker.on_surface(name, label, "", judged, input.bie.*field, input.bie_high.*field, size));
-    if (input.bie.tension_is_free && name != "force_bending") {
-      for (Eigen::MatrixXd* values : {&question.judged, &question.bie, &question.bie_high}) {
-        *values = without_uniform_tension(*values, points);
-      }
-    }
-    list.push_back(std::move(question));
+    const bool is_free = input.bie.tension_is_free && name != "force_bending";
+    list.push_back(is_free ? without_uniform_tension(std::move(question), points) : std::move(question));
   };
   add_reproduced("force_bending", "f_b", input.stored.force_bending, &BieFields::force_bending, sizes.force);
   add_reproduced("force_tension", "f_lambda", input.stored.force_tension, &BieFields::force_tension, sizes.force);

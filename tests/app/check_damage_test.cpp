@@ -25,8 +25,9 @@ const std::filesystem::path fem_program = std::filesystem::path(VEHD_PROGRAM).pa
 const std::string scene_text =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\ncentre = [100.0, 0.0, "
     "50.0]\n"
-    "[membrane]\nbending_modulus = 0.1\ncapacitance = 1.0\nconductance = 0.5\n"
+    "[membrane]\nbending_modulus = 0.1\nspontaneous_curvature = -0.4\ncapacitance = 1.0\nconductance = 0.5\n"
     "[flow]\nkind = 'shear'\nrate = 1.0\n"
+    "[fluid]\ndensity_difference = 0.5\n[gravity]\nacceleration = [0.2, 0.5, -0.8]\n"
     "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\npermittivity_ratio = "
     "0.5\ninitial_Vm = 'steady'\n"
     "[numerics]\norder = 12\ndt = 0.1\nend_time = 0.0\n";
@@ -126,6 +127,9 @@ std::vector<Damage> all_damages(double small, double smallest) {
   add_field(damages, "lambda", &CheckFields::tension, "stored/tension", factors);
   add_field(damages, "v", &CheckFields::velocity, "fields/velocity", factors);
   add_field(damages, "v of own f_E", &CheckFields::velocity_own_force, "fields/velocity_own_force", factors);
+  add_field(damages, "f_b from the shape", &CheckFields::force_bending, "from_shape/bending", {-1.0, 0.5});
+  add_field(damages, "lambda from the shape", &CheckFields::tension, "from_shape/tension", factors);
+  add_field(damages, "v from the shape", &CheckFields::velocity_of_shape, "from_shape/velocity", factors);
   add_field(damages, "phi", &CheckFields::sample_potential, "fields/potential_outside", electric);
   add_field(damages, "v off the membrane", &CheckFields::sample_velocity, "fields/velocity_near", factors);
   using Stored = vehd::VesicleFields;
@@ -169,7 +173,8 @@ std::vector<Damage> all_damages(double small, double smallest) {
     fill(fields.sample_potential);
     fill(fields.sample_velocity);
   };
-  for (const char* row : {"fields/q", "fields/force", "fields/Vm", "fields/velocity", "stored/q", "stored/velocity"}) {
+  for (const char* row : {"fields/q", "fields/force", "fields/Vm", "fields/velocity", "stored/q", "stored/velocity",
+                          "from_shape/velocity", "from_shape/tension"}) {
     damages.push_back({"order of the run random", [=](Numbers& n) { random(n.bie); }, row});
     damages.push_back({"other order random", [=](Numbers& n) { random(n.high); }, row});
   }
@@ -206,6 +211,12 @@ std::vector<Damage> all_damages(double small, double smallest) {
                   [=](FrozenState& s) { s.model.flow->gradient *= larger; });
   add_coefficient(damages, "kappa_B", "stored/force_bending",
                   [=](FrozenState& s) { s.model.vesicles[0].bending->modulus *= larger; });
+  add_coefficient(damages, "kappa_B of the shape's force", "from_shape/velocity",
+                  [](FrozenState& s) { s.model.vesicles[0].bending->modulus *= 2.0; });
+  add_coefficient(damages, "no weight and no spontaneous curvature", "from_shape/velocity",
+                  [](FrozenState& s) { s.model.vesicles[0].effects.clear(); });
+  add_coefficient(damages, "mu of the shape's flow", "from_shape/velocity",
+                  [=](FrozenState& s) { s.model.viscosity *= larger; });
   return damages;
 }
 
