@@ -45,6 +45,21 @@ Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& 
   return result;
 }
 
+Vector second_kind_sphere_inverse(double eta, const Vector& weighted) {
+  // At η = 1 the mean of the density is free and the right-hand side has none: any number but zero will do.
+  const double mean_eigenvalue = eta < 1.0 ? 0.5 * (1.0 - eta) : 1.0;
+  return divide_by_degree(weighted,
+                          [&](int n) { return n == 0 ? mean_eigenvalue : 0.5 - eta / (2.0 * (2.0 * n + 1.0)); });
+}
+
+Vector second_kind_right_side(const Membrane& membrane, const Vector& weighted_values) {
+  Vector rhs = membrane.fine.analyze(weighted_values);
+  // The eigenvalue ½(1 − η) of the mean would turn rounding into a net charge at large contrast.
+  constexpr double kRounding = 1e-13;
+  if (std::abs(rhs[0]) < kRounding * rhs.norm()) rhs[0] = 0.0;
+  return rhs;
+}
+
 Vector weighted_hypersingular(const Membrane& membrane, const Vector& potential) {
   const Surface& s = membrane.surface;
   const Matrix density =
@@ -67,15 +82,8 @@ SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const
             {SolveEnd::converged, 0, 0.0}};
   }
   const LinearMap map = [&](const Vector& g) { return second_kind_operator(membrane, eta, g); };
-  // At η = 1 the mean of the density is free and the right-hand side has none: any number but zero will do.
-  const double mean_eigenvalue = eta < 1.0 ? 0.5 * (1.0 - eta) : 1.0;
-  const LinearMap preconditioner = [&](const Vector& r) {
-    return divide_by_degree(r, [&](int n) { return n == 0 ? mean_eigenvalue : 0.5 - eta / (2.0 * (2.0 * n + 1.0)); });
-  };
-  Vector rhs = membrane.fine.analyze(weighted_rhs);
-  // The eigenvalue ½(1 − η) of the mean would turn rounding into a net charge at large contrast.
-  constexpr double kRounding = 1e-13;
-  if (std::abs(rhs[0]) < kRounding * rhs.norm()) rhs[0] = 0.0;
+  const LinearMap preconditioner = [&](const Vector& r) { return second_kind_sphere_inverse(eta, r); };
+  const Vector rhs = second_kind_right_side(membrane, weighted_rhs);
   SecondKindSolution solution;
   solution.weighted = start.size() == rhs.size() ? start : Vector::Zero(rhs.size());
   solution.report =
@@ -86,7 +94,7 @@ SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const
 }
 
 ElectricTraces electric_traces(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
-                               const SecondKindSolution& density) {
+                               const SecondKindSolution& density, const Vector& of_others) {
   const Surface& s = membrane.surface;
   const double sum = electric.conductivity_in + electric.conductivity_out;
   const double eta = conductivity_contrast(electric);
@@ -97,6 +105,7 @@ ElectricTraces electric_traces(const ElectricParameters& electric, const Membran
   const Vector applied = membrane.fine.analyze(-(s.position * electric.field));
   Vector mean = applied - membrane.layers.laplace_double.apply(potential);
   if (eta != 0.0) mean += membrane.layers.laplace_single.apply(eta * density.weighted);
+  if (of_others.size() > 0) mean += of_others;
   traces.potential_in = mean + 0.5 * potential;
   traces.potential_out = mean - 0.5 * potential;
   return traces;

@@ -20,6 +20,14 @@ double series_conductivity(const ElectricParameters& electric);
 /// Source: paper Eq. (12), divided by η
 Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density);
 
+/// Inverse of second_kind_operator on a sphere of any radius, the preconditioner of Eq. (12).
+Vector second_kind_sphere_inverse(double eta, const Vector& weighted);
+
+/// Coefficients of a right-hand side of Eq. (12) on which second_kind_operator can act: a mean that is rounding is
+/// zero.
+/// @param weighted_values  J rhs on the upsampled grid
+Vector second_kind_right_side(const Membrane& membrane, const Vector& weighted_values);
+
 /// J D′[V] of Eq. (24): J (n×∇_γ)·S[n×∇_γ V], values on the upsampled grid. Both rotated gradients are formed without
 /// dividing by J: J n×∇_γ f = f_1 x_2 − f_2 x_1.
 /// @param potential  coefficients of V, [n_coefficients]
@@ -62,16 +70,18 @@ struct ElectricTraces {
 /// @param density  g with (½ + ηS′) g = E·n + D′[V]; the fluxes follow as −σ_e g/(σ_i+σ_e) and −σ_i g/(σ_i+σ_e),
 ///                 the regular form of Eq. (13)
 /// @param potential  V_m, coefficients of degree p
+/// @param of_others  potential of the charges and V_m of other membranes on this one, coefficients, or empty
 /// Accuracy: that of the density; σ_i ∂φ_i/∂n = σ_e ∂φ_e/∂n to 1e-14 at every ratio
 /// (tests/physics/electric_sphere_test.cpp)
 /// Source: paper Eqs. (11), (13)
 ElectricTraces electric_traces(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
-                               const SecondKindSolution& density);
+                               const SecondKindSolution& density, const Vector& of_others = {});
 
 /// f_E = [[n·Σ_el]] (interior minus exterior), Eqs. (3), (15), (32), on the upsampled grid.
 /// @param permittivity        outside
 /// @param permittivity_ratio  inside over outside
-/// @return  minus the force per area of the field on the membrane, normal and tangential part, [n_points x 3]; the fluid
+/// @return  minus the force per area of the field on the membrane, normal and tangential part, [n_points x 3]; the
+/// fluid
 ///     feels f_b + f_λ − f_E
 /// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/electric_sphere_test.cpp); errors of Example 1 as the
 /// paper has them (tests/physics/example1_test.cpp)

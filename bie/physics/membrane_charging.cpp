@@ -11,44 +11,56 @@ namespace {
 /// Solves (½ + ηS′)(a V − b) − κ D′[V] = κ E·n; the whole equation is divided by a + κ/R, which may be of any size.
 SolveReport solve_charging(const ElectricParameters& electric, const Membrane& membrane, double a, const Vector& b,
                            double tolerance, Vector& potential) {
-  const double eta = conductivity_contrast(electric);
-  const double kappa = series_conductivity(electric);
-  const double radius = membrane.radius;
-  const double size = a + kappa / radius;
-  const double storage = a / size;
-  const double conduction = kappa / size;  // a length, R at most
-  const SphereTransform& fine = membrane.fine;
-
-  const LinearMap map = [&](const Vector& v) {
-    Vector result = Vector::Zero(v.size());
-    if (storage > 0.0) {
-      result += storage * second_kind_operator(membrane, eta, membrane.weighted(fine.synthesize(v)));
-    }
-    if (conduction > 0.0) result -= conduction * fine.analyze(weighted_hypersingular(membrane, v));
-    // No net current: the mean obeys ∫(a V − b) dA = 0 alone, and is free (hence zero) without storage.
-    result[0] = storage > 0.0 ? storage * membrane.weighted(fine.synthesize(v))(0, 0) : v[0];
-    return result;
-  };
-  const LinearMap preconditioner = [&](const Vector& r) {
-    Vector result(r.size());
-    for (int n = 0; n <= fine.order(); ++n) {
-      const double odd = 2.0 * n + 1.0;
-      const double second_kind = n == 0 ? 1.0 : 0.5 - eta / (2.0 * odd);
-      double eigenvalue = storage * radius * radius * second_kind + conduction * radius * n * (n + 1.0) / odd;
-      if (eigenvalue == 0.0) eigenvalue = 1.0;
-      for (Index i = coefficient_index(n, -n); i <= coefficient_index(n, n); ++i) result[i] = r[i] / eigenvalue;
-    }
-    return result;
-  };
-
-  const Vector weighted_b = membrane.weighted(fine.synthesize(b)) / size;
-  Vector rhs = conduction * fine.analyze(weighted_field_flux(membrane, electric.field));
-  if (!b.isZero(0.0)) rhs += second_kind_operator(membrane, eta, weighted_b);
-  rhs[0] = storage > 0.0 ? weighted_b[0] : 0.0;
-  return solve_within(membrane.subspace.potentials(), map, preconditioner, rhs, potential, {tolerance, 60});
+  const ChargingEquation equation(electric, membrane, a);
+  const LinearMap map = [&](const Vector& v) { return equation.own(v); };
+  const LinearMap preconditioner = [&](const Vector& r) { return equation.sphere_inverse(r); };
+  return solve_within(membrane.subspace.potentials(), map, preconditioner, equation.right_side(b), potential,
+                      {tolerance, 60});
 }
 
 }  // namespace
+
+ChargingEquation::ChargingEquation(const ElectricParameters& electric, const Membrane& membrane, double a)
+    : electric_(electric), membrane_(membrane), eta_(conductivity_contrast(electric)) {
+  const double kappa = series_conductivity(electric);
+  size_ = a + kappa / membrane.radius;
+  storage_ = a / size_;
+  conduction_ = kappa / size_;
+}
+
+Vector ChargingEquation::own(const Vector& v) const {
+  const SphereTransform& fine = membrane_.fine;
+  Vector result = Vector::Zero(v.size());
+  if (storage_ > 0.0) {
+    result += storage_ * second_kind_operator(membrane_, eta_, membrane_.weighted(fine.synthesize(v)));
+  }
+  if (conduction_ > 0.0) result -= conduction_ * fine.analyze(weighted_hypersingular(membrane_, v));
+  // No net current: the mean obeys ∫(a V − b) dA = 0 alone, and is free (hence zero) without storage.
+  result[0] = storage_ > 0.0 ? storage_ * membrane_.weighted(fine.synthesize(v))(0, 0) : v[0];
+  return result;
+}
+
+Vector ChargingEquation::sphere_inverse(const Vector& r) const {
+  const double radius = membrane_.radius;
+  Vector result(r.size());
+  for (int n = 0; n <= membrane_.fine.order(); ++n) {
+    const double odd = 2.0 * n + 1.0;
+    const double second_kind = n == 0 ? 1.0 : 0.5 - eta_ / (2.0 * odd);
+    double eigenvalue = storage_ * radius * radius * second_kind + conduction_ * radius * n * (n + 1.0) / odd;
+    if (eigenvalue == 0.0) eigenvalue = 1.0;
+    for (Index i = coefficient_index(n, -n); i <= coefficient_index(n, n); ++i) result[i] = r[i] / eigenvalue;
+  }
+  return result;
+}
+
+Vector ChargingEquation::right_side(const Vector& b) const {
+  const SphereTransform& fine = membrane_.fine;
+  const Vector weighted_b = membrane_.weighted(fine.synthesize(b)) / size_;
+  Vector rhs = conduction_ * fine.analyze(weighted_field_flux(membrane_, electric_.field));
+  if (!b.isZero(0.0)) rhs += second_kind_operator(membrane_, eta_, weighted_b);
+  rhs[0] = storage_ > 0.0 ? weighted_b[0] : 0.0;
+  return rhs;
+}
 
 SolveReport charge_membrane(const ElectricParameters& electric, const ChargingParameters& charging,
                             const Membrane& membrane, double dt, double tolerance, Vector& potential) {

@@ -5,6 +5,30 @@
 
 namespace vehd {
 
+/// The equation (½ + ηS′)(a V − b) − κ D′[V] = κ E·n of one membrane, weighted by J and divided by a + κ/R, which may
+/// be of any size; κ = σ_i σ_e/(σ_i + σ_e). Degree 0 holds ∫(a V − b) dA = 0, as no net current leaves a membrane, and
+/// where a = 0 that V has no mean.
+/// Source: paper Eqs. (14), (29), (30), without the inverse
+class ChargingEquation {
+ public:
+  /// Both must outlive it. @param a  ≥ 0: C_m/dt + G_m
+  ChargingEquation(const ElectricParameters& electric, const Membrane& membrane, double a);
+
+  /// Left side without b: what V does on its own membrane. Coefficients of degree p, as all here.
+  [[nodiscard]] Vector own(const Vector& potential) const;
+  /// Inverse of `own` on the sphere of the same area.
+  [[nodiscard]] Vector sphere_inverse(const Vector& residual) const;
+  /// Of b and the field.
+  [[nodiscard]] Vector right_side(const Vector& b) const;
+  /// Factor of any further flux J n·∇φ through the membrane, a length.
+  [[nodiscard]] double conduction() const { return conduction_; }
+
+ private:
+  const ElectricParameters& electric_;
+  const Membrane& membrane_;
+  double eta_, size_, storage_, conduction_;
+};
+
 /// V_m after one backward-Euler step of (4e)/(14), Eq. (30), in one solve at every contrast and time constant:
 /// with a = C_m/dt + G_m, b = (C_m/dt) V_m, κ = σ_i σ_e/(σ_i + σ_e), the unknown V obeys
 ///   (½ + ηS′)(a V − b) − κ D′[V] = κ E·n.

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bie/potentials/near_rows.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/sphere/transform.hpp"
 
@@ -28,6 +29,11 @@ class FarRule {
   /// Stokes single layer at μ = 1 of J f and double layer of v. @param charges  [n_nodes x 3]
   [[nodiscard]] Vector3 stokes_single(const Vector3& x, const Matrix& charges) const;
   [[nodiscard]] Vector3 stokes_double(const Vector3& x, const Matrix& charges) const;
+
+  /// The same sums for several targets as rows over the coefficients of the densities, see NearRows.
+  /// @param points, normals  [n_targets x 3]
+  /// @return                 [n_coefficients x PairColumns::count], of one target behind the other
+  [[nodiscard]] Matrix rows(const Matrix& points, const Matrix& normals, const PairColumns& columns) const;
 
   /// D[1]: 0 outside, −1 inside, up to the error of the rule.
   [[nodiscard]] double enclosure(const Vector3& x) const;

@@ -46,7 +46,8 @@ struct PairLayers::Data {
   Vector reach;  ///< of the nodes of the grid: what a unit angle spans there
   std::vector<FarGroup> far;
   std::vector<Index> near;
-  std::vector<Matrix> rows;  ///< of each column, [near targets x n_coefficients]
+  std::vector<Index> by_rows;  ///< the near targets, behind them far ones
+  std::vector<Matrix> rows;    ///< of each column, [targets by rows x n_coefficients]
   PairCounts counts;
 
   Data(const Matrix& x, const Matrix& targets, const Matrix& n, const PairSelection& selection,
@@ -203,6 +204,36 @@ struct PairLayers::Data {
     }
   }
 
+  /// Rows of far targets as long as there is room, the finest grids first: theirs gain most.
+  void make_far_rows() {
+    by_rows = near;
+    const double bytes_of_one = 8.0 * static_cast<double>(columns.count) * static_cast<double>(source.rows());
+    double room = settings.row_bytes;
+    while (!far.empty() && static_cast<double>(far.back().targets.size()) * bytes_of_one <= room) {
+      room -= static_cast<double>(far.back().targets.size()) * bytes_of_one;
+      add_rows(far.back());
+      far.pop_back();
+    }
+  }
+
+  void add_rows(const FarGroup& group) {
+    constexpr Index kBatch = 16;
+    const Index first = static_cast<Index>(by_rows.size()), n = static_cast<Index>(group.targets.size());
+    by_rows.insert(by_rows.end(), group.targets.begin(), group.targets.end());
+    for (Matrix& of_column : rows) of_column.conservativeResize(first + n, Eigen::NoChange);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (Index start = 0; start < n; start += kBatch) {
+      const Index size = std::min(kBatch, n - start);
+      const std::vector<Index> batch(group.targets.begin() + start, group.targets.begin() + start + size);
+      const Matrix found = group.rule.rows(points(batch, Eigen::all), normals(batch, Eigen::all), columns);
+      for (Index i = 0; i < size; ++i) {
+        for (int c = 0; c < columns.count; ++c) {
+          rows[c].row(first + start + i) = found.col(i * columns.count + c).transpose();
+        }
+      }
+    }
+  }
+
   /// Every far target by its rule: `sum(rule, target, charges)`.
   template <class Values, class Sum>
   void add_far(const Matrix& density, Values& values, const Sum& sum) const {
@@ -231,7 +262,7 @@ struct PairLayers::Data {
       return Eigen::Matrix<double, 1, 1>(sum(rule, i, charges));
     });
     const Vector found = rows[column] * density;
-    for (std::size_t k = 0; k < near.size(); ++k) values[near[k]] = found[static_cast<Index>(k)];
+    for (std::size_t k = 0; k < by_rows.size(); ++k) values[by_rows[k]] = found[static_cast<Index>(k)];
     return values;
   }
 
@@ -245,11 +276,11 @@ struct PairLayers::Data {
       return sum(rule, i, charges).transpose();
     });
     constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    Matrix found = Matrix::Zero(static_cast<Index>(near.size()), 3);
+    Matrix found = Matrix::Zero(static_cast<Index>(by_rows.size()), 3);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) found.col(i) += rows[first + kBlock[i][j]] * density.col(j);
     }
-    for (std::size_t k = 0; k < near.size(); ++k) values.row(near[k]) = found.row(static_cast<Index>(k));
+    for (std::size_t k = 0; k < by_rows.size(); ++k) values.row(by_rows[k]) = found.row(static_cast<Index>(k));
     return values;
   }
 };
@@ -262,6 +293,7 @@ PairLayers::PairLayers(const Matrix& source, const Matrix& points, const Matrix&
   auto data = std::make_unique<Data>(source, points, normals, selection, settings);
   data->sort_targets();
   data->make_rows();
+  data->make_far_rows();
   data_ = std::move(data);
 }
 

@@ -14,6 +14,9 @@ struct PairSettings {
   double tolerance = 1e-10;
   /// Rules of near targets at most, each with a quarter more nodes in either direction.
   int max_rules = 9;
+  /// Memory that rows of far targets may take. Rows cost as much as some ten sums over the nodes and are applied in a
+  /// fiftieth of one; targets beyond the limit are summed at every application.
+  double row_bytes = 1e9;
 };
 
 /// How many targets take which way.
@@ -24,12 +27,12 @@ struct PairCounts {
 };
 
 /// Layers of one membrane at points of another, all outside the first, as linear maps that are made once and applied
-/// many times. Far targets take the smooth rule of a grid as coarse as their distance allows; near ones a row over the
-/// coefficients of the density, made once by the adjoint of the rule about the nearest point (near_rows).
-/// Applications are sums in fixed order: the same bits for any count of threads.
-/// Accuracy: the tolerance, times the density, at every gap; layers of given densities on two shapes without symmetry
-/// at gaps from 1e-3 to 10 to 1e-9 (tests/potentials/pair_layers_test.cpp) Source: paper Eqs. (6), (8), (9) with source
-/// and target on different membranes
+/// many times. Far targets take the smooth rule of a grid as coarse as their distance allows, near ones the rule about
+/// the nearest point (near_rows); either becomes a row over the coefficients of the density, by the adjoint of the
+/// rule. Applications are sums in fixed order: the same bits for any count of threads. Accuracy: the tolerance, times
+/// the density, at every gap; layers of given densities on two shapes without symmetry at gaps from 1e-3 to 10 to 1e-9
+/// (tests/potentials/pair_layers_test.cpp) Source: paper Eqs. (6), (8), (9) with source and target on different
+/// membranes
 class PairLayers {
  public:
   /// @param source   coefficients of the source membrane, [n_coefficients x 3]

@@ -74,18 +74,10 @@ double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, con
   return rate > 0.0 ? std::min(share / rate, setup.control.largest) : setup.control.largest;
 }
 
-/// Vesicles would have to act on one another.
-EvolutionSetup require_one_vesicle(EvolutionSetup setup) {
-  require_size("vesicles", static_cast<Index>(setup.model.vesicles.size()), 1);
-  return setup;
-}
-
 }  // namespace
 
 Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& start, Instruments& instruments)
-    : setup_(require_one_vesicle(std::move(setup))),
-      instruments_(instruments),
-      discretisation_(setup_.settings, setup_.symmetry, {}) {
+    : setup_(std::move(setup)), instruments_(instruments), discretisation_(setup_.settings, setup_.symmetry, {}) {
   std::vector<int> orders = starting_orders(start);
   for (bool resolved = false; !resolved;) {
     start_at(orders, start);
@@ -101,7 +93,7 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
 }
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)
-    : setup_(require_one_vesicle(std::move(setup))),
+    : setup_(std::move(setup)),
       instruments_(instruments),
       discretisation_(discretisation_of(setup_, state)),
       state_(std::move(state)) {}
@@ -200,6 +192,7 @@ void Evolution::arrive(State state) {
   if (has_former && jumps_at(setup_.model, state.time)) {
     before = evaluated(&evaluation, Limit::before);
     for (VesicleSolution& vesicle : before->vesicles) vesicle.membrane.reset();
+    before->interaction.reset();
   }
   evaluation_ = std::move(evaluation);
   discretisation_ = std::move(discretisation);

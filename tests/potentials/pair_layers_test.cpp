@@ -138,6 +138,26 @@ BOOST_AUTO_TEST_CASE(layers_of_given_densities_agree_with_those_off_the_membrane
   }
 }
 
+BOOST_AUTO_TEST_CASE(rows_of_far_targets_are_the_sums_of_their_rule) {
+  const Matrix position = asymmetric_shape(8);
+  const Matrix points = points_at_all_gaps(position, 7);
+  const Matrix normals = any_normals(points.rows());
+  const PairLayers rows = pair_layers(position, points, normals);
+  const Vector density = smooth_coefficients(8, 8, 1, 67);
+  const Matrix vectors = smooth_coefficients(8, 8, 3, 68);
+  // Room for none, for some grids, for all.
+  for (const double bytes : {0.0, 3e5, 1e9}) {
+    Instruments instruments;
+    const PairLayers sums(position, points, normals, kEveryLayer, {.row_bytes = bytes}, instruments);
+    BOOST_TEST(max_difference(rows.laplace_single(density), sums.laplace_single(density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.laplace_single_normal(density), sums.laplace_single_normal(density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.laplace_double(density), sums.laplace_double(density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.laplace_double_normal(density), sums.laplace_double_normal(density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.stokes_single(vectors), sums.stokes_single(vectors)) < 1e-13);
+    BOOST_TEST(max_difference(rows.stokes_double(vectors), sums.stokes_double(vectors)) < 1e-13);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
   const Matrix position = asymmetric_shape(8);
   const Matrix points = points_at_all_gaps(position, 5);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "bie/physics/interaction.hpp"
 #include "bie/physics/membrane.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/fields.hpp"
@@ -26,6 +27,8 @@ struct VesicleSolution {
 struct SolvedFields {
   Fields fields;
   std::vector<VesicleSolution> vesicles;
+  /// Layers of the membranes on one another; null where there is only one, or where no step starts.
+  std::shared_ptr<const Interaction> interaction;
   int iterations_flow = 0;         ///< of the tension solves
   int iterations_electric = 0;     ///< of Eq. (12)
   bool electric_inactive = false;  ///< see electric_inactive()

@@ -1,9 +1,13 @@
 #include "bie/stepping/evaluation/initial_state.hpp"
 
+#include <algorithm>
+
+#include "bie/physics/coupled_charging.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/symmetry.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
@@ -18,6 +22,38 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
   const Vector& given = start.potential.given;
   fields.transmembrane_potential = given.size() > 0 ? resize_order(given, order_of(n)) : Vector::Zero(n);
   return fields;
+}
+
+constexpr LayerSelection kElectricLayers{true, true, true, false};
+
+/// V_m of several vesicles whose steady state is one.
+void find_steady_potentials(const Model& model, const Discretisation& discretisation, State& state,
+                            Instruments& instruments) {
+  std::vector<Membrane> frozen;
+  std::vector<InteractingMembrane> interacting;
+  std::vector<ElectricParameters> electric;
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    const MembraneSpace& space = discretisation.vesicle(a);
+    const Matrix& position = state.vesicles[a].position;
+    electric.push_back(electric_parameters(model, model.vesicles[a]));
+    frozen.push_back(membrane_at(space, position, kElectricLayers, 1.0, instruments));
+    interacting.push_back({position, space.targets(), electric_pair_selection(electric.back())});
+  }
+  const Interaction interaction(interacting, {}, instruments);
+  std::vector<ElectricMembrane> membranes;
+  std::vector<ChargingParameters> charging;
+  std::vector<Vector> potentials;
+  for (std::size_t a = 0; a < frozen.size(); ++a) {
+    membranes.push_back({electric[a], frozen[a]});
+    charging.push_back(model.vesicles[a].charging);
+    potentials.push_back(state.vesicles[a].transmembrane_potential);
+  }
+  require_converged(
+      steady_potentials(membranes, interaction, charging, discretisation.settings().electric_tolerance, potentials),
+      "steady membrane potentials");
+  for (std::size_t a = 0; a < frozen.size(); ++a) {
+    state.vesicles[a].transmembrane_potential = std::move(potentials[a]);
+  }
 }
 
 }  // namespace
@@ -35,12 +71,19 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     const Surface surface = make_surface(space.fine_transform(), position);
     start.reference_area = surface_area(surface);
     start.reference_volume = enclosed_volume(surface);
-    if (model.electric && membranes[a].potential.steady) {
-      const Membrane membrane = membrane_at(space, position, {true, true, true, false}, 1.0, instruments);
+    if (model.electric && membranes[a].potential.steady && membranes.size() == 1) {
+      const Membrane membrane = membrane_at(space, position, kElectricLayers, 1.0, instruments);
       require_converged(steady_potential(electric_parameters(model, vesicle), vesicle.charging, membrane,
                                          discretisation.settings().electric_tolerance, start.transmembrane_potential),
                         "steady membrane potential");
     }
+  }
+  const auto is_steady = [](const StartMembrane& membrane) { return membrane.potential.steady; };
+  if (model.electric && membranes.size() > 1 && std::any_of(membranes.begin(), membranes.end(), is_steady)) {
+    if (!std::all_of(membranes.begin(), membranes.end(), is_steady)) {
+      throw InputError("some vesicles start with a steady V_m, others do not; accepted: all of them or none");
+    }
+    find_steady_potentials(model, discretisation, state, instruments);
   }
   return state;
 }

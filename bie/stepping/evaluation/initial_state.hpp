@@ -22,6 +22,7 @@ struct StartMembrane {
 /// references: strain zero.
 /// @param discretisation  of the degrees that the positions are cut to or continued by zeros
 /// @throws ConvergenceError where a steady V_m is not found
+/// @throws InputError where some of several vesicles start with a steady V_m and others do not
 State initial_state(const Model& model, const Discretisation& discretisation,
                     const std::vector<StartMembrane>& membranes, double dt, Instruments& instruments);
 

@@ -1,9 +1,10 @@
 #include <cstddef>
 
-#include "bie/physics/bending.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/physics/tension.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/evaluation/interacting_fields.hpp"
+#include "bie/stepping/evaluation/vesicle_task.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
@@ -13,30 +14,8 @@ namespace vehd {
 
 namespace {
 
-/// One vesicle of a state on its way to a solution.
-struct Task {
-  const Model& model;
-  const VesicleModel& vesicle;
-  const NumericalSettings& settings;
-  const MembraneSpace& space;
-  const VesicleState& state;
-  const Membrane& membrane;
-  VesicleFields& fields;
-  VesicleSolution& solution;
-};
-
-/// dV_m/dt = −(σ_i ∂φ_i/∂n + G_m V_m)/C_m, Eq. (4e). No net current leaves a closed membrane, which the quadrature
-/// sees only up to its error.
-Vector charging_rate(const ElectricParameters& electric, const ChargingParameters& charging, const Membrane& membrane,
-                     const Vector& potential, const ElectricTraces& traces) {
-  const Vector& area = membrane.surface.quadrature;
-  Vector current = electric.conductivity_in * traces.flux_in;
-  current.array() -= current.dot(area) / area.sum();
-  return -(membrane.fine.analyze(current) + charging.conductance * potential) / charging.capacitance;
-}
-
 /// f_E with q and dV_m/dt as by-products, Eqs. (12), (15), (32). @returns values on the upsampled grid
-Matrix solve_electric(const Task& task, const ElectricParameters& electric, int& iterations) {
+Matrix solve_electric(const VesicleTask& task, const ElectricParameters& electric, int& iterations) {
   const Membrane& membrane = task.membrane;
   const Vector& potential = task.state.transmembrane_potential;
   const Vector rhs = weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential);
@@ -46,21 +25,12 @@ Matrix solve_electric(const Task& task, const ElectricParameters& electric, int&
   iterations += density.report.iterations;
   const ElectricTraces traces = electric_traces(electric, membrane, potential, density);
   task.fields.charge = membrane.fine.analyze(traces.charge);
-  task.solution.potential_rate = charging_rate(electric, task.vesicle.charging, membrane, potential, traces);
+  task.solution.potential_rate = charging_rate(task, electric, traces);
   return electric_force(electric.permittivity, membrane, traces, electric.permittivity_ratio);
 }
 
-/// The explicit effects and the bending force.
-void add_forces(const Task& task, const EffectInput& input, Forcing& forcing) {
-  for (const auto& effect : explicit_effects(task.model, task.vesicle)) effect->add(input, forcing);
-  if (!task.vesicle.bending) return;
-  const Matrix bending = bending_force(*task.vesicle.bending, task.membrane);
-  task.fields.force_bending = task.membrane.fine.analyze(bending);
-  forcing.force += bending;
-}
-
 /// Velocity of the membrane under the forcing, with the tension that keeps it inextensible, Eq. (27b).
-void solve_velocity(const Task& task, const Forcing& forcing, int& iterations) {
+void solve_velocity(const VesicleTask& task, const Forcing& forcing, int& iterations) {
   const Membrane& membrane = task.membrane;
   Matrix velocity = forcing.velocity;
   if (!membrane.layers.stokes_single.empty()) {
@@ -87,7 +57,7 @@ void solve_velocity(const Task& task, const Forcing& forcing, int& iterations) {
   task.fields.velocity = std::move(velocity);
 }
 
-void solve(const Task& task, double time, Limit limit, Instruments& instruments, SolvedFields& solved) {
+void solve(const VesicleTask& task, double time, Limit limit, Instruments& instruments, SolvedFields& solved) {
   const Membrane& membrane = task.membrane;
   const Index n = task.state.position.rows();
   Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(n, 3)};
@@ -126,16 +96,22 @@ SolvedFields solve_fields(const Model& model, const Discretisation& discretisati
   solved.vesicles.resize(n);
   const bool reuse = !model.mobile && previous != nullptr && (solved.electric_inactive || !previous->electric_inactive);
   for (std::size_t a = 0; a < n; ++a) {
-    const VesicleModel& vesicle = model.vesicles[a];
-    const VesicleState& membrane_state = state.vesicles[a];
     VesicleSolution& solution = solved.vesicles[a];
-    solution.recycled = membrane_state.recycled;
+    solution.recycled = state.vesicles[a].recycled;
     solution.membrane = reuse ? previous->vesicles[a].membrane
-                              : assembled(model, vesicle, discretisation.vesicle(a), membrane_state.position,
-                                          !solved.electric_inactive, instruments);
-    solve({model, vesicle, discretisation.settings(), discretisation.vesicle(a), membrane_state, *solution.membrane,
-           solved.fields.vesicles[a], solution},
-          state.time, limit, instruments, solved);
+                              : assembled(model, model.vesicles[a], discretisation.vesicle(a),
+                                          state.vesicles[a].position, !solved.electric_inactive, instruments);
+  }
+  std::vector<VesicleTask> tasks;
+  for (std::size_t a = 0; a < n; ++a) {
+    tasks.push_back({model, model.vesicles[a], discretisation.settings(), discretisation.vesicle(a), state.vesicles[a],
+                     *solved.vesicles[a].membrane, solved.fields.vesicles[a], solved.vesicles[a]});
+  }
+  if (n == 1) {
+    solve(tasks.front(), state.time, limit, instruments, solved);
+  } else {
+    solved.interaction = reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, instruments);
+    solve_interacting(tasks, state.time, limit, instruments, solved);
   }
   return solved;
 }

@@ -117,10 +117,8 @@ RecycledSubspace in_memory(const FlowLayout& layout, const RecycledSubspace& lea
   return result;
 }
 
-/// Stand-in for the response of the area to a uniform tension, which vanishes on a sphere.
 double mean_response(const FlowParameters& parameters, const Membrane& membrane) {
-  return 0.1 *
-         sphere_flow_block({membrane.radius, parameters.viscosity, 0.0, 0.0, parameters.viscosity_ratio}, 2)(1, 1);
+  return uniform_tension_response(membrane.radius, parameters.viscosity, parameters.viscosity_ratio);
 }
 
 /// (h, λ) over their scales ↦ the left sides of FlowRightHandSide and, behind them, the velocity.

@@ -37,4 +37,26 @@ Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
   return block;
 }
 
+Eigen::Matrix2d rigid_sphere_block(const SphereFlow& sphere, int degree) {
+  const double n = degree;
+  const double odd = 2.0 * n + 1.0;
+  const ContrastSpectrum contrast = contrast_spectrum(sphere.viscosity_ratio, degree);
+  const double layer_v = n / (odd * (2.0 * n + 3.0)) / contrast.v;
+  const double layer_w = degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w;
+
+  // Coefficients of u on V and W for a unit normal force Y n = (W − V)/(2n+1) and for unit λ.
+  const double normal = sphere.radius / (odd * sphere.viscosity);
+  const double tension = 1.0 / (odd * sphere.viscosity);
+  const Eigen::Matrix2d velocity{{-normal * layer_v, tension * (n + 2.0) * layer_v},
+                                 {normal * layer_w, tension * (n - 1.0) * layer_w}};
+  // u·n and J ∇_γ·u of unit V and W.
+  const Eigen::Matrix2d constraint{{-(n + 1.0), n},
+                                   {-(n + 1.0) * (n + 2.0) * sphere.radius, -n * (n - 1.0) * sphere.radius}};
+  return constraint * velocity;
+}
+
+double uniform_tension_response(double radius, double viscosity, double viscosity_ratio) {
+  return 0.1 * sphere_flow_block({radius, viscosity, 0.0, 0.0, viscosity_ratio}, 2)(1, 1);
+}
+
 }  // namespace vehd

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bie/physics/coupled_charging.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/space/resolution.hpp"
@@ -72,11 +73,13 @@ Rate StepOperations::rate(const NodeSolution& node) {
 
 NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   NodeSolution result{start_.time + dt, {}};
+  std::vector<Vector> potentials;
+  for (const VesicleState& vesicle : start_.vesicles) potentials.push_back(vesicle.transmembrane_potential);
+  if (charges()) charge(electric_at(result.time), dt, potentials);
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = start_.vesicles[a];
     if (charges()) {
-      const ElectricParameters electric = electric_parameters(model_, model_.vesicles[a]);
-      charge(electric.at(result.time, Limit::before), a, dt, fields.transmembrane_potential);
+      fields.transmembrane_potential = std::move(potentials[a]);
       forget_decayed(result.time, a, fields.transmembrane_potential);
     }
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
@@ -89,15 +92,18 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
 
 NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end) {
   NodeSolution result{y.time, {}};
+  std::vector<Vector> changes;
+  for (const Residual::OfVesicle& of_vesicle : r.vesicles) changes.push_back(of_vesicle.potential);
+  if (charges()) {
+    std::vector<ElectricParameters> homogeneous = electric_at(y.time);
+    for (ElectricParameters& electric : homogeneous) electric.field.setZero();
+    charge(homogeneous, dt, changes);
+  }
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
     if (charges()) {
-      ElectricParameters homogeneous = electric_parameters(model_, model_.vesicles[a]).at(y.time, Limit::before);
-      homogeneous.field.setZero();
-      Vector change = r.vesicles[a].potential;
-      charge(homogeneous, a, dt, change);
-      fields.transmembrane_potential += change;
+      fields.transmembrane_potential += changes[a];
       forget_decayed(result.time, a, fields.transmembrane_potential);
     }
     const Matrix& lacks = r.vesicles[a].position;
@@ -110,10 +116,31 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
   return result;
 }
 
-void StepOperations::charge(const ElectricParameters& electric, std::size_t a, double dt, Vector& potential) {
+std::vector<ElectricParameters> StepOperations::electric_at(double time) const {
+  std::vector<ElectricParameters> result;
+  for (const VesicleModel& vesicle : model_.vesicles) {
+    result.push_back(electric_parameters(model_, vesicle).at(time, Limit::before));
+  }
+  return result;
+}
+
+void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt,
+                            std::vector<Vector>& potentials) {
   const auto timer = instruments_.time("electric");
-  const SolveReport report = charge_membrane(electric, model_.vesicles[a].charging, *at_start_.vesicles[a].membrane, dt,
-                                             discretisation_.settings().electric_tolerance, potential);
+  const double tolerance = discretisation_.settings().electric_tolerance;
+  SolveReport report;
+  if (potentials.size() == 1) {
+    report = charge_membrane(electric.front(), model_.vesicles.front().charging, *at_start_.vesicles.front().membrane,
+                             dt, tolerance, potentials.front());
+  } else {
+    std::vector<ElectricMembrane> membranes;
+    std::vector<ChargingParameters> charging;
+    for (std::size_t a = 0; a < potentials.size(); ++a) {
+      membranes.push_back({electric[a], *at_start_.vesicles[a].membrane});
+      charging.push_back(model_.vesicles[a].charging);
+    }
+    report = charge_membranes(membranes, *at_start_.interaction, charging, dt, tolerance, potentials);
+  }
   iterations_electric_ += report.iterations;
   if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
 }

@@ -47,6 +47,9 @@ enum class NodeEnd { material, remapped };
 /// - projection: each solve is repeated for what it leaves until area elements, areas and volumes hold;
 /// - remap: the end of the step on nodes that keep the grid good.
 ///
+/// L knows each membrane's bending and tension on itself, and the charging of all on all: what membranes do to each
+/// other in the flow is smooth and enters through F.
+///
 /// Solving and projecting are one iteration, since what a remap does to area and volume is projected out as well: see
 /// constrained_motion. A solve that fails throws ConvergenceError and ends the attempt; the iterations count all the
 /// same.
@@ -85,7 +88,8 @@ class StepOperations {
  private:
   [[nodiscard]] bool charges() const { return model_.electric.has_value() && !at_start_.electric_inactive; }
   [[nodiscard]] State state_at(const NodeSolution& node) const;
-  void charge(const ElectricParameters& electric, std::size_t vesicle, double dt, Vector& potential);
+  [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
+  void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Vector>& potentials);
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end) const;
   using RigidMotion = std::function<SphereMotion(const Membrane& sphere)>;

@@ -1,0 +1,81 @@
+#include "bie/physics/coupled_flow.hpp"
+
+#include "bie/linear/recycled_gcr.hpp"
+#include "bie/sphere/harmonics.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// The velocities of a solve inside another one are exact next to its tolerance.
+constexpr SolveOptions kWithinSolve{1e-12, 100};
+
+StackedEntries stacked_vectors(const std::vector<FlowMembrane>& membranes) {
+  std::vector<Index> sizes;
+  std::vector<std::vector<Index>> entries;
+  for (const FlowMembrane& one : membranes) {
+    sizes.push_back(3 * n_coefficients(one.membrane.fine.order()));
+    entries.push_back(one.membrane.subspace.vectors());
+  }
+  return {std::move(sizes), std::move(entries)};
+}
+
+std::vector<Vector> columns(const std::vector<Matrix>& fields) {
+  std::vector<Vector> result;
+  for (const Matrix& field : fields) result.emplace_back(field.reshaped());
+  return result;
+}
+
+std::vector<Matrix> matrices(const std::vector<Vector>& fields) {
+  std::vector<Matrix> result;
+  for (const Vector& field : fields) result.emplace_back(field.reshaped(field.size() / 3, 3));
+  return result;
+}
+
+}  // namespace
+
+PairSelection flow_pair_selection(const FlowParameters& parameters) {
+  return {.stokes_single = true, .stokes_double = parameters.viscosity_ratio != 1.0};
+}
+
+CoupledFlow::CoupledFlow(const std::vector<FlowMembrane>& membranes, const Interaction& interaction)
+    : membranes_(membranes), interaction_(interaction), contrast_(false), stacked_(stacked_vectors(membranes)) {
+  for (const FlowMembrane& one : membranes) contrast_ = contrast_ || one.parameters.viscosity_ratio != 1.0;
+  if (!contrast_) return;
+  const LinearMap map = [&membranes, &interaction, stacked = stacked_](const Vector& v) -> Vector {
+    std::vector<Matrix> jumps = matrices(stacked.parts(v));
+    for (std::size_t b = 0; b < jumps.size(); ++b) {
+      const double ratio = membranes[b].parameters.viscosity_ratio;
+      jumps[b] = ratio == 1.0 ? Matrix() : Matrix((1.0 - ratio) * jumps[b]);
+    }
+    std::vector<Matrix> of_others = interaction.stokes_double(jumps);
+    for (std::size_t a = 0; a < of_others.size(); ++a) {
+      of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a]));
+    }
+    return v - stacked.stack(columns(of_others));
+  };
+  solver_ = std::make_unique<RecycledGcr>(
+      map, [](const Vector& r) { return r; }, stacked_.size());
+}
+
+CoupledFlow::~CoupledFlow() = default;
+CoupledFlow::CoupledFlow(CoupledFlow&&) noexcept = default;
+
+std::vector<Matrix> CoupledFlow::velocities(const std::vector<Matrix>& weighted,
+                                            const std::vector<Matrix>& background) {
+  std::vector<Matrix> result = interaction_.stokes_single(weighted);
+  for (std::size_t a = 0; a < result.size(); ++a) {
+    const Membrane& membrane = membranes_[a].membrane;
+    if (weighted[a].size() > 0 && !membrane.layers.stokes_single.empty())
+      result[a] += membrane.layers.stokes_single.apply(weighted[a]);
+    result[a] /= membranes_[a].parameters.viscosity;
+    if (!background.empty()) result[a] += background[a];
+    result[a] = membrane.velocity(std::move(result[a]));
+  }
+  if (!contrast_) return result;
+  const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(columns(result)), {}, kWithinSolve);
+  require_converged(solution.report, "velocities of membranes with a viscosity contrast");
+  return matrices(stacked_.parts(solution.x));
+}
+
+}  // namespace vehd

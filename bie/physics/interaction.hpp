@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/potentials/pair_layers.hpp"
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+
+/// One of several membranes.
+struct InteractingMembrane {
+  const Matrix& position;        ///< coefficients, [n_coefficients x 3]
+  const SphereTransform& nodes;  ///< degree p ↔ where the layers of the others are taken
+  PairSelection selection;       ///< its own layers that the others need
+};
+
+/// Layers of every membrane on all others, as maps from the densities of all to coefficients on each: for membrane a
+/// the sum over all b ≠ a. Made once for frozen shapes, applied many times; an empty density counts as zero. All
+/// membranes are outside one another. Accuracy: that of PairLayers at the nodes, and what the degree of the target
+/// leaves out of the sums; Green's identity between two shapes without symmetry (tests/physics/interaction_test.cpp)
+/// Source: paper Eqs. (6), (8), (9) with source and target on different membranes
+class Interaction {
+ public:
+  /// @param settings  memory for rows is that of all
+  /// @throws ConvergenceError if two membranes intersect or are too near for any rule
+  Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
+              Instruments& instruments);
+
+  [[nodiscard]] std::size_t n_membranes() const { return targets_.size(); }
+
+  // Each throws std::logic_error for a layer that was not selected.
+
+  /// J n·∇S[f] from J f: S′ between membranes. Degree 0 is zero: the layers of others have no flux through a membrane.
+  [[nodiscard]] std::vector<Vector> weighted_single_flux(const std::vector<Vector>& weighted) const;
+  /// J n·∇D[f] from f: D′ between membranes, degree 0 likewise.
+  [[nodiscard]] std::vector<Vector> weighted_double_flux(const std::vector<Vector>& densities) const;
+  /// S[f] from J f.
+  [[nodiscard]] std::vector<Vector> single_potential(const std::vector<Vector>& weighted) const;
+  /// D[f] from f.
+  [[nodiscard]] std::vector<Vector> double_potential(const std::vector<Vector>& densities) const;
+  /// Stokes single layer at μ = 1 from J f, [n_coefficients x 3] each.
+  [[nodiscard]] std::vector<Matrix> stokes_single(const std::vector<Matrix>& weighted) const;
+  /// Stokes double layer from v, [n_coefficients x 3] each.
+  [[nodiscard]] std::vector<Matrix> stokes_double(const std::vector<Matrix>& velocities) const;
+
+  /// How many targets of all pairs take which way.
+  [[nodiscard]] PairCounts counts() const;
+
+ private:
+  template <class Field, class Layer>
+  [[nodiscard]] std::vector<Field> sums(const std::vector<Field>& densities, Index components,
+                                        const Layer& layer) const;
+  template <class Layer>
+  [[nodiscard]] std::vector<Vector> fluxes(const std::vector<Vector>& densities, const Layer& layer) const;
+
+  std::vector<SphereTransform> targets_;  ///< of each membrane
+  std::vector<PairLayers> layers_;        ///< of each membrane at the nodes of all others, one after the other
+};
+
+}  // namespace vehd

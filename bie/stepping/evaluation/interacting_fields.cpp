@@ -1,0 +1,124 @@
+#include "bie/stepping/evaluation/interacting_fields.hpp"
+
+#include "bie/physics/coupled_electric.hpp"
+#include "bie/stepping/solve/coupled_tension.hpp"
+#include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/state/composition.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// f_E of each with q and dV_m/dt as by-products. @returns values on the upsampled grids
+std::vector<Matrix> solve_fields_of_charges(const std::vector<VesicleTask>& tasks, double time, Limit limit,
+                                            SolvedFields& solved) {
+  std::vector<ElectricMembrane> membranes;
+  std::vector<Vector> potentials;
+  for (const VesicleTask& task : tasks) {
+    membranes.push_back({electric_parameters(task.model, task.vesicle).at(time, limit), task.membrane});
+    potentials.push_back(task.state.transmembrane_potential);
+  }
+  const Interaction& interaction = *solved.interaction;
+  const CoupledDensities densities =
+      solve_second_kind(membranes, interaction, weighted_fluxes(membranes, interaction, potentials),
+                        tasks.front().settings.electric_tolerance);
+  require_converged(densities.report, "charge densities, Eq. (12)");
+  solved.iterations_electric += densities.report.iterations;
+  const std::vector<Vector> of_others = potentials_of_others(membranes, interaction, potentials, densities.membranes);
+  std::vector<Matrix> forces;
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    const VesicleTask& task = tasks[a];
+    const ElectricParameters& electric = membranes[a].electric;
+    const ElectricTraces traces =
+        electric_traces(electric, task.membrane, potentials[a], densities.membranes[a], of_others[a]);
+    task.fields.charge = task.membrane.fine.analyze(traces.charge);
+    task.solution.potential_rate = charging_rate(task, electric, traces);
+    forces.push_back(electric_force(electric.permittivity, task.membrane, traces, electric.permittivity_ratio));
+    task.fields.force_electric = task.membrane.fine.analyze(forces.back());
+  }
+  return forces;
+}
+
+/// What the symmetry leaves of a velocity; the interaction knows nothing of it.
+Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
+  return membrane.subspace.symmetry().any() ? membrane.subspace.symmetric_vector(velocity) : velocity;
+}
+
+/// Velocities under the forcing, with the tensions that keep the membranes inextensible, Eq. (27b).
+void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<Forcing>& forcing,
+                      SolvedFields& solved) {
+  std::vector<FlowMembrane> membranes;
+  std::vector<Matrix> weighted, background;
+  std::vector<bool> is_sphere;
+  std::vector<Vector> start;
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    const VesicleTask& task = tasks[a];
+    membranes.push_back({flow_parameters(task.model, task.vesicle), task.membrane});
+    weighted.push_back(task.membrane.weighted(forcing[a].force));
+    background.push_back(forcing[a].velocity);
+    task.solution.is_sphere = uniform_tension_is_free(membranes[a].parameters, task.membrane);
+    is_sphere.push_back(task.solution.is_sphere);
+    start.push_back(task.state.tension);
+  }
+  CoupledFlow flow(membranes, *solved.interaction);
+  std::vector<Matrix> velocities = flow.velocities(weighted, background);
+  const CoupledTension tensions =
+      solve_tensions(membranes, is_sphere, flow, velocities, start, tasks.front().settings.flow_tolerance);
+  require_converged(tensions.report, "tensions, Eq. (27b)");
+  solved.iterations_flow += tensions.report.iterations;
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    const VesicleTask& task = tasks[a];
+    task.fields.velocity = symmetric(task.membrane, velocities[a] + tensions.velocities[a]);
+    if (!task.vesicle.inextensible) continue;
+    task.fields.tension = tensions.tension[a];
+    task.fields.force_tension = task.membrane.fine.analyze(tensions.force[a]);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
+                                                  Instruments& instruments) {
+  std::vector<InteractingMembrane> membranes;
+  for (const VesicleTask& task : tasks) {
+    PairSelection selection;
+    if (task.model.electric && electric_active) {
+      selection = electric_pair_selection(electric_parameters(task.model, task.vesicle));
+    }
+    if (task.model.mobile) {
+      const PairSelection flow = flow_pair_selection(flow_parameters(task.model, task.vesicle));
+      selection.stokes_single = flow.stokes_single;
+      selection.stokes_double = flow.stokes_double;
+    }
+    membranes.push_back({task.state.position, task.space.targets(), selection});
+  }
+  return std::make_shared<const Interaction>(membranes, PairSettings{}, instruments);
+}
+
+void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,
+                       SolvedFields& solved) {
+  std::vector<Forcing> forcing;
+  for (const VesicleTask& task : tasks) {
+    forcing.push_back({Matrix::Zero(task.membrane.surface.n_points(), 3), Matrix::Zero(task.state.position.rows(), 3)});
+  }
+  if (tasks.front().model.electric && solved.electric_inactive) {
+    for (const VesicleTask& task : tasks) {
+      const Index n = task.state.position.rows();
+      task.fields.charge = Vector::Zero(n);
+      task.solution.potential_rate = Vector::Zero(n);
+      task.fields.force_electric = Matrix::Zero(n, 3);
+    }
+  } else if (tasks.front().model.electric) {
+    const auto timer = instruments.time("electric");
+    const std::vector<Matrix> forces = solve_fields_of_charges(tasks, time, limit, solved);
+    for (std::size_t a = 0; a < tasks.size(); ++a) forcing[a].force -= forces[a];
+  }
+  if (!tasks.front().model.mobile) return;
+  const auto timer = instruments.time("tension solve");
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    add_forces(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, forcing[a]);
+  }
+  solve_velocities(tasks, forcing, solved);
+}
+
+}  // namespace vehd

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "bie/physics/electric.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
+
+namespace vehd {
+
+/// One vesicle of a state on its way to a solution.
+struct VesicleTask {
+  const Model& model;
+  const VesicleModel& vesicle;
+  const NumericalSettings& settings;
+  const MembraneSpace& space;
+  const VesicleState& state;
+  const Membrane& membrane;
+  VesicleFields& fields;
+  VesicleSolution& solution;
+};
+
+/// dV_m/dt = −(σ_i ∂φ_i/∂n + G_m V_m)/C_m, Eq. (4e), coefficients. No net current leaves a closed membrane, which the
+/// quadrature sees only up to its error.
+Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric, const ElectricTraces& traces);
+
+/// Adds the explicit effects and the bending force, which becomes one of the task's fields.
+void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing);
+
+}  // namespace vehd

@@ -1,0 +1,203 @@
+#include "bie/stepping/solve/coupled_tension.hpp"
+
+#include "bie/linear/recycled_gcr.hpp"
+#include "bie/physics/tension.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/solve/sphere_spectrum.hpp"
+#include "bie/stepping/thresholds.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// Two scalars on one membrane: c and λ as unknowns, u·n and J ∇_γ·u as what they have to make vanish. Those that a
+/// membrane does not have are empty.
+struct ScalarPair {
+  Vector normal, tension;
+};
+
+/// The problem on one membrane.
+class OneTension {
+ public:
+  OneTension(const FlowMembrane& one, bool is_sphere)
+      : membrane_(one.membrane),
+        inextensible_(one.parameters.inextensible),
+        is_sphere_(is_sphere),
+        mean_response_(
+            uniform_tension_response(one.membrane.radius, one.parameters.viscosity, one.parameters.viscosity_ratio)) {
+    const SphereFlow sphere{membrane_.radius, one.parameters.viscosity, 0.0, 0.0, one.parameters.viscosity_ratio};
+    for (int n = 0; n <= membrane_.fine.order(); ++n) {
+      Eigen::Matrix2d block = Eigen::Matrix2d::Identity();
+      if (is_held(n)) {
+        block = rigid_sphere_block(sphere, n);
+      } else {
+        block(1, 1) = n == 0 ? mean_response_ : sphere_flow_block(sphere, n)(1, 1);
+      }
+      inverse_.push_back(block.inverse());
+    }
+  }
+
+  [[nodiscard]] const Membrane& membrane() const { return membrane_; }
+  [[nodiscard]] std::vector<Index> normal_entries() const {
+    std::vector<Index> entries;
+    for (const Index i : membrane_.subspace.scalars()) {
+      if (is_held(degree_of(i))) entries.push_back(i);
+    }
+    return entries;
+  }
+  /// Is there a force c n of this degree? Of the highest one truncation leaves a single velocity, which λ rules alone:
+  /// its harmonic V is of one degree more.
+  [[nodiscard]] bool is_held(int degree) const { return is_sphere_ && degree >= 2 && degree < membrane_.fine.order(); }
+  [[nodiscard]] std::vector<Index> tension_entries() const {
+    return inextensible_ ? membrane_.subspace.scalars() : std::vector<Index>();
+  }
+
+  /// Force on the fluid; empty where there is none.
+  [[nodiscard]] Matrix force(const ScalarPair& unknowns) const {
+    if (!inextensible_) return {};
+    Matrix result = tension_force(membrane_, unknowns.tension);
+    if (is_sphere_) {
+      result += Vector(membrane_.fine.synthesize(unknowns.normal)).asDiagonal() * membrane_.surface.normal;
+    }
+    return result;
+  }
+
+  /// u·n and J ∇_γ·u.
+  [[nodiscard]] ScalarPair constraints(const Matrix& velocity) const {
+    const SphereDerivatives u = membrane_.fine.synthesize_gradient(velocity);
+    ScalarPair result{Vector::Zero(velocity.rows()), weighted_divergence(membrane_, u)};
+    if (is_sphere_) {
+      result.normal = membrane_.fine.analyze(u.value.cwiseProduct(membrane_.surface.normal).rowwise().sum());
+      result.tension[0] = 0.0;
+    }
+    return result;
+  }
+
+  /// The same of the velocity that the unknowns make; a uniform tension of a sphere, which makes none, stays zero.
+  [[nodiscard]] ScalarPair response(const Matrix& velocity, const ScalarPair& unknowns) const {
+    ScalarPair result = constraints(velocity);
+    if (is_sphere_) result.tension[0] = mean_response_ * unknowns.tension[0];
+    return result;
+  }
+
+  [[nodiscard]] ScalarPair sphere_inverse(const ScalarPair& residual) const {
+    ScalarPair result = residual;
+    for (Index i = 0; i < result.tension.size(); ++i) {
+      const Eigen::Matrix2d& m = inverse_[static_cast<std::size_t>(degree_of(i))];
+      result.normal[i] = m(0, 0) * residual.normal[i] + m(0, 1) * residual.tension[i];
+      result.tension[i] = m(1, 0) * residual.normal[i] + m(1, 1) * residual.tension[i];
+    }
+    return result;
+  }
+
+ private:
+  const Membrane& membrane_;
+  bool inextensible_, is_sphere_;
+  double mean_response_;
+  std::vector<Eigen::Matrix2d> inverse_;  ///< of each degree
+};
+
+/// The scalars of all membranes as one vector: normal forces, behind them tensions.
+class Layout {
+ public:
+  explicit Layout(const std::vector<OneTension>& all)
+      : normal_(stacked(all, &OneTension::normal_entries)), tension_(stacked(all, &OneTension::tension_entries)) {}
+
+  [[nodiscard]] Index size() const { return normal_.size() + tension_.size(); }
+
+  [[nodiscard]] Vector stack(const std::vector<ScalarPair>& scalars) const {
+    std::vector<Vector> normal, tension;
+    for (const ScalarPair& of_one : scalars) {
+      normal.push_back(of_one.normal);
+      tension.push_back(of_one.tension);
+    }
+    Vector result(size());
+    result << normal_.stack(normal), tension_.stack(tension);
+    return result;
+  }
+
+  [[nodiscard]] std::vector<ScalarPair> scalars(const Vector& stacked) const {
+    const std::vector<Vector> normal = normal_.parts(stacked.head(normal_.size()));
+    const std::vector<Vector> tension = tension_.parts(stacked.tail(tension_.size()));
+    std::vector<ScalarPair> result;
+    for (std::size_t a = 0; a < normal.size(); ++a) result.push_back({normal[a], tension[a]});
+    return result;
+  }
+
+  /// c and λ over their scales, which are alike for membranes of any size.
+  [[nodiscard]] Vector scales(const std::vector<OneTension>& all) const {
+    std::vector<double> radii;
+    for (const OneTension& one : all) radii.push_back(one.membrane().radius);
+    Vector result(size());
+    result << Vector::Ones(normal_.size()), tension_.spread(radii);
+    return result;
+  }
+
+ private:
+  using Entries = std::vector<Index> (OneTension::*)() const;
+  static StackedEntries stacked(const std::vector<OneTension>& all, Entries entries_of) {
+    std::vector<Index> sizes;
+    std::vector<std::vector<Index>> entries;
+    for (const OneTension& one : all) {
+      sizes.push_back(n_coefficients(one.membrane().fine.order()));
+      entries.push_back((one.*entries_of)());
+    }
+    return {std::move(sizes), std::move(entries)};
+  }
+
+  StackedEntries normal_, tension_;
+};
+
+std::vector<Matrix> velocities_of(const std::vector<OneTension>& all, CoupledFlow& flow,
+                                  const std::vector<ScalarPair>& unknowns) {
+  std::vector<Matrix> weighted;
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    const Matrix force = all[a].force(unknowns[a]);
+    weighted.push_back(force.size() == 0 ? Matrix() : all[a].membrane().weighted(force));
+  }
+  return flow.velocities(weighted);
+}
+
+}  // namespace
+
+CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
+                              CoupledFlow& flow, const std::vector<Matrix>& driven, const std::vector<Vector>& start,
+                              double tolerance) {
+  std::vector<OneTension> all;
+  for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a]);
+  const Layout layout(all);
+  const Vector scales = layout.scales(all);
+  const LinearMap map = [&](const Vector& v) {
+    const std::vector<ScalarPair> unknowns = layout.scalars(v.cwiseProduct(scales));
+    const std::vector<Matrix> velocities = velocities_of(all, flow, unknowns);
+    std::vector<ScalarPair> result;
+    for (std::size_t a = 0; a < all.size(); ++a) result.push_back(all[a].response(velocities[a], unknowns[a]));
+    return layout.stack(result);
+  };
+  const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
+    std::vector<ScalarPair> parts = layout.scalars(residual);
+    for (std::size_t a = 0; a < all.size(); ++a) parts[a] = all[a].sphere_inverse(parts[a]);
+    return layout.stack(parts).cwiseQuotient(scales);
+  };
+  std::vector<ScalarPair> rhs, guess;
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    rhs.push_back(all[a].constraints(-driven[a]));
+    const Vector none = Vector::Zero(driven[a].rows());
+    guess.push_back({none, start[a].size() > 0 ? start[a] : none});
+    // The mean does nothing on a sphere, and is none of the unknowns' business.
+    if (is_sphere[a]) guess.back().tension[0] = 0.0;
+  }
+  RecycledGcr solver(map, preconditioner, layout.size());
+  const RecycledGcr::Solution solution = solver.solve(layout.stack(rhs), layout.stack(guess).cwiseQuotient(scales),
+                                                      {tolerance, thresholds::most_flow_iterations});
+  CoupledTension result{{}, {}, {}, solution.report};
+  const std::vector<ScalarPair> unknowns = layout.scalars(solution.x.cwiseProduct(scales));
+  result.velocities = velocities_of(all, flow, unknowns);
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    result.tension.push_back(membranes[a].parameters.inextensible ? unknowns[a].tension : Vector());
+    result.force.push_back(all[a].force(unknowns[a]));
+  }
+  return result;
+}
+
+}  // namespace vehd

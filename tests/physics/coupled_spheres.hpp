@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "bie/support/types.hpp"
+
+/// Two equal spheres of radius 1 about (0, 0, ±d/2) in a uniform field of size 1 in a fluid of permittivity 1, by
+/// multipoles about both centres: linear systems that are exact but for the highest multipole.
+namespace vehd::testing {
+
+/// Of degree m for conductivities σ_i/σ_e = k, infinite k included.
+inline double polarisability(int m, double k) { return std::isinf(k) ? -1.0 : -m * (k - 1.0) / (m * (k + 1.0) + 1.0); }
+
+/// Attraction of the spheres.
+struct SphereForces {
+  double along;   ///< in a field along the line of centres
+  double across;  ///< in a field across it: they repel each other
+};
+
+/// @param k  σ_i/σ_e that a multipole of degree m sees, k(m)
+template <class Ratio>
+SphereForces sphere_forces_of(double gap, const Ratio& k, int n_multipoles = 60) {
+  const double d = 2.0 + gap;
+  const auto coefficient = [](int m, int n, int shift) {
+    // (m+n)!/((m+shift)!(n−shift)!)
+    return std::exp(std::lgamma(m + n + 1.0) - std::lgamma(m + shift + 1.0) - std::lgamma(n - shift + 1.0));
+  };
+  SphereForces result{};
+  for (const int shift : {0, 1}) {
+    Matrix system = Matrix::Identity(n_multipoles, n_multipoles);
+    Vector rhs = Vector::Zero(n_multipoles);
+    rhs[0] = -polarisability(1, k(1));
+    for (int m = 1; m <= n_multipoles; ++m) {
+      for (int n = 1; n <= n_multipoles; ++n) {
+        const double sign = shift == 0 ? 1.0 : -1.0;
+        system(m - 1, n - 1) += sign * polarisability(m, k(m)) * coefficient(m, n, shift) * std::pow(d, -(m + n + 1.0));
+      }
+    }
+    const Vector a = system.partialPivLu().solve(rhs);
+    // The field that each multipole is in, A = g L.
+    const auto bracket = [&](int m) { return a[m - 1] / polarisability(m, k(m)); };
+    double force = 0.0;
+    for (int n = 1; n < n_multipoles; ++n) {
+      if (shift == 0) force += -4.0 * std::numbers::pi * (n + 1.0) * bracket(n + 1) * a[n - 1];
+      if (shift == 1 && n >= 2)
+        force += -4.0 * std::numbers::pi * 0.5 * n * (n - 1.0) * (n + 1.0) * bracket(n) * a[n - 2];
+    }
+    (shift == 0 ? result.along : result.across) = force;
+  }
+  return result;
+}
+
+inline SphereForces sphere_forces(double gap, double k) {
+  return sphere_forces_of(gap, [k](int) { return k; });
+}
+
+/// With a membrane of conductance G_m (C_m/dt + G_m after one step from no charge).
+inline SphereForces charged_sphere_forces(double gap, double k, double conductance) {
+  return sphere_forces_of(gap, [=](int m) { return k / (1.0 + m * k / conductance); });
+}
+
+}  // namespace vehd::testing

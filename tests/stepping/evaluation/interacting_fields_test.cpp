@@ -1,0 +1,129 @@
+#include "bie/stepping/evaluation/interacting_fields.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "tests/support/several_runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+BOOST_AUTO_TEST_SUITE(interacting_fields)
+
+namespace {
+
+/// Membranes that conduct nothing in a field along z, conductivity σ_i/σ_e = 10.
+Model in_axial_field(std::size_t n) {
+  Model model = relaxation_model(0.1);
+  set_electric(model, {{0.0, 0.0, 1.0}, 10.0, 1.0, 1.0}, {1.0, 0.0});
+  return with_vesicles(model, n);
+}
+
+Vector3 total_force(const Membrane& membrane, const Matrix& force) {
+  return membrane.fine.synthesize(force).transpose() * membrane.surface.quadrature;
+}
+
+/// ∫ x × f dA.
+Vector3 total_torque(const Membrane& membrane, const Matrix& force) {
+  const Matrix values = membrane.fine.synthesize(force);
+  Vector3 torque = Vector3::Zero();
+  for (Index i = 0; i < values.rows(); ++i) {
+    torque += membrane.surface.quadrature[i] * Vector3(membrane.surface.position.row(i)).cross(Vector3(values.row(i)));
+  }
+  return torque;
+}
+
+std::vector<Matrix> two_shapes(int order) {
+  return {asymmetric_shape(order), translated(ellipsoid(order, {0.6, 0.5, 0.8}), {2.4, 0.1, 0.7})};
+}
+
+Model full_model() {
+  Model model = field_model();
+  model.flow = shear_flow(1.0);
+  return with_vesicles(model, 2);
+}
+
+}  // namespace
+
+// Force of the field over the drag of Stimson and Jeffery.
+BOOST_AUTO_TEST_CASE(spheres_in_an_axial_field_approach_each_other_with_the_exact_speed) {
+  struct Row {
+    double gap, charged, uncharged;
+  };
+  for (const Row& row : {Row{2.0, 0.00235036408, 0.00583500261}, Row{0.5, 0.00726251441, 0.030062936}}) {
+    const Vector3 up(0.0, 0.0, 1.0 + row.gap / 2.0);
+    const std::vector<Matrix> spheres{translated(sphere(16), -up), translated(sphere(16), up)};
+    const Model model = in_axial_field(2);
+    const Discretisation discretisation = discretisation_of(spheres, {}, find_symmetry(model, at_rest(spheres)));
+    BOOST_TEST(discretisation.symmetry().axisymmetric);
+    for (const bool steady : {true, false}) {
+      const State state = start(model, discretisation, spheres, 0.1, steady);
+      const SolvedFields found = solved(model, discretisation, state);
+      const double exact = steady ? row.charged : row.uncharged;
+      const double below = translation(found.fields.vesicles[0].velocity).z();
+      const double above = translation(found.fields.vesicles[1].velocity).z();
+      BOOST_TEST(std::abs(below - exact) < 3e-8 * exact);
+      BOOST_TEST(std::abs(above + exact) < 3e-8 * exact);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(forces_between_two_shapes_have_no_resultant) {
+  const std::vector<Matrix> shapes = two_shapes(16);
+  const Model model = full_model();
+  const Discretisation discretisation = discretisation_of(shapes);
+  const SolvedFields found = solved(model, discretisation, start(model, discretisation, shapes, 0.1));
+  Vector3 electric = Vector3::Zero();
+  double scale = 0.0;
+  for (const std::size_t a : {0, 1}) {
+    const Membrane& membrane = *found.vesicles[a].membrane;
+    const VesicleFields& f = found.fields.vesicles[a];
+    electric += total_force(membrane, f.force_electric);
+    scale = std::max(scale, total_force(membrane, f.force_electric).norm());
+    // What degree 16 leaves out of the forces.
+    BOOST_TEST(total_force(membrane, f.force_tension).norm() < 3e-5);
+    BOOST_TEST(total_torque(membrane, f.force_tension).norm() < 5e-5);
+  }
+  BOOST_TEST(scale > 1e-3);
+  BOOST_TEST(electric.norm() < 2e-4 * scale);
+}
+
+BOOST_AUTO_TEST_CASE(the_order_of_vesicles_does_not_matter) {
+  const std::vector<Matrix> shapes = two_shapes(8);
+  const Model model = full_model();
+  const std::vector<Matrix> swapped{shapes[1], shapes[0]};
+  const Discretisation discretisation = discretisation_of(shapes);
+  const SolvedFields found = solved(model, discretisation, start(model, discretisation, shapes, 0.1));
+  const SolvedFields other = solved(model, discretisation, start(model, discretisation, swapped, 0.1));
+  for (const std::size_t a : {0, 1}) {
+    const VesicleFields& one = found.fields.vesicles[a];
+    const VesicleFields& same = other.fields.vesicles[1 - a];
+    BOOST_TEST(relative_difference(one.velocity, same.velocity) < 1e-8);
+    BOOST_TEST(relative_difference(one.force_electric, same.force_electric) < 1e-9);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(copies_far_apart_are_each_alone_in_as_many_iterations) {
+  const Matrix shape = asymmetric_shape(8);
+  Model one = field_model();
+  one.vesicles[0].viscosity_ratio = 2.0;
+  std::vector<Matrix> shapes;
+  for (int i = 0; i < 4; ++i) shapes.push_back(translated(shape, 1e5 * Vector3(i, 0.3 * i * i, std::sin(i))));
+  const Model model = with_vesicles(one, shapes.size());
+  const Discretisation discretisation = discretisation_of(shapes);
+  const SolvedFields found = solved(model, discretisation, start(model, discretisation, shapes, 0.1));
+  const Discretisation space = discretisation_of(8);
+  const SolvedFields alone = solved(one, space, start(one, space, shape, 0.1));
+  BOOST_TEST(found.iterations_flow <= alone.iterations_flow + 2);
+  BOOST_TEST(found.iterations_electric <= alone.iterations_electric + 2);
+  const VesicleFields& expected = alone.fields.vesicles[0];
+  for (const VesicleFields& f : found.fields.vesicles) {
+    // Rounding of positions, 1e-11, in the bending force.
+    BOOST_TEST(relative_difference(f.velocity, expected.velocity) < 1e-6);
+    BOOST_TEST(relative_difference(f.force_electric, expected.force_electric) < 1e-7);
+    BOOST_TEST(relative_difference(f.tension, expected.tension) < 1e-6);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

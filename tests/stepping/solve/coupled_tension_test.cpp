@@ -1,0 +1,120 @@
+#include "bie/stepping/solve/coupled_tension.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "bie/physics/gravity.hpp"
+#include "bie/physics/tension.hpp"
+#include "tests/stepping/stimson_jeffery.hpp"
+#include "tests/support/several.hpp"
+#include "tests/support/several_runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+BOOST_AUTO_TEST_SUITE(coupled_tension)
+
+namespace {
+
+constexpr PairSelection kStokesPairs{.stokes_single = true, .stokes_double = true};
+
+/// Two spheres one above the other.
+std::vector<Matrix> two_spheres(int order, double gap) {
+  const Vector3 up(0.0, 0.0, 1.0 + gap / 2.0);
+  return {translated(sphere(order), -up), translated(sphere(order), up)};
+}
+
+/// Spheres that forces ±1 pull along z.
+Model pulled(double lower, double upper, double viscosity, double ratio) {
+  Model model = with_vesicles(relaxation_model(0.1), 2);
+  model.viscosity = viscosity;
+  const double volume = 4.0 / 3.0 * std::numbers::pi;
+  for (const std::size_t a : {0, 1}) {
+    const GravityParameters weight{1.0, {0.0, 0.0, (a == 0 ? lower : upper) / volume}};
+    model.vesicles[a].effects.push_back(std::make_shared<GravityEffect>(weight));
+    model.vesicles[a].viscosity_ratio = ratio;
+  }
+  return model;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(drag_of_stimson_and_jeffery_is_the_tabulated_one) {
+  struct Row {
+    double gap, same, opposite;
+  };
+  for (const Row& row : {Row{4.0, 0.804721760670, 1.33015366395}, Row{2.0, 0.742258285069, 1.59668199950},
+                         Row{0.5, 0.672915513765, 2.77241867956}}) {
+    BOOST_TEST(std::abs(stimson_jeffery(row.gap).same - row.same) < 1e-11);
+    BOOST_TEST(std::abs(stimson_jeffery(row.gap).opposite - row.opposite) < 1e-10);
+  }
+}
+
+// Rigid spheres do not notice what is within them.
+BOOST_AUTO_TEST_CASE(spheres_along_their_line_of_centres_move_as_stimson_and_jeffery_say) {
+  for (const double gap : {2.0, 0.5}) {
+    const std::vector<Matrix> spheres = two_spheres(16, gap);
+    const StimsonJeffery exact = stimson_jeffery(gap);
+    for (const double viscosity_ratio : {1.0, 5.0}) {
+      for (const double lower : {1.0, -1.0}) {
+        const Model model = pulled(lower, 1.0, 2.5, viscosity_ratio);
+        const State state = at_rest(spheres);
+        const Discretisation discretisation = discretisation_of(spheres, {}, find_symmetry(model, state));
+        const SolvedFields found = solved(model, discretisation, state);
+        const double speed = 1.0 / (6.0 * std::numbers::pi * 2.5 * (lower > 0.0 ? exact.same : exact.opposite));
+        const Vector3 below = translation(found.fields.vesicles[0].velocity);
+        const Vector3 above = translation(found.fields.vesicles[1].velocity);
+        BOOST_TEST(std::abs(above.z() - speed) < 1e-8 * speed);
+        BOOST_TEST((below - Vector3(0.0, 0.0, lower * speed)).norm() < 1e-8 * speed);
+        BOOST_TEST(found.iterations_flow <= 10);
+      }
+    }
+  }
+}
+
+// v = E x satisfies the equations in all fluids if the membranes bear the jump of the viscous stress, 2(Λ − 1)μ E n.
+BOOST_AUTO_TEST_CASE(a_flow_common_to_all_fluids_is_found_between_membranes_of_any_viscosity) {
+  const int order = 14;
+  const Matrix one = asymmetric_shape(order), two = translated(ellipsoid(order, {0.7, 0.8, 0.9}), {2.3, -0.2, 0.4});
+  const SeveralMembranes pair(order, {one, two}, kStokesLayers, kStokesPairs);
+  const double viscosity = 1.7;
+  Matrix3 strain;
+  strain << 0.3, 0.5, -0.2, 0.5, 0.4, 0.1, -0.2, 0.1, -0.7;
+  const double ratios[] = {4.0, 0.2};
+  std::vector<Membrane> membranes;
+  for (const std::size_t a : {0, 1}) {
+    membranes.push_back(make_membrane(pair.space, pair.positions[a], kStokesLayers, ratios[a]));
+  }
+  std::vector<FlowMembrane> members;
+  std::vector<Matrix> weighted, exact;
+  for (const std::size_t a : {0, 1}) {
+    members.push_back({{viscosity, ratios[a], false, {}}, membranes[a]});
+    const Matrix force = 2.0 * viscosity * (ratios[a] - 1.0) * membranes[a].surface.normal * strain;
+    weighted.push_back(membranes[a].weighted(force));
+    exact.emplace_back(pair.positions[a] * strain);
+  }
+  CoupledFlow flow(members, pair.interaction);
+  const std::vector<Matrix> found = flow.velocities(weighted, exact);
+  for (const std::size_t a : {0, 1}) {
+    BOOST_TEST(relative_difference(found[a], exact[a]) < 1e-7);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tensions_of_two_shapes_keep_every_area_element_of_both) {
+  const std::vector<Matrix> shapes{asymmetric_shape(12), translated(ellipsoid(12, {0.7, 0.5, 0.9}), {2.4, 0.1, 0.7})};
+  Model model = with_vesicles(shear_model(), 2);
+  model.vesicles[1].viscosity_ratio = 3.0;
+  const Discretisation discretisation = discretisation_of(shapes);
+  const SolvedFields found = solved(model, discretisation, at_rest(shapes));
+  for (const std::size_t a : {0, 1}) {
+    const Membrane& membrane = *found.vesicles[a].membrane;
+    const SphereDerivatives u = membrane.fine.synthesize_gradient(found.fields.vesicles[a].velocity);
+    const double speed = u.value.rowwise().norm().maxCoeff();
+    BOOST_TEST(weighted_divergence(membrane, u).cwiseAbs().maxCoeff() < 1e-7 * speed);
+    const Vector through = row_dot(u.value, membrane.surface.normal);
+    BOOST_TEST(std::abs(through.dot(membrane.surface.quadrature)) < 1e-5 * speed);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

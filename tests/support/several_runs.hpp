@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/support/runs.hpp"
+
+/// Models and states of several vesicles.
+namespace vehd::testing {
+
+/// n vesicles like the one of this model.
+inline Model with_vesicles(Model model, std::size_t n) {
+  model.vesicles.assign(n, VesicleModel(model.vesicles.front()));
+  return model;
+}
+
+inline State at_rest(const std::vector<Matrix>& positions) {
+  State state;
+  for (const Matrix& position : positions) state.vesicles.push_back(at_rest(position).vesicles.front());
+  return state;
+}
+
+/// Spaces in the degrees of the positions.
+inline Discretisation discretisation_of(const std::vector<Matrix>& positions, const NumericalSettings& settings = {},
+                                        const Symmetry& symmetry = {}) {
+  std::vector<Fineness> finenesses;
+  for (const Matrix& position : positions) finenesses.push_back({order_of(position.rows()), 1.0});
+  return {settings, symmetry, finenesses};
+}
+
+inline State start(const Model& model, const Discretisation& discretisation, const std::vector<Matrix>& positions,
+                   double dt, bool steady = false) {
+  std::vector<StartMembrane> membranes;
+  for (const Matrix& position : positions) membranes.push_back({position, {.steady = steady}});
+  Instruments instruments;
+  return initial_state(model, discretisation, membranes, dt, instruments);
+}
+
+inline SolvedFields solved(const Model& model, const Discretisation& discretisation, const State& state) {
+  Instruments instruments;
+  return solve_fields(model, discretisation, state, instruments);
+}
+
+/// Of a velocity of a sphere given by coefficients about its centre: that of the centre.
+inline Vector3 translation(const Matrix& velocity) {
+  return velocity.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+}
+
+}  // namespace vehd::testing
