@@ -1,0 +1,131 @@
+#include "fem_check/app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "fem_check/app/check.hpp"
+#include "fem_check/app/hdf5_input.hpp"
+#include "fem_check/app/mesh.hpp"
+#include "fem_check/app/point_sources.hpp"
+#include "fem_check/session.hpp"
+#include "meshes/types.hpp"
+
+namespace vehd::fem_check {
+namespace {
+
+/// What coarse elements are asked for: signs, sides and conditions, and the first digit of small remainders.
+constexpr double required_when_quick = 0.05;
+
+/// Exit codes of vehd: done; wrong input; internal error; methods that do not agree.
+enum ExitCode { done = 0, refused = 1, internal_error = 2, does_not_hold = 4 };
+
+void write_json(const std::string& path, const nlohmann::json& json) {
+  if (path.empty()) return;
+  std::ofstream file(path, std::ios::trunc);
+  file << json.dump(2) << "\n";
+  file.close();
+  if (!file) throw InputError(path + ": cannot be written");
+}
+
+/// Names the rows that do not agree.
+void print_reasons(const CheckResult& result) {
+  const std::string wrong = result.rows_with(Verdict::does_not), open = result.rows_with(Verdict::undecided);
+  if (!wrong.empty()) fmt::print(stderr, "{}: the two methods do not agree in: {}\n", result.source, wrong);
+  if (!open.empty()) {
+    fmt::print(stderr, "{}: undecided, errors above {:.3g} of the field: {}\n", result.source, result.required, open);
+  }
+}
+
+int check(CheckTask task, const std::string& json_file, bool first_rank) {
+  task.writes = first_rank;
+  const std::vector<CheckResult> results = run_check(task, [&](const std::string& line) {
+    if (first_rank) fmt::print(stderr, "{}\n", line);
+  });
+  const CheckResult& result = results.front();
+  if (first_rank) {
+    fmt::print("{}files: {}\n", table_of(result), task.directory.string());
+    std::fflush(stdout);
+    nlohmann::json json = json_of(result);
+    for (std::size_t i = 1; i < results.size(); ++i) json["further"].push_back(json_of(results[i]));
+    write_json(json_file, json);
+    print_reasons(result);
+  }
+  return result.verdict() == Verdict::agree ? done : does_not_hold;
+}
+
+int mesh(const MeshTask& task, const std::string& json_file) {
+  const MeshResult result = run_mesh(task);
+  fmt::print("{}", text_of(result));
+  write_json(json_file, json_of(result));
+  return done;
+}
+
+int fail(int code, const std::string& message) {
+  fmt::print(stderr, "{}\n", message);
+  return code;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  CLI::App program("Finite-element side of vehd: started by vehd check, mesh and bench methods.", "vehd_fem");
+  program.require_subcommand(1);
+  std::string json_file;
+
+  CheckTask check_task;
+  bool quick = false;
+  CLI::App* check_command = program.add_subcommand("check", "Solve and compare");
+  check_command->add_option("INPUT", check_task.input, "check_input.h5")->required();
+  check_command->add_option("-o,--output", check_task.directory, "Directory for the results")->required();
+  const CLI::Option* required =
+      check_command->add_option("--require", check_task.required, "Largest error of a field over the field")
+          ->check(CLI::Range(1e-9, 1.0));
+  check_command->add_option("--further", check_task.further_inputs,
+                            "Inputs of the same state with other numbers, judged as well; for the JSON");
+  check_command->add_flag("--quick", quick, "Coarse elements");
+  check_command->add_option("--json", json_file, "Also write the result as JSON");
+
+  MeshTask mesh_task;
+  CLI::App* mesh_command = program.add_subcommand("mesh", "Mesh a shape");
+  mesh_command->add_option("INPUT", mesh_task.input, "File with the shape")->required();
+  mesh_command->add_option("-o,--output", mesh_task.output, "Mesh to write")->required();
+  mesh_command->add_option("--family", mesh_task.family, "hex or tet")->check(CLI::IsMember({"hex", "tet"}));
+  mesh_command->add_option("--refine", mesh_task.refine, "How often the element size is divided by 1.5");
+  mesh_command->add_option("--json", json_file, "Also write the result as JSON");
+
+  PointSourceTask sources_task;
+  CLI::App* sources_command = program.add_subcommand("sources", "Solve for point sources, whose solution is known");
+  sources_command->add_option("INPUT", sources_task.input, "File with the shape and the sources")->required();
+  sources_command->add_option("--degree", sources_task.degree, "Of the elements");
+  sources_command->add_option("--cells", sources_task.cells_per_edge, "Cells per edge of a block");
+  sources_command->add_option("--radius", sources_task.outer_radius, "Of the outer sphere, over that of the shape");
+  sources_command->add_option("--json", json_file, "Where the result goes")->required();
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? done : refused;
+  }
+  // Not for a page of help: MPI leaves files of its own where it is killed.
+  const Session session(argc, argv);
+  try {
+    if (mesh_command->parsed()) return mesh(mesh_task, json_file);
+    if (sources_command->parsed()) {
+      write_json(json_file, json_of(run_point_sources(sources_task)));
+      return done;
+    }
+    check_task.refinement = quick ? Refinement::quick() : Refinement::finest();
+    if (quick && required->empty()) check_task.required = required_when_quick;
+    return check(check_task, json_file, session.rank() == 0);
+  } catch (const InputError& error) {
+    return fail(refused, error.what());
+  } catch (const meshes::MeshError& error) {
+    return fail(refused, fmt::format("mesh: {}", error.what()));
+  } catch (const std::exception& error) {
+    return fail(internal_error, fmt::format("internal error: {}", error.what()));
+  }
+}
+
+}  // namespace vehd::fem_check
