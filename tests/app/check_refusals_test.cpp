@@ -10,7 +10,7 @@
 #include "tests/app/reference_run.hpp"
 
 BOOST_AUTO_TEST_SUITE(check_refusals, *boost::unit_test::precondition(finite_elements_are_built) *
-                                          boost::unit_test::label("alone") * boost::unit_test::label("once"))
+                                          boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 namespace {
 
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(stored_number_that_is_wrong_by_a_percent_is_noticed) {
   scale_field_of_run(file, "/snapshots/000000", "tension", 1.01);
   scale_field_of_run(file, "/snapshots/000000", "velocity", 1.01);
   const ProgramResult wrong =
-      run_vehd({"check", file, "--quick", "--no-plot", "--json", run.directory / "result.json"});
+      run_vehd({"check", file, "--quick", "--ranks", "1", "--no-plot", "--json", run.directory / "result.json"});
   BOOST_TEST(wrong.exit_code == 4);
   BOOST_TEST(wrong.errors.find("do not agree in: stored lambda, stored v") != std::string::npos, wrong.errors);
   for (const auto& [row, values] : json_of(run.directory / "result.json")["stored"].items()) {

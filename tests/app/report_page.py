@@ -1,4 +1,4 @@
-"""Opens a report in headless Chromium as a reader would, and prints what it shows as JSON.
+"""Opens a report in headless Chromium as a reader would, and prints what it shows as JSON or takes a picture of it.
 
     report_page.py REPORT.html [SCREENSHOT.png [HEIGHT]]
 """
@@ -57,8 +57,7 @@ def state(browser):
             "label": browser.find_element(By.ID, "view").get_attribute("aria-label")}
 
 
-def look_at(browser, report, screenshot=None, height=None):
-    browser.get(pathlib.Path(report).resolve().as_uri())
+def look_at(browser):
     result = {"ready": browser.execute_script("return document.documentElement.dataset.ready"),
               "title": browser.title,
               "problem": browser.find_element(By.ID, "problem").text,
@@ -85,23 +84,29 @@ def look_at(browser, report, screenshot=None, height=None):
     browser.find_element(By.ID, "play").click()
     result["playing"] = browser.find_element(By.ID, "play").text
     browser.find_element(By.ID, "play").click()
-    if screenshot:
-        browser.execute_script("window.vehdReport.show(Math.floor(window.vehdReport.run.surface.times.length / 4));"
-                               "const f = document.getElementById('field'); f.selectedIndex = 0;"
-                               "f.dispatchEvent(new Event('change'));")
-        browser.execute_script("window.scrollTo(0, 0)")
-        whole = browser.execute_script("return document.documentElement.scrollHeight") + 100
-        browser.set_window_size(1200, int(height or whole))
-        browser.save_screenshot(screenshot)
     # Warnings of the software renderer about itself are no errors of the page.
     result["errors"] = [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
     return result
 
 
+def photograph(browser, screenshot, height=None):
+    browser.execute_script("window.vehdReport.show(Math.floor(window.vehdReport.run.surface.times.length / 4));"
+                           "const f = document.getElementById('field'); f.selectedIndex = 0;"
+                           "f.dispatchEvent(new Event('change'));")
+    browser.execute_script("window.scrollTo(0, 0)")
+    whole = browser.execute_script("return document.documentElement.scrollHeight") + 100
+    browser.set_window_size(1200, int(height or whole))
+    browser.save_screenshot(screenshot)
+
+
 def main():
     browser = open_browser()
     try:
-        print(json.dumps(look_at(browser, *sys.argv[1:])))
+        browser.get(pathlib.Path(sys.argv[1]).resolve().as_uri())
+        if len(sys.argv) > 2:
+            photograph(browser, *sys.argv[2:])
+        else:
+            print(json.dumps(look_at(browser)))
     finally:
         browser.quit()
 
