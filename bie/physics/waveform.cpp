@@ -19,18 +19,14 @@ constexpr double kSameFactor = 1e-9;
 }  // namespace
 
 Waveform Waveform::alternating(double amplitude, double frequency, double phase) {
-  Waveform w;
-  w.kind_ = Kind::alternating;
-  w.amplitude_ = amplitude;
+  Waveform w(Kind::alternating, amplitude);
   w.frequency_ = frequency;
   w.phase_ = phase;
   return w;
 }
 
 Waveform Waveform::pulse(double amplitude, double start, double duration) {
-  Waveform w;
-  w.kind_ = Kind::pulse;
-  w.amplitude_ = amplitude;
+  Waveform w(Kind::pulse, amplitude);
   w.start_ = start;
   w.duration_ = duration;
   return w;

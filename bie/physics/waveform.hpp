@@ -38,6 +38,8 @@ class Waveform {
  private:
   enum class Kind { constant, alternating, pulse, pulse_train, table };
 
+  Waveform(Kind kind, double amplitude) : kind_(kind), amplitude_(amplitude) {}
+
   /// Rounding of a time near a discontinuity.
   [[nodiscard]] double slack(double time) const;
 

@@ -7,22 +7,13 @@
 
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Long enough for any machine, and only waited for where something is wrong.
 constexpr std::chrono::seconds most{120};
-
-bool comes_true(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + most;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return true;
-}
 
 /// A check that takes far longer than the test, in a folder by which its processes are known.
 struct LongCheck {
@@ -68,10 +59,10 @@ BOOST_AUTO_TEST_CASE(whatever_ends_a_check_ends_its_finite_elements) {
   for (const int signal : {SIGKILL, SIGTERM, SIGINT}) {
     const LongCheck check;
     RunningProgram program(check.command);
-    BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }), signal);
+    BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }, most), signal);
     program.send(signal);
     program.wait();
-    BOOST_TEST(comes_true([&] { return check.is_gone(); }), signal);
+    BOOST_TEST(comes_true([&] { return check.is_gone(); }, most), signal);
   }
 }
 
@@ -80,22 +71,22 @@ BOOST_AUTO_TEST_CASE(time_limit_that_kills_all_it_can_reach_ends_the_finite_elem
   std::vector<std::string> command{"timeout", "-s", "KILL", "3600"};
   command.insert(command.end(), check.command.begin(), check.command.end());
   RunningProgram program(command);
-  BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }));
+  BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }, most));
   // What the program timeout does when the time is over, at a moment of our own: it leads the group of the check.
   const std::vector<pid_t> leader = check.processes("timeout");
   BOOST_TEST_REQUIRE(leader.size() == 1);
   ::kill(-leader.front(), SIGKILL);
   program.wait();
-  BOOST_TEST(comes_true([&] { return check.is_gone(); }));
+  BOOST_TEST(comes_true([&] { return check.is_gone(); }, most));
 }
 
 BOOST_AUTO_TEST_CASE(finite_elements_that_are_killed_end_the_check) {
   for (const char* victim : {"mpirun", "vehd_fem"}) {
     const LongCheck check;
     RunningProgram program(check.command);
-    BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }), victim);
+    BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }, most), victim);
     for (const pid_t process : check.processes(victim)) ::kill(process, SIGKILL);
-    BOOST_TEST_REQUIRE(comes_true([&] { return program.ended(); }), victim);
+    BOOST_TEST_REQUIRE(comes_true([&] { return program.ended(); }, most), victim);
     BOOST_TEST(program.wait().exit_code > 0, victim);
     BOOST_TEST(check.is_gone(), victim);
   }

@@ -12,6 +12,9 @@
 /// Meshes and exact solutions of the finite-element tests.
 namespace vehd::fem_check::testing {
 
+namespace meshes = vehd::meshes;
+namespace shapes = vehd::meshes::testing;
+
 /// Refinement of a block mesh by one number: cells per edge, and layers in proportion.
 struct OneMesh {
   int cells_per_edge = 2;

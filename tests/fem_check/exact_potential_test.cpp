@@ -4,7 +4,6 @@
 
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
-namespace shapes = vehd::meshes::testing;
 
 namespace {
 

@@ -5,7 +5,6 @@
 
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
-namespace shapes = vehd::meshes::testing;
 
 /// What few unknowns must reach on exact solutions, docs/check.md: errors relative in L2(γ), radiation condition at
 /// R = 8 radii.

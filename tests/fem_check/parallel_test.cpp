@@ -4,7 +4,6 @@
 
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
-namespace shapes = vehd::meshes::testing;
 
 /// CTest runs this suite under mpirun with two and four ranks: together they must find what each finds alone.
 BOOST_AUTO_TEST_SUITE(parallel)

@@ -7,8 +7,6 @@
 
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
-namespace meshes = vehd::meshes;
-namespace shapes = vehd::meshes::testing;
 
 BOOST_AUTO_TEST_SUITE(tension_elements)
 

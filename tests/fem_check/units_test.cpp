@@ -4,7 +4,6 @@
 
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
-namespace shapes = vehd::meshes::testing;
 
 /// Units do not matter: the same problem in other units of length, potential, conductivity, viscosity and force has the
 /// same solution in these units, up to what the linear solver leaves.

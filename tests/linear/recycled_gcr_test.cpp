@@ -6,25 +6,17 @@
 #include <limits>
 #include <unsupported/Eigen/IterativeSolvers>
 
+#include "tests/linear/maps.hpp"
+
 using namespace vehd;
+using namespace vehd::testing;
 
 namespace {
 
 /// Unsymmetric with eigenvalues from 1 to 20, and far from normal.
-Matrix test_matrix(Index size) {
-  Matrix matrix = Vector::LinSpaced(size, 1.0, 20.0).asDiagonal();
-  matrix.diagonal(1).setConstant(2.0);
-  matrix.diagonal(-3).setConstant(-1.0);
-  return matrix;
-}
+Matrix test_matrix(Index size) { return banded_matrix(size, 20.0, 2.0, -1.0); }
 
 Vector right_hand_side(Index size, double phase) { return (Vector::LinSpaced(size, -1.0, 2.0).array() + phase).cos(); }
-
-LinearMap map_of(const Matrix& matrix) {
-  return [&matrix](const Vector& x) -> Vector { return matrix * x; };
-}
-
-Vector identity(const Vector& x) { return x; }
 
 constexpr Index kSize = 60;
 

@@ -5,28 +5,19 @@
 #include <numeric>
 
 #include "bie/support/errors.hpp"
+#include "tests/linear/maps.hpp"
 
 using namespace vehd;
+using namespace vehd::testing;
 
 BOOST_AUTO_TEST_SUITE(subspace_solve)
 
 namespace {
 
 /// Unsymmetric with well-separated eigenvalues: Krylov spaces need some ten dimensions for it.
-Matrix test_matrix(Index size) {
-  Matrix matrix = Vector::LinSpaced(size, 1.0, 5.0).asDiagonal();
-  matrix.diagonal(1).setConstant(0.4);
-  matrix.diagonal(-3).setConstant(-0.2);
-  return matrix;
-}
+Matrix test_matrix(Index size) { return banded_matrix(size, 5.0, 0.4, -0.2); }
 
 Vector test_vector(Index size) { return Vector::LinSpaced(size, -1.0, 2.0).array().cos(); }
-
-LinearMap map_of(const Matrix& matrix) {
-  return [&matrix](const Vector& x) -> Vector { return matrix * x; };
-}
-
-Vector identity(const Vector& x) { return x; }
 
 /// With all entries.
 SolveReport solve(const LinearMap& map, const LinearMap& preconditioner, const Vector& rhs, Vector& x,

@@ -14,10 +14,8 @@ namespace {
 const BendingParameters kBending{0.7};
 constexpr int kOrder = 32;
 
-struct BendingFixture {
-  Space space{kOrder};
-  Matrix position = asymmetric_shape(kOrder);
-  Membrane membrane = make_membrane(space, position, {});
+struct BendingFixture : AsymmetricMembrane {
+  BendingFixture() : AsymmetricMembrane(kOrder) {}
 
   [[nodiscard]] double energy(const Matrix& x) const {
     return kBending.modulus * bending_energy_scaled(make_surface(space.fine, x));

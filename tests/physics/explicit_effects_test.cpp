@@ -15,10 +15,8 @@ namespace {
 
 constexpr int kDegree = 32;
 
-struct EffectFixture {
-  Space space{kDegree};
-  Matrix position = asymmetric_shape(kDegree);
-  Membrane membrane = make_membrane(space, position, {});
+struct EffectFixture : AsymmetricMembrane {
+  EffectFixture() : AsymmetricMembrane(kDegree) {}
 
   [[nodiscard]] Forcing forcing_of(const ExplicitEffect& effect, double time = 0.0) const {
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};

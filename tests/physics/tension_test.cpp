@@ -12,10 +12,9 @@ namespace {
 
 constexpr int tension_order = 24;
 
-struct TensionFixture {
-  Space space{tension_order};
-  Matrix position = asymmetric_shape(tension_order);
-  Membrane membrane = make_membrane(space, position, {});
+struct TensionFixture : AsymmetricMembrane {
+  TensionFixture() : AsymmetricMembrane(tension_order) {}
+
   Vector tension = smooth_coefficients(tension_order, 5, 1, 70);
 
   [[nodiscard]] double integral(const Vector& values) const { return values.dot(membrane.surface.quadrature); }

@@ -12,17 +12,7 @@ namespace {
 
 constexpr int kOrder = 8;
 
-/// ρ = 1 + 0.15 Y_{k,k} + chirality · 0.1 (Y_{k+1,−k} + Y_{3,0}): the turns by 2π/k, and mirrors y and z where nothing
-/// is chiral.
-Matrix star(int fold, double chirality) {
-  const SphereTransform transform(kOrder, make_grid(3 * kOrder, 240));
-  const Vector radius =
-      1.0 + (transform.synthesize(0.15 * harmonic(kOrder, fold, fold) +
-                                  chirality * 0.1 * (harmonic(kOrder, fold + 1, -fold) + harmonic(kOrder, 3, 0))))
-                .col(0)
-                .array();
-  return transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
-}
+Matrix star(int fold, double chirality) { return star_shape(kOrder, fold, chirality); }
 
 /// Largest difference between all five operators assembled with and without use of the maps.
 double difference(const SphereTransform& transform, const Matrix& position, const std::vector<Reflection>& reflections,

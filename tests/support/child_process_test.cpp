@@ -12,20 +12,11 @@
 #include <thread>
 
 #include "tests/support/files.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace {
 
-/// Long enough for any machine, and only waited for where something is wrong.
 constexpr std::chrono::seconds most{30};
-
-bool comes_true(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + most;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return true;
-}
 
 bool is_alive(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
@@ -113,19 +104,19 @@ BOOST_AUTO_TEST_CASE(whatever_ends_the_owner_ends_all_that_it_started) {
   for (const int signal : {SIGKILL, SIGTERM, SIGINT, SIGHUP}) {
     const Family family;
     Owner owner(family.program());
-    BOOST_TEST_REQUIRE(comes_true([&] { return family.is_complete(); }), signal);
+    BOOST_TEST_REQUIRE(comes_true([&] { return family.is_complete(); }, most), signal);
     owner.send(signal);
     BOOST_TEST(WTERMSIG(owner.wait()) == signal);
-    BOOST_TEST(comes_true([&] { return family.is_gone(); }), signal);
+    BOOST_TEST(comes_true([&] { return family.is_gone(); }, most), signal);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_time_limit_that_kills_the_group_of_the_owner_ends_all) {
   const Family family;
   const Owner owner(family.program());
-  BOOST_TEST_REQUIRE(comes_true([&] { return family.is_complete(); }));
+  BOOST_TEST_REQUIRE(comes_true([&] { return family.is_complete(); }, most));
   owner.send_to_group(SIGKILL);
-  BOOST_TEST(comes_true([&] { return family.is_gone(); }));
+  BOOST_TEST(comes_true([&] { return family.is_gone(); }, most));
 }
 
 BOOST_AUTO_TEST_CASE(signals_that_the_owner_holds_back_reach_the_program) {
@@ -141,7 +132,7 @@ BOOST_AUTO_TEST_CASE(signals_that_the_owner_holds_back_reach_the_program) {
 BOOST_AUTO_TEST_CASE(a_program_that_is_killed_takes_its_children_along) {
   const Family family;
   Owner owner(family.program());
-  BOOST_TEST_REQUIRE(comes_true([&] { return family.is_complete(); }));
+  BOOST_TEST_REQUIRE(comes_true([&] { return family.is_complete(); }, most));
   ::kill(family.eldest(), SIGKILL);
   BOOST_TEST(WEXITSTATUS(owner.wait()) == 9);
   BOOST_TEST(family.is_gone());

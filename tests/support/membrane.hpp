@@ -4,6 +4,7 @@
 
 #include "bie/physics/membrane.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/shapes.hpp"
 
 namespace vehd::testing {
 
@@ -21,5 +22,15 @@ inline Membrane make_membrane(const Space& space, const Matrix& position, const 
   }
   return {space.fine, std::move(surface), std::move(layers), radius, subspace, std::move(contrast)};
 }
+
+/// asymmetric_shape as a frozen membrane without layers.
+struct AsymmetricMembrane {
+  Space space;
+  Matrix position;
+  Membrane membrane;
+
+  explicit AsymmetricMembrane(int order)
+      : space(order), position(asymmetric_shape(order)), membrane(make_membrane(space, position, {})) {}
+};
 
 }  // namespace vehd::testing

@@ -47,6 +47,18 @@ inline Matrix dimpled_disc(int order, double c) {
   return transform.analyze(points);
 }
 
+/// ρ = 1 + 0.15 Y_{k,k} + chirality · 0.1 (Y_{k+1,−k} + Y_{3,0}), k = fold: the turns by 2π/k, and mirrors y and z
+/// where nothing is chiral. Not band-limited.
+inline Matrix star_shape(int order, int fold, double chirality) {
+  const SphereTransform transform(order, make_grid(3 * order, 240));
+  const Vector radius =
+      1.0 + (transform.synthesize(0.15 * harmonic(order, fold, fold) +
+                                  chirality * 0.1 * (harmonic(order, fold + 1, -fold) + harmonic(order, 3, 0))))
+                .col(0)
+                .array();
+  return transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
+}
+
 constexpr int kAsymmetricDegree = 5;
 
 /// A shape without any symmetry: ρ of degrees up to 4, then stretched, rotated and moved off the origin. Of degree

@@ -3,13 +3,28 @@
 #include "bie/physics/viscosity_contrast.hpp"
 
 namespace vehd {
+namespace {
 
-Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
+/// Stokes single layer of the unit sphere on V and W of one degree, the fluids' contrast taken out.
+struct LayerSpectrum {
+  double odd = 1.0;  ///< 2n + 1
+  double v = 0.0;
+  double w = 0.0;
+};
+
+LayerSpectrum layer_spectrum(const SphereFlow& sphere, int degree) {
   const double n = degree;
   const double odd = 2.0 * n + 1.0;
   const ContrastSpectrum contrast = contrast_spectrum(sphere.viscosity_ratio, degree);
-  const double layer_v = n / (odd * (2.0 * n + 3.0)) / contrast.v;
-  const double layer_w = degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w;
+  return {odd, n / (odd * (2.0 * n + 3.0)) / contrast.v,
+          degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w};
+}
+
+}  // namespace
+
+Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
+  const double n = degree;
+  const auto [odd, layer_v, layer_w] = layer_spectrum(sphere, degree);
   const double mobility = 1.0 / (sphere.viscosity * sphere.radius);
 
   // Coefficients of u on V and W for unit h and unit λ.
@@ -39,10 +54,7 @@ Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
 
 Eigen::Matrix2d rigid_sphere_block(const SphereFlow& sphere, int degree) {
   const double n = degree;
-  const double odd = 2.0 * n + 1.0;
-  const ContrastSpectrum contrast = contrast_spectrum(sphere.viscosity_ratio, degree);
-  const double layer_v = n / (odd * (2.0 * n + 3.0)) / contrast.v;
-  const double layer_w = degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w;
+  const auto [odd, layer_v, layer_w] = layer_spectrum(sphere, degree);
 
   // Coefficients of u on V and W for a unit normal force Y n = (W − V)/(2n+1) and for unit λ.
   const double normal = sphere.radius / (odd * sphere.viscosity);

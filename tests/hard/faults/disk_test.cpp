@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <random>
+#include <utility>
 
 #include "tests/hard/faults/faulty_run.hpp"
 
@@ -24,28 +25,28 @@ void check_stop(const FaultyRun& run, const std::vector<std::string>& command, c
   std::filesystem::remove_all(run.output);
 }
 
+/// A dozen times, at random places of the work.
+void check_stops(const FaultyRun& run, const std::string& fault, std::pair<std::int64_t, std::int64_t> places,
+                 const std::string& reason) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<std::int64_t> place(places.first, places.second);
+  for (int trial = 0; trial < 12; ++trial) {
+    check_stop(run, run.command_with(fault + std::to_string(place(random))), reason);
+  }
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(disk)
 
 BOOST_AUTO_TEST_CASE(full_at_any_byte_stops_the_run_and_loses_nothing) {
   const FaultyRun run(quick_scene(scene_end));
-  const FaultyRun::Work work = run.count_work();
-  std::mt19937 random(7);
-  std::uniform_int_distribution<std::int64_t> room(0, work.bytes * 4 / 5);
-  for (int trial = 0; trial < 12; ++trial) {
-    check_stop(run, run.command_with("full " + std::to_string(room(random))), "No space left on device");
-  }
+  check_stops(run, "full ", {0, run.count_work().bytes * 4 / 5}, "No space left on device");
 }
 
 BOOST_AUTO_TEST_CASE(file_system_that_turns_read_only_stops_the_run_and_loses_nothing) {
   const FaultyRun run(quick_scene(scene_end));
-  const FaultyRun::Work work = run.count_work();
-  std::mt19937 random(11);
-  std::uniform_int_distribution<std::int64_t> moment(1, work.operations * 4 / 5);
-  for (int trial = 0; trial < 12; ++trial) {
-    check_stop(run, run.command_with("readonly " + std::to_string(moment(random))), "Read-only file system");
-  }
+  check_stops(run, "readonly ", {1, run.count_work().operations * 4 / 5}, "Read-only file system");
 }
 
 // The kernel's own limit, without the shim. The shell ignores SIGXFSZ and hands that on.
