@@ -105,7 +105,7 @@ std::string axis_script(const Axis& axis, const char* name, const char* colour) 
 constexpr const char* fresh_panel =
     "unset label; unset ytics; unset y2tics; unset logscale y; unset key; set format y '%g'\n";
 /// Above the axes.
-constexpr const char* key_above = "set key at graph 0.5,1.075 center center horizontal samplen 2 maxrows 1\n";
+constexpr const char* key_above = "set key at graph 0.5,1.075 center center horizontal samplen 1.4 width -1.5 maxrows 1\n";
 
 std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
   std::string data, settings = fresh_panel, plot;
