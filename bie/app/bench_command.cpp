@@ -18,6 +18,7 @@
 #include "bie/scene/given_time.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
@@ -48,6 +49,12 @@ struct SceneOptions {
   std::vector<std::string> only;
   BenchOptions bench;
 };
+
+Scene scene_of_one(const std::string& file) {
+  Scene scene = read_scene(file);
+  require_one_vesicle(scene, file, "vehd bench");
+  return scene;
+}
 
 void add_output_options(CLI::App& command, BenchOptions& options) {
   command.add_option("-o,--output", options.directory, "Directory for tables and pictures; created if missing")
@@ -136,7 +143,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       ->check(time_text());
   add_repeats(*command, options->bench, 1);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = read_scene(o.scene_file);
+    Scene scene = scene_of_one(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
     std::vector<double> steps;
     for (const std::string& step : o.steps) steps.push_back(positive_time("--dt", step, scene));
@@ -166,7 +173,7 @@ void add_step_bench(CLI::App& bench, ExitCode& exit_code, const StepBench& what)
   add_orders(*command, *options, what.orders);
   add_repeats(*command, options->bench, what.repeats);
   add_bench(*command, options, exit_code, [measure = what.measure](const SceneOptions& o, BenchObserver& observer) {
-    return measure(read_scene(o.scene_file), o.orders, o.bench.repeats, observer);
+    return measure(scene_of_one(o.scene_file), o.orders, o.bench.repeats, observer);
   });
 }
 
@@ -183,7 +190,7 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->check(CLI::Range(4, 64));
   add_repeats(*command, options->bench, 5);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = read_scene(o.scene_file);
+    Scene scene = scene_of_one(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
     return bench_threads(scene, o.threads, o.bench.repeats, observer);
   });

@@ -7,6 +7,7 @@
 #include "bie/scene/key_reference.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/schema_text.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/support/text_table.hpp"
 
 namespace vehd {
@@ -36,6 +37,7 @@ nlohmann::json keys_as_json() {
 
 void print_groups(const HelpOptions& options) {
   const Scene scene = read_scene(options.scene_file);
+  require_one_vesicle(scene, options.scene_file, "vehd help groups");
   TextTable rows;
   nlohmann::json result = nlohmann::json::array();
   for (const DimensionlessGroup& group : dimensionless_groups(scene)) {

@@ -32,7 +32,11 @@ nlohmann::json json_of(const RunPlan& plan) {
   json["absent"] = plan.absent;
   json["symmetry"] = plan.symmetry;
   json["operators"] = nlohmann::json::array();
-  for (const PlannedOperator& op : plan.operators) json["operators"].push_back({{"name", op.name}, {"why", op.why}});
+  for (const PlannedOperator& op : plan.operators) {
+    json["operators"].push_back({{"name", op.name}, {"why", op.why}});
+    if (!plan.vesicles.empty()) json["operators"].back()["vesicles"] = op.n_vesicles;
+  }
+  if (!plan.vesicles.empty()) json["vesicles"] = plan.vesicles;
   json["kernel_evaluations_per_shape"] = plan.kernel_evaluations;
   json["shapes_per_step"] = plan.shapes_per_step;
   json["jumps"] = plan.n_jumps;
@@ -82,13 +86,21 @@ void print(const RunPlan& plan) {
   for (const PlannedEffect& effect : plan.effects) {
     fmt::print("  {:<22} {}\n  {:<22} without it: {}\n", effect.name, effect.adds, "", effect.if_absent);
   }
+  if (!plan.vesicles.empty()) {
+    fmt::print("vesicles   {}: {}; groups are those of the first\n", plan.vesicles.size(),
+               fmt::join(plan.vesicles, ", "));
+  }
   print_groups_and_times(plan);
   fmt::print("absent     {}\n", fmt::join(plan.absent, ", "));
   fmt::print("symmetry   {}\n", plan.symmetry);
   const std::string jumps = plan.n_jumps == 0 ? "" : fmt::format(", one more at each jump ({})", plan.n_jumps);
-  fmt::print("operators  ({} kernel evaluations each at every new shape, {} a step{})\n", plan.kernel_evaluations,
+  const char* of = plan.vesicles.empty() ? "" : " of each vesicle";
+  fmt::print("operators  ({} kernel evaluations each at every new shape{}, {} a step{})\n", plan.kernel_evaluations, of,
              plan.shapes_per_step, jumps);
   for (const PlannedOperator& op : plan.operators) fmt::print("  {:<22} {}\n", op.name, op.why);
+  if (const std::size_t n = plan.vesicles.size(); n > 1) {
+    fmt::print("pairs      {} of a vesicle and another, whose layers it feels\n", n * (n - 1));
+  }
   fmt::print("unknowns   {} a step\n", plan.unknowns);
   if (!plan.stops.empty()) {
     fmt::print("cost       none: {}\n", plan.stops);

@@ -36,6 +36,12 @@ double last_number(const HistoryTable& history, const Scene& scene, std::string_
   return history.column(std::string(name)).back() / history.units(scene.units).of(column->dimension).factor;
 }
 
+/// Nothing where the history, that of several vesicles, has no such column.
+BenchCell last_cell(const HistoryTable& history, const Scene& scene, std::string_view name) {
+  if (!history.has(std::string(name))) return {};
+  return last_number(history, scene, name);
+}
+
 void draw(const RunPaths& paths, const std::string& name, const std::filesystem::path& folder,
           BenchObserver& observer) {
   try {
@@ -68,7 +74,7 @@ BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const
     const HistoryTable history(paths.history());
     std::vector<BenchCell> row{file.filename().string(), std::int64_t{scene.numerics.order},
                                last_number(history, scene, "time"), history.n_steps(), spread_of({seconds})};
-    for (const char* name : kShownAtTheEnd) row.emplace_back(last_number(history, scene, name));
+    for (const char* name : kShownAtTheEnd) row.push_back(last_cell(history, scene, name));
     add_row(result.tables.front(), std::move(row), observer);
     draw(paths, file.stem().string(), pictures, observer);
   }

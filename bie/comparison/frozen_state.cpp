@@ -10,6 +10,7 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/stepping/evaluation/initial_state.hpp"
 #include "bie/support/errors.hpp"
 
@@ -41,6 +42,7 @@ Symmetry symmetry_of(const Scene& scene, const FrozenState& frozen) {
 
 FrozenState start_of_scene(const SceneSource& source) {
   const Scene scene = read_scene(source);
+  require_one_vesicle(scene, source.file, "vehd check");
   FrozenState frozen;
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
@@ -57,6 +59,7 @@ FrozenState start_of_scene(const SceneSource& source) {
 
 FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
   const RunReader run(file);
+  run.require_one_vesicle("vehd check");
   const SnapshotChoice choice = choice_of(run, file, time);
   const std::size_t snapshot = choice.snapshot;
   run.require_sealed(snapshot);
@@ -104,9 +107,12 @@ FrozenState read_frozen_state(const SceneSource& source, const std::optional<std
 FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::optional<std::string>& time) {
   if (is_scene(file)) {
     require_start(file, time);
-    return {initial_position(read_scene(file)), ""};
+    const Scene scene = read_scene(file);
+    require_one_vesicle(scene, file, "vehd mesh");
+    return {initial_position(scene), ""};
   }
   const RunReader run(file);
+  run.require_one_vesicle("vehd mesh");
   const SnapshotChoice choice = choice_of(run, file, time);
   return {run.coefficients(choice.snapshot, "x", 3), choice.note};
 }

@@ -26,8 +26,9 @@ constexpr double kSecondsGrowth = 4.5, kBytesGrowth = 4.0;
 std::string kind_of(const Problem& problem) {
   std::vector<std::string> effects;
   for (const EffectDescription& effect : effects_of(problem.model)) effects.push_back(effect.name);
-  return fmt::format("{}; {}{}", fmt::join(effects, ", "), symmetry_text(problem.symmetry),
-                     problem.model.mobile ? "" : "; frozen");
+  const std::size_t n = problem.model.vesicles.size();
+  return fmt::format("{}; {}{}{}", fmt::join(effects, ", "), symmetry_text(problem.symmetry),
+                     problem.model.mobile ? "" : "; frozen", n > 1 ? fmt::format("; {} vesicles", n) : "");
 }
 
 /// A first step of the scene that suits any accuracy.

@@ -10,6 +10,7 @@
 
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
@@ -57,16 +58,31 @@ std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
   return (all + symmetry.group_order() - 1) / symmetry.group_order();
 }
 
+/// How many vesicles need an operator.
+std::size_t vesicles_with(const OperatorFlag& op, const Model& model) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      model.vesicles, [&](const VesicleModel& vesicle) { return needed_layers(model, vesicle, true).*op.flag; }));
+}
+
+/// Fields that the solves of a step find, of all vesicles.
+std::size_t count_unknown_fields(const Model& model) {
+  std::size_t count = 0;
+  for (const VesicleModel& vesicle : model.vesicles) {
+    Model one = model;
+    one.vesicles = {vesicle};
+    for (const EffectDescription& effect : effects_of(one)) count += effect.unknowns.size();
+  }
+  return count;
+}
+
 std::string text_of(const Problem& problem) { return symmetry_text(problem.symmetry, problem.frame); }
 
 std::string difference_text(const Scene& scene, const Model& model, const Model& reduced, const RunPlan& plan,
                             std::size_t n_unknowns) {
   std::vector<std::string> parts;
-  const LayerSelection needed = needed_layers(model, model.vesicles.front(), true);
-  const LayerSelection left = needed_layers(reduced, reduced.vesicles.front(), true);
   std::vector<std::string> saved;
   for (const OperatorFlag& op : kOperators) {
-    if (needed.*op.flag && !(left.*op.flag)) saved.emplace_back(op.name);
+    if (vesicles_with(op, model) > 0 && vesicles_with(op, reduced) == 0) saved.emplace_back(op.name);
   }
   if (!saved.empty()) parts.push_back(fmt::format("no {}", fmt::join(saved, ", ")));
   if (n_unknowns > 0) parts.push_back(fmt::format("{} fewer unknown field{}", n_unknowns, n_unknowns > 1 ? "s" : ""));
@@ -96,9 +112,8 @@ RunPlan plan_of(const Scene& scene) {
   std::erase_if(plan.groups, [](const DimensionlessGroup& group) { return group.unit == "time"; });
   for (const DimensionlessGroup& group : plan.groups) plan.si_of_groups.push_back(si_text(scene, group));
   plan.symmetry = text_of(problem);
-  std::size_t n_fields = 0;
+  plan.vesicles = vesicle_names(scene);
   for (const EffectDescription& effect : effects) {
-    n_fields += effect.unknowns.size();
     plan.effects.push_back({effect.name, effect.adds,
                             difference_text(scene, model, without(model, effect.name), plan, effect.unknowns.size())});
   }
@@ -106,23 +121,24 @@ RunPlan plan_of(const Scene& scene) {
     const auto present = [&](const EffectDescription& effect) { return effect.name == name; };
     if (std::none_of(effects.begin(), effects.end(), present)) plan.absent.emplace_back(name);
   }
-  const LayerSelection needed = needed_layers(model, model.vesicles.front(), true);
   for (const OperatorFlag& op : kOperators) {
-    if (!(needed.*op.flag)) continue;
+    const std::size_t n_vesicles = vesicles_with(op, model);
+    if (n_vesicles == 0) continue;
     std::vector<std::string> reasons;
     for (const EffectDescription& effect : effects) {
       for (const OperatorNeed& need : effect.operators) {
         if (need.layer == op.flag) reasons.push_back(need.why);
       }
     }
-    plan.operators.push_back({op.name, fmt::format("{}", fmt::join(reasons, "; "))});
+    plan.operators.push_back({op.name, fmt::format("{}", fmt::join(reasons, "; ")), n_vesicles});
   }
   const MembraneSpace space(problem.settings, symmetry);
   plan.kernel_evaluations =
       evaluations_per_assembly(space.quadrature(), space.targets(), symmetry.reflections, space.fold());
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.n_jumps = jumps_until(model, scene.numerics.end_time);
-  plan.unknowns = static_cast<std::int64_t>(n_fields) * independent_coefficients(symmetry, scene.numerics.order);
+  plan.unknowns =
+      static_cast<std::int64_t>(count_unknown_fields(model)) * independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
   EventTimes events = events_of(scene);
   while (!scene.numerics.tolerance && time < scene.numerics.end_time) {

@@ -20,6 +20,7 @@ struct PlannedEffect {
 struct PlannedOperator {
   std::string name;  ///< as in kernel_evaluations of summary.json
   std::string why;
+  std::size_t n_vesicles = 1;  ///< that need it
 };
 
 /// What a run of a scene will do and cost.
@@ -31,7 +32,8 @@ struct RunPlan {
   std::vector<RunTime> times;
   std::string symmetry;
   std::vector<PlannedOperator> operators;
-  std::uint64_t kernel_evaluations = 0;  ///< of each operator at each new shape
+  std::uint64_t kernel_evaluations = 0;  ///< of each operator of a vesicle at each new shape
+  std::vector<std::string> vesicles;     ///< names of several
   int shapes_per_step = 1;
   std::int64_t n_jumps = 0;   ///< of what acts, up to the end: at each the shape is evaluated once more
   std::int64_t unknowns = 0;  ///< independent scalars that the solves of a step find

@@ -14,6 +14,23 @@ namespace vehd {
 
 namespace {
 
+/// Degree that a tolerance needs at a state, of the vesicle that needs most.
+int order_for(double tolerance, const Problem& problem, const State& state) {
+  int order = 0;
+  for (const VesicleState& vesicle : state.vesicles) {
+    const Resolution resolution(problem.model, vesicle);
+    order = std::max(order, resolution.order_for(thresholds::truncation_share * tolerance, lowest_adaptive_order,
+                                                 accuracy_defaults(tolerance).order));
+  }
+  return order;
+}
+
+int highest_order_of(const Evolution& evolution) {
+  int order = 0;
+  for (std::size_t a = 0; a < evolution.state().vesicles.size(); ++a) order = std::max(order, evolution.order(a));
+  return order;
+}
+
 /// Takes steps to the end of the scene or as long as the budget lasts, one at least.
 /// @throws ConvergenceError where none is acceptable; the trial run has those before it
 template <typename InBudget>
@@ -22,19 +39,16 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
-  trial.highest_order = evolution.order(0);
+  trial.highest_order = highest_order_of(evolution);
   const EventTimes events = events_of(scene);
   const double end = events.end_time;
   while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
     const StepAttempt step = evolution.step(events);
-    TrialStep record{evolution.state().time, step.dt, step.error_estimate, step.rejected + 1, evolution.order(0),
-                     step.at_snapshot,       {}};
-    trial.highest_order = std::max(trial.highest_order, evolution.order(0));
-    const Resolution resolution(problem.model, evolution.state().vesicles.front());
-    for (const double wanted : tolerances) {
-      record.orders.push_back(resolution.order_for(thresholds::truncation_share * wanted, lowest_adaptive_order,
-                                                   accuracy_defaults(wanted).order));
-    }
+    TrialStep record{
+        evolution.state().time, step.dt, step.error_estimate, step.rejected + 1, highest_order_of(evolution),
+        step.at_snapshot,       {}};
+    trial.highest_order = std::max(trial.highest_order, highest_order_of(evolution));
+    for (const double wanted : tolerances) record.orders.push_back(order_for(wanted, problem, evolution.state()));
     trial.steps.push_back(std::move(record));
   }
   trial.completed = evolution.state().time >= end;

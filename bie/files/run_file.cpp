@@ -58,12 +58,14 @@ void write_coefficient_convention(Hdf5Writer& file, int order) {
             "N = sqrt((2n+1)/(4 pi) (n-m)!/(n+m)!). Coefficient (n, m) has index n^2 + n + m.");
 }
 
-/// One snapshot under construction: each field is written on the grid, as coefficients and on the closed surface.
-class SnapshotWriter {
+/// One vesicle of a snapshot under construction: each field is written on the grid, as coefficients and on the closed
+/// surface.
+class VesicleWriter {
  public:
-  SnapshotWriter(Hdf5Writer& file, const std::string& name, const SphereTransform& transform, const SiUnits& si_units)
-      : file_(file), group_("/snapshots/" + name), transform_(transform), si_units_(si_units) {
-    file_.group(group_);
+  /// @param group  that is there
+  VesicleWriter(Hdf5Writer& file, std::string group, const SphereTransform& transform, const SiUnits& si_units,
+                Checksum& checksum)
+      : checksum_(checksum), file_(file), group_(std::move(group)), transform_(transform), si_units_(si_units) {
     file_.group(group_ + "/coefficients");
     file_.group(group_ + "/surface");
   }
@@ -88,19 +90,6 @@ class SnapshotWriter {
             extents_of(values.cols(), {static_cast<hsize_t>(grid.n_theta), static_cast<hsize_t>(grid.n_phi)}), label);
   }
 
-  void moment(double time, std::int64_t step) {
-    file_.attribute(group_, "time", time);
-    file_.attribute(group_, "step", step);
-    checksum_.add(std::span(&time, 1));
-    checksum_.add(step);
-  }
-
-  /// Nothing may follow it.
-  std::int64_t seal() {
-    file_.attribute(group_, "checksum", checksum_.value());
-    return checksum_.value();
-  }
-
  private:
   void numbers(const std::string& name, const Matrix& values, const std::vector<hsize_t>& extents,
                const DatasetLabel& label) {
@@ -108,12 +97,39 @@ class SnapshotWriter {
     checksum_.add(memory_of(values));
   }
 
-  Checksum checksum_;
+  Checksum& checksum_;
   Hdf5Writer& file_;
   std::string group_;
   const SphereTransform& transform_;
   const SiUnits& si_units_;
 };
+
+void write_grid(Hdf5Writer& file, const std::string& group, const SphereGrid& grid) {
+  const hsize_t n_theta = static_cast<hsize_t>(grid.n_theta), n_phi = static_cast<hsize_t>(grid.n_phi);
+  file.numbers(group + "/theta", memory_of(grid.theta), {n_theta}, {"1", "polar angle from +z", "rad"});
+  file.numbers(group + "/phi", memory_of(grid.phi), {n_phi}, {"1", "azimuth", "rad"});
+  file.numbers(group + "/weight", memory_of(grid.weight), {n_theta},
+               {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element"});
+}
+
+void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, const VesicleState& vesicle,
+                   const VesicleFields& f) {
+  writer.field("x", vesicle.position, position_label);
+  writer.field("velocity", f.velocity, velocity_label);
+  writer.field("force_bending", f.force_bending, bending_label);
+  writer.field("force_tension", f.force_tension, tension_force_label);
+  writer.field("force_electric", f.force_electric, electric_label);
+  writer.field("Vm", vesicle.transmembrane_potential, potential_label);
+  writer.field("q", f.charge, charge_label);
+  writer.field("tension", f.tension, tension_label);
+  if (vesicle.area_strain.size() == vesicle.position.rows()) {
+    writer.field("area_strain", vesicle.area_strain, strain_label);
+  } else if (vesicle.area_strain.size() == transform.grid().n_points()) {
+    writer.grid_field("area_strain", vesicle.area_strain, strain_label);
+  }
+  writer.grid_field("area_element", make_surface(transform, vesicle.position).area_element,
+                    {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
+}
 
 }  // namespace
 
@@ -132,12 +148,8 @@ void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const 
   for (const auto& [library, version] : library_versions()) file.attribute("/", "version_" + library, version);
   file.text("/scene", header.scene);
 
-  const hsize_t n_theta = static_cast<hsize_t>(grid.n_theta), n_phi = static_cast<hsize_t>(grid.n_phi);
   file.group("/grid");
-  file.numbers("/grid/theta", memory_of(grid.theta), {n_theta}, {"1", "polar angle from +z", "rad"});
-  file.numbers("/grid/phi", memory_of(grid.phi), {n_phi}, {"1", "azimuth", "rad"});
-  file.numbers("/grid/weight", memory_of(grid.weight), {n_theta},
-               {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element"});
+  write_grid(file, "/grid", grid);
   const std::vector<std::int64_t> triangles = closed_triangles(grid);
   file.group("/surface");
   file.integers("/surface/triangles", triangles, {triangles.size() / 3, 3},
@@ -149,28 +161,30 @@ void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const 
   file.attribute("/snapshots", "time_scale", time.scale);
 }
 
+std::string vesicle_group(std::size_t vesicle) { return fmt::format("{:02d}", vesicle); }
+
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields, const SiUnits& si_units) {
-  SnapshotWriter snapshot(file, name, transform, si_units);
-  snapshot.moment(state.time, state.step);
-  const VesicleState& vesicle = state.vesicles.front();
-  const VesicleFields& f = fields.vesicles.front();
-  snapshot.field("x", vesicle.position, position_label);
-  snapshot.field("velocity", f.velocity, velocity_label);
-  snapshot.field("force_bending", f.force_bending, bending_label);
-  snapshot.field("force_tension", f.force_tension, tension_force_label);
-  snapshot.field("force_electric", f.force_electric, electric_label);
-  snapshot.field("Vm", vesicle.transmembrane_potential, potential_label);
-  snapshot.field("q", f.charge, charge_label);
-  snapshot.field("tension", f.tension, tension_label);
-  if (vesicle.area_strain.size() == vesicle.position.rows()) {
-    snapshot.field("area_strain", vesicle.area_strain, strain_label);
-  } else if (vesicle.area_strain.size() == transform.grid().n_points()) {
-    snapshot.grid_field("area_strain", vesicle.area_strain, strain_label);
+  const std::string group = "/snapshots/" + name;
+  Checksum checksum;
+  file.group(group);
+  file.attribute(group, "time", state.time);
+  file.attribute(group, "step", state.step);
+  checksum.add(std::span(&state.time, 1));
+  checksum.add(state.step);
+  const std::size_t n = state.vesicles.size();
+  if (n > 1) file.group(group + "/vesicles");
+  for (std::size_t a = 0; a < n; ++a) {
+    const std::string own = n > 1 ? group + "/vesicles/" + vesicle_group(a) : group;
+    if (n > 1) {
+      file.group(own);
+      write_grid(file, own, transform.grid());
+    }
+    VesicleWriter writer(file, own, transform, si_units, checksum);
+    write_vesicle(writer, transform, state.vesicles[a], fields.vesicles[a]);
   }
-  snapshot.grid_field("area_element", make_surface(transform, vesicle.position).area_element,
-                      {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
-  return snapshot.seal();
+  file.attribute(group, "checksum", checksum.value());
+  return checksum.value();
 }
 
 }  // namespace vehd

@@ -26,7 +26,11 @@ std::string snapshot_name(std::int64_t number);
 /// @param transform  between degree p and the grid of the file
 void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const RunHeader& header);
 
-/// Writes /snapshots/NAME: grid fields, coefficients/ and surface/.
+/// Name of a vesicle below a snapshot of several: at least two digits.
+std::string vesicle_group(std::size_t vesicle);
+
+/// Writes /snapshots/NAME: grid fields, coefficients/ and surface/; of several vesicles the same of each in
+/// /snapshots/NAME/vesicles/NN, with its grid.
 /// @param state, fields  of the degree of the transform
 /// @param si_units  every dataset says in `unit` and `scale` what it says
 /// @return its checksum

@@ -26,17 +26,29 @@ void require_run_schema(const Hdf5Reader& file) {
   file.refuse(fmt::format("has schema version {}; accepted: {}", version, run_schema_version));
 }
 
+std::vector<std::string> vesicle_groups(const Hdf5Reader& file, const std::string& group) {
+  const std::string of_several = group + "/vesicles";
+  if (!file.has(of_several)) return {group};
+  std::vector<std::string> groups;
+  for (std::size_t a = 0; a < file.members(of_several).size(); ++a) {
+    groups.push_back(fmt::format("{}/{:02d}", of_several, a));
+  }
+  return groups;
+}
+
 std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group) {
   const double time = file.number_attribute(group, "time");
   Checksum checksum;
   checksum.add(std::span(&time, 1));
   checksum.add(file.integer_attribute(group, "step"));
-  for (const std::string_view field : snapshot_fields) {
-    for (const std::string_view part : snapshot_parts) {
-      const std::string dataset = fmt::format("{}/{}{}", group, part, field);
-      if (!file.has(dataset)) continue;
-      const Vector values = file.vector(dataset);
-      checksum.add(std::span(values.data(), static_cast<std::size_t>(values.size())));
+  for (const std::string& vesicle : vesicle_groups(file, group)) {
+    for (const std::string_view field : snapshot_fields) {
+      for (const std::string_view part : snapshot_parts) {
+        const std::string dataset = fmt::format("{}/{}{}", vesicle, part, field);
+        if (!file.has(dataset)) continue;
+        const Vector values = file.vector(dataset);
+        checksum.add(std::span(values.data(), static_cast<std::size_t>(values.size())));
+      }
     }
   }
   return checksum.value();
@@ -57,6 +69,7 @@ RunReader::RunReader(Hdf5Reader file) : file_(std::move(file)) {
       file_.refuse(fmt::format("/snapshots/{} has the time {}, not a finite number", name, times_.back()));
     }
   }
+  n_vesicles_ = vesicle_groups(file_, group_of(0)).size();
 }
 
 std::size_t RunReader::nearest(double time) const {
@@ -80,12 +93,18 @@ std::size_t RunReader::at(double time) const {
   file_.refuse(fmt::format("no snapshot at time {:g}; the nearest is at {:g}", time, times_[nearest(time)]));
 }
 
-std::string RunReader::path_of(std::size_t snapshot, const std::string& name) const {
-  return group_of(snapshot) + "/coefficients/" + name;
+std::string RunReader::path_of(std::size_t snapshot, const std::string& name, std::size_t vesicle) const {
+  const std::string own = n_vesicles_ > 1 ? fmt::format("/vesicles/{:02d}", vesicle) : "";
+  return group_of(snapshot) + own + "/coefficients/" + name;
+}
+
+void RunReader::require_one_vesicle(const std::string& who) const {
+  if (n_vesicles_ == 1) return;
+  file_.refuse(fmt::format("holds {} vesicles; {} accepts a run of one", n_vesicles_, who));
 }
 
 bool RunReader::has_field(std::size_t snapshot, const std::string& name) const {
-  return file_.has(path_of(snapshot, name));
+  return file_.has(path_of(snapshot, name, 0));
 }
 
 void RunReader::require_sealed(std::size_t snapshot) const {
@@ -94,29 +113,31 @@ void RunReader::require_sealed(std::size_t snapshot) const {
   file_.refuse(fmt::format("{} has no checksum, so that its numbers cannot be told from damaged ones", group));
 }
 
-Matrix RunReader::coefficients(std::size_t snapshot, const std::string& name) const {
+Matrix RunReader::read(std::size_t snapshot, const std::string& name, std::size_t vesicle) const {
   if (file_.has_attribute(group_of(snapshot), "checksum")) {
     require_checksum(file_, group_of(snapshot), snapshot_checksum(file_, group_of(snapshot)));
   }
-  Matrix values = file_.matrix(path_of(snapshot, name));
+  Matrix values = file_.matrix(path_of(snapshot, name, vesicle));
   try {
     const int order = order_of(values.rows());
     if (order > highest_order) {
-      file_.refuse(
-          fmt::format("{} is of degree {}; accepted: at most {}", path_of(snapshot, name), order, highest_order));
+      file_.refuse(fmt::format("{} is of degree {}; accepted: at most {}", path_of(snapshot, name, vesicle), order,
+                               highest_order));
     }
   } catch (const ShapeError& error) {
-    file_.refuse(fmt::format("{}: {}", path_of(snapshot, name), error.what()));
+    file_.refuse(fmt::format("{}: {}", path_of(snapshot, name, vesicle), error.what()));
   }
-  if (!values.allFinite()) file_.refuse(fmt::format("{} holds values that are not finite", path_of(snapshot, name)));
+  if (!values.allFinite())
+    file_.refuse(fmt::format("{} holds values that are not finite", path_of(snapshot, name, vesicle)));
   return values;
 }
 
-Matrix RunReader::coefficients(std::size_t snapshot, const std::string& name, Index components) const {
-  Matrix values = coefficients(snapshot, name);
-  const Index rows = name == "x" ? values.rows() : file_.matrix(path_of(snapshot, "x")).rows();
+Matrix RunReader::coefficients(std::size_t snapshot, const std::string& name, Index components,
+                               std::size_t vesicle) const {
+  Matrix values = read(snapshot, name, vesicle);
+  const Index rows = name == "x" ? values.rows() : file_.matrix(path_of(snapshot, "x", vesicle)).rows();
   if (values.cols() != components || values.rows() != rows) {
-    file_.refuse(fmt::format("{} is {} x {}, but must be {} x {}", path_of(snapshot, name), values.cols(),
+    file_.refuse(fmt::format("{} is {} x {}, but must be {} x {}", path_of(snapshot, name, vesicle), values.cols(),
                              values.rows(), components, rows));
   }
   return values;

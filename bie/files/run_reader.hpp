@@ -26,6 +26,9 @@ constexpr std::array<std::string_view, 3> snapshot_parts = {"", "coefficients/",
 /// @throws InputError if the file is of another schema version
 void require_run_schema(const Hdf5Reader& file);
 
+/// Groups of the vesicles of a snapshot: that of the snapshot itself where there is one vesicle.
+std::vector<std::string> vesicle_groups(const Hdf5Reader& file, const std::string& group);
+
 /// Checksum of time, step and all numbers of a snapshot as they are in the file.
 std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group);
 
@@ -52,23 +55,33 @@ class RunReader {
   [[nodiscard]] bool has_scene() const { return file_.has("/scene"); }
   /// The effective scene of the run.
   [[nodiscard]] std::string scene() const { return file_.text("/scene"); }
-  /// Whether a snapshot has the coefficients of this field.
+  /// How many vesicles the run has.
+  [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
+  /// @param who  cannot do with several vesicles, "vehd mesh" @throws InputError if there are
+  void require_one_vesicle(const std::string& who) const;
+  /// Whether a snapshot has the coefficients of this field, of the first vesicle where there are several.
   [[nodiscard]] bool has_field(std::size_t snapshot, const std::string& name) const;
   /// Where the numbers themselves are judged. @throws InputError if the snapshot has no checksum
   void require_sealed(std::size_t snapshot) const;
   /// Harmonic coefficients, [n_coefficients x components], of a snapshot that is intact as a whole. A run.h5 without
   /// checksums is of an earlier program and is read as it is.
-  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name) const;
+  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name) const {
+    return read(snapshot, name, 0);
+  }
   /// The same, of the stated number of components and of the order of x.
-  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name, Index components) const;
+  /// @param vesicle  of several
+  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name, Index components,
+                                    std::size_t vesicle = 0) const;
 
  private:
   [[nodiscard]] std::string group_of(std::size_t snapshot) const { return "/snapshots/" + names_.at(snapshot); }
-  [[nodiscard]] std::string path_of(std::size_t snapshot, const std::string& name) const;
+  [[nodiscard]] Matrix read(std::size_t snapshot, const std::string& name, std::size_t vesicle) const;
+  [[nodiscard]] std::string path_of(std::size_t snapshot, const std::string& name, std::size_t vesicle) const;
 
   Hdf5Reader file_;
   std::vector<std::string> names_;
   std::vector<double> times_;
+  std::size_t n_vesicles_ = 1;
 };
 
 }  // namespace vehd

@@ -7,32 +7,45 @@
 namespace vehd {
 namespace {
 
-std::string attribute_text(const XdmfSeries& series, const std::string& snapshot, const std::string& name,
+std::string attribute_text(const XdmfSeries& series, const std::string& group, const std::string& name,
                            bool is_vector) {
   return fmt::format(
       "        <Attribute Name=\"{0}\" AttributeType=\"{1}\" Center=\"Node\">\n"
       "          <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{2}{3}\">"
       "{4}:/snapshots/{5}/surface/{0}</DataItem>\n"
       "        </Attribute>\n",
-      name, is_vector ? "Vector" : "Scalar", series.n_points, is_vector ? " 3" : "", series.heavy_data, snapshot);
+      name, is_vector ? "Vector" : "Scalar", series.n_points, is_vector ? " 3" : "", series.heavy_data, group);
+}
+
+/// @param group  of the vesicle in the file
+std::string surface_text(const XdmfSeries& series, const std::string& name, const std::string& time,
+                         const std::string& group) {
+  std::string text = fmt::format(
+      "      <Grid Name=\"{0}\" GridType=\"Uniform\">\n"
+      "{1}"
+      "        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{2}\">\n"
+      "          <DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" Dimensions=\"{2} 3\">"
+      "{3}:/surface/triangles</DataItem>\n"
+      "        </Topology>\n"
+      "        <Geometry GeometryType=\"XYZ\">\n"
+      "          <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{4} 3\">"
+      "{3}:/snapshots/{5}/surface/x</DataItem>\n"
+      "        </Geometry>\n",
+      name, time, series.n_triangles, series.heavy_data, series.n_points, group);
+  for (const std::string& scalar : series.scalars) text += attribute_text(series, group, scalar, false);
+  for (const std::string& vector : series.vectors) text += attribute_text(series, group, vector, true);
+  return text + "      </Grid>\n";
 }
 
 std::string grid_text(const XdmfSeries& series, std::size_t number) {
   const std::string snapshot = snapshot_name(static_cast<std::int64_t>(number));
-  std::string text = fmt::format(
-      "      <Grid Name=\"vesicle\" GridType=\"Uniform\">\n"
-      "        <Time Value=\"{0:.17g}\"/>\n"
-      "        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{1}\">\n"
-      "          <DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" Dimensions=\"{1} 3\">"
-      "{2}:/surface/triangles</DataItem>\n"
-      "        </Topology>\n"
-      "        <Geometry GeometryType=\"XYZ\">\n"
-      "          <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{3} 3\">"
-      "{2}:/snapshots/{4}/surface/x</DataItem>\n"
-      "        </Geometry>\n",
-      series.times[number], series.n_triangles, series.heavy_data, series.n_points, snapshot);
-  for (const std::string& name : series.scalars) text += attribute_text(series, snapshot, name, false);
-  for (const std::string& name : series.vectors) text += attribute_text(series, snapshot, name, true);
+  const std::string time = fmt::format("        <Time Value=\"{:.17g}\"/>\n", series.times[number]);
+  if (series.n_vesicles == 1) return surface_text(series, "vesicle", time, snapshot);
+  std::string text = "      <Grid Name=\"vesicles\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" + time;
+  for (std::size_t a = 0; a < series.n_vesicles; ++a) {
+    const std::string own = vesicle_group(a);
+    text += surface_text(series, "vesicle " + own, "", snapshot + "/vesicles/" + own);
+  }
   return text + "      </Grid>\n";
 }
 

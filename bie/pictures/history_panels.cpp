@@ -30,7 +30,7 @@ struct QuantityRow {
 namespace shown_quantity {
 constexpr std::string_view energy = "bending energy", tension = "tension", potential = "potential across the membrane",
                            charge = "charge density", inclination = "inclination", aspect = "aspect ratio",
-                           errors = "errors", extent = "extent";
+                           errors = "errors", extent = "extent", gap = "gap";
 }  // namespace shown_quantity
 
 const std::vector<QuantityRow>& quantity_rows() {
@@ -47,6 +47,7 @@ const std::vector<QuantityRow>& quantity_rows() {
        {{"area_drift", "area"}, {"volume_drift", "volume"}, {"strain_max", "local strain"}, {"spectrum_tail", "tail"}},
        Shown::always,
        true},
+      {shown_quantity::gap, {{"smallest_gap", "smallest gap"}}},
       {shown_quantity::extent, {{"extent_x", "along x"}, {"extent_y", "along y"}, {"extent_z", "along z"}}},
       {"step", {{"dt", "dt"}}, Shown::with_tolerance, true},
       {"degree", {{"order", "p"}}, Shown::with_tolerance}};
@@ -146,7 +147,12 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
     if (!panel.axes.empty()) panels.push_back(std::move(panel));
   };
   add({shown_quantity::energy, shown_quantity::tension});
-  add({shown_quantity::potential, shown_quantity::charge});
+  // Several vesicles have no charge density that is that of all.
+  if (history.has("smallest_gap")) {
+    add({shown_quantity::gap, shown_quantity::potential});
+  } else {
+    add({shown_quantity::potential, shown_quantity::charge});
+  }
   add({shown_quantity::inclination, shown_quantity::aspect});
   if (drifts_matter(history)) add({shown_quantity::errors});
   // Two stand side by side.

@@ -35,7 +35,7 @@ bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
   return true;
 }
 
-Vector values_of(const ShapeCoefficients& read, ShapeField field, const SphereTransform& transform,
+Vector values_of(const VesicleCoefficients& read, ShapeField field, const SphereTransform& transform,
                  const Surface& surface) {
   switch (field) {
     case ShapeField::potential:
@@ -99,37 +99,72 @@ void require_field(const RunReader& run, std::size_t snapshot, ShapeField field)
                                fmt::join(present, ", ")));
 }
 
-ShapeCoefficients read_shape(const RunReader& run, std::size_t snapshot, ShapeField field) {
-  ShapeCoefficients read{run.times()[snapshot], run.coefficients(snapshot, "x", 3), {}};
+namespace {
+
+VesicleCoefficients read_vesicle(const RunReader& run, std::size_t snapshot, ShapeField field, std::size_t vesicle) {
+  VesicleCoefficients read{run.coefficients(snapshot, "x", 3, vesicle), {}};
   if (const std::string_view dataset = label_of(field).dataset; !dataset.empty()) {
-    read.field = run.coefficients(snapshot, std::string(dataset), 1);
+    read.field = run.coefficients(snapshot, std::string(dataset), 1, vesicle);
   }
   if (field == ShapeField::force) {
     // The whole force of the membrane on the fluid.
     read.field = Matrix::Zero(read.position.rows(), 3);
     for (const auto& [name, sign] : forces) {
-      if (run.has_field(snapshot, name)) read.field += sign * run.coefficients(snapshot, name, 3);
+      if (run.has_field(snapshot, name)) read.field += sign * run.coefficients(snapshot, name, 3, vesicle);
     }
   }
   return read;
 }
 
-Shape shape_of(const ShapeCoefficients& read, ShapeField field, int grid_order) {
+/// One vesicle where it is.
+Shape shape_of(const VesicleCoefficients& read, ShapeField field, int grid_order) {
   const Matrix& position = read.position;
   const int order = order_of(position.rows());
   const SphereTransform transform(order, make_grid(std::max(grid_order, order)));
   const Surface surface = make_surface(transform, position);
   const int n_phi = transform.grid().n_phi;
-  const Vector3 centre = centroid(surface);
   Shape shape;
-  shape.time = read.time;
-  shape.mesh.points = with_poles(surface.position, position).rowwise() - centre.transpose();
+  shape.mesh.points = with_poles(surface.position, position);
   shape.mesh.normals = with_mean_poles(surface.normal, n_phi).rowwise().normalized();
   shape.mesh.triangles = closed_triangles(transform.grid());
   shape.values = with_mean_poles(values_of(read, field, transform, surface), n_phi).col(0);
   shape.weights = Vector::Zero(shape.values.size());
   shape.weights.head(surface.n_points()) = surface.quadrature;
-  const auto& points = shape.mesh.points;
+  return shape;
+}
+
+template <typename Values>
+Values stacked(const Values& above, const Values& below) {
+  if (above.size() == 0) return below;
+  Values all(above.rows() + below.rows(), above.cols());
+  all << above, below;
+  return all;
+}
+
+void append(Shape& shape, const Shape& other) {
+  const std::int64_t first = shape.mesh.points.rows();
+  for (const std::int64_t point : other.mesh.triangles) shape.mesh.triangles.push_back(first + point);
+  shape.mesh.points = stacked(shape.mesh.points, other.mesh.points);
+  shape.mesh.normals = stacked(shape.mesh.normals, other.mesh.normals);
+  shape.values = stacked(shape.values, other.values);
+  shape.weights = stacked(shape.weights, other.weights);
+}
+
+}  // namespace
+
+ShapeCoefficients read_shape(const RunReader& run, std::size_t snapshot, ShapeField field) {
+  ShapeCoefficients read{run.times()[snapshot], {}};
+  for (std::size_t a = 0; a < run.n_vesicles(); ++a) read.vesicles.push_back(read_vesicle(run, snapshot, field, a));
+  return read;
+}
+
+Shape shape_of(const ShapeCoefficients& read, ShapeField field, int grid_order) {
+  Shape shape;
+  for (const VesicleCoefficients& vesicle : read.vesicles) append(shape, shape_of(vesicle, field, grid_order));
+  shape.time = read.time;
+  Matrix& points = shape.mesh.points;
+  const Vector3 centre = points.transpose() * shape.weights / shape.weights.sum();
+  points.rowwise() -= centre.transpose();
   shape.gyration = points.transpose() * shape.weights.asDiagonal() * points / shape.weights.sum();
   return shape;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/renderer.hpp"
@@ -30,7 +31,7 @@ ShapeField default_field(const RunReader& run, std::size_t snapshot);
 /// @throws InputError that names what there is, if the snapshot does not have what the field needs
 void require_field(const RunReader& run, std::size_t snapshot, ShapeField field);
 
-/// One snapshot, its centroid in the origin.
+/// One snapshot with all its vesicles, the centroid of their membranes together in the origin.
 struct Shape {
   double time = 0.0;
   RenderMesh mesh;
@@ -39,11 +40,16 @@ struct Shape {
   Matrix3 gyration;  ///< mean of x x^T over the area
 };
 
+/// What a picture needs of one vesicle.
+struct VesicleCoefficients {
+  Matrix position;  ///< [n_coefficients x 3]
+  Matrix field;     ///< [n_coefficients x 1]; of the force x 3; empty of what is computed from the position
+};
+
 /// What a picture of one snapshot needs of its file.
 struct ShapeCoefficients {
   double time = 0.0;
-  Matrix position;  ///< [n_coefficients x 3]
-  Matrix field;     ///< [n_coefficients x 1]; of the force x 3; empty of what is computed from the position
+  std::vector<VesicleCoefficients> vesicles;
 };
 ShapeCoefficients read_shape(const RunReader& run, std::size_t snapshot, ShapeField field);
 

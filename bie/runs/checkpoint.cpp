@@ -18,15 +18,26 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t checkpoint_schema_version = 7;
+constexpr std::int64_t schema_of_one = 7, schema_of_several = 8;
 
-/// The members of a state with the names under which they are stored.
+std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_of_several : schema_of_one; }
+
+/// Where a checkpoint has the state of a vesicle.
+std::string group_of_vesicle(std::size_t vesicle, std::size_t n_vesicles) {
+  return n_vesicles > 1 ? fmt::format("/state/{:02d}", vesicle) : "/state";
+}
+
+/// The members of a state that all vesicles share, with the names under which they are stored.
 template <typename StateType, typename Visitor>
-void visit_state(StateType& state, Visitor&& visit) {
+void visit_time(StateType& state, Visitor&& visit) {
   visit("time", state.time);
   visit("step", state.step);
   visit("dt_next", state.dt_next);
-  auto& vesicle = state.vesicles.front();
+}
+
+/// Those of one vesicle.
+template <typename VesicleType, typename Visitor>
+void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("quadrature_level", vesicle.quadrature_level);
   visit("position", vesicle.position);
   visit("transmembrane_potential", vesicle.transmembrane_potential);
@@ -72,7 +83,11 @@ std::vector<SceneChange> read_changes(const Hdf5Reader& file) {
 
 /// Whole numbers of a checkpoint besides those of its state.
 template <typename CheckpointType, typename Visitor>
-void visit_counts(CheckpointType& checkpoint, Visitor&& visit) {
+void visit_counts(CheckpointType& checkpoint, std::size_t n_vesicles, Visitor&& visit) {
+  if (n_vesicles > 1) {
+    visit("vesicles_bytes", checkpoint.vesicles_bytes);
+    visit("vesicles_checksum", checkpoint.vesicles_checksum);
+  }
   visit("start_order", checkpoint.start_order);
   visit("n_rows", checkpoint.n_rows);
   visit("history_bytes", checkpoint.history_bytes);
@@ -84,8 +99,9 @@ void visit_counts(CheckpointType& checkpoint, Visitor&& visit) {
 
 struct WriteVisitor {
   Hdf5Writer& file;
-  void operator()(const char* name, const double& value) { file.attribute("/state", name, value); }
-  void operator()(const char* name, const std::int64_t& value) { file.attribute("/state", name, value); }
+  std::string group = "/state";
+  void operator()(const char* name, const double& value) { file.attribute(group, name, value); }
+  void operator()(const char* name, const std::int64_t& value) { file.attribute(group, name, value); }
   void operator()(const char* name, const std::shared_ptr<const RecycledScalars>& known) {
     if (!known) return;
     const std::vector<Index>& entries = known->entries();
@@ -100,15 +116,16 @@ struct WriteVisitor {
     if (values.size() == 0) return;
     std::vector<hsize_t> extents{static_cast<hsize_t>(values.rows())};
     if (Derived::ColsAtCompileTime != 1) extents.insert(extents.begin(), static_cast<hsize_t>(values.cols()));
-    file.numbers(std::string("/state/") + name, {values.data(), static_cast<std::size_t>(values.size())}, extents,
+    file.numbers(group + "/" + name, {values.data(), static_cast<std::size_t>(values.size())}, extents,
                  {"1", "member of the state of the run, as the run computes with it"});
   }
 };
 
 struct ReadVisitor {
   const Hdf5Reader& file;
-  void operator()(const char* name, double& value) { value = file.number_attribute("/state", name); }
-  void operator()(const char* name, std::int64_t& value) { value = file.integer_attribute("/state", name); }
+  std::string group = "/state";
+  void operator()(const char* name, double& value) { value = file.number_attribute(group, name); }
+  void operator()(const char* name, std::int64_t& value) { value = file.integer_attribute(group, name); }
   void operator()(const char* name, std::shared_ptr<const RecycledScalars>& known) {
     Vector numbers;
     RecycledSubspace stored;
@@ -121,19 +138,19 @@ struct ReadVisitor {
       // Neither fractions nor what no degree has nor a second time the same.
       const bool ascends = entries.empty() || number > static_cast<double>(entries.back());
       if (!(number >= 0.0 && number < n_coefficients(highest_order) && number == std::floor(number) && ascends)) {
-        file.refuse(fmt::format("/state/{}{} are not those of a run", name, entries_of));
+        file.refuse(fmt::format("{}/{}{} are not those of a run", group, name, entries_of));
       }
       entries.push_back(static_cast<Index>(number));
     }
     try {
       known = std::make_shared<const RecycledScalars>(std::move(entries), std::move(stored));
     } catch (const ShapeError& error) {
-      file.refuse(fmt::format("/state/{}: {}", name, error.what()));
+      file.refuse(fmt::format("{}/{}: {}", group, name, error.what()));
     }
   }
   template <typename Derived>
   void operator()(const char* name, Eigen::PlainObjectBase<Derived>& values) {
-    const std::string dataset = std::string("/state/") + name;
+    const std::string dataset = group + "/" + name;
     if (!file.has(dataset)) return;
     if constexpr (Derived::ColsAtCompileTime == 1) {
       values.derived() = file.vector(dataset);
@@ -144,67 +161,99 @@ struct ReadVisitor {
 };
 
 /// What no run could have written, though it is sealed.
-void require_sound(const Checkpoint& checkpoint, const Hdf5Reader& file) {
-  const auto require = [&](bool holds, const char* what) {
-    if (!holds) file.refuse(fmt::format("{} is not that of a run", what));
-  };
-  visit_counts(checkpoint, [&](const char* name, std::int64_t value) { require(value >= 0, name); });
-  require(checkpoint.start_order >= lowest_order && checkpoint.start_order <= highest_order, "start_order");
-  const State& state = checkpoint.state;
-  const VesicleState& vesicle = state.vesicles.front();
-  require(vesicle.position.cols() == 3 && vesicle.position.allFinite(), "/state/position");
-  require(vesicle.position.rows() <= n_coefficients(highest_order), "/state/position");
-  try {
-    order_of(vesicle.position.rows());
-  } catch (const ShapeError&) {
-    require(false, "/state/position");
+class SoundCheck {
+ public:
+  explicit SoundCheck(const Hdf5Reader& file) : file_(file) {}
+
+  void run(const Checkpoint& checkpoint) const {
+    const State& state = checkpoint.state;
+    visit_counts(checkpoint, state.vesicles.size(),
+                 [&](const char* name, std::int64_t value) { require(value >= 0, name); });
+    require(checkpoint.start_order >= lowest_order && checkpoint.start_order <= highest_order, "start_order");
+    for (const VesicleState& vesicle : state.vesicles) check(vesicle);
+    require(std::isfinite(state.time) && std::isfinite(state.dt_next), "/state");
   }
-  for (const Vector* values : {&vesicle.transmembrane_potential, &vesicle.tension}) {
-    require((values->size() == 0 || values->size() == vesicle.position.rows()) && values->allFinite(), "/state");
+
+ private:
+  void require(bool holds, const char* what) const {
+    if (!holds) file_.refuse(fmt::format("{} is not that of a run", what));
   }
-  require(vesicle.area_strain.allFinite(), "/state/area_strain");
-  for (const auto& known : {vesicle.recycled.tension, vesicle.recycled.flow}) {
-    if (!known) continue;
-    const char* name = "/state, what its solves know,";
-    const Matrix& arguments = known->subspace().arguments;
-    const Matrix& responses = known->subspace().responses;
-    require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= thresholds::most_recycled,
-            name);
-    require(arguments.allFinite() && responses.allFinite(), name);
+
+  void check(const VesicleState& vesicle) const {
+    require(vesicle.position.cols() == 3 && vesicle.position.allFinite(), "/state/position");
+    require(vesicle.position.rows() <= n_coefficients(highest_order), "/state/position");
+    try {
+      order_of(vesicle.position.rows());
+    } catch (const ShapeError&) {
+      require(false, "/state/position");
+    }
+    for (const Vector* values : {&vesicle.transmembrane_potential, &vesicle.tension}) {
+      require((values->size() == 0 || values->size() == vesicle.position.rows()) && values->allFinite(), "/state");
+    }
+    require(vesicle.area_strain.allFinite(), "/state/area_strain");
+    for (const auto& known : {vesicle.recycled.tension, vesicle.recycled.flow}) {
+      if (!known) continue;
+      const char* name = "/state, what its solves know,";
+      const Matrix& arguments = known->subspace().arguments;
+      const Matrix& responses = known->subspace().responses;
+      require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= thresholds::most_recycled,
+              name);
+      require(arguments.allFinite() && responses.allFinite(), name);
+    }
+    require(std::isfinite(vesicle.reference_area) && std::isfinite(vesicle.reference_volume), "/state");
   }
-  for (const double value : {state.time, state.dt_next, vesicle.reference_area, vesicle.reference_volume}) {
-    require(std::isfinite(value), "/state");
+
+  const Hdf5Reader& file_;
+};
+
+/// How many vesicles a checkpoint has.
+std::size_t n_vesicles_in(const Hdf5Reader& file) {
+  const std::int64_t version = file.integer_attribute("/", "schema_version");
+  if (version == schema_of_one) return 1;
+  if (version != schema_of_several) {
+    file.refuse(fmt::format("has schema version {}; accepted: {}, {}", version, schema_of_one, schema_of_several));
   }
+  std::size_t count = 0;
+  while (file.has(group_of_vesicle(count, 2))) ++count;
+  if (count < 2) file.refuse("lacks vesicles below /state");
+  return count;
 }
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  const std::size_t n = checkpoint.state.vesicles.size();
   Hdf5Writer file(path, Hdf5Writer::Mode::in_memory);
-  file.attribute("/", "schema_version", checkpoint_schema_version);
-  visit_counts(checkpoint, [&](const char* name, std::int64_t value) { file.attribute("/", name, value); });
+  file.attribute("/", "schema_version", schema_of(n));
+  visit_counts(checkpoint, n, [&](const char* name, std::int64_t value) { file.attribute("/", name, value); });
   file.text("/scene", checkpoint.scene);
   file.text("/changes", json_of(checkpoint.changes).dump());
   file.text("/totals", totals_text(checkpoint.totals));
   file.group("/state");
-  visit_state(checkpoint.state, WriteVisitor{file});
+  visit_time(checkpoint.state, WriteVisitor{file});
+  for (std::size_t a = 0; a < n; ++a) {
+    const std::string group = group_of_vesicle(a, n);
+    if (n > 1) file.group(group);
+    visit_vesicle(checkpoint.state.vesicles[a], WriteVisitor{file, group});
+  }
   replace_file(path, sealed(file.image()));
 }
 
 Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
   const Hdf5Reader file(image, name);
-  const std::int64_t version = file.integer_attribute("/", "schema_version");
-  if (version != checkpoint_schema_version) {
-    file.refuse(fmt::format("has schema version {}; accepted: {}", version, checkpoint_schema_version));
-  }
+  const std::size_t n = n_vesicles_in(file);
   Checkpoint checkpoint;
-  visit_counts(checkpoint, [&](const char* count, std::int64_t& value) { value = file.integer_attribute("/", count); });
+  visit_counts(checkpoint, n,
+               [&](const char* count, std::int64_t& value) { value = file.integer_attribute("/", count); });
   checkpoint.scene = file.text("/scene");
   checkpoint.changes = read_changes(file);
   checkpoint.totals = totals_of(file.text("/totals"), file);
-  checkpoint.state.vesicles.resize(1);
-  visit_state(checkpoint.state, ReadVisitor{file});
-  require_sound(checkpoint, file);
+  checkpoint.state.vesicles.resize(n);
+  visit_time(checkpoint.state, ReadVisitor{file});
+  for (std::size_t a = 0; a < n; ++a) {
+    visit_vesicle(checkpoint.state.vesicles[a], ReadVisitor{file, group_of_vesicle(a, n)});
+  }
+  SoundCheck(file).run(checkpoint);
   return checkpoint;
 }
 

@@ -27,7 +27,9 @@ struct Checkpoint {
   std::int64_t start_order = 0;  ///< degree of the initial shape, in which frame and symmetry were found
   std::int64_t n_rows = 0;       ///< rows of history.csv; 0: the state itself is not written yet
   std::int64_t history_bytes = 0;
-  std::int64_t history_checksum = 0;  ///< of these bytes
+  std::int64_t history_checksum = 0;   ///< of these bytes
+  std::int64_t vesicles_bytes = 0;     ///< of vesicles.csv, likewise; 0 of one vesicle
+  std::int64_t vesicles_checksum = 0;  ///< of these bytes
   std::int64_t n_snapshots = 0;
   std::int64_t snapshots_checksum = 0;  ///< of the checksums of these snapshots
   std::int64_t threads = 1;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <initializer_list>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -36,9 +38,9 @@ std::string header_of(std::string_view name, const std::string& unit) {
   return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
 }
 
-std::string header_line(const OutputUnits& units) {
+std::string header_line(const OutputUnits& units, HistoryKind kind) {
   std::vector<std::string> cells;
-  for (const HistoryColumn& column : history_columns()) {
+  for (const HistoryColumn& column : history_columns(kind)) {
     cells.push_back(header_of(column.name, units.of(column.dimension).symbol));
   }
   return csv_line(cells);
@@ -51,10 +53,11 @@ std::pair<std::string, std::string> parts_of(const std::string& header) {
   return {header.substr(0, at), header.substr(at + 2, header.size() - at - 3)};
 }
 
-bool is_header(const std::string& line) {
+bool is_header(const std::string& line, HistoryKind kind) {
   const std::vector<std::string> cells = csv_cells(line);
   return std::ranges::equal(
-      cells, history_columns(), {}, [](const std::string& cell) { return parts_of(cell).first; }, &HistoryColumn::name);
+      cells, history_columns(kind), {}, [](const std::string& cell) { return parts_of(cell).first; },
+      &HistoryColumn::name);
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
@@ -69,7 +72,9 @@ Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
 
 }  // namespace
 
-const std::vector<HistoryColumn>& history_columns() {
+namespace {
+
+const std::vector<HistoryColumn>& columns_of_one() {
   static const std::vector<HistoryColumn> all = {
       {"time", "time", of_row<&HistoryRow::time>},
       {"dt", "time", of_step<&StepAttempt::dt>},
@@ -115,7 +120,77 @@ const std::vector<HistoryColumn>& history_columns() {
   return all;
 }
 
-void require_history(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum) {
+std::vector<HistoryColumn> columns_named(std::initializer_list<std::string_view> names) {
+  std::vector<HistoryColumn> columns;
+  for (const std::string_view name : names) {
+    columns.push_back(*std::ranges::find(columns_of_one(), name, &HistoryColumn::name));
+  }
+  return columns;
+}
+
+const std::vector<HistoryColumn>& columns_of_all() {
+  static const std::vector<HistoryColumn> all = [] {
+    auto columns = columns_named({"time",
+                                  "dt",
+                                  "bending_energy_scaled",
+                                  "tension_integral",
+                                  "Vm_max",
+                                  "area_drift",
+                                  "volume_drift",
+                                  "strain_max",
+                                  "spectrum_tail",
+                                  "iterations_flow",
+                                  "iterations_electric",
+                                  "rejected",
+                                  "order",
+                                  "truncation",
+                                  "error_estimate",
+                                  "quadrature_error",
+                                  "separation",
+                                  "raw_area",
+                                  "wrinkle_degree",
+                                  "tension_max",
+                                  "elastic_energy_scaled"});
+    columns.push_back({"smallest_gap", "length", [](const HistoryRow& row) { return row.gap.distance; }});
+    columns.push_back({"gap_vesicle_a", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.first); }});
+    columns.push_back(
+        {"gap_vesicle_b", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.second); }});
+    columns.push_back({"gap_degree", "1", [](const HistoryRow& row) { return row.gap.degree(); }});
+    return columns;
+  }();
+  return all;
+}
+
+/// What one vesicle has of its own.
+const std::vector<HistoryColumn>& columns_of_each() {
+  static const std::vector<HistoryColumn> all = [] {
+    std::vector<HistoryColumn> columns = {columns_of_one().front(), {"vesicle", "1", of_row<&HistoryRow::vesicle>}};
+    for (const HistoryColumn& column : columns_of_one()) {
+      constexpr std::array of_the_step = {"time",     "dt",         "iterations_flow", "iterations_electric",
+                                          "rejected", "truncation", "error_estimate",  "raw_area"};
+      if (std::ranges::find(of_the_step, column.name) == of_the_step.end()) columns.push_back(column);
+    }
+    return columns;
+  }();
+  return all;
+}
+
+}  // namespace
+
+const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
+  switch (kind) {
+    case HistoryKind::of_one:
+      break;
+    case HistoryKind::of_all:
+      return columns_of_all();
+    case HistoryKind::of_each:
+      return columns_of_each();
+  }
+  return columns_of_one();
+}
+
+void require_history(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
+                     HistoryKind kind) {
   if (kept_bytes == 0) return;
   std::error_code error;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
@@ -126,7 +201,7 @@ void require_history(const std::filesystem::path& path, std::int64_t kept_bytes,
   std::ifstream kept(path, std::ios::binary);
   std::string first_line;
   std::getline(kept, first_line);
-  if (!is_header(first_line)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
+  if (!is_header(first_line, kind)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
   kept.seekg(0);
   if (checksum_of(kept, kept_bytes).value() != checksum) {
     throw InputError(fmt::format("{}: was altered: its first {} bytes do not match the checksum in checkpoint.h5",
@@ -135,12 +210,12 @@ void require_history(const std::filesystem::path& path, std::int64_t kept_bytes,
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
-                         const OutputUnits& units)
-    : path_(path), checksum_(checksum) {
-  for (const HistoryColumn& column : history_columns()) factors_.push_back(units.of(column.dimension).factor);
+                         const OutputUnits& units, HistoryKind kind)
+    : path_(path), kind_(kind), checksum_(checksum) {
+  for (const HistoryColumn& column : history_columns(kind)) factors_.push_back(units.of(column.dimension).factor);
   if (kept_bytes == 0) {
     stream_.open(path, std::ios::binary | std::ios::trunc);
-    write(header_line(units));
+    write(header_line(units, kind));
     return;
   }
   std::error_code error;
@@ -153,7 +228,7 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_by
 void HistoryFile::append(const HistoryRow& row) {
   std::vector<std::string> cells;
   for (std::size_t i = 0; i < factors_.size(); ++i) {
-    cells.push_back(fmt::format("{:.17g}", history_columns()[i].value(row) * factors_[i]));
+    cells.push_back(fmt::format("{:.17g}", history_columns(kind_)[i].value(row) * factors_[i]));
   }
   write(csv_line(cells));
 }

@@ -21,9 +21,17 @@ struct HistoryRow {
   double time = 0.0;
   StepAttempt step;
   Diagnostics diagnostics;
-  int order = 0;            ///< p of the state
+  int order = 0;            ///< p of the state, the highest of several vesicles
   double truncation = 0.0;  ///< see Evolution::truncation
+  // Of several vesicles.
+  SmallestGap gap{};
+  std::vector<int> orders{};  ///< p of each vesicle
+  int vesicle = 0;            ///< that the row tells of
 };
+
+/// Tables that a run keeps: history.csv of one vesicle; history.csv of all and vesicles.csv of each where there are
+/// several.
+enum class HistoryKind { of_one, of_all, of_each };
 
 /// A column of history.csv by its plain name; its header is that name, and " [unit]" behind it where the file has
 /// units.
@@ -34,11 +42,12 @@ struct HistoryColumn {
 };
 
 /// All columns in the order of the file: new ones come last.
-const std::vector<HistoryColumn>& history_columns();
+const std::vector<HistoryColumn>& history_columns(HistoryKind kind = HistoryKind::of_one);
 
 /// Checks the first bytes of a history.csv.
 /// @throws InputError if the file is shorter, was altered there or has other columns
-void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum);
+void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum,
+                     HistoryKind kind = HistoryKind::of_one);
 
 /// Appends rows to history.csv; each is in the file when `append` returns.
 /// Numbers have 17 significant digits: reading them back gives the same bits.
@@ -49,7 +58,7 @@ class HistoryFile {
   /// @param units  of a file that goes on those that it began with
   /// @throws OutputError
   HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
-              const OutputUnits& units = {});
+              const OutputUnits& units = {}, HistoryKind kind = HistoryKind::of_one);
 
   /// A row that the disk has no room for leaves nothing of itself behind. @throws OutputError
   void append(const HistoryRow& row);
@@ -62,6 +71,7 @@ class HistoryFile {
   void write(const std::string& text);
 
   std::filesystem::path path_;
+  HistoryKind kind_;
   std::vector<double> factors_;  ///< of the columns
   std::ofstream stream_;
   std::int64_t bytes_ = 0;

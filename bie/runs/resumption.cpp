@@ -29,19 +29,18 @@ bool may_change(const std::string& key) { return key.starts_with("numerics.") ||
 
 std::string shown(const std::string& value) { return value.empty() ? "absent" : value; }
 
-/// Degree in which the state goes on.
-int order_of_state(const Scene& scene, const State& state) {
+/// Degree in which a vesicle goes on.
+int order_of_state(const Scene& scene, const VesicleState& vesicle) {
   const NumericsScene& numerics = scene.numerics;
   if (!numerics.tolerance) return numerics.order;
-  const VesicleState& vesicle = state.vesicles.front();
   const int lowest = std::max(order_of(vesicle.position.rows()), lowest_adaptive_order);
   return Resolution(model_of(scene), vesicle)
       .order_for(thresholds::truncation_share * *numerics.tolerance, std::min(lowest, numerics.order), numerics.order);
 }
 
 State adapted(State state, const Scene& before, const Scene& scene) {
-  const int order = order_of_state(scene, state);
   for (VesicleState& vesicle : state.vesicles) {
+    const int order = order_of_state(scene, vesicle);
     vesicle = resized(std::move(vesicle), order);
     if (before.numerics.symmetry != scene.numerics.symmetry) vesicle.recycled = {};
   }

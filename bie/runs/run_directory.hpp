@@ -9,6 +9,8 @@ struct RunPaths {
   std::filesystem::path directory;
 
   [[nodiscard]] std::filesystem::path history() const { return directory / "history.csv"; }
+  /// Of each of several vesicles.
+  [[nodiscard]] std::filesystem::path vesicles() const { return directory / "vesicles.csv"; }
   [[nodiscard]] std::filesystem::path snapshots() const { return directory / "run.h5"; }
   [[nodiscard]] std::filesystem::path xdmf() const { return directory / "run.xdmf"; }
   [[nodiscard]] std::filesystem::path summary() const { return directory / "summary.json"; }

@@ -133,7 +133,11 @@ class Simulation {
   }
 
   [[nodiscard]] RecordedSide side_of(const Evaluation& evaluation, const StepAttempt& step) const {
-    return {{evolution_.state().time, step, evaluation.diagnostics, evolution_.order(0), evolution_.truncation()},
+    std::vector<int> orders;
+    for (std::size_t a = 0; a < evaluation.diagnostics.vesicles.size(); ++a) orders.push_back(evolution_.order(a));
+    const int order = *std::ranges::max_element(orders);
+    return {{evolution_.state().time, step, evaluation.diagnostics, order, evolution_.truncation(), evolution_.gap(),
+             std::move(orders)},
             evaluation.fields};
   }
 
@@ -152,13 +156,23 @@ class Simulation {
 
   void record(const StepAttempt& step) {
     const State& state = evolution_.state();
-    const VesicleDiagnostics& diagnostics = evolution_.evaluation().diagnostics.vesicles.front();
     recorder_.record(state, sides_of(step), meter_.totals());
-    const double drift = std::max(std::abs(diagnostics.area_drift), std::abs(diagnostics.volume_drift));
     if (!tell_) return;
+    double drift = 0.0;
+    for (const VesicleDiagnostics& vesicle : evolution_.evaluation().diagnostics.vesicles) {
+      drift = std::max({drift, std::abs(vesicle.area_drift), std::abs(vesicle.volume_drift)});
+    }
     const auto shown = [&](double time) { return time * time_unit_.factor; };
     tell_({state.step, shown(start_time_), shown(state.time), shown(scene_.numerics.end_time), shown(step.dt), drift,
-           meter_.seconds(), time_unit_.symbol});
+           meter_.seconds(), time_unit_.symbol, gap_text()});
+  }
+
+  /// As the history shows it; empty of a single vesicle.
+  [[nodiscard]] std::string gap_text() const {
+    const double gap = evolution_.gap().distance;
+    if (!std::isfinite(gap)) return {};
+    const OutputUnit unit = units_.of("length");
+    return fmt::format("{:.3g}{}{}", gap * unit.factor, unit.is_si() ? " " : "", unit.symbol);
   }
 
   const Scene& scene_;

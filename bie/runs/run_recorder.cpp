@@ -3,6 +3,7 @@
 #include "bie/files/hdf5_reader.hpp"
 #include "bie/files/run_file.hpp"
 #include "bie/runs/snapshot_copy.hpp"
+#include "bie/runs/vesicle_rows.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/stepping/space/resolution.hpp"
@@ -12,13 +13,22 @@
 namespace vehd {
 namespace {
 
+bool has_several(const Checkpoint& checkpoint) { return checkpoint.state.vesicles.size() > 1; }
+
+HistoryKind kind_of_history(const Checkpoint& start) {
+  return has_several(start) ? HistoryKind::of_all : HistoryKind::of_one;
+}
+
 /// Nothing is touched before the files of the run to continue are known to be intact. Then the checkpoint comes first:
 /// whatever a kill leaves behind can be resumed.
 Checkpoint written(const RunPaths& paths, Checkpoint start) {
   if (start.n_snapshots > 0) {
     start.snapshots_checksum = require_snapshots(paths.snapshots(), start.n_snapshots, start.snapshots_checksum);
   }
-  require_history(paths.history(), start.history_bytes, start.history_checksum);
+  require_history(paths.history(), start.history_bytes, start.history_checksum, kind_of_history(start));
+  if (has_several(start)) {
+    require_history(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, HistoryKind::of_each);
+  }
   write_checkpoint(paths.checkpoint(), start);
   replace_file(paths.scene(), with_changes(start.scene, start.changes));
   return start;
@@ -65,7 +75,11 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
       last_(written(paths, start)),
       snapshots_(paths.snapshots(), header_writer(output_, start, si_units_),
                  kept_snapshots(paths, output_, last_, si_units_)),
-      history_(paths.history(), start.history_bytes, start.history_checksum, units) {
+      history_(paths.history(), start.history_bytes, start.history_checksum, units, kind_of_history(start)) {
+  if (has_several(start)) {
+    vesicles_.emplace(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, units, HistoryKind::of_each);
+  }
+  xdmf_.n_vesicles = start.state.vesicles.size();
   const SphereGrid& grid = output_.grid();
   xdmf_.n_points = grid.n_points() + 2;
   xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
@@ -75,7 +89,8 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
   for (std::int64_t number = 0; number < start.n_snapshots; ++number) {
     xdmf_.times.push_back(file.number_attribute(group_of(number), "time"));
   }
-  name_fields(xdmf_, [&](const std::string& name) { return file.has(group_of(0) + "/" + name); });
+  const std::string first = vesicle_groups(file, group_of(0)).front();
+  name_fields(xdmf_, [&](const std::string& name) { return file.has(first + "/" + name); });
 }
 
 void RunRecorder::record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals) {
@@ -87,7 +102,10 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
     } else {
       shown.diagnostics = lab_frame_.diagnostics(row.diagnostics);
     }
-    history_.append(shown);
+    history_.append(vesicles_ ? row_of_all(shown) : shown);
+    if (vesicles_) {
+      for (const HistoryRow& own : rows_of_each(shown)) vesicles_->append(own);
+    }
     ++last_.n_rows;
   }
   const RecordedSide& last = sides.back();
@@ -95,6 +113,10 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
   last_.state = state;
   last_.history_bytes = history_.bytes();
   last_.history_checksum = history_.checksum();
+  if (vesicles_) {
+    last_.vesicles_bytes = vesicles_->bytes();
+    last_.vesicles_checksum = vesicles_->checksum();
+  }
   save(totals);
 }
 
@@ -107,7 +129,8 @@ void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
   snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
     const std::int64_t checksum =
         write_snapshot(file, name, output_, lab_frame_.state(state), lab_frame_.fields(fields), si_units_);
-    const auto has = [&](const std::string& field) { return file.has("/snapshots/" + name + "/" + field); };
+    const std::string first = "/snapshots/" + name + (vesicles_ ? "/vesicles/" + vesicle_group(0) : "");
+    const auto has = [&](const std::string& field) { return file.has(first + "/" + field); };
     if (xdmf_.times.empty()) name_fields(xdmf_, has);
     return checksum;
   });

@@ -61,6 +61,7 @@ class RunRecorder {
   Checkpoint last_;
   SnapshotStore snapshots_;
   HistoryFile history_;
+  std::optional<HistoryFile> vesicles_;  ///< of each, where there are several
   XdmfSeries xdmf_;
   std::optional<std::chrono::steady_clock::time_point> xdmf_written_;
 };

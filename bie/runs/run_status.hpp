@@ -16,6 +16,7 @@ struct RunStatus {
   double drift = 0.0;       ///< larger of area and volume drift
   double seconds = 0.0;     ///< of this session, on the clock
   std::string time_unit{};  ///< symbol; empty where times are dimensionless
+  std::string gap{};        ///< smallest one between vesicles with its unit; empty where there is one vesicle
 };
 
 /// Told after every step; may be empty.

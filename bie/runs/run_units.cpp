@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bie/runs/history.hpp"
+#include "bie/runs/run_directory.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -16,6 +17,9 @@ OutputUnits units_of_history(const std::filesystem::path& history, const std::op
   std::ifstream file(history);
   std::string header;
   if (!std::getline(file, header)) return {};
+  // Of several vesicles it has fewer columns than theirs.
+  std::ifstream of_each(RunPaths{history.parent_path()}.vesicles());
+  if (std::string further; std::getline(of_each, further)) header += "," + further;
   std::istringstream first_line(header + "\n");
   return HistoryTable(first_line, history.string()).units(scales);
 }

@@ -5,9 +5,10 @@
 
 namespace vehd {
 
-std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const std::string& name,
-                           const SphereTransform& transform, const SiUnits& si_units) {
-  const std::string group = "/snapshots/" + name;
+namespace {
+
+/// @param group  of the vesicle
+void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleState& vesicle, VesicleFields& fields) {
   const auto matrix = [&](const char* field) {
     const std::string dataset = group + "/coefficients/" + field;
     return source.has(dataset) ? source.matrix(dataset) : Matrix();
@@ -16,23 +17,31 @@ std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const s
     const Matrix values = matrix(field);
     return values.size() == 0 ? Vector() : Vector(values.col(0));
   };
-  State state;
-  state.time = source.number_attribute(group, "time");
-  state.step = source.integer_attribute(group, "step");
-  VesicleState& vesicle = state.vesicles.emplace_back();
   vesicle.position = matrix("x");
   vesicle.transmembrane_potential = vector("Vm");
   vesicle.area_strain = vector("area_strain");
-  Fields all;
-  VesicleFields& fields = all.vesicles.emplace_back();
   fields.velocity = matrix("velocity");
   fields.force_bending = matrix("force_bending");
   fields.force_tension = matrix("force_tension");
   fields.force_electric = matrix("force_electric");
   fields.tension = vector("tension");
   fields.charge = vector("q");
+}
+
+}  // namespace
+
+std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const std::string& name,
+                           const SphereTransform& transform, const SiUnits& si_units) {
+  const std::string group = "/snapshots/" + name;
+  State state;
+  state.time = source.number_attribute(group, "time");
+  state.step = source.integer_attribute(group, "step");
+  Fields fields;
+  for (const std::string& vesicle : vesicle_groups(source, group)) {
+    read_vesicle(source, vesicle, state.vesicles.emplace_back(), fields.vesicles.emplace_back());
+  }
   return write_snapshot(target, name, transform, resized(std::move(state), transform.order()),
-                        resized(std::move(all), transform.order()), si_units);
+                        resized(std::move(fields), transform.order()), si_units);
 }
 
 }  // namespace vehd

@@ -7,6 +7,7 @@
 
 #include "bie/files/versions.hpp"
 #include "bie/runs/verdict.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/support/memory.hpp"
 
 namespace vehd {
@@ -50,6 +51,11 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   if (const auto least = std::min_element(separation.begin(), separation.end());
       least != separation.end() && std::isfinite(*least)) {
     json["separation"] = *least;
+  }
+  if (history.has("smallest_gap")) {
+    json["vesicles"] = vesicle_names(scene);
+    const auto& gap = history.column("smallest_gap");
+    if (!gap.empty()) json["smallest_gap"] = *std::min_element(gap.begin(), gap.end());
   }
   json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
   json["kernel_evaluations"] = totals.kernel_evaluations;

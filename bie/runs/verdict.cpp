@@ -127,6 +127,22 @@ std::optional<std::string> ringing(const HistoryTable& history) {
                      history.time_text(swings.front()), swings.size());
 }
 
+/// A gap between two vesicles that asks for a higher degree than they have.
+std::optional<std::string> narrow_gap(const HistoryTable& history) {
+  if (!history.has("gap_degree")) return std::nullopt;
+  const std::vector<double>& degree = history.column("gap_degree");
+  const std::vector<double>& order = history.column("order");
+  std::optional<std::size_t> first, worst_row;
+  for (std::size_t i = 0; i < degree.size(); ++i) {
+    if (degree[i] <= order[i]) continue;
+    if (!first) first = i;
+    if (!worst_row || degree[i] > degree[*worst_row]) worst_row = i;
+  }
+  if (!first) return std::nullopt;
+  return fmt::format("smallest_gap asks for more than the degree {:g} since time {} (worst {:.0f})", order[*first],
+                     history.time_text(history.column("time")[*first]), degree[*worst_row]);
+}
+
 /// Steps of a fixed size that fail again and again.
 std::optional<std::string> rejections(const HistoryTable& history) {
   const std::vector<double>& rejected = history.column("rejected");
@@ -160,6 +176,7 @@ std::string verdict_of(const HistoryTable& history, std::optional<double> tolera
   if (!findings.empty() || !stop_reason.empty()) {
     if (auto finding = wrinkling(history)) findings.push_back(std::move(*finding));
   }
+  if (auto finding = narrow_gap(history)) findings.push_back(std::move(*finding));
   const std::string text = fmt::format("{}", fmt::join(findings, "; "));
   if (stop_reason.empty()) return text.empty() ? trustworthy : text;
   return text.empty() ? "stopped: " + stop_reason : fmt::format("stopped: {}; until then {}", stop_reason, text);

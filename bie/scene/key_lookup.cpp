@@ -1,16 +1,38 @@
 #include "bie/scene/key_lookup.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
+
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "bie/scene/schema.hpp"
 #include "bie/scene/toml_text.hpp"
 #include "bie/scene/toml_values.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
+namespace {
+
+/// Number of the vesicle in "vesicle[1].shape.axes", the rest behind it; nothing of another name.
+std::optional<std::pair<std::size_t, std::string>> parts_of_name(const std::string& name) {
+  constexpr std::string_view start = "vesicle[";
+  const std::size_t end = name.find("].");
+  if (!name.starts_with(start) || end == std::string::npos) return std::nullopt;
+  return std::pair{static_cast<std::size_t>(std::stoul(name.substr(start.size()))), name.substr(end + 2)};
+}
+
+}  // namespace
+
 std::string key_text(const Scene& scene, const std::string& name) {
+  if (const auto vesicle = parts_of_name(name)) return key_text(alone(scene, vesicle->first), vesicle->second);
+  if (name == "vesicle.name" && !scene.vesicles.empty()) {
+    return fmt::format("\"{}\"", fmt::join(vesicle_names(scene), "\", \""));
+  }
   for (const KeyDescription& key : scene_keys()) {
     if (fmt::format("{}.{}", key.table, key.name) != name || !applies(key, scene)) continue;
     const auto value = key.get(scene);
@@ -24,11 +46,17 @@ std::string key_place(const SceneSource& source, const std::string& name) {
   try {
     toml::table table = toml::parse_file(file);
     apply_settings(table, source.settings);
-    const std::size_t last = name.rfind('.');
-    const KeyDescription* key = find_key(name.substr(0, last), name.substr(last + 1));
+    const auto vesicle = parts_of_name(name);
+    const std::string plain = vesicle ? vesicle->second : name;
+    const std::size_t last = plain.rfind('.');
+    const KeyDescription* key = find_key(plain.substr(0, last), plain.substr(last + 1));
     if (key != nullptr && !key->other_name.empty()) {
       const auto node = table.at_path(fmt::format("{}.{}", key->table, key->other_name));
       if (node) return place(*node.node(), file);
+    }
+    // Its own value of a vesicle, that of all, its own table, in this order.
+    if (vesicle && !table.at_path(name)) {
+      if (const auto node = table.at_path(plain)) return place(*node.node(), file);
     }
     for (std::string path = name; !path.empty();) {
       if (const auto node = table.at_path(path)) return place(*node.node(), file);

@@ -6,6 +6,7 @@
 #include "bie/physics/gravity.hpp"
 #include "bie/physics/poiseuille_flow.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/scene/vesicles.hpp"
 
 namespace vehd {
 namespace {
@@ -61,13 +62,13 @@ void add_flow(const FlowScene& flow, Model& model) {
 
 }  // namespace
 
-Model model_of(const Scene& scene) {
-  Model model;
-  model.viscosity = scene.fluid.viscosity;
-  VesicleModel& vesicle = model.vesicles.front();
+namespace {
+
+/// @param scene  of this vesicle alone
+VesicleModel vesicle_of(const Scene& scene) {
+  VesicleModel vesicle;
   vesicle.viscosity_ratio = scene.fluid.viscosity_ratio;
   vesicle.inextensible = scene.membrane.inextensible;
-  model.mobile = scene.membrane.mobile;
   if (scene.membrane.bending_modulus.value_or(0.0) > 0.0) {
     const double modulus = *scene.membrane.bending_modulus;
     vesicle.bending = BendingParameters{modulus};
@@ -76,16 +77,29 @@ Model model_of(const Scene& scene) {
           std::make_shared<SpontaneousCurvatureEffect>(SpontaneousCurvatureParameters{modulus, curvature}));
     }
   }
-  if (scene.gravity) {
+  if (scene.gravity && scene.fluid.density_difference != 0.0) {
     const GravityParameters gravity{scene.fluid.density_difference, vector_of(scene.gravity->acceleration)};
     vesicle.effects.push_back(std::make_shared<GravityEffect>(gravity));
   }
+  if (scene.electric) {
+    vesicle.inside = {scene.electric->conductivity_in, scene.electric->permittivity_ratio};
+    vesicle.charging = {scene.membrane.capacitance, scene.membrane.conductance};
+  }
+  return vesicle;
+}
+
+}  // namespace
+
+Model model_of(const Scene& scene) {
+  Model model;
+  model.viscosity = scene.fluid.viscosity;
+  model.mobile = scene.membrane.mobile;
+  model.vesicles.clear();
+  for (const Scene& one : each_alone(scene)) model.vesicles.push_back(vesicle_of(one));
   if (scene.flow) add_flow(*scene.flow, model);
   if (scene.electric) {
     model.electric = AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out,
                                   scene.electric->permittivity, waveform_of(scene.electric->waveform)};
-    vesicle.inside = {scene.electric->conductivity_in, scene.electric->permittivity_ratio};
-    vesicle.charging = {scene.membrane.capacitance, scene.membrane.conductance};
   }
   return model;
 }

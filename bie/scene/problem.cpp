@@ -2,11 +2,12 @@
 
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/vesicles.hpp"
 
 namespace vehd {
 
 EvolutionSetup setup_of(const Problem& problem) {
-  return {problem.model, problem.settings, problem.symmetry, problem.control};
+  return {problem.model, problem.settings, problem.symmetry, problem.control, problem.frame, problem.names};
 }
 
 EventTimes events_of(const Scene& scene) {
@@ -29,12 +30,15 @@ Problem problem_of(const Scene& scene, int start_order) {
 
 Problem problem_of(const Scene& scene, const Model& model) {
   State start;
-  InitialMembrane membrane = initial_membrane(scene);
-  VesicleState& vesicle = start.vesicles.emplace_back();
-  vesicle.position = std::move(membrane.position);
-  vesicle.transmembrane_potential = std::move(membrane.potential);
-  vesicle.area_strain = Vector::Zero(vesicle.position.rows());
+  for (const Scene& one : each_alone(scene)) {
+    InitialMembrane membrane = initial_membrane(one);
+    VesicleState& vesicle = start.vesicles.emplace_back();
+    vesicle.position = std::move(membrane.position);
+    vesicle.transmembrane_potential = std::move(membrane.potential);
+    vesicle.area_strain = Vector::Zero(vesicle.position.rows());
+  }
   Problem problem;
+  problem.names = vesicle_names(scene);
   problem.frame = find_frame(model, start);
   problem.model = in_frame(problem.frame, model);
   start = in_frame(problem.frame, std::move(start));

@@ -15,6 +15,7 @@ struct Problem {
   StepControl control;
   Symmetry symmetry;                 ///< that the run uses: that of its start, or none where the scene says "off"
   std::vector<StartMembrane> start;  ///< of every vesicle
+  std::vector<std::string> names{};  ///< of several vesicles
 };
 
 /// For an Evolution.

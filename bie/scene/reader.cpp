@@ -17,6 +17,9 @@
 #include "bie/scene/schema.hpp"
 #include "bie/scene/shape_file_check.hpp"
 #include "bie/scene/toml_values.hpp"
+#include "bie/scene/vesicle_checks.hpp"
+#include "bie/scene/vesicle_reader.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/scene/waveform_file.hpp"
 #include "bie/support/errors.hpp"
 
@@ -80,11 +83,14 @@ toml::table parse_toml(const std::string& text, const std::string& name) {
   }
 }
 
+constexpr std::string_view vesicle_table = "vesicle";
+
 std::vector<std::string_view> table_names() {
   std::vector<std::string_view> names;
   for (const TableDescription& table : scene_tables()) {
     if (table.name.find('.') == std::string_view::npos) names.push_back(table.name);
   }
+  names.push_back(vesicle_table);
   return names;
 }
 
@@ -204,6 +210,71 @@ void apply_tolerance(NumericsScene& numerics, const toml::table& file) {
   if (!has_key(table, *find_key("numerics", "degree"))) numerics.order = defaults.order;
 }
 
+/// Nothing but the tables that a scene may have.
+void require_known_tables(const toml::table& file, const std::string& name) {
+  for (const auto& [key, node] : file) {
+    const std::vector<std::string_view> known = table_names();
+    if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+      throw InputError(fmt::format("{}: unknown {} \"{}\"; {}", place(node, name), node.is_table() ? "table" : "key",
+                                   key.str(), suggestion(key.str(), known)));
+    }
+    if (!node.is_table() && key.str() != vesicle_table) {
+      throw InputError(fmt::format("{}: \"{}\" is {}; accepted: a table [{}]", place(node, name), key.str(),
+                                   shown(node), key.str()));
+    }
+  }
+}
+
+/// The scene of one vesicle, not yet checked.
+/// @param units  those of the other vesicles; null: they follow from the file
+Scene scene_of(const toml::table& file, const std::string& name, const std::filesystem::path& folder,
+               const std::optional<UnitsScene>* units) {
+  Scene scene;
+  for (const TableDescription& description : scene_tables()) {
+    if (const toml::table* table = find_table(file, description.name)) {
+      read_table(scene, description, *table, name);
+      if (description.name != "units") continue;
+      // [units] comes first: the values of every later table may need its scales.
+      if (units) {
+        scene.units = *units;
+      } else {
+        derive_reference_scales(*scene.units, file);
+      }
+    } else if (description.required) {
+      throw InputError(fmt::format("{}:1: missing table [{}] ({})", name, description.name, description.description));
+    }
+  }
+  if (scene.flow && scene.flow->waveform) read_waveform_table(*scene.flow->waveform, folder);
+  if (scene.electric && scene.electric->waveform) read_waveform_table(*scene.electric->waveform, folder);
+  apply_tolerance(scene.numerics, file);
+  return scene;
+}
+
+/// @param is_heavy  some vesicle of the scene has a weight
+void check_one(Scene& scene, const toml::table& file, const std::string& name, const std::filesystem::path& folder,
+               bool is_heavy) {
+  check_scene(scene, file, name, is_heavy);
+  if (scene.shape.kind == ShapeKind::file) {
+    scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
+  }
+  check_shape_file(scene, file, name);
+}
+
+/// A scene with tables [[vesicle]].
+/// @param files  that of each vesicle
+Scene scene_of_several(const std::vector<toml::table>& files, const std::vector<std::string>& names,
+                       const std::string& name, const std::filesystem::path& folder) {
+  std::vector<Scene> scenes;
+  for (const toml::table& file : files) {
+    // Numbers of all vesicles have one scale.
+    scenes.push_back(scene_of(file, name, folder, scenes.empty() ? nullptr : &scenes.front().units));
+  }
+  const bool is_heavy = std::any_of(scenes.begin(), scenes.end(),
+                                    [](const Scene& scene) { return scene.fluid.density_difference != 0.0; });
+  for (std::size_t a = 0; a < scenes.size(); ++a) check_one(scenes[a], files[a], name, folder, is_heavy);
+  return together(scenes, names);
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& path) { return read_scene(SceneSource{path, {}}); }
@@ -214,37 +285,27 @@ Scene read_scene(const SceneSource& source) {
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                   const std::vector<std::string>& settings) {
-  toml::table file = parse_toml(text, name);
-  apply_settings(file, settings);
-  for (const auto& [key, node] : file) {
-    const std::vector<std::string_view> known = table_names();
-    if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
-      throw InputError(fmt::format("{}: unknown {} \"{}\"; {}", place(node, name), node.is_table() ? "table" : "key",
-                                   key.str(), suggestion(key.str(), known)));
-    }
-    if (!node.is_table()) {
-      throw InputError(fmt::format("{}: \"{}\" is {}; accepted: a table [{}]", place(node, name), key.str(),
-                                   shown(node), key.str()));
-    }
-  }
+  const auto parsed = [&] {
+    toml::table file = parse_toml(text, name);
+    apply_settings(file, settings);
+    return file;
+  };
+  const toml::table file = parsed();
+  require_known_tables(file, name);
   Scene scene;
-  for (const TableDescription& description : scene_tables()) {
-    if (const toml::table* table = find_table(file, description.name)) {
-      read_table(scene, description, *table, name);
-      // [units] comes first: the values of every later table may need its scales.
-      if (description.name == "units") derive_reference_scales(*scene.units, file);
-    } else if (description.required) {
-      throw InputError(fmt::format("{}:1: missing table [{}] ({})", name, description.name, description.description));
+  if (has_vesicles(file)) {
+    const std::vector<std::string> names = read_vesicle_names(file, name);
+    std::vector<toml::table> files;
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      files.push_back(parsed());
+      take_vesicle(files.back(), a);
     }
+    scene = scene_of_several(files, names, name, folder);
+    check_vesicles(scene, file, name);
+  } else {
+    scene = scene_of(file, name, folder, nullptr);
+    check_one(scene, file, name, folder, false);
   }
-  if (scene.flow && scene.flow->waveform) read_waveform_table(*scene.flow->waveform, folder);
-  if (scene.electric && scene.electric->waveform) read_waveform_table(*scene.electric->waveform, folder);
-  apply_tolerance(scene.numerics, file);
-  check_scene(scene, file, name);
-  if (scene.shape.kind == ShapeKind::file) {
-    scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
-  }
-  check_shape_file(scene, file, name);
   check_symmetry(scene, file, name);
   return scene;
 }

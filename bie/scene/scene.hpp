@@ -156,6 +156,17 @@ struct OutputScene {
   bool operator==(const OutputScene&) const = default;
 };
 
+/// A table [[vesicle]] with what it takes over from the tables of all. Members that belong to all vesicles, such as the
+/// field, are those of the scene.
+struct VesicleScene {
+  std::string name;
+  ShapeScene shape;
+  MembraneScene membrane;
+  FluidScene fluid;
+  std::optional<ElectricScene> electric;
+  bool operator==(const VesicleScene&) const = default;
+};
+
 /// A validated scene file: every value is finite and within the range that the key table states.
 struct Scene {
   std::optional<UnitsScene> units;  ///< absent: no value may have a unit
@@ -167,6 +178,8 @@ struct Scene {
   std::optional<ElectricScene> electric;
   NumericsScene numerics;
   OutputScene output;
+  /// Empty: one vesicle, that of the tables above. Otherwise all of them; the tables above are then those of the first.
+  std::vector<VesicleScene> vesicles{};
   bool operator==(const Scene&) const = default;
 };
 

@@ -25,8 +25,8 @@ constexpr double fewest_steps_a_period = 4.0;
 
 class Checks {
  public:
-  Checks(const Scene& scene, const toml::table& table, const std::string& file)
-      : scene_(scene), table_(table), file_(file) {}
+  Checks(const Scene& scene, const toml::table& table, const std::string& file, bool is_heavy)
+      : scene_(scene), table_(table), file_(file), is_heavy_(is_heavy) {}
 
   void run() const {
     check_steps();
@@ -54,7 +54,7 @@ class Checks {
 
   void check_effects() const {
     const bool heavy = scene_.fluid.density_difference != 0.0;
-    if (scene_.gravity && !heavy) {
+    if (scene_.gravity && !heavy && !is_heavy_) {
       refuse("gravity", "acceleration",
              "[gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
     }
@@ -248,12 +248,13 @@ class Checks {
   const Scene& scene_;
   const toml::table& table_;
   const std::string& file_;
+  bool is_heavy_;  ///< something else has a weight
 };
 
 }  // namespace
 
-void check_scene(const Scene& scene, const toml::table& table, const std::string& file) {
-  Checks(scene, table, file).run();
+void check_scene(const Scene& scene, const toml::table& table, const std::string& file, bool is_heavy) {
+  Checks(scene, table, file, is_heavy).run();
 }
 
 void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file) {

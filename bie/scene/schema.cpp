@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bie/scene/key_rows.hpp"
+#include "bie/scene/vesicles.hpp"
 
 namespace vehd {
 
@@ -62,13 +63,37 @@ bool applies(const KeyDescription& key, const Scene& scene) {
   return table->present(scene) && key.is_for(kind_of(scene, key.table));
 }
 
-std::vector<std::string> differing_keys(const Scene& a, const Scene& b) {
-  std::vector<std::string> names;
+namespace {
+
+/// @param names  to which those of keys in which two scenes of one vesicle differ are added
+template <typename Wanted>
+void add_differing_keys(const Scene& a, const Scene& b, const std::string& prefix, const Wanted& wanted,
+                        std::vector<std::string>& names) {
   for (const KeyDescription& key : scene_keys()) {
+    if (!wanted(key)) continue;
     const auto value_a = applies(key, a) ? key.get(a) : std::nullopt;
     const auto value_b = applies(key, b) ? key.get(b) : std::nullopt;
-    const std::string name = fmt::format("{}.{}", key.table, key.name);
+    const std::string name = fmt::format("{}{}.{}", prefix, key.table, key.name);
     if (value_a != value_b && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> differing_keys(const Scene& a, const Scene& b) {
+  std::vector<std::string> names;
+  if (a.vesicles.empty() && b.vesicles.empty()) {
+    add_differing_keys(
+        a, b, "", [](const KeyDescription&) { return true; }, names);
+    return names;
+  }
+  if (vesicle_names(a) != vesicle_names(b)) return {"vesicle.name"};
+  add_differing_keys(
+      a, b, "", [](const KeyDescription& key) { return !is_of_vesicle(key); }, names);
+  for (std::size_t v = 0; v < a.vesicles.size(); ++v) {
+    add_differing_keys(
+        alone(a, v), alone(b, v), fmt::format("vesicle[{}].", v),
+        [](const KeyDescription& key) { return is_of_vesicle(key); }, names);
   }
   return names;
 }

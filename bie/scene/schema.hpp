@@ -94,7 +94,8 @@ std::string kind_of(const Scene& scene, std::string_view table);
 /// Whether the key counts for this scene: its table is present and of the key's kind.
 bool applies(const KeyDescription& key, const Scene& scene);
 
-/// "table.key" of every value in which the scenes differ.
+/// "table.key" of every value in which the scenes differ, "vesicle[0].table.key" of those of one of several vesicles;
+/// "vesicle.name" alone where they have other vesicles.
 std::vector<std::string> differing_keys(const Scene& a, const Scene& b);
 
 }  // namespace vehd

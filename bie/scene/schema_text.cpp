@@ -1,12 +1,14 @@
 #include "bie/scene/schema_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "bie/scene/key_reference.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/units.hpp"
+#include "bie/scene/vesicles.hpp"
 #include "bie/support/text_table.hpp"
 
 namespace vehd {
@@ -45,6 +47,41 @@ snapshot (`start`, `phase` or `times`). The start is what its area, volume and a
 strain, whatever the former run had gathered. Velocity, tension and charge are solved for anew.
 )";
 
+constexpr const char* several_text = R"(
+## Several vesicles
+
+Each table `[[vesicle]]` is one vesicle. The tables above are for all; a vesicle's own `[vesicle.shape]`,
+`[vesicle.membrane]`, `[vesicle.fluid]` and `[vesicle.electric]` say what is different. Keys of a vesicle:
+
+)";
+
+constexpr const char* several_rules = R"(
+A `[vesicle.shape]` with a `kind` takes the place of `[shape]` as a whole; without one it changes single keys, such as
+`centre`. `name` is free, by default the number from 0. Scales of `[units]` that are not given follow from the first
+vesicle. Vesicles that overlap are refused, and so is a steady `initial_Vm` of some alone or a conductivity of 0. A run of
+several writes [files of its own](several_vesicles.md).
+)";
+
+/// The keys that every vesicle may have for itself.
+TextTable own_keys() {
+  TextTable rows = {{"table", "keys"}, {"[[vesicle]]", "name"}};
+  for (const std::string_view table : vesicle_tables()) {
+    std::vector<std::string> names;
+    bool whole = true;
+    for (const KeyDescription& key : scene_keys()) {
+      if (key.table != table) continue;
+      if (!is_of_vesicle(key)) {
+        whole = false;
+        continue;
+      }
+      const std::string name(key.name);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    rows.push_back({fmt::format("[vesicle.{}]", table), whole ? "all" : fmt::format("{}", fmt::join(names, ", "))});
+  }
+  return rows;
+}
+
 /// Header and keys of a table; the column of kinds only where there are any.
 TextTable key_table(const TableDescription& table) {
   TextTable rows = {{"key", "of kind", "symbol", "type", "unit", "range", "default", "meaning"}};
@@ -78,6 +115,10 @@ std::string scene_help() {
     text += fmt::format("[{}]  {}{}\n", table.name, table.description, presence(table));
     text += aligned(key_table(table), "  ") + "\n";
   }
+  text +=
+      "[[vesicle]]  one of several vesicles, with what differs from the tables of all; a [vesicle.shape] with a kind "
+      "takes the place of [shape]\n" +
+      aligned(own_keys(), "  ") + "\n";
   return text + "Units of a scene with [units], as in \"10 um\"\n" + aligned(unit_table(), "  ");
 }
 
@@ -87,6 +128,7 @@ std::string scene_help_markdown() {
     text += fmt::format("\n## [{}]\n\n{}{}.\n\n", table.name, table.description, presence(table));
     text += markdown_table(key_table(table));
   }
+  text += several_text + markdown_table(own_keys()) + several_rules;
   return text + "\n## Units\n\n" + markdown_table(unit_table()) + page_end;
 }
 

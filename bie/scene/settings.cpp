@@ -74,19 +74,6 @@ bool is_toml_value(const std::string& text) {
   }
 }
 
-/// Moves what `from` has into `to`: a node that is copied forgets where it was written.
-void merge(toml::table& to, toml::table&& from) {
-  for (auto&& [key, node] : from) {
-    toml::table* inner = node.as_table();
-    toml::table* present = to[key.str()].as_table();
-    if (inner != nullptr && present != nullptr) {
-      merge(*present, std::move(*inner));
-    } else {
-      node.visit([&to, name = key.str()](auto& value) { to.insert_or_assign(name, std::move(value)); });
-    }
-  }
-}
-
 /// A key of two names is not to be there under both.
 void forget_other_name(toml::table& file, const std::string& name) {
   const std::size_t last = name.rfind('.');
@@ -99,12 +86,24 @@ void forget_other_name(toml::table& file, const std::string& name) {
 
 }  // namespace
 
+void merge_tables(toml::table& to, toml::table&& from) {
+  for (auto&& [key, node] : from) {
+    toml::table* inner = node.as_table();
+    toml::table* present = to[key.str()].as_table();
+    if (inner != nullptr && present != nullptr) {
+      merge_tables(*present, std::move(*inner));
+    } else {
+      node.visit([&to, name = key.str()](auto& value) { to.insert_or_assign(name, std::move(value)); });
+    }
+  }
+}
+
 void apply_settings(toml::table& file, const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) {
     const Assignment given = assignment_of(setting);
     const std::string value = is_toml_value(given.value) ? given.value : to_toml(Value(given.value));
     forget_other_name(file, given.key);
-    merge(file, toml::parse(given.key + " = " + value + "\n", std::string(option) + setting));
+    merge_tables(file, toml::parse(given.key + " = " + value + "\n", std::string(option) + setting));
   }
 }
 

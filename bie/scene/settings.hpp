@@ -22,6 +22,10 @@ struct SceneSource {
 /// @throws InputError if one of them is not of that form; what it says is checked with the rest of the scene
 void apply_settings(toml::table& file, const std::vector<std::string>& settings);
 
+/// Moves what `from` has into `to`, where its values take the place of others: a node that is copied forgets where it
+/// was written.
+void merge_tables(toml::table& to, toml::table&& from);
+
 /// Whether a node comes from a setting. Its path is then the option as it was given.
 bool is_from_setting(const toml::node& node);
 

@@ -27,6 +27,11 @@ class ShapeFileCheck {
     }
     require_file();
     const RunReader run(scene_.shape.path);
+    if (run.n_vesicles() > 1) {
+      refuse("shape", "path",
+             fmt::format("\"path\" in [shape] is {}, which holds {} vesicles; accepted: a run of one",
+                         scene_.shape.path, run.n_vesicles()));
+    }
     const auto units = units_of(run);
     if (!scene_.shape.area) {
       require_scale(units, {"length", &UnitsScene::length}, "shape", "path",

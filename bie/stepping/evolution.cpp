@@ -43,6 +43,13 @@ void require_apart(double separation, double before) {
   }
 }
 
+/// Of the coarsest grid, over the radius.
+double grid_spacing(const State& state) {
+  int lowest = order_of(state.vesicles.front().position.rows());
+  for (const VesicleState& vesicle : state.vesicles) lowest = std::min(lowest, order_of(vesicle.position.rows()));
+  return std::numbers::pi / (lowest + 1);
+}
+
 int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_order, setup.settings.order); }
 
 double truncation_target(const EvolutionSetup& setup) { return thresholds::truncation_share * setup.control.tolerance; }
@@ -83,10 +90,12 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
     start_at(orders, start);
     // The area, which is the scale, and V_m are known only now.
     resolved = true;
+    const SmallestGap gap = adapts() ? find_smallest_gap(state_) : SmallestGap{};
     for (std::size_t a = 0; a < orders.size(); ++a) {
       const Resolution found = resolution(state_, a);
-      if (resolves(found, a)) continue;
-      orders[a] = raised_order(found, a);
+      const int of_gap = order_of_gap(gap, a);
+      if (resolves(found, a) && orders[a] >= of_gap) continue;
+      orders[a] = std::max(resolves(found, a) ? orders[a] : raised_order(found, a), of_gap);
       resolved = false;
     }
   }
@@ -177,6 +186,9 @@ bool refine_quadrature(State& state, Discretisation& discretisation, const Evalu
 
 /// Makes this the state, with a quadrature that resolves it. @throws ConvergenceError, and the former state stays
 void Evolution::arrive(State state) {
+  const bool has_moved = setup_.model.mobile || evaluation_.vesicles.empty();
+  const SmallestGap gap = has_moved ? find_smallest_gap(state) : gap_;
+  require_gap(gap, gap_, grid_spacing(state), setup_.frame, setup_.names);
   Discretisation discretisation = discretisation_;
   const auto evaluated = [&](const Evaluation* previous, Limit limit) {
     return evaluate(setup_.model, discretisation, state, instruments_, previous, limit);
@@ -197,6 +209,7 @@ void Evolution::arrive(State state) {
   evaluation_ = std::move(evaluation);
   discretisation_ = std::move(discretisation);
   state_ = std::move(state);
+  gap_ = gap;
   before_jump_ = std::move(before);
 }
 
@@ -213,6 +226,12 @@ bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
   return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target(setup_);
 }
 
+/// The least even degree for what is in the narrowest gap, of the two that it is between.
+int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
+  if (!adapts() || (a != gap.first && a != gap.second)) return 0;
+  return std::min(setup_.settings.order, 2 * static_cast<int>(std::ceil(std::min(gap.degree(), 1e3) / 2.0)));
+}
+
 int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
   const int enough = resolution.order_for(truncation_target(setup_), order(a), order(a) + 8);
   return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
@@ -221,10 +240,12 @@ int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
 /// @throws ConvergenceError, and the vesicle stays as it is
 bool Evolution::raise_orders_for(const State& reached) {
   bool raised = false;
+  const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
   for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
     const Resolution found = resolution(reached, a);
-    if (resolves(found, a)) continue;
-    const int enough = raised_order(found, a);
+    const int of_gap = order_of_gap(gap, a);
+    if (resolves(found, a) && order(a) >= of_gap) continue;
+    const int enough = std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap);
     try {
       change_space(a, enough, state_.vesicles[a].quadrature_level);
     } catch (const ConvergenceError& error) {
@@ -238,9 +259,10 @@ bool Evolution::raise_orders_for(const State& reached) {
 }
 
 void Evolution::lower_order_if_idle(std::size_t a) {
-  if (!adapts() || order(a) <= lowest_order(setup_)) return;
-  const int enough = resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(setup_),
-                                                     lowest_order(setup_), order(a));
+  const int lowest = std::max(lowest_order(setup_), order_of_gap(gap_, a));
+  if (!adapts() || order(a) <= lowest) return;
+  const int enough =
+      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(setup_), lowest, order(a));
   if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 

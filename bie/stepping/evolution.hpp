@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bie/stepping/evaluation/initial_state.hpp"
+#include "bie/stepping/evaluation/smallest_gap.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/time/step_control.hpp"
 #include "bie/stepping/time/step_plan.hpp"
@@ -23,6 +24,8 @@ struct EvolutionSetup {
   NumericalSettings settings;  ///< the degree is the highest that a run with a tolerance may take
   Symmetry symmetry;
   StepControl control;
+  Frame frame{};                     ///< of the state, in which messages name no place
+  std::vector<std::string> names{};  ///< of several vesicles in messages; empty: their numbers
   /// How messages write a time.
   std::function<std::string(double)> time_text = [](double time) { return fmt::format("{:g}", time); };
 };
@@ -30,7 +33,8 @@ struct EvolutionSetup {
 /// Vesicles on their way through time. With a tolerance the degree of each follows the spectrum of its state: it rises,
 /// and the step is taken again, where the degrees left out would matter, and falls where they have long ceased to. The
 /// singular quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves, parts of
-/// a membrane much closer to each other than the grid spacing, ends the way.
+/// a membrane much closer to each other than the grid spacing, ends the way. So does contact of two vesicles, see
+/// require_gap; with a tolerance degrees rise with the inverse root of the gap.
 ///
 /// A lower degree or coarser quadrature that cannot be solved for is left aside. Where a higher degree is needed and
 /// cannot be solved for, the step is taken again with half the size, and the way ends where that becomes too small.
@@ -61,11 +65,14 @@ class Evolution {
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
   /// Estimated share of what the degrees leave out, see Resolution; of the vesicle that loses most.
   [[nodiscard]] double truncation() const;
+  /// The two vesicles that are nearest to each other.
+  [[nodiscard]] const SmallestGap& gap() const { return gap_; }
 
  private:
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
+  [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
   void start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start);
@@ -81,6 +88,7 @@ class Evolution {
   Instruments& instruments_;
   Discretisation discretisation_;
   State state_;
+  SmallestGap gap_;
   Evaluation evaluation_;
   std::optional<Evaluation> before_jump_;
 };

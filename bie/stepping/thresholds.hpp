@@ -112,5 +112,10 @@ constexpr double contact = 0.1;
 /// Two parts may come nearer by this factor in one step once they are closer than the grid spacing: with larger steps
 /// they could pass through each other unseen.
 constexpr double least_approach = 0.5;
+/// Gap between two vesicles over the radius up to which the layers between them are tested (PairLayers).
+constexpr double smallest_gap = 1e-3;
+/// Where two curved membranes are h apart their distance doubles over √h, and densities vary as fast: the degree that
+/// follows them times √h, both over the radius.
+constexpr double degrees_of_gap = 4.0;
 
 }  // namespace vehd::thresholds

@@ -14,10 +14,12 @@ std::vector<std::pair<std::string, vehd::Vector>> snapshot_data(const std::strin
   for (const std::string& name : file.members("/snapshots")) {
     const std::string group = "/snapshots/" + name;
     data.emplace_back(group, vehd::Vector::Constant(1, file.number_attribute(group, "time")));
-    for (const std::string_view field : vehd::snapshot_fields) {
-      for (const std::string_view part : vehd::snapshot_parts) {
-        const std::string dataset = group + "/" + std::string(part) + std::string(field);
-        if (file.has(dataset)) data.emplace_back(dataset, file.vector(dataset));
+    for (const std::string& vesicle : vehd::vesicle_groups(file, group)) {
+      for (const std::string_view field : vehd::snapshot_fields) {
+        for (const std::string_view part : vehd::snapshot_parts) {
+          const std::string dataset = vesicle + "/" + std::string(part) + std::string(field);
+          if (file.has(dataset)) data.emplace_back(dataset, file.vector(dataset));
+        }
       }
     }
   }
@@ -26,6 +28,9 @@ std::vector<std::pair<std::string, vehd::Vector>> snapshot_data(const std::strin
 
 void check_same_run(const std::string& actual, const std::string& expected) {
   BOOST_TEST((file_text(actual + "/history.csv") == file_text(expected + "/history.csv")));
+  const bool of_several = std::filesystem::exists(expected + "/vesicles.csv");
+  BOOST_TEST(std::filesystem::exists(actual + "/vesicles.csv") == of_several);
+  if (of_several) BOOST_TEST((file_text(actual + "/vesicles.csv") == file_text(expected + "/vesicles.csv")));
   const auto data = snapshot_data(actual + "/run.h5"), reference = snapshot_data(expected + "/run.h5");
   BOOST_TEST_REQUIRE(data.size() == reference.size());
   for (std::size_t i = 0; i < data.size(); ++i) {

@@ -17,10 +17,12 @@ bool can_render() {
 
 BOOST_AUTO_TEST_SUITE(xdmf, *boost::unit_test::label("once"))
 
-BOOST_AUTO_TEST_CASE(viewer_sees_a_closed_surface_with_its_fields) {
-  if (!can_render()) return;
+namespace {
+
+/// A run to time 1 with snapshots every 0.5.
+void viewer_sees(const std::string& scene, int n_vesicles) {
   const TemporaryDirectory directory;
-  write_text(directory / "scene.toml", quick_scene("1.0"));
+  write_text(directory / "scene.toml", scene);
   const ProgramResult run = run_vehd({"run", directory / "scene.toml", "-o", directory / "out", "--no-plot"});
   BOOST_TEST_REQUIRE(run.exit_code == 0, run.errors);
   const ProgramResult render =
@@ -31,7 +33,7 @@ BOOST_AUTO_TEST_CASE(viewer_sees_a_closed_surface_with_its_fields) {
   BOOST_TEST(result.at("times").get<std::vector<double>>() == (std::vector<double>{0.0, 0.5, 1.0}),
              boost::test_tools::per_element());
   BOOST_TEST(result.at("boundary_edges").get<int>() == 0);
-  BOOST_TEST(result.at("points").get<int>() == 7 * 14 + 2);
+  BOOST_TEST(result.at("points").get<int>() == n_vesicles * (7 * 14 + 2));
   // Flat triangles inside a smooth surface: a few per cent too small at order 6.
   const double ratio = result.at("area_ratio").get<double>();
   BOOST_TEST((ratio > 0.93 && ratio < 1.0), ratio);
@@ -41,6 +43,17 @@ BOOST_AUTO_TEST_CASE(viewer_sees_a_closed_surface_with_its_fields) {
   for (const char* field : {"Vm", "q", "tension", "velocity", "force_bending", "force_tension", "force_electric"}) {
     BOOST_TEST((std::find(fields.begin(), fields.end(), field) != fields.end()), field);
   }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(viewer_sees_a_closed_surface_with_its_fields) {
+  if (can_render()) viewer_sees(quick_scene("1.0"), 1);
+}
+
+BOOST_AUTO_TEST_CASE(viewer_sees_every_vesicle) {
+  const std::string above = "[[vesicle]]\n[[vesicle]]\nshape.centre = [0, 0, 4]\n";
+  if (can_render()) viewer_sees(quick_scene("1.0") + above, 2);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,6 +5,7 @@ Usage: pvpython render_xdmf.py DIR PICTURE.png
 
 import csv
 import json
+import os
 import sys
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the renderer
@@ -78,11 +79,18 @@ def render(surface, field, picture):
     return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
 
 
+def last_area(directory):
+    """Of all vesicles together."""
+    several = directory + "/vesicles.csv"
+    with open(several if os.path.exists(several) else directory + "/history.csv", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    return sum(float(row["area"]) for row in rows if row["time"] == rows[-1]["time"])
+
+
 def main():
     directory, picture = sys.argv[1:3]
     times, surface = read_surface(directory + "/run.xdmf")
-    with open(directory + "/history.csv", newline="") as stream:
-        area = float(list(csv.DictReader(stream))[-1]["area"])
+    area = last_area(directory)
     point_data = surface.GetPointData()
     pixels = render(surface, "Vm", picture)
     print(json.dumps({

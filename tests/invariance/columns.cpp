@@ -11,7 +11,7 @@ namespace {
 /// The long axis is determined where the two largest moments of the shape differ, and its inclination where it is not
 /// across the plane.
 bool has_inclination(const State& state) {
-  const Matrix shape = state.vesicles[0].position.bottomRows(state.vesicles[0].position.rows() - 1);
+  const Matrix shape = state.vesicles.back().position.bottomRows(state.vesicles.back().position.rows() - 1);
   const Eigen::SelfAdjointEigenSolver<Matrix3> moments(Matrix3(shape.transpose() * shape));
   const Vector3& values = moments.eigenvalues();
   return values[2] - values[1] > 1e-2 * values[2] && std::abs(moments.eigenvectors()(1, 2)) < 0.99;

@@ -6,6 +6,7 @@
 
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/placement.hpp"
+#include "bie/scene/vesicles.hpp"
 
 namespace vehd::testing {
 namespace {
@@ -49,6 +50,11 @@ void turn_flow(FlowScene& flow, const Model& model, const Matrix3& rotation) {
 }  // namespace
 
 Scene rotated_scene(Scene scene, const AxisAngle& by) {
+  if (!scene.vesicles.empty()) {
+    std::vector<Scene> each = each_alone(scene);
+    for (Scene& one : each) one = rotated_scene(std::move(one), by);
+    return together(each, vesicle_names(scene));
+  }
   const Matrix3 rotation = rotation_matrix(by);
   const Model model = model_of(scene);
   const Matrix3 before = scene.shape.rotation ? rotation_matrix(*scene.shape.rotation) : Matrix3(Matrix3::Identity());
@@ -58,6 +64,13 @@ Scene rotated_scene(Scene scene, const AxisAngle& by) {
   if (scene.electric) turn(scene.electric->field);
   if (scene.gravity) turn(scene.gravity->acceleration);
   if (scene.flow) turn_flow(*scene.flow, model, rotation);
+  return scene;
+}
+
+Scene shifted_scene(Scene scene, const Vector3& by) {
+  const auto shift = [&](Triple& centre) { centre = triple_of(vector_of(centre) + by); };
+  shift(scene.shape.centre);
+  for (VesicleScene& vesicle : scene.vesicles) shift(vesicle.shape.centre);
   return scene;
 }
 

@@ -50,11 +50,10 @@ double radius_of(const ShortRun& run) {
 // A linear flow about another point is the same flow with a drift. Poiseuille flow differs from place to place: along
 // its axis alone it is the same.
 void expect_the_same_elsewhere_in_a_drift(const NamedScene& of, const ShortRun& base, std::mt19937_64& random) {
-  Scene moved = of.scene;
-  const bool poiseuille = moved.flow && moved.flow->kind == FlowKind::poiseuille;
+  const bool poiseuille = of.scene.flow && of.scene.flow->kind == FlowKind::poiseuille;
   Vector3 by = random_vector(random, 3.0 * radius_of(base));
   if (poiseuille) by = Vector3(by.norm(), 0.0, 0.0);
-  for (int i = 0; i < 3; ++i) moved.shape.centre[static_cast<std::size_t>(i)] += by[i];
+  const Scene moved = shifted_scene(of.scene, by);
   Problem problem = problem_of(moved);
   const double speed = 3.0 * radius_of(base) / base.rows.back().state.time;
   if (moved.membrane.mobile && !poiseuille && std::isfinite(speed)) {

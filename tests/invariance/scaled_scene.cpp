@@ -1,10 +1,12 @@
 #include "tests/invariance/scaled_scene.hpp"
 
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "bie/scene/schema.hpp"
 #include "bie/scene/units.hpp"
+#include "bie/scene/vesicles.hpp"
 
 namespace vehd::testing {
 namespace {
@@ -58,6 +60,11 @@ double UnitFactors::of(int lengths, int times, int viscosities, int potentials) 
 }
 
 Scene in_units(Scene scene, const UnitFactors& factors) {
+  if (!scene.vesicles.empty()) {
+    std::vector<Scene> each = each_alone(scene);
+    for (Scene& one : each) one = in_units(std::move(one), factors);
+    return together(each, vesicle_names(scene));
+  }
   for (const KeyDescription& key : scene_keys()) {
     const Dimension* dimension = find_dimension(key.unit);
     if (dimension == nullptr || key.type == ValueType::quantity || !applies(key, scene)) continue;

@@ -15,14 +15,15 @@ ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps) {
     Evolution evolution(setup_of(problem), problem.start, instruments);
     const auto record = [&](const StepAttempt& step) {
       NumericalSettings settings = problem.settings;
-      settings.order = evolution.order(0);
+      const std::size_t last = evolution.state().vesicles.size() - 1;
+      settings.order = evolution.order(last);
       const State& state = evolution.state();
       const Evaluation& evaluation = evolution.evaluation();
       run.rows.push_back({in_laboratory(problem.frame, state),
                           LabFrameOutput(problem.frame, settings)
                               .diagnostics(evaluation.diagnostics, state, evaluation.fields)
-                              .vesicles[0],
-                          step, evolution.order(0)});
+                              .vesicles.back(),
+                          step, evolution.order(last)});
     };
     evolution.evaluate_start();
     record({});

@@ -9,8 +9,8 @@ namespace vehd::testing {
 
 /// What is known after one step, or at the start.
 struct RunRow {
-  State state;  ///< in laboratory coordinates
-  VesicleDiagnostics diagnostics;
+  State state;                     ///< in laboratory coordinates
+  VesicleDiagnostics diagnostics;  ///< of the last vesicle
   StepAttempt step;
   int order = 0;
 };

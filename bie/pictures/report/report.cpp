@@ -118,6 +118,7 @@ ReportSize write_report(const ReportTask& task) {
   }
   const Scene scene = read_scene(task.paths.scene());
   const RunReader run(task.paths.snapshots());
+  run.require_one_vesicle("vehd report");
   const HistoryTable history(task.paths.history());
   // Absent while a run is under way; a damaged one tells no more than that.
   const nlohmann::json summary = nlohmann::json::parse(text_of_file(task.paths.summary()), nullptr, false);

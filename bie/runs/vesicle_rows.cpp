@@ -1,0 +1,51 @@
+#include "bie/runs/vesicle_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vehd {
+namespace {
+
+/// The value that is larger in magnitude, or not a number.
+void take_larger(double& value, double other) {
+  if (std::isnan(value)) return;
+  if (!(std::abs(other) <= std::abs(value))) value = other;
+}
+
+void add(VesicleDiagnostics& all, const VesicleDiagnostics& one) {
+  for (const auto sum : {&VesicleDiagnostics::bending_energy_scaled, &VesicleDiagnostics::elastic_energy_scaled,
+                         &VesicleDiagnostics::tension_integral}) {
+    all.*sum += one.*sum;
+  }
+  for (const auto worst :
+       {&VesicleDiagnostics::Vm_max, &VesicleDiagnostics::area_drift, &VesicleDiagnostics::volume_drift,
+        &VesicleDiagnostics::strain_max, &VesicleDiagnostics::spectrum_tail, &VesicleDiagnostics::wrinkle_degree,
+        &VesicleDiagnostics::quadrature_error}) {
+    take_larger(all.*worst, one.*worst);
+  }
+  all.tension_max = std::max(all.tension_max, one.tension_max);
+  all.separation = std::min(all.separation, one.separation);
+}
+
+}  // namespace
+
+HistoryRow row_of_all(HistoryRow row) {
+  VesicleDiagnostics all = row.diagnostics.vesicles.front();
+  for (std::size_t a = 1; a < row.diagnostics.vesicles.size(); ++a) add(all, row.diagnostics.vesicles[a]);
+  row.diagnostics.vesicles = {all};
+  return row;
+}
+
+std::vector<HistoryRow> rows_of_each(const HistoryRow& row) {
+  std::vector<HistoryRow> rows;
+  for (std::size_t a = 0; a < row.diagnostics.vesicles.size(); ++a) {
+    HistoryRow& own = rows.emplace_back();
+    own.time = row.time;
+    own.diagnostics.vesicles = {row.diagnostics.vesicles[a]};
+    own.vesicle = static_cast<int>(a);
+    own.order = row.orders.at(a);
+  }
+  return rows;
+}
+
+}  // namespace vehd

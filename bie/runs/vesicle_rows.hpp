@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/runs/history.hpp"
+
+/// What the tables of a run of several vesicles tell of one moment.
+namespace vehd {
+
+/// The row of all of them: energies and ∫λ dA are sums, everything else is the worst of any vesicle.
+HistoryRow row_of_all(HistoryRow row);
+
+/// One row of each vesicle.
+std::vector<HistoryRow> rows_of_each(const HistoryRow& row);
+
+}  // namespace vehd

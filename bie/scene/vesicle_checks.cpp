@@ -1,0 +1,131 @@
+#include "bie/scene/vesicle_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bie/potentials/nearest_points.hpp"
+#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/placement.hpp"
+#include "bie/scene/toml_values.hpp"
+#include "bie/scene/vesicles.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/thresholds.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+namespace {
+
+/// No point of the membrane is farther from its mean, by the addition theorem degree by degree.
+double reach_bound(const Matrix& position) {
+  double bound = 0.0;
+  for (int n = 1; n <= order_of(position.rows()); ++n) {
+    const double size = position.middleRows(coefficient_index(n, -n), 2 * n + 1).norm();
+    bound += size * std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi));
+  }
+  return bound;
+}
+
+class VesicleChecks {
+ public:
+  VesicleChecks(const Scene& scene, const toml::table& file, const std::string& name)
+      : scene_(scene), file_(file), name_(name) {}
+
+  void run() const {
+    if (scene_.vesicles.empty()) return;
+    if (scene_.electric) check_electric();
+    check_places();
+  }
+
+ private:
+  [[noreturn]] void refuse(std::size_t vesicle, const std::string& problem) const {
+    throw InputError(fmt::format("{}: {}", place((*file_["vesicle"].as_array())[vesicle], name_), problem));
+  }
+
+  [[nodiscard]] std::string called(std::size_t vesicle) const {
+    return fmt::format("vesicle \"{}\"", scene_.vesicles[vesicle].name);
+  }
+
+  void check_electric() const {
+    const auto is_steady = [](const VesicleScene& vesicle) {
+      return vesicle.electric->initial_potential == InitialPotential::steady;
+    };
+    const bool steady = is_steady(scene_.vesicles.front());
+    for (std::size_t a = 0; a < scene_.vesicles.size(); ++a) {
+      const VesicleScene& vesicle = scene_.vesicles[a];
+      if (is_steady(vesicle) != steady) {
+        refuse(a, fmt::format("{} {}start with a steady V_m, but {} does{}; accepted: \"initial_Vm\" steady for all "
+                              "vesicles or for none",
+                              called(a), steady ? "does not " : "", called(0), steady ? "" : " not"));
+      }
+      if (vesicle.electric->conductivity_in > 0.0 && vesicle.electric->conductivity_out > 0.0) continue;
+      refuse(a, fmt::format("\"conductivity_in\" or \"conductivity_out\" of {} is 0; accepted with several vesicles: "
+                            "> 0, as small as it has to be",
+                            called(a)));
+    }
+  }
+
+  void check_places() const {
+    std::vector<Matrix> positions;
+    for (const Scene& one : each_alone(scene_)) positions.push_back(initial_position(one));
+    for (std::size_t b = 0; b < positions.size(); ++b) {
+      for (std::size_t a = 0; a < b; ++a) check_pair(a, b, positions);
+    }
+  }
+
+  void check_pair(std::size_t a, std::size_t b, const std::vector<Matrix>& positions) const {
+    const double distance = (positions[a].row(0) - positions[b].row(0)).norm() / std::sqrt(4.0 * std::numbers::pi);
+    if (distance > 1.01 * (reach_bound(positions[a]) + reach_bound(positions[b]))) return;
+    const auto refuse_pair = [&](const std::string& problem) {
+      refuse(b, fmt::format("{}; accepted: each outside all others, by \"centre\" in [vesicle.shape]", problem));
+    };
+    switch (arrangement_of(positions[a], positions[b])) {
+      case Arrangement::apart:
+        check_gap(a, b, positions);
+        return;
+      case Arrangement::they_meet:
+        refuse_pair(
+            fmt::format("{}, about {}, overlaps {}, about {}", called(b), centre_text(b), called(a), centre_text(a)));
+        return;
+      case Arrangement::first_is_inside:
+        refuse_pair(fmt::format("{}, about {}, has {} inside", called(b), centre_text(b), called(a)));
+        return;
+      case Arrangement::second_is_inside:
+        refuse_pair(fmt::format("{}, about {}, is inside {}", called(b), centre_text(b), called(a)));
+    }
+  }
+
+  /// A run would stop where it starts.
+  void check_gap(std::size_t a, std::size_t b, const std::vector<Matrix>& positions) const {
+    const double gap = nearest_points(positions[a], positions[b]).gap;
+    const Matrix& first = positions[a];
+    // Far from that, whatever the radius is exactly.
+    if (gap > first.bottomRows(first.rows() - 1).norm()) return;
+    const double area = std::min(vehd::size_of(positions[a]).area, vehd::size_of(positions[b]).area);
+    const double relative = gap / std::sqrt(area / (4.0 * std::numbers::pi));
+    if (relative >= thresholds::smallest_gap) return;
+    refuse(b, fmt::format("{} is {:.2g} radii from {}; accepted: at least {:g}", called(b), relative, called(a),
+                          thresholds::smallest_gap));
+  }
+
+  [[nodiscard]] std::string centre_text(std::size_t vesicle) const {
+    const Triple& centre = scene_.vesicles[vesicle].shape.centre;
+    return fmt::format("({:g}, {:g}, {:g})", centre[0], centre[1], centre[2]);
+  }
+
+  const Scene& scene_;
+  const toml::table& file_;
+  const std::string& name_;
+};
+
+}  // namespace
+
+void check_vesicles(const Scene& scene, const toml::table& file, const std::string& name) {
+  VesicleChecks(scene, file, name).run();
+}
+
+}  // namespace vehd

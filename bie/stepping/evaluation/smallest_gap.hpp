@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bie/stepping/state/frame.hpp"
+
+namespace vehd {
+
+/// Where two vesicles are nearest to each other.
+struct SmallestGap {
+  double distance = std::numeric_limits<double>::infinity();  ///< infinite of a single vesicle
+  double relative = std::numeric_limits<double>::infinity();  ///< over the smaller of both radii √(A/4π)
+  double radius = 0.0;                                        ///< the smaller one
+  std::size_t first = 0, second = 0;                          ///< their numbers
+  Vector3 place = Vector3::Zero();                            ///< the middle between both membranes
+
+  /// Degree that densities in this gap ask for, about 4/√(gap over radius); 0 of a single vesicle.
+  [[nodiscard]] double degree() const;
+};
+
+/// Of all vesicles of a state.
+/// Accuracy: that of nearest_points
+SmallestGap find_smallest_gap(const State& state);
+
+/// A step that brings two vesicles into contact, or so near in one go that they could have passed through each other,
+/// is none. @throws ConvergenceError that says which two, where and how near
+/// @param before   at the start of the step; infinite at the start of a run
+/// @param spacing  of the grids, over the radius
+/// @param frame    of the state: places are told in the laboratory
+/// @param names    of the vesicles, or none
+void require_gap(const SmallestGap& gap, const SmallestGap& before, double spacing, const Frame& frame,
+                 const std::vector<std::string>& names);
+
+}  // namespace vehd

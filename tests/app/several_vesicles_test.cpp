@@ -1,0 +1,162 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bie/files/run_reader.hpp"
+#include "bie/runs/history.hpp"
+#include "tests/app/reference_run.hpp"
+
+BOOST_AUTO_TEST_SUITE(several_vesicles, *boost::unit_test::label("slow"))
+
+namespace {
+
+const std::string two_prolates = VEHD_SOURCE_DIR "/docs/scenes/two_prolates.toml";
+
+/// Two vesicles off axis, each with a fluid of its own, in shear and field: steps of 0.1, a snapshot every 0.2.
+std::string quick_pair(const std::string& end_time) {
+  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n"
+         "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
+         "[flow]\nkind = \"shear\"\nrate = 1.0\n"
+         "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+         "[numerics]\norder = 6\ndt = 0.1\nend_time = " +
+         end_time +
+         "\n[output]\nevery = 0.2\n"
+         "[[vesicle]]\nname = \"left\"\n[vesicle.shape]\ncentre = [-1.6, 0.0, 0.3]\n"
+         "[[vesicle]]\nname = \"right\"\n[vesicle.shape]\ncentre = [1.4, 0.2, 0.0]\nscale = 0.8\n"
+         "[vesicle.fluid]\nviscosity_ratio = 2.0\n";
+}
+
+/// Bodies without any force, which a flow presses together.
+std::string pressed_bodies(double half_distance, double dt) {
+  return fmt::format(
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 0.8]\n"
+      "[membrane]\ninextensible = false\n"
+      "[flow]\nkind = \"axisymmetric_extension\"\nrate = -1.0\n"
+      "[numerics]\ndegree = 8\ndt = {1}\nend_time = 1.6\n"
+      "[[vesicle]]\nname = \"lower\"\nshape.centre = [0, 0, -{0}]\n"
+      "[[vesicle]]\nname = \"upper\"\nshape.centre = [0, 0, {0}]\n",
+      half_distance, dt);
+}
+
+/// Rows of vesicles.csv that tell of one vesicle.
+std::vector<double> of_vesicle(const vehd::HistoryTable& rows, const std::string& column, int vesicle) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < rows.n_rows(); ++i) {
+    if (rows.column("vesicle")[i] == vesicle) values.push_back(rows.column(column)[i]);
+  }
+  return values;
+}
+
+void check_refused(const std::vector<std::string>& arguments, const std::string& problem) {
+  const ProgramResult result = run_vehd(arguments);
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(result.errors.ends_with(problem + "\n"), result.errors);
+  BOOST_TEST(std::ranges::count(result.errors, '\n') == 1, result.errors);
+}
+
+}  // namespace
+
+// An independent axisymmetric code, errors below 1e-7; the upper vesicle at time 1. The scene allows more degrees,
+// which make no difference here.
+BOOST_AUTO_TEST_CASE(two_prolates_go_where_an_axisymmetric_code_takes_them) {
+  const TemporaryDirectory directory;
+  const std::string output = directory / "out";
+  const ProgramResult run = run_vehd(
+      {"run", two_prolates, "-o", output, "--set", "numerics.end_time=1", "--set", "numerics.degree=16", "--no-plot"});
+  BOOST_TEST_REQUIRE(run.exit_code == 0, run.errors);
+  const vehd::HistoryTable all(output + "/history.csv"), each(output + "/vesicles.csv");
+  const auto last = [&](const char* column) { return of_vesicle(each, column, 1).back(); };
+  const auto is_near = [](double value, double exact) { return std::abs(value / exact - 1.0) < 1e-4; };
+  BOOST_TEST(all.column("time").back() == 1.0);
+  BOOST_TEST(is_near(all.column("smallest_gap").back(), 0.50785869), all.column("smallest_gap").back());
+  BOOST_TEST(is_near(last("centroid_z"), 1.74922417), last("centroid_z"));
+  BOOST_TEST(is_near(last("extent_z"), 2.98702709), last("extent_z"));
+  BOOST_TEST(is_near(last("bending_energy_scaled"), 13.56222737), last("bending_energy_scaled"));
+  BOOST_TEST(is_near(last("tension_integral"), 17.12029330), last("tension_integral"));
+  BOOST_TEST(is_near(last("Vm_pole_plus"), 0.70509784), last("Vm_pole_plus"));
+  BOOST_TEST(is_near(last("Vm_pole_minus"), -0.71638876), last("Vm_pole_minus"));
+  const auto summary = json_of(output + "/summary.json");
+  BOOST_TEST((summary.at("vesicles") == nlohmann::json{"lower", "upper"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit) {
+  const ReferenceRun run(quick_pair("0.6"));
+  write_text(run.scene, quick_pair("0.2"));
+  BOOST_TEST_REQUIRE(run_command(run.command).exit_code == 0);
+  write_text(run.scene, quick_pair("0.6"));
+  run.finish();
+}
+
+BOOST_AUTO_TEST_CASE(files_tell_of_every_vesicle) {
+  const FinishedRun run(quick_pair("0.2"));
+  const vehd::HistoryTable all(run.output + "/history.csv"), each(run.output + "/vesicles.csv");
+  BOOST_TEST(all.n_rows() == 3);
+  BOOST_TEST(each.n_rows() == 6);
+  for (std::size_t i = 0; i < all.n_rows(); ++i) {
+    const auto sum = [&](const char* column) {
+      return of_vesicle(each, column, 0)[i] + of_vesicle(each, column, 1)[i];
+    };
+    for (const char* column : {"bending_energy_scaled", "tension_integral"}) {
+      BOOST_TEST(all.column(column)[i] == sum(column));
+    }
+    const double worst = std::max(of_vesicle(each, "strain_max", 0)[i], of_vesicle(each, "strain_max", 1)[i]);
+    BOOST_TEST(all.column("strain_max")[i] == worst);
+  }
+  // The right one is 0.8 of the left one.
+  BOOST_TEST(std::abs(of_vesicle(each, "area", 1)[0] / of_vesicle(each, "area", 0)[0] - 0.64) < 1e-6);
+  const vehd::RunReader snapshots(run.output + "/run.h5");
+  BOOST_TEST(snapshots.n_vesicles() == 2);
+  const double middle = std::sqrt(4.0 * std::numbers::pi);
+  BOOST_TEST(std::abs(snapshots.coefficients(0, "x", 3, 0)(0, 0) / middle + 1.6) < 1e-12);
+  BOOST_TEST(std::abs(snapshots.coefficients(0, "x", 3, 1)(0, 0) / middle - 1.4) < 1e-12);
+  const std::string xdmf = file_text(run.output + "/run.xdmf");
+  for (const char* place : {"/snapshots/000000/vesicles/00/surface/x", "/snapshots/000001/vesicles/01/surface/Vm"}) {
+    BOOST_TEST(xdmf.find(place) != std::string::npos, place);
+  }
+  const ProgramResult plot = run_vehd({"plot", run.output});
+  BOOST_TEST(plot.exit_code == 0, plot.errors);
+}
+
+BOOST_AUTO_TEST_CASE(what_knows_one_vesicle_alone_says_so) {
+  const FinishedRun run(quick_pair("0.0"));
+  const std::string snapshots = run.output + "/run.h5";
+  check_refused({"report", run.output}, "run.h5: holds 2 vesicles; vehd report accepts a run of one");
+  check_refused({"bench", "symmetry", run.scene}, "scene.toml: has 2 vesicles; vehd bench accepts a scene of one");
+  check_refused({"help", "groups", run.scene}, "scene.toml: has 2 vesicles; vehd help groups accepts a scene of one");
+  write_text(run.scene, "[shape]\nkind = \"file\"\npath = \"out/run.h5\"\n[numerics]\ndt = 1\nend_time = 0\n");
+  check_refused({"run", run.scene, "-o", run.directory / "other"}, "holds 2 vesicles; accepted: a run of one");
+}
+
+BOOST_AUTO_TEST_CASE(plan_counts_the_kernels_of_all) {
+  const OwnCache cache;
+  const FinishedRun run(quick_pair("0.2"));
+  const ProgramResult result = run_vehd({"plan", run.scene, "--json", run.directory / "plan.json"});
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  const auto plan = json_of(run.directory / "plan.json");
+  const auto used = json_of(run.output + "/summary.json").at("kernel_evaluations");
+  BOOST_TEST(plan.at("operators").size() == used.size());
+  for (const auto& op : plan.at("operators")) {
+    const auto name = op.at("name").get<std::string>();
+    const auto expected =
+        3 * plan.at("kernel_evaluations_per_shape").get<std::uint64_t>() * op.at("vesicles").get<std::uint64_t>();
+    BOOST_TEST(used.at(name).get<std::uint64_t>() == expected, name);
+  }
+  BOOST_TEST(plan.at("operators").back().at("vesicles").get<int>() == 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_at_its_limit_says_which_two_where_and_how_near) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", pressed_bodies(0.8008, 0.1));
+  const ProgramResult run = run_vehd({"run", directory / "scene.toml", "-o", directory / "out", "--no-plot"});
+  BOOST_TEST(run.exit_code == 3);
+  const auto summary = json_of(directory / "out/summary.json");
+  const auto verdict = summary.at("verdict").get<std::string>();
+  BOOST_TEST(verdict.starts_with("stopped: vesicles \"lower\" and \"upper\" come within 0.001 radii of each other at "
+                                 "(0, 0, 0); accepted: 0.001, "),
+             verdict);
+  BOOST_TEST(verdict.find("smallest_gap asks for more than the degree 8 since time 0 ") != std::string::npos, verdict);
+  BOOST_TEST(summary.at("smallest_gap").get<double>() > 0.9e-3);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
