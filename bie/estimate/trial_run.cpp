@@ -27,8 +27,13 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
   const double end = events.end_time;
   while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
     const StepAttempt step = evolution.step(events);
-    TrialStep record{evolution.state().time, step.dt, step.error_estimate, step.rejected + 1, evolution.order(0),
-                     step.at_snapshot,       {}};
+    TrialStep record{evolution.state().time,
+                     step.dt,
+                     step.error_estimate,
+                     step.evaluations,
+                     static_cast<int>(evolution.passed().size()),
+                     evolution.order(0),
+                     {}};
     trial.highest_order = std::max(trial.highest_order, evolution.order(0));
     const Resolution resolution(problem.model, evolution.state().vesicles.front());
     for (const double wanted : tolerances) {

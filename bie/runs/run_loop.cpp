@@ -15,6 +15,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/output_error.hpp"
@@ -132,22 +133,38 @@ class Simulation {
     record(none);
   }
 
-  [[nodiscard]] RecordedSide side_of(const Evaluation& evaluation, const StepAttempt& step) const {
-    return {{evolution_.state().time, step, evaluation.diagnostics, evolution_.order(0), evolution_.truncation()},
+  [[nodiscard]] RecordedSide side_of(const State& state, const Evaluation& evaluation, const StepAttempt& step) const {
+    return {{state.time, step, evaluation.diagnostics, order_of(state.vesicles.front().position.rows()),
+             evolution_.truncation(state)},
+            state,
             evaluation.fields};
   }
 
   [[nodiscard]] std::vector<RecordedSide> sides_of(const StepAttempt& step) const {
+    std::vector<RecordedSide> sides;
+    for (const Evolution::Moment& moment : evolution_.passed()) {
+      StepAttempt within;
+      within.at_snapshot = true;
+      within.iterations_flow = moment.evaluation.iterations_flow;
+      within.iterations_electric = moment.evaluation.iterations_electric;
+      sides.push_back(side_of(moment.state, moment.evaluation, within));
+    }
+    const State& state = evolution_.state();
     const Evaluation& now = evolution_.evaluation();
     const std::optional<Evaluation>& before = evolution_.before_jump();
-    if (!before) return {side_of(now, step)};
+    if (!before) {
+      sides.push_back(side_of(state, now, step));
+      return sides;
+    }
     StepAttempt arrival = step;
     arrival.at_snapshot = false;
     StepAttempt jump;
     jump.at_snapshot = step.at_snapshot;
     jump.iterations_flow = now.iterations_flow;
     jump.iterations_electric = now.iterations_electric;
-    return {side_of(*before, arrival), side_of(now, jump)};
+    sides.push_back(side_of(state, *before, arrival));
+    sides.push_back(side_of(state, now, jump));
+    return sides;
   }
 
   void record(const StepAttempt& step) {
