@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "bie/estimate/cost_model.hpp"
@@ -14,7 +13,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/time/deferred_correction.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -60,7 +59,7 @@ std::vector<CostRow> rows_of(const nlohmann::json& entry, std::size_t count) {
 double model_seconds(const TrialRun& trial, const CostModel& model) {
   double seconds = 0.0;
   for (const TrialStep& step : trial.steps) {
-    seconds += step.attempts * evaluations_per_step(trial.time_order) * model.seconds_per_shape(step.order);
+    seconds += step.evaluations * model.seconds_per_shape(step.order);
   }
   return seconds;
 }
@@ -82,7 +81,7 @@ double order_over(double digits, const TrialRun& trial, int time_order, const Tr
 /// The cost table's row for the tolerance of that index, from the steps of a trial run with a looser one.
 CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vector<double>& tolerances,
                       std::size_t index, const CostModel& model, const Trend& trend) {
-  constexpr double kSafety = 0.85;  // as steps are chosen
+  constexpr double kSafety = thresholds::step_safety;
   constexpr double kLongest = 4.0;  // beyond that an error estimate says nothing any more
   CostRow row;
   row.tolerance = tolerances[index];
@@ -91,22 +90,8 @@ CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vect
   const double digits = std::log10(trial.tolerance / row.tolerance);
   const double order_in_dt = order_over(digits, trial, time_order, trend);
   const int highest = trial.highest_order + static_cast<int>(std::lround(digits * trend.degrees_per_digit));
-  const double attempts =
-      static_cast<double>(std::accumulate(trial.steps.begin(), trial.steps.end(), 0,
-                                          [](int sum, const TrialStep& step) { return sum + step.attempts; })) /
-      static_cast<double>(std::max<std::size_t>(1, trial.steps.size()));
   int order = 0, trial_order = 0;
   double steps = 0.0, seconds = 0.0;
-  struct {
-    double steps = 0.0, seconds = 0.0;
-  } interval;  // since the last snapshot
-  const auto close = [&] {
-    // Snapshots end a step, and the steps up to there are equal.
-    const double whole = std::ceil(interval.steps);
-    steps += whole;
-    seconds += interval.steps > 0.0 ? interval.seconds * whole / interval.steps : 0.0;
-    interval = {};
-  };
   for (const TrialStep& step : trial.steps) {
     const double room =
         step.error_estimate > 0.0 ? std::pow(row.tolerance / step.error_estimate, 1.0 / order_in_dt) : kLongest;
@@ -116,14 +101,13 @@ CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vect
     if (step.order < trial_order) order = 0;
     trial_order = step.order;
     order = std::max({order, step.order, std::min(step.orders[index], highest)});
-    interval.steps += share;
-    interval.seconds += share * attempts * evaluations_per_step(time_order) * model.seconds_per_shape(order);
+    steps += share;
+    // Snapshots cost an evaluation each, however many steps there are.
+    seconds += (share * (step.evaluations - step.moments) + step.moments) * model.seconds_per_shape(order);
     row.order = std::max(row.order, order);
-    if (step.at_snapshot) close();
   }
-  close();
   const double covered = trial.steps.empty() ? 1.0 : trial.steps.back().time / scene.numerics.end_time;
-  row.steps = std::llround(steps / covered);
+  row.steps = std::llround(std::ceil(steps / covered));
   row.seconds = seconds / covered;
   return row;
 }

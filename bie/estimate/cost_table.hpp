@@ -35,7 +35,7 @@ struct CostBudget {
 
 /// Cost of a scene at the given tolerances, falling, in less than ten seconds; at once if the cache has it. The loosest
 /// ones are run to the end, as long as the budget allows. The last of these predicts the others: where one step of it
-/// was changed by its last correction by e, a tolerance T allows a step of (T/e)^(1/order) its size, and the spectrum
+/// has an estimated error e, a tolerance T allows a step of (T/e)^(1/order) its size, and the spectrum
 /// there says which degree T needs; each step costs what the cost model says at that degree. From two of them come the
 /// order that such steps really have and the most degrees that another digit takes. Degree and time order of the scene
 /// are left to each tolerance.

@@ -44,9 +44,13 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
   const double end = events.end_time;
   while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
     const StepAttempt step = evolution.step(events);
-    TrialStep record{
-        evolution.state().time, step.dt, step.error_estimate, step.rejected + 1, highest_order_of(evolution),
-        step.at_snapshot,       {}};
+    TrialStep record{evolution.state().time,
+                     step.dt,
+                     step.error_estimate,
+                     step.evaluations,
+                     static_cast<int>(evolution.passed().size()),
+                     highest_order_of(evolution),
+                     {}};
     trial.highest_order = std::max(trial.highest_order, highest_order_of(evolution));
     for (const double wanted : tolerances) record.orders.push_back(order_for(wanted, problem, evolution.state()));
     trial.steps.push_back(std::move(record));

@@ -14,9 +14,9 @@ struct TrialStep {
   double time = 0.0;  ///< at its end
   double dt = 0.0;
   double error_estimate = 0.0;  ///< see StepAttempt
-  int attempts = 1;
+  int evaluations = 1;          ///< of new shapes, of all tries
+  int moments = 0;              ///< of those, the ones at snapshots within the step
   int order = 0;
-  bool at_snapshot = false;
   std::vector<int> orders;  ///< degree that each of the tolerances asked for would need here
 };
 

@@ -19,6 +19,8 @@ struct ColumnRow {
 
 enum class Shown { always, with_field, with_flow, with_tolerance };
 
+constexpr const char* step_size = "dt";
+
 struct QuantityRow {
   std::string_view label;
   std::vector<ColumnRow> columns;
@@ -49,7 +51,7 @@ const std::vector<QuantityRow>& quantity_rows() {
        true},
       {shown_quantity::gap, {{"smallest_gap", "smallest gap"}}},
       {shown_quantity::extent, {{"extent_x", "along x"}, {"extent_y", "along y"}, {"extent_z", "along z"}}},
-      {"step", {{"dt", "dt"}}, Shown::with_tolerance, true},
+      {"step", {{step_size, "dt"}}, Shown::with_tolerance, true},
       {"degree", {{"order", "p"}}, Shown::with_tolerance}};
   return rows;
 }
@@ -88,6 +90,14 @@ std::vector<double> magnitudes(std::vector<double> values) {
   return values;
 }
 
+/// A row within a step, which has no size of its own, shows that of the step.
+std::vector<double> sizes_of_steps(std::vector<double> sizes) {
+  for (std::size_t i = sizes.size(); i-- > 1;) {
+    if (sizes[i - 1] == 0.0) sizes[i - 1] = sizes[i];
+  }
+  return sizes;
+}
+
 /// Files of earlier programs have no column of the aspect ratio: the longest over the shortest extent along the axes x,
 /// y and z, which is called so, for of an inclined shape it is something else.
 std::optional<HistoryCurve> ratio_of_extents(const HistoryTable& history) {
@@ -118,7 +128,8 @@ std::vector<HistoryQuantity> history_quantities(const Scene& scene, const Histor
     for (const ColumnRow& column : row.columns) {
       // Files of earlier programs lack columns.
       if (!history.has(column.column)) continue;
-      const std::vector<double>& values = history.column(column.column);
+      std::vector<double> values = history.column(column.column);
+      if (column.column == std::string_view(step_size)) values = sizes_of_steps(std::move(values));
       found.unit = history.unit(column.column);
       found.curves.push_back({column.label, row.is_logarithmic ? magnitudes(values) : values});
     }

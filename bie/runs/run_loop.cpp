@@ -15,6 +15,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/output_error.hpp"
@@ -132,26 +133,41 @@ class Simulation {
     record(none);
   }
 
-  [[nodiscard]] RecordedSide side_of(const Evaluation& evaluation, const StepAttempt& step) const {
+  [[nodiscard]] RecordedSide side_of(const State& state, const Evaluation& evaluation, const SmallestGap& gap,
+                                     const StepAttempt& step) const {
     std::vector<int> orders;
-    for (std::size_t a = 0; a < evaluation.diagnostics.vesicles.size(); ++a) orders.push_back(evolution_.order(a));
+    for (const VesicleState& vesicle : state.vesicles) orders.push_back(order_of(vesicle.position.rows()));
     const int order = *std::ranges::max_element(orders);
-    return {{evolution_.state().time, step, evaluation.diagnostics, order, evolution_.truncation(), evolution_.gap(),
-             std::move(orders)},
+    return {{state.time, step, evaluation.diagnostics, order, evolution_.truncation(state), gap, std::move(orders)},
+            state,
             evaluation.fields};
   }
 
   [[nodiscard]] std::vector<RecordedSide> sides_of(const StepAttempt& step) const {
+    std::vector<RecordedSide> sides;
+    for (const Evolution::Moment& moment : evolution_.passed()) {
+      StepAttempt within;
+      within.at_snapshot = true;
+      within.iterations_flow = moment.evaluation.iterations_flow;
+      within.iterations_electric = moment.evaluation.iterations_electric;
+      sides.push_back(side_of(moment.state, moment.evaluation, moment.gap, within));
+    }
+    const State& state = evolution_.state();
     const Evaluation& now = evolution_.evaluation();
     const std::optional<Evaluation>& before = evolution_.before_jump();
-    if (!before) return {side_of(now, step)};
+    if (!before) {
+      sides.push_back(side_of(state, now, evolution_.gap(), step));
+      return sides;
+    }
     StepAttempt arrival = step;
     arrival.at_snapshot = false;
     StepAttempt jump;
     jump.at_snapshot = step.at_snapshot;
     jump.iterations_flow = now.iterations_flow;
     jump.iterations_electric = now.iterations_electric;
-    return {side_of(*before, arrival), side_of(now, jump)};
+    sides.push_back(side_of(state, *before, evolution_.gap(), arrival));
+    sides.push_back(side_of(state, now, evolution_.gap(), jump));
+    return sides;
   }
 
   void record(const StepAttempt& step) {

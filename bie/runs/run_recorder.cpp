@@ -94,8 +94,8 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
 }
 
 void RunRecorder::record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals) {
-  const State written = resized(state, output_.order());
-  for (const auto& [row, fields] : sides) {
+  for (const auto& [row, at, fields] : sides) {
+    const State written = resized(at, output_.order());
     HistoryRow shown = row;
     if (lab_frame_.is_rotated()) {
       shown.diagnostics = lab_frame_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
@@ -107,9 +107,8 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
       for (const HistoryRow& own : rows_of_each(shown)) vesicles_->append(own);
     }
     ++last_.n_rows;
+    if (row.step.at_snapshot) add_snapshot(written, resized(fields, output_.order()));
   }
-  const RecordedSide& last = sides.back();
-  if (last.row.step.at_snapshot) add_snapshot(written, resized(last.fields, output_.order()));
   last_.state = state;
   last_.history_bytes = history_.bytes();
   last_.history_checksum = history_.checksum();

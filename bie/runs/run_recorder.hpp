@@ -17,9 +17,10 @@
 
 namespace vehd {
 
-/// A row of the history and the fields that it tells of.
+/// A row of the history and what it tells of.
 struct RecordedSide {
   HistoryRow row;
+  const State& state;
   const Fields& fields;
 };
 
@@ -35,8 +36,10 @@ class RunRecorder {
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start,
               const OutputUnits& units);
 
-  /// Records one accepted state, which has two sides where the forcing jumps. A snapshot holds the last side, the one
-  /// with which a run goes on. A kill leaves either none or all of the rows to a resumed run.
+  /// Records one accepted state: moments within its step, and then the state, which has two sides where the forcing
+  /// jumps. Rows say themselves whether there is a snapshot of them. A kill leaves either none or all of the rows to a
+  /// resumed run.
+  /// @param state  with which a run goes on
   void record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals);
 
   /// Adds a snapshot of the state recorded last unless it has one: that of a run which cannot go on.

@@ -1,5 +1,6 @@
 #include "bie/sphere/legendre.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,24 +20,25 @@ double legendre_sectoral_factor(int m) {
 
 namespace {
 
-std::vector<Matrix> empty_tables(int order, Index n_theta) {
-  std::vector<Matrix> tables(order + 1);
-  for (int m = 0; m <= order; ++m) tables[m] = Matrix::Zero(n_theta, order + 1 - m);
+std::vector<Matrix> empty_tables(int order, int highest_m, Index n_theta) {
+  std::vector<Matrix> tables(std::min(order, highest_m) + 1);
+  for (int m = 0; m < static_cast<int>(tables.size()); ++m) tables[m] = Matrix::Zero(n_theta, order + 1 - m);
   return tables;
 }
 
 /// Column (n, m) of a table, times the factor that undoes the √2 jump between m = 0 and m > 0.
-Vector column(const std::vector<Matrix>& table, int n, int m, int seen_from_m) {
+auto column(const std::vector<Matrix>& table, int n, int m, int seen_from_m) {
   const double factor = (m == 0 && seen_from_m > 0)   ? std::numbers::sqrt2
                         : (m > 0 && seen_from_m == 0) ? std::numbers::sqrt2 / 2
                                                       : 1.0;
   return factor * table[m].col(n - m);
 }
 
-/// d/dθ by the ladder in m at fixed n; with `source` = T gives dT/dθ, with `source` = dT/dθ the second derivative.
-std::vector<Matrix> theta_derivative(int order, const std::vector<Matrix>& source) {
-  std::vector<Matrix> result = empty_tables(order, source[0].rows());
-  for (int m = 0; m <= order; ++m) {
+/// d/dθ by the ladder in m at fixed n; with `source` = T gives dT/dθ, with `source` = dT/dθ the second derivative. The
+/// source has one m more.
+std::vector<Matrix> theta_derivative(int order, int highest_m, const std::vector<Matrix>& source) {
+  std::vector<Matrix> result = empty_tables(order, highest_m, source[0].rows());
+  for (int m = 0; m <= std::min(order, highest_m); ++m) {
     for (int n = m; n <= order; ++n) {
       auto out = result[m].col(n - m);
       const double nn = n;
@@ -51,10 +53,10 @@ std::vector<Matrix> theta_derivative(int order, const std::vector<Matrix>& sourc
   return result;
 }
 
-/// m T / sin θ by the ladder that lowers n; with `source` = dT/dθ gives its θ-derivative.
-std::vector<Matrix> m_over_sin(int order, const std::vector<Matrix>& source) {
-  std::vector<Matrix> result = empty_tables(order, source[0].rows());
-  for (int m = 1; m <= order; ++m) {
+/// m T / sin θ by the ladder that lowers n; with `source` = dT/dθ gives its θ-derivative. The source has one m more.
+std::vector<Matrix> m_over_sin(int order, int highest_m, const std::vector<Matrix>& source) {
+  std::vector<Matrix> result = empty_tables(order, highest_m, source[0].rows());
+  for (int m = 1; m <= std::min(order, highest_m); ++m) {
     for (int n = m; n <= order; ++n) {
       const double nn = n;
       const double scale = 0.5 * std::sqrt((2.0 * nn + 1.0) / (2.0 * nn - 1.0));
@@ -68,13 +70,15 @@ std::vector<Matrix> m_over_sin(int order, const std::vector<Matrix>& source) {
 
 }  // namespace
 
-LegendreTables legendre_tables(int order, const Vector& theta) {
+LegendreTables legendre_tables(int order, const Vector& theta) { return legendre_tables(order, theta, order); }
+
+LegendreTables legendre_tables(int order, const Vector& theta, int highest_m) {
   LegendreTables tables;
-  tables.value = empty_tables(order, theta.size());
+  tables.value = empty_tables(order, highest_m + 2, theta.size());
   const Vector cos_theta = theta.array().cos();
   const Vector sin_theta = theta.array().sin();
   Vector sectoral = Vector::Constant(theta.size(), 1.0 / std::sqrt(4.0 * std::numbers::pi));
-  for (int m = 0; m <= order; ++m) {
+  for (int m = 0; m <= std::min(order, highest_m + 2); ++m) {
     if (m > 0) sectoral = legendre_sectoral_factor(m) * sin_theta.cwiseProduct(sectoral);
     Matrix& table = tables.value[m];
     table.col(0) = sectoral;
@@ -84,10 +88,10 @@ LegendreTables legendre_tables(int order, const Vector& theta) {
       if (n > m + 1) table.col(n - m) -= r.a * r.b * table.col(n - m - 2);
     }
   }
-  tables.d_theta = theta_derivative(order, tables.value);
-  tables.m_over_sin = m_over_sin(order, tables.value);
-  tables.d2_theta = theta_derivative(order, tables.d_theta);
-  tables.d_m_over_sin = m_over_sin(order, tables.d_theta);
+  tables.d_theta = theta_derivative(order, highest_m + 1, tables.value);
+  tables.m_over_sin = m_over_sin(order, highest_m, tables.value);
+  tables.d2_theta = theta_derivative(order, highest_m, tables.d_theta);
+  tables.d_m_over_sin = m_over_sin(order, highest_m, tables.d_theta);
   return tables;
 }
 

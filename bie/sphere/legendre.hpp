@@ -21,6 +21,9 @@ struct LegendreTables {
 /// Source: normalised three-term recurrence in n from the sectoral functions, Holmes and Featherstone 2002
 LegendreTables legendre_tables(int order, const Vector& theta);
 
+/// The same for m up to highest_m alone; some of the tables have further ones.
+LegendreTables legendre_tables(int order, const Vector& theta, int highest_m);
+
 /// Coefficients of the three-term recurrence T_n = a (cos θ T_{n−1} − b T_{n−2}) at fixed m < n.
 struct LegendreRecurrence {
   double a;

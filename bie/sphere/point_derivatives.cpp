@@ -16,7 +16,7 @@ Eigen::Matrix2d PointDerivatives::hessian(Index column) const {
 
 PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint& point, int azimuthal_order) {
   const int order = order_of(coefficients.rows());
-  const LegendreTables tables = legendre_tables(order, Vector::Constant(1, point.theta));
+  const LegendreTables tables = legendre_tables(order, Vector::Constant(1, point.theta), azimuthal_order);
   const auto zero = Eigen::RowVectorXd::Zero(coefficients.cols());
   PointDerivatives p{zero, zero, zero, zero, zero, zero};
   Eigen::RowVectorXd even(coefficients.cols()), odd(coefficients.cols());

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
@@ -54,37 +55,13 @@ int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_
 
 double truncation_target(const EvolutionSetup& setup) { return thresholds::truncation_share * setup.control.tolerance; }
 
-/// Rate at which one membrane changes at the start, relative to its size.
-double starting_rate(const EvolutionSetup& setup, const VesicleState& vesicle, const VesicleFields& fields,
-                     const VesicleSolution& solution) {
-  const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
-  double rate = 0.0;
-  // Degree 0 carries the membrane along and changes nothing of it.
-  const Matrix& velocity = fields.velocity;
-  if (velocity.size() > 0) rate = velocity.bottomRows(velocity.rows() - 1).norm() / radius;
-  if (solution.potential_rate.size() > 0) {
-    const double scale = potential_scale(*setup.model.electric, radius, vesicle.transmembrane_potential.norm());
-    rate = std::max(rate, solution.potential_rate.norm() / scale);
-  }
-  return rate;
-}
-
-/// A first step small against the time in which the start changes.
-double first_step(const EvolutionSetup& setup, const Evaluation& evaluation, const State& state) {
-  double rate = 0.0;
-  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    rate =
-        std::max(rate, starting_rate(setup, state.vesicles[a], evaluation.fields.vesicles[a], evaluation.vesicles[a]));
-  }
-  const double share =
-      thresholds::first_step_share * std::pow(setup.control.tolerance, 1.0 / setup.settings.time_order);
-  return rate > 0.0 ? std::min(share / rate, setup.control.largest) : setup.control.largest;
-}
-
 }  // namespace
 
 Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& start, Instruments& instruments)
-    : setup_(std::move(setup)), instruments_(instruments), discretisation_(setup_.settings, setup_.symmetry, {}) {
+    : setup_(std::move(setup)),
+      instruments_(instruments),
+      discretisation_(setup_.settings, setup_.symmetry, {}),
+      start_(start) {
   std::vector<int> orders = starting_orders(start);
   for (bool resolved = false; !resolved;) {
     start_at(orders, start);
@@ -107,14 +84,48 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       discretisation_(discretisation_of(setup_, state)),
       state_(std::move(state)) {}
 
+/// Of a start whose charge, which moves V_m, needs more than its shape and V_m do. @returns whether any rose
+bool Evolution::raise_orders_for_charge() {
+  std::vector<int> orders;
+  bool raised = false;
+  for (std::size_t a = 0; a < start_.size(); ++a) {
+    orders.push_back(order(a));
+    const Vector& charge = evaluation_.fields.vesicles[a].charge;
+    if (!adapts() || order(a) >= setup_.settings.order || charge.size() == 0) continue;
+    if (Resolution(charge).remainder() <= thresholds::charge_share * setup_.control.tolerance) continue;
+    // A spectrum that is cut too early says little of how many degrees more are needed.
+    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
+    raised = true;
+  }
+  if (!raised) return false;
+  const Discretisation discretisation = discretisation_;
+  const State state = state_;
+  const Evaluation evaluation = std::move(evaluation_);
+  try {
+    start_at(orders, start_);
+    evaluation_ = {};
+    arrive(state_);
+    return true;
+  } catch (const ConvergenceError&) {
+    // A higher degree that cannot be had now may be asked for again by a step.
+    discretisation_ = discretisation;
+    state_ = state;
+    evaluation_ = evaluation;
+    return false;
+  }
+}
+
 void Evolution::evaluate_start() {
   arrive(state_);
+  while (raise_orders_for_charge()) {
+  }
+  start_.clear();
   if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);
 }
 
-double Evolution::truncation() const {
+double Evolution::truncation(const State& state) const {
   double most = 0.0;
-  for (std::size_t a = 0; a < state_.vesicles.size(); ++a) most = std::max(most, resolution(state_, a).remainder());
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) most = std::max(most, resolution(state, a).remainder());
   return most;
 }
 
@@ -202,9 +213,7 @@ void Evolution::arrive(State state) {
   }
   std::optional<Evaluation> before;
   if (has_former && jumps_at(setup_.model, state.time)) {
-    before = evaluated(&evaluation, Limit::before);
-    for (VesicleSolution& vesicle : before->vesicles) vesicle.membrane.reset();
-    before->interaction.reset();
+    before = without_operators(evaluated(&evaluation, Limit::before));
   }
   evaluation_ = std::move(evaluation);
   discretisation_ = std::move(discretisation);
@@ -237,7 +246,18 @@ int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
   return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
 }
 
-/// @throws ConvergenceError, and the vesicle stays as it is
+/// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
+void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
+  try {
+    change_space(a, enough, state_.vesicles[a].quadrature_level);
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(fmt::format(
+        "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
+        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(setup_), enough, error.what()));
+  }
+}
+
+/// @returns whether any was too low
 bool Evolution::raise_orders_for(const State& reached) {
   bool raised = false;
   const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
@@ -245,14 +265,7 @@ bool Evolution::raise_orders_for(const State& reached) {
     const Resolution found = resolution(reached, a);
     const int of_gap = order_of_gap(gap, a);
     if (resolves(found, a) && order(a) >= of_gap) continue;
-    const int enough = std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap);
-    try {
-      change_space(a, enough, state_.vesicles[a].quadrature_level);
-    } catch (const ConvergenceError& error) {
-      throw ConvergenceError(fmt::format(
-          "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-          setup_.time_text(state_.time), order(a), found.remainder(), truncation_target(setup_), enough, error.what()));
-    }
+    raise_order(a, found, std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap));
     raised = true;
   }
   return raised;
@@ -279,16 +292,29 @@ void Evolution::economise() {
   }
 }
 
+StepGoal Evolution::goal_for(const EventTimes& events) const {
+  StepGoal goal;
+  goal.tolerance = setup_.control.tolerance;
+  goal.too_coarse = [this](const State& reached) {
+    std::vector<std::size_t> result;
+    for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
+      if (!resolves(resolution(reached, a), a)) result.push_back(a);
+    }
+    return result;
+  };
+  goal.times_before = [this, &events](double end) { return events.snapshots.between(state_.time, end); };
+  return goal;
+}
+
 /// @param former  tries of the same step, which count with this one
-StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const StepAttempt& former) {
+StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const StepAttempt& former,
+                                   const StepGoal& goal) {
   State from = state_;
   // Equal up to rounding: the step must end on the event, not just before it.
   from.dt_next = plan.reaches_event ? std::max(wanted, plan.dt_limit) : wanted;
-  StepAttempt attempt =
-      controlled_step(setup_.model, discretisation_, from, evaluation_, setup_.control, plan.dt_limit, instruments_);
-  attempt.rejected += former.rejected;
-  attempt.iterations_flow += former.iterations_flow;
-  attempt.iterations_electric += former.iterations_electric;
+  StepAttempt attempt = controlled_step(setup_.model, discretisation_, from, evaluation_, setup_.control, plan.dt_limit,
+                                        instruments_, adapts() ? &goal : nullptr);
+  attempt.add_work_of(former);
   if (!attempt.accepted && attempt.too_coarse.empty()) {
     throw ConvergenceError(
         fmt::format("no acceptable step from time {}: {}", setup_.time_text(state_.time), attempt.reason));
@@ -296,21 +322,36 @@ StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const St
   return attempt;
 }
 
+std::vector<Evolution::Moment> Evolution::evaluated(const std::vector<State>& passed, StepAttempt& attempt) {
+  std::vector<Moment> moments;
+  for (const State& state : passed) {
+    Evaluation evaluation = evaluate(setup_.model, discretisation_, state, instruments_, &evaluation_);
+    moments.push_back({state, without_operators(std::move(evaluation)), find_smallest_gap(state)});
+    for (VesicleState& vesicle : moments.back().state.vesicles) vesicle.recycled = {};
+    ++attempt.evaluations;
+  }
+  return moments;
+}
+
 StepAttempt Evolution::step(const EventTimes& events) {
-  EventTimes all = events;
+  EventTimes ends = events;
+  // With a tolerance snapshots are taken from within the steps.
+  if (adapts()) ends.snapshots = {};
   const std::optional<double> discontinuity = next_discontinuity(setup_.model, state_.time);
-  if (discontinuity) all.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
-  StepPlan plan = plan_step(state_.time, state_.dt_next, all);
+  if (discontinuity) ends.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
+  StepPlan plan = plan_step(state_.time, state_.dt_next, ends);
+  const StepGoal goal = goal_for(events);
   double wanted = state_.dt_next;
+  const double from = state_.time;
   StepAttempt attempt;
   for (;;) {
-    attempt = step_within(plan, wanted, attempt);
+    attempt = step_within(plan, wanted, attempt, goal);
     const bool at_event = plan.reaches_event && attempt.dt == plan.dt_limit;
     try {
       if (!attempt.too_coarse.empty()) {
         for (const std::size_t a : attempt.too_coarse) {
-          change_space(a, std::min(setup_.settings.order, order(a) + thresholds::least_raise),
-                       state_.vesicles[a].quadrature_level);
+          const Resolution reached = resolution(attempt.state, a);
+          raise_order(a, reached, raised_order(reached, a));
         }
         continue;
       }
@@ -319,7 +360,9 @@ StepAttempt Evolution::step(const EventTimes& events) {
         continue;
       }
       if (at_event) attempt.state.time = plan.event_time;
+      std::vector<Moment> passed = evaluated(attempt.passed, attempt);
       arrive(attempt.state);
+      passed_ = std::move(passed);
     } catch (const ConvergenceError&) {
       // What cannot be solved for after this step may be after a smaller one.
       ++attempt.rejected;
@@ -329,9 +372,11 @@ StepAttempt Evolution::step(const EventTimes& events) {
       continue;
     }
     const Evaluation& arrival = before_jump_ ? *before_jump_ : evaluation_;
+    ++attempt.evaluations;
     attempt.iterations_flow += arrival.iterations_flow;
     attempt.iterations_electric += arrival.iterations_electric;
-    attempt.at_snapshot = at_event && plan.is_snapshot;
+    const bool is_due = at_event && plan.is_snapshot;
+    attempt.at_snapshot = is_due || (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
     // Nothing is idle where the forcing has just changed.
     if (!before_jump_) economise();
     return attempt;

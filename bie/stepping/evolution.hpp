@@ -61,10 +61,21 @@ class Evolution {
   /// Where the forcing jumps at the time of the state and a step has led there: the evaluation just before the jump,
   /// without operators. The other one is that just after it.
   [[nodiscard]] const std::optional<Evaluation>& before_jump() const { return before_jump_; }
+  /// A moment within the last step at which a snapshot was due, with a tolerance: there the step's polynomial is
+  /// evaluated, without operators, and no step ends there.
+  struct Moment {
+    State state;
+    Evaluation evaluation;
+    SmallestGap gap;
+  };
+  /// Those of the last step.
+  [[nodiscard]] const std::vector<Moment>& passed() const { return passed_; }
   /// Degree of a vesicle at present.
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
   /// Estimated share of what the degrees leave out, see Resolution; of the vesicle that loses most.
-  [[nodiscard]] double truncation() const;
+  [[nodiscard]] double truncation() const { return truncation(state_); }
+  /// The same of another state of this run.
+  [[nodiscard]] double truncation(const State& state) const;
   /// The two vesicles that are nearest to each other.
   [[nodiscard]] const SmallestGap& gap() const { return gap_; }
 
@@ -75,10 +86,14 @@ class Evolution {
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
+  bool raise_orders_for_charge();
   void start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start);
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);
-  StepAttempt step_within(const StepPlan& plan, double wanted, const StepAttempt& former);
+  [[nodiscard]] StepGoal goal_for(const EventTimes& events) const;
+  StepAttempt step_within(const StepPlan& plan, double wanted, const StepAttempt& former, const StepGoal& goal);
+  void raise_order(std::size_t vesicle, const Resolution& reached, int enough);
+  [[nodiscard]] std::vector<Moment> evaluated(const std::vector<State>& passed, StepAttempt& attempt);
   bool raise_orders_for(const State& reached);
   void lower_order_if_idle(std::size_t vesicle);
   void lower_quadrature_if_idle(std::size_t vesicle);
@@ -90,7 +105,9 @@ class Evolution {
   State state_;
   SmallestGap gap_;
   Evaluation evaluation_;
+  std::vector<StartMembrane> start_;  // until it is evaluated
   std::optional<Evaluation> before_jump_;
+  std::vector<Moment> passed_;
 };
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "bie/support/types.hpp"
@@ -31,6 +32,10 @@ constexpr double sphere_variation = 1e-5;
 /// Iterations of one solve. Without a preconditioner of the right shape (1 : 1 : 5, degree 64) sixty are needed.
 constexpr int most_flow_iterations = 120;
 
+/// Sizes whose systems a step keeps: twice as many as the nodes of a scheme ask for. Moments within a step have sizes
+/// of their own that never come again.
+constexpr std::size_t most_flow_systems = 12;
+
 // The passes of a motion, see constrained_motion.
 
 /// A pass that converges reduces its residual by the square or by its own tolerance: ten are a tenth of a digit each.
@@ -55,16 +60,26 @@ constexpr double largest_stretch = 0.5;
 constexpr double explicit_relaxation = 0.5;
 /// A potential without a field that is this small over |E|R has decayed: its stress, its square, is below rounding.
 constexpr double decayed_potential = 1e-10;
-/// Size of the next step over the one that would be just good enough: the estimate is of the leading order alone.
-constexpr double step_safety = 0.85;
+/// Size of the next step over the one that would be just good enough: the estimate is of the leading order alone, and a
+/// step that fails costs two sweeps or more. Measured.
+constexpr double step_safety = 0.75;
 /// A step changes its size by these factors at most.
 constexpr double least_step_factor = 0.2;
 constexpr double most_step_factor = 4.0;
-/// A step that was rejected and tried again in a smaller size (0.9 at most) at second order or more is wrong by 0.8 of
-/// what it was: more than this is no error of the step.
-constexpr double stagnation = 0.95;
-/// Much of an error: a mean over the membrane against a maximum on it.
-constexpr double arrival_share = 0.1;
+/// And one that was not good enough is repeated in this share of its size at most.
+constexpr double most_after_rejection = 0.9;
+/// Share of the tolerance that one step may leave: the errors of about three steps are felt at a time. Measured.
+constexpr double step_share = 0.3;
+/// Share of the tolerance that what is found within a step may be wrong by. Measured.
+constexpr double moment_share = 0.7;
+/// Corrections that seem to contract more than this are not believed. One ratio is one number, and the next may be
+/// larger.
+constexpr double best_contraction = 0.05;
+/// Where tension or charge would have to contract more than this, and one sweep alone tells of them, they are solved
+/// for once more before a step is accepted. Measured.
+constexpr double cautious_contraction = 0.2;
+/// Sweeps are not gone on with where those left would still leave this many times what is allowed.
+constexpr double hopeless = 5.0;
 /// The first step covers this share of the time in which the start changes by the tolerance's root.
 constexpr double first_step_share = 0.5;
 
@@ -83,12 +98,19 @@ constexpr double no_sliding = 1e-13;
 /// What an error of V_m is measured by is at least this share of |E|R, so that a small V_m at the start of charging
 /// need not be known to all its digits.
 constexpr double least_potential_share = 0.1;
+/// The same of tension, as a share of κ_B/R², and of q, as a share of η|E|.
+constexpr double least_tension_share = 0.1;
+constexpr double least_charge_share = 0.1;
 /// Slowest decay of a spectrum from degree to degree that a geometric series continues: slower ones do not decay within
 /// any degree that vehd has (0.97 to the power 64 is a seventh).
 constexpr double slowest_decay = 0.97;
 /// Share of the tolerance that the degrees left out may make up: the rest is that of the step.
 constexpr double truncation_share = 0.3;
-/// Share of that target below which a lower degree is idle: far enough that the degree does not rise again at once.
+/// The same of the charge at the start, whose degrees nearly cancel: a remainder of three tolerances is an error of
+/// half of one. Measured on the prolate.
+constexpr double charge_share = 3.0;
+/// Share of the target of x and V_m below which a lower degree is idle: far enough that the degree does not rise again
+/// at once.
 constexpr double idle_truncation = 0.1;
 /// Degrees that a change has to save: four of sixteen are a quarter of the coefficients and half of the assembly.
 constexpr int worthwhile_degrees = 4;

@@ -91,6 +91,21 @@ BOOST_AUTO_TEST_CASE(a_report_tells_all_that_a_picture_does) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(rows_within_a_step_show_its_size) {
+  Scene scene;
+  scene.numerics.tolerance = 1e-3;
+  const auto drawn = [&] {
+    std::istringstream stream(header +
+                              "0,0,15,1,nan,nan,2,2,4,90,0,0,0\n1,0,14,1,nan,nan,2,2,3,90,0,0,0\n"
+                              "2,2,14,1,nan,nan,2,2,3,90,0,0,0\n3,1,14,1,nan,nan,2,2,3,90,0,0,0\n");
+    return history_quantities(scene, HistoryTable(stream, "history.csv"));
+  }();
+  const auto step = std::ranges::find(drawn, "step", &HistoryQuantity::label);
+  BOOST_TEST_REQUIRE((step != drawn.end()));
+  BOOST_TEST(step->curves.front().values == (std::vector<double>{2.0, 2.0, 2.0, 1.0}),
+             boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(thinned_curves_keep_their_peaks_and_ends) {
   std::vector<HistoryCurve> curves = {{"low", std::vector<double>(10007, 1.0)},
                                       {"high", std::vector<double>(10007, 1.0)}};

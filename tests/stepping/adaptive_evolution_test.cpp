@@ -33,6 +33,16 @@ EvolutionSetup fixed_setup(const Model& model, const Matrix& position, double dt
   return setup;
 }
 
+/// r = 1 + a Y_3^0 + b Y_4^0.
+Matrix rippled(double a, double b) {
+  const SphereTransform transform(kHighestOrder, make_grid(kHighestOrder));
+  Matrix harmonics = Matrix::Zero(n_coefficients(kHighestOrder), 1);
+  harmonics(coefficient_index(3, 0), 0) = a;
+  harmonics(coefficient_index(4, 0), 0) = b;
+  const Vector radius = Vector(transform.synthesize(harmonics)).array() + 1.0;
+  return transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
+}
+
 struct Result {
   VesicleDiagnostics diagnostics;
   int lowest_order, highest_order, n_steps;
@@ -95,15 +105,24 @@ BOOST_AUTO_TEST_CASE(degree_follows_the_spectrum_up_and_down) {
 BOOST_AUTO_TEST_CASE(degree_rises_where_the_grid_cannot_be_moved_without_it) {
   // Its spectrum ends below the lowest degree, so that the start seems resolved. Nearly a sphere: the area that another
   // grid of that degree gives it needs a much larger change of the shape.
-  const SphereTransform transform(kHighestOrder, make_grid(kHighestOrder));
-  Matrix harmonics = Matrix::Zero(n_coefficients(kHighestOrder), 1);
-  harmonics(coefficient_index(3, 0), 0) = 0.04;
-  harmonics(coefficient_index(4, 0), 0) = 0.05;
-  const Vector radius = Vector(transform.synthesize(harmonics)).array() + 1.0;
-  const Matrix position = transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
-  const Result result = run_to(relaxation_model(0.1), position, 1e-6, 1e-2);
+  const Result result = run_to(relaxation_model(0.1), rippled(0.04, 0.05), 1e-6, 1e-2);
   BOOST_TEST(result.lowest_order == lowest_adaptive_order);
   BOOST_TEST(result.highest_order > lowest_adaptive_order);
+}
+
+BOOST_AUTO_TEST_CASE(degree_of_the_start_resolves_its_charge) {
+  // Shape and V_m of the start have no degree above 1, and the charge on the prolate has them all.
+  const auto charge_at_start = [](double tolerance) {
+    const Matrix position = prolate(kHighestOrder);
+    Instruments instruments;
+    Evolution evolution(setup_of(field_model(), position, tolerance, 1.0), {StartMembrane{position}}, instruments);
+    evolution.evaluate_start();
+    return evolution.evaluation().diagnostics.vesicles[0].q_north;
+  };
+  const double exact = charge_at_start(1e-8);
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    BOOST_TEST(std::abs(charge_at_start(tolerance) / exact - 1.0) < tolerance);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(step_of_a_fixed_size_never_changes_the_degree) {

@@ -18,4 +18,13 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
   return evaluation;
 }
 
+Evaluation without_operators(Evaluation evaluation) {
+  for (VesicleSolution& vesicle : evaluation.vesicles) {
+    vesicle.membrane.reset();
+    vesicle.recycled = {};
+  }
+  evaluation.interaction.reset();
+  return evaluation;
+}
+
 }  // namespace vehd

@@ -53,4 +53,7 @@ struct Evaluation : SolvedFields {
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
                     Instruments& instruments, const Evaluation* previous = nullptr, Limit limit = Limit::after);
 
+/// What is left of an evaluation that no step starts from: operators are most of the memory that it takes.
+Evaluation without_operators(Evaluation evaluation);
+
 }  // namespace vehd

@@ -26,6 +26,7 @@ FlowSystem& FlowSystems::of(double dt) {
   if (options.held_tension.isZero(0.0)) options.held_tension.resize(0);
   FlowSystem system(parameters_, membrane_, dt, options,
                     so_far ? so_far->in(options_.entries, n_scalars) : RecycledSubspace{});
+  if (systems_.size() == thresholds::most_flow_systems) systems_.pop_front();
   return systems_.emplace_back(dt, std::move(system)).second;
 }
 

@@ -47,6 +47,12 @@ Resolution::Resolution(const Model& model, const VesicleState& vesicle) {
   least_scale_ = least_potential_scale(*model.electric, radius);
 }
 
+Resolution::Resolution(const Vector& field) {
+  shape_ = degree_bounds(field);
+  const double size = shape_.maxCoeff();
+  if (size > 0.0) shape_ /= size;
+}
+
 Resolution::Tail Resolution::tail_of_cut(int order) const {
   Tail tail{shape_.head(order + 1)};
   Vector& bound = tail.bound;

@@ -16,6 +16,8 @@ class Resolution {
  public:
   /// @param vesicle  of the state whose spectra are looked at
   Resolution(const Model& model, const VesicleState& vesicle);
+  /// Of coefficients of another field, over its size.
+  explicit Resolution(const Vector& field);
 
   /// Estimate of what the degrees above p would add, in the maximum norm, to x over the radius or to V_m over its
   /// scale, whichever is more. A geometric series continues the upper half of the spectrum.
@@ -36,7 +38,7 @@ class Resolution {
   [[nodiscard]] Tail tail_of_cut(int order) const;
   [[nodiscard]] double remainder_at(int order) const;
 
-  Vector shape_;              // bounds of x over the radius, by degree
+  Vector shape_;              // bounds of x over the radius, or of the other field, by degree
   Vector potential_;          // of V_m; empty without electricity
   double least_scale_ = 0.0;  // of V_m; 0 without a field
 };

@@ -35,6 +35,19 @@ std::optional<double> SnapshotTimes::next(double time, double end) const {
   return earliest;
 }
 
+std::vector<double> SnapshotTimes::between(double from, double to) const {
+  std::vector<double> moments;
+  for (auto moment = next(from, to); moment; moment = next(*moment, to)) moments.push_back(*moment);
+  return moments;
+}
+
+bool SnapshotTimes::is_due(double time, double from, double end) const {
+  const std::vector<double> before = between(from, time);
+  const auto moment = next(before.empty() ? from : before.back(), end);
+  const auto later = next(time, end);
+  return moment && (!later || *moment < *later);
+}
+
 double SnapshotTimes::count(double end) const {
   double count = every ? end / *every : 0.0;
   count += static_cast<double>(std::ranges::count_if(times, [&](double moment) { return moment < end; }));

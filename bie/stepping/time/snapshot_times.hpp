@@ -24,6 +24,10 @@ struct SnapshotTimes {
   /// Accuracy: each moment is one product or sum, so that the k-th does not drift
   /// (tests/stepping/time/step_plan_test.cpp)
   [[nodiscard]] std::optional<double> next(double time, double end) const;
+  /// All of them between two times, neither of which is among them.
+  [[nodiscard]] std::vector<double> between(double from, double to) const;
+  /// Whether one is due at `time`, to rounding.
+  [[nodiscard]] bool is_due(double time, double from, double end) const;
   /// How many there are until `end`, about: moments that coincide count each.
   [[nodiscard]] double count(double end) const;
 };

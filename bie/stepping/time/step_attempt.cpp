@@ -1,6 +1,7 @@
 #include "bie/stepping/time/step_attempt.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "bie/stepping/time/deferred_correction.hpp"
@@ -8,23 +9,64 @@
 
 namespace vehd {
 
+void StepAttempt::add_work_of(const StepAttempt& former) {
+  rejected += former.rejected;
+  evaluations += former.evaluations;
+  iterations_flow += former.iterations_flow;
+  iterations_electric += former.iterations_electric;
+}
+
+namespace {
+
+/// Largest relative area error of the motions, signed.
+double raw_area_of(const NodeSolution& end) {
+  double largest = 0.0;
+  for (const Motion& vesicle : end.vesicles) {
+    if (std::abs(vesicle.raw_area) >= std::abs(largest)) largest = vesicle.raw_area;
+  }
+  return largest;
+}
+
+void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& physics, StepAttempt& attempt) {
+  ControlledSweeps sweeps = controlled_sweeps(physics, dt, order, goal);
+  attempt.error_estimate = sweeps.excess * goal.tolerance;
+  attempt.factor = sweeps.factor;
+  attempt.too_coarse = std::move(sweeps.too_coarse);
+  attempt.state = std::move(sweeps.state);
+  attempt.passed = std::move(sweeps.passed);
+  attempt.accepted = sweeps.end.has_value();
+  if (attempt.accepted) {
+    attempt.raw_area = raw_area_of(*sweeps.end);
+  } else if (attempt.too_coarse.empty()) {
+    attempt.reason = fmt::format("a step is wrong by {:.1e} over its share of the tolerance; accepted: {:.1e}",
+                                 attempt.error_estimate, goal.tolerance);
+  }
+}
+
+}  // namespace
+
 StepAttempt attempt_step(const Model& model, const Discretisation& discretisation, const State& state,
-                         const SolvedFields& at_start, double dt, Instruments& instruments) {
+                         const SolvedFields& at_start, double dt, Instruments& instruments, const StepGoal* goal) {
+  const int order = discretisation.settings().time_order;
   StepOperations physics(model, discretisation, state, at_start, instruments);
   StepAttempt attempt;
   attempt.dt = dt;
   try {
-    const CorrectedNode end = deferred_correction(physics, dt, discretisation.settings().time_order);
-    attempt.error_estimate = end.last_correction;
-    for (const Motion& vesicle : end.node.vesicles) {
-      if (std::abs(vesicle.raw_area) >= std::abs(attempt.raw_area)) attempt.raw_area = vesicle.raw_area;
-      attempt.arrival_shifts.push_back(vesicle.arrival_shift);
+    if (goal != nullptr) {
+      try_to_reach(*goal, dt, order, physics, attempt);
+    } else {
+      const CorrectedNode end = deferred_correction(physics, dt, order);
+      attempt.error_estimate = end.last_correction;
+      attempt.raw_area = raw_area_of(end.node);
+      attempt.state = physics.end_state(end.node);
+      attempt.accepted = true;
     }
-    attempt.state = physics.end_state(end.node);
-    attempt.accepted = true;
   } catch (const ConvergenceError& error) {
+    attempt.accepted = false;
+    attempt.factor = 0.5;
     attempt.reason = error.what();
   }
+  attempt.evaluations = physics.evaluations();
   attempt.iterations_flow = physics.iterations_flow();
   attempt.iterations_electric = physics.iterations_electric();
   return attempt;

@@ -15,11 +15,12 @@ struct StepControl {
 StepControl fixed_steps(double dt);
 
 /// One accepted step of size at most dt_limit, with dt_next set, or the reason why there is none. Tries
-/// min(state.dt_next, dt_limit); halves after every failure. With a tolerance, an attempt whose error estimate is
-/// larger is repeated with the step that its order makes just good enough, and dt_next follows the same law; without
-/// one, dt_next doubles back towards the largest after every success.
+/// min(state.dt_next, dt_limit); halves after every failure. With a tolerance, an attempt that leaves more than the
+/// goal allows is repeated in a smaller size, and dt_next is what gets on at the least cost; without one, dt_next
+/// doubles back towards the largest after every success.
+/// @param goal  of a tolerance; null without one
 StepAttempt controlled_step(const Model& model, const Discretisation& discretisation, const State& state,
                             const SolvedFields& at_start, const StepControl& control, double dt_limit,
-                            Instruments& instruments);
+                            Instruments& instruments, const StepGoal* goal = nullptr);
 
 }  // namespace vehd

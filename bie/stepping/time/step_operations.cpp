@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "bie/physics/coupled_charging.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/space/resolution.hpp"
@@ -31,8 +34,17 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
 }
 
 Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fields) {
-  return {solution.is_sphere ? rigid_sphere_velocity(*solution.membrane, fields.velocity) : fields.velocity,
-          solution.potential_rate};
+  const Membrane& membrane = *solution.membrane;
+  Rate::OfVesicle rate;
+  rate.velocity = solution.is_sphere ? rigid_sphere_velocity(membrane, fields.velocity) : fields.velocity;
+  rate.potential = solution.potential_rate;
+  rate.charge = fields.charge;
+  if (fields.tension.size() > 0 && !solution.is_sphere) {
+    const Vector tension = membrane.fine.synthesize(fields.tension);
+    rate.tension_integral = tension.dot(membrane.surface.quadrature);
+    rate.tension_size = tension.cwiseAbs().dot(membrane.surface.quadrature);
+  }
+  return rate;
 }
 
 Rate rate_of(const SolvedFields& solved) {
@@ -64,10 +76,11 @@ StepOperations::StepOperations(const Model& model, const Discretisation& discret
 Rate StepOperations::rate() const { return rate_of(at_start_); }
 
 Rate StepOperations::rate(const NodeSolution& node) {
-  const SolvedFields solved =
-      solve_fields(model_, discretisation_, state_at(node), instruments_, &at_start_, Limit::before);
+  const SolvedFields solved = solve_fields(model_, discretisation_, state_with(&Motion::material, node), instruments_,
+                                           &at_start_, Limit::before);
   iterations_flow_ += solved.iterations_flow;
   iterations_electric_ += solved.iterations_electric;
+  ++evaluations_;
   return rate_of(solved);
 }
 
@@ -112,6 +125,18 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
       return motion_of_displacement(sphere, y.vesicles[a].material.position + lacks - start_.vesicles[a].position);
     };
     result.vesicles.push_back(motion(a, {std::move(fields), lacks / dt}, rigid, dt, end));
+  }
+  return result;
+}
+
+NodeSolution StepOperations::held(const NodeSolution& y, double dt, NodeEnd end) {
+  NodeSolution result{y.time, {}};
+  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+    SurfaceFields fields = y.vesicles[a].material;
+    fields.area_strain = start_.vesicles[a].area_strain;
+    const Matrix displacement = fields.position - start_.vesicles[a].position;
+    const auto rigid = [&](const Membrane& sphere) { return motion_of_displacement(sphere, displacement); };
+    result.vesicles.push_back(motion(a, {std::move(fields), Matrix::Zero(displacement.rows(), 3)}, rigid, dt, end));
   }
   return result;
 }
@@ -180,46 +205,107 @@ Arrival StepOperations::arrival(std::size_t a, NodeEnd end) const {
   };
 }
 
-State StepOperations::state_at(const NodeSolution& node) const {
+State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const {
   State state = start_;
   state.time = node.time;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     VesicleState& vesicle = state.vesicles[a];
     static_cast<SurfaceFields&>(vesicle) =
-        symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].material);
+        symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].*fields);
     vesicle.recycled = at_start_.vesicles[a].recycled;
   }
   return state;
 }
 
-State StepOperations::end_state(const NodeSolution& node) const {
-  State state = start_;
-  state.time = node.time;
+State StepOperations::passed_state(const NodeSolution& node) const {
+  State state = state_with(&Motion::arrived, node);
   ++state.step;
+  return state;
+}
+
+State StepOperations::end_state(const NodeSolution& node) const {
+  State state = passed_state(node);
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    VesicleState& vesicle = state.vesicles[a];
-    static_cast<SurfaceFields&>(vesicle) =
-        symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].arrived);
-    vesicle.recycled = after_step(at_start_.vesicles[a].recycled, flow_[a].recycled(), iterations_flow_);
+    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow_[a].recycled(), iterations_flow_);
   }
   return state;
+}
+
+double StepOperations::potential_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+  if (!model_.electric) return 0.0;
+  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
+  const double size = fine.synthesize(y.transmembrane_potential).cwiseAbs().maxCoeff();
+  const Matrix change = fine.synthesize(y.transmembrane_potential - x.transmembrane_potential);
+  return change.cwiseAbs().maxCoeff() / potential_scale(*model_.electric, at_start_.vesicles[a].membrane->radius, size);
 }
 
 double StepOperations::difference(const NodeSolution& a, const NodeSolution& b) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
     const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
-    const double radius = at_start_.vesicles[i].membrane->radius;
     const SurfaceFields& x = a.vesicles[i].material;
     const SurfaceFields& y = b.vesicles[i].material;
-    const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff() / radius;
-    largest = std::max(largest, moved);
-    if (!model_.electric) continue;
-    const double size = fine.synthesize(y.transmembrane_potential).cwiseAbs().maxCoeff();
-    const Matrix change = fine.synthesize(y.transmembrane_potential - x.transmembrane_potential);
-    largest = std::max(largest, change.cwiseAbs().maxCoeff() / potential_scale(*model_.electric, radius, size));
+    const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff();
+    largest = std::max({largest, moved / at_start_.vesicles[i].membrane->radius, potential_difference(i, x, y)});
   }
   return largest;
+}
+
+double StepOperations::normal_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
+  const SphereDerivatives there = fine.synthesize_gradient(y.position);
+  const Matrix change = fine.synthesize(y.position - x.position);
+  double largest = 0.0;
+  for (Index i = 0; i < change.rows(); ++i) {
+    const Vector3 across = Vector3(there.d1.row(i)).cross(Vector3(there.d2.row(i)));
+    largest = std::max(largest, std::abs(across.dot(Vector3(change.row(i)))) / across.norm());
+  }
+  return largest / at_start_.vesicles[a].membrane->radius;
+}
+
+VisibleDifference StepOperations::visible_difference(const NodeSolution& a, const NodeSolution& b) const {
+  VisibleDifference largest;
+  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
+    const SurfaceFields& x = a.vesicles[i].material;
+    const SurfaceFields& y = b.vesicles[i].material;
+    largest.shape = std::max(largest.shape, normal_difference(i, x, y));
+    largest.potential = std::max(largest.potential, potential_difference(i, x, y));
+  }
+  return largest;
+}
+
+/// ∫|λ| dA of a tension that bending hardly feels.
+double StepOperations::least_tension(std::size_t a) const {
+  const std::optional<BendingParameters>& bending = model_.vesicles[a].bending;
+  // κ_B/R² over the area 4π R².
+  return bending ? thresholds::least_tension_share * 4.0 * std::numbers::pi * bending->modulus : 0.0;
+}
+
+/// A charge that the field of the scene makes much more of.
+double StepOperations::least_charge(std::size_t a) const {
+  const ElectricParameters electric = electric_parameters(model_, model_.vesicles[a]);
+  return thresholds::least_charge_share * std::abs(conductivity_contrast(electric)) * electric.field.norm();
+}
+
+InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, const Rate& b) const {
+  const auto share = [](double change, double size) { return size > 0.0 ? change / size : 0.0; };
+  InstantaneousDifference largest;
+  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
+    const Rate::OfVesicle& x = a.vesicles[i];
+    const Rate::OfVesicle& y = b.vesicles[i];
+    const double tension = std::abs(y.tension_integral - x.tension_integral);
+    largest.tension = std::max(largest.tension, share(tension, std::max(y.tension_size, least_tension(i))));
+    if (x.charge.size() == 0 || y.charge.size() == 0) continue;
+    const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
+    const double charge = fine.synthesize(y.charge - x.charge).cwiseAbs().maxCoeff();
+    const double size = fine.synthesize(y.charge).cwiseAbs().maxCoeff();
+    largest.charge = std::max(largest.charge, share(charge, std::max(size, least_charge(i))));
+  }
+  return largest;
+}
+
+bool StepOperations::may_rise(std::size_t a) const {
+  return discretisation_.vesicle(a).order() < discretisation_.settings().order;
 }
 
 }  // namespace vehd

@@ -17,13 +17,29 @@ struct NodeSolution {
   std::vector<Motion> vesicles;
 };
 
-/// F = dy/dt of material points, coefficients; a part that does not change is empty.
+/// F = dy/dt of material points, coefficients; a part that does not change is empty. With it what was solved for on the
+/// way and a history tells of.
 struct Rate {
   struct OfVesicle {
     Matrix velocity;
     Vector potential;
+    Vector charge;                  ///< q; empty without electricity
+    double tension_integral = 0.0;  ///< ∫λ dA; 0 where a sphere leaves its mean open
+    double tension_size = 0.0;      ///< ∫|λ| dA
   };
   std::vector<OfVesicle> vesicles;
+};
+
+/// How two solutions of one node differ in what can be seen, the largest of all vesicles.
+struct VisibleDifference {
+  double shape = 0.0;      ///< of x along the normal, over the radius
+  double potential = 0.0;  ///< of V_m at material points, over its size
+};
+
+/// How two rates of one node differ in what is solved for at once, the largest of all vesicles.
+struct InstantaneousDifference {
+  double tension = 0.0;  ///< of ∫λ dA, over ∫|λ| dA
+  double charge = 0.0;   ///< of q in the maximum norm, over its size
 };
 
 /// What a node lacks of the equation of its time scheme, in the unknowns y.
@@ -74,12 +90,24 @@ class StepOperations {
   NodeSolution first_order_step(double dt, NodeEnd end);
   /// y + (1 − dt L)⁻¹ r.
   NodeSolution implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end);
+  /// y with areas and volumes projected back to what they have to be.
+  NodeSolution held(const NodeSolution& y, double dt, NodeEnd end);
 
   /// The state at the end of the step, from a node that is remapped.
   [[nodiscard]] State end_state(const NodeSolution& node) const;
+  /// A state within the step, from a node that is remapped; no step starts from it.
+  [[nodiscard]] State passed_state(const NodeSolution& node) const;
   /// Largest difference of two solutions of one node, of x over the radius and of V_m over its size.
   [[nodiscard]] double difference(const NodeSolution& a, const NodeSolution& b) const;
+  [[nodiscard]] VisibleDifference visible_difference(const NodeSolution& a, const NodeSolution& b) const;
+  /// Tensions and charges that are small against those of the bending modulus and of the field count as if they were
+  /// larger.
+  [[nodiscard]] InstantaneousDifference instantaneous_difference(const Rate& a, const Rate& b) const;
+  /// Whether the degree of a vesicle is below the highest that the run may take.
+  [[nodiscard]] bool may_rise(std::size_t vesicle) const;
 
+  /// Evaluations of new shapes so far.
+  [[nodiscard]] int evaluations() const { return evaluations_; }
   /// Iterations so far of the flow solves.
   [[nodiscard]] int iterations_flow() const { return iterations_flow_; }
   /// Iterations so far of the charging and charge solves.
@@ -87,7 +115,11 @@ class StepOperations {
 
  private:
   [[nodiscard]] bool charges() const { return model_.electric.has_value() && !at_start_.electric_inactive; }
-  [[nodiscard]] State state_at(const NodeSolution& node) const;
+  [[nodiscard]] State state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const;
+  [[nodiscard]] double least_tension(std::size_t vesicle) const;
+  [[nodiscard]] double least_charge(std::size_t vesicle) const;
+  [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
+  [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
   void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Vector>& potentials);
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
@@ -105,6 +137,7 @@ class StepOperations {
   std::vector<FlowSystems> flow_;  // of each vesicle
   int iterations_flow_ = 0;
   int iterations_electric_ = 0;
+  int evaluations_ = 0;
 };
 
 }  // namespace vehd

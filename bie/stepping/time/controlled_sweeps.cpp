@@ -1,0 +1,166 @@
+#include "bie/stepping/time/controlled_sweeps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/collocation.hpp"
+#include "bie/stepping/time/corrections.hpp"
+#include "bie/stepping/time/step_polynomial.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// What the sweeps so far have changed of all that counts.
+class SweepErrors {
+ public:
+  /// Of the shape and V_m by a sweep.
+  void add(const VisibleDifference& change) {
+    shape_.add(change.shape);
+    potential_.add(change.potential);
+  }
+  /// Of tension and charge, each by the sweep before.
+  void add(const InstantaneousDifference& change) {
+    tension_.add(change.tension);
+    charge_.add(change.charge);
+  }
+  [[nodiscard]] int sweeps() const { return static_cast<int>(shape_.count()); }
+  /// Whether tension and charge are known after the last sweep as well.
+  [[nodiscard]] bool all_known() const { return tension_.count() == shape_.count(); }
+  /// Estimated error of shape and V_m after the last sweep.
+  [[nodiscard]] double visible_error() const {
+    return std::max(shape_.error_after(shape_.count()), potential_.error_after(potential_.count()));
+  }
+  /// Of all after sweep j = 1, 2, …, whether it was made or not.
+  /// @param least  sweeps whose changes of tension and charge are not known are not supposed to contract more than this
+  [[nodiscard]] double error_after(int sweep, double least = thresholds::best_contraction) const {
+    const auto j = static_cast<std::size_t>(sweep);
+    const auto supposed = [&](const Corrections& changes) {
+      return changes.count() > 1 ? std::max(changes.contraction(), least) : least;
+    };
+    return std::max({shape_.error_after(j), potential_.error_after(j), tension_.error_after(j, supposed(tension_)),
+                     charge_.error_after(j, supposed(charge_))});
+  }
+
+ private:
+  Corrections shape_, potential_, tension_, charge_;
+};
+
+/// dt times this would leave just the error that is allowed after sweep j.
+double size_factor(double error, double allowed, int j) {
+  if (error <= 0.0) return thresholds::most_step_factor;
+  const double factor = thresholds::step_safety * std::pow(allowed / error, 1.0 / (j + 1));
+  return std::clamp(factor, thresholds::least_step_factor, thresholds::most_step_factor);
+}
+
+/// Two sweeps tell how they contract; one tells nothing.
+int fewest_sweeps(int order) { return std::min(2, order - 1); }
+
+/// Size of the step that gets on at the least cost, over that of this one.
+/// @param found  error after each sweep as far as it was made, as estimated then: a step ends by what it knows
+double best_factor(const SweepErrors& errors, const std::vector<double>& found, double allowed, int order,
+                   std::size_t n_nodes) {
+  double best = thresholds::least_step_factor, least_cost = std::numeric_limits<double>::infinity();
+  for (int j = fewest_sweeps(order); j < order; ++j) {
+    const auto made = static_cast<std::size_t>(j);
+    const double error = made <= found.size() ? found[made - 1] : errors.error_after(j);
+    const double factor = size_factor(error, allowed, j);
+    const double cost = (1.0 + static_cast<double>(n_nodes) * j) / factor;
+    if (cost < least_cost) {
+      least_cost = cost;
+      best = factor;
+    }
+  }
+  return best;
+}
+
+std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolution& end, const StepGoal& goal) {
+  std::vector<std::size_t> result = goal.too_coarse(physics.end_state(end));
+  for (std::size_t a = 0; a < end.vesicles.size(); ++a) {
+    // The degree does not hold the same surface on another grid.
+    if (end.vesicles[a].arrival_shift > thresholds::truncation_share * goal.tolerance && physics.may_rise(a))
+      result.push_back(a);
+  }
+  std::ranges::sort(result);
+  const auto repeated = std::ranges::unique(result);
+  result.erase(repeated.begin(), repeated.end());
+  return result;
+}
+
+/// Finds the states at these times. @returns whether all are within what is allowed; if not there are none
+bool pass(const std::vector<double>& times, StepOperations& physics, const TimeRule& rule, double dt, double allowed,
+          Collocation& y, ControlledSweeps& result) {
+  // The last sweep was made at the last node alone; its rates serve the others as well.
+  for (std::size_t m = 0; m < y.last(); ++m) y.node(m) = y.corrected(m, NodeEnd::material);
+  const StepPolynomial within(physics, rule, dt, y);
+  // It falls like dt⁴ or faster. Where the moments of the next steps lie is chance.
+  result.factor = std::min(result.factor, size_factor(within.error(), allowed, 3));
+  double largest = 0.0;
+  for (const double time : times) largest = std::max(largest, within.error(time));
+  if (largest > allowed) {
+    result.excess = std::max(result.excess, largest / allowed);
+    return false;
+  }
+  const double size = rule.implicit_sizes[y.last()] * dt;
+  for (const double time : times) {
+    result.passed.push_back(physics.passed_state(physics.held(within.at(time), size, NodeEnd::remapped)));
+  }
+  return true;
+}
+
+}  // namespace
+
+ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order, const StepGoal& goal) {
+  const TimeRule rule = time_rule(order);
+  Collocation y(physics, rule, dt, NodeEnd::remapped);
+  const std::size_t last = y.last();
+  ControlledSweeps result;
+  result.too_coarse = coarse_at(physics, y.node(last), goal);
+  if (!result.too_coarse.empty()) {
+    result.state = physics.end_state(y.node(last));
+    return result;
+  }
+  SweepErrors errors;
+  std::vector<double> found;
+  const double allowed = thresholds::step_share * goal.tolerance;
+  for (int left = order - 2;; --left) {
+    y.evaluate_rates();
+    if (const auto change = y.change_at_last(); change && !errors.all_known()) errors.add(*change);
+    // Where this sweep is likely to be the last it ends on new nodes at once.
+    const bool likely = left == 0 || (errors.sweeps() > 0 && errors.error_after(errors.sweeps() + 1) <= allowed);
+    NodeSolution end = y.corrected(last, likely ? NodeEnd::remapped : NodeEnd::material);
+    errors.add(physics.visible_difference(y.node(last), end));
+    const bool known = errors.sweeps() >= fewest_sweeps(order);
+    if (known && errors.visible_error() <= allowed && !errors.all_known() &&
+        errors.error_after(errors.sweeps(), thresholds::cautious_contraction) > allowed) {
+      // Tension and charge follow from what has converged, but nobody knows how they magnify what is left.
+      errors.add(y.change_to(end));
+    }
+    const double error = errors.error_after(errors.sweeps());
+    found.push_back(error);
+    const bool enough = known && error <= allowed;
+    if (enough && !likely) end = y.corrected(last, NodeEnd::remapped);
+    if (enough || left == 0 || (known && errors.error_after(order - 1) > thresholds::hopeless * allowed)) {
+      result.excess = error / allowed;
+      result.factor = best_factor(errors, found, allowed, order, rule.nodes.size());
+      if (!enough) return result;
+      y.node(last) = std::move(end);
+      break;
+    }
+    for (std::size_t m = 0; m < last; ++m) y.node(m) = y.corrected(m, NodeEnd::material);
+    y.node(last) = std::move(end);
+  }
+  // Before what is solved for within the step can be recycled.
+  result.state = physics.end_state(y.node(last));
+  const std::vector<double> times = goal.times_before(physics.start().time + dt);
+  if (!times.empty() && !pass(times, physics, rule, dt, thresholds::moment_share * goal.tolerance, y, result)) {
+    return result;
+  }
+  result.end = std::move(y.node(last));
+  return result;
+}
+
+}  // namespace vehd

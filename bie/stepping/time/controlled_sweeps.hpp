@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "bie/stepping/time/step_operations.hpp"
+
+namespace vehd {
+
+/// What a step with a tolerance is to deliver.
+struct StepGoal {
+  double tolerance = 0.0;
+  /// Vesicles whose degree is too low for a state.
+  std::function<std::vector<std::size_t>(const State&)> too_coarse;
+  /// When states are wanted before the end of a step that goes that far, ascending.
+  std::function<std::vector<double>(double end)> times_before;
+};
+
+/// What became of a step whose sweeps are counted by what they leave.
+struct ControlledSweeps {
+  std::optional<NodeSolution> end;      ///< where the step is good enough
+  State state;                          ///< at that end; with `too_coarse` a guess at it
+  std::vector<State> passed;            ///< at the times of the goal
+  double excess = 0.0;                  ///< estimated error over what the step may leave
+  double factor = 1.0;                  ///< the size that gets on at the least cost, over that of this step
+  std::vector<std::size_t> too_coarse;  ///< vesicles whose degree is to rise before anything else is tried
+};
+
+/// One step by deferred correction that stops where its error is small enough.
+///
+/// - What counts: the change of the shape along its normal, n·δx over the radius, and that of V_m at material points
+///   over its size. Points that slide within the membrane are no error. And ∫λ dA and q, which may magnify what is
+///   wrong with both.
+/// - Estimate: sweep k changes the end by δ_k; with ρ = δ_k/δ_{k−1} the sweeps to come would change it by δ_k ρ/(1−ρ),
+///   the sum of a geometric series, or by δ_k where they hardly contract. This is the error of what is kept. What the
+///   last sweep did to tension and charge is continued from those before, or solved for where it might decide.
+/// - Share: a membrane forgets the errors of all but its last few steps, whatever the time units and however long the
+///   run, so each step may leave a fixed share of the tolerance.
+/// - Order: e_j, the error after sweep j, is known for every sweep made and falls like dt^(j+1) at least. The size
+///   that makes (1 + sweeps × nodes)/dt smallest is that of the next step; more sweeps are made if need be.
+/// - Degree: judged at the end of the first-order step already, before any sweep is paid for.
+///
+/// @param order  sweeps are order − 1 at most
+/// @throws ConvergenceError naming the solve that failed
+/// Accuracy: see Evolution
+/// Source: sweeps as of deferred_correction; the control is of this project, step-size law of Hairer and Wanner 1996
+ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order, const StepGoal& goal);
+
+}  // namespace vehd

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace vehd {
+
+/// How much one thing was changed by each of several corrections, and what that says of the error that is left.
+///
+/// Correction k changes it by δ_k. If each makes changes smaller by ρ = δ_k/δ_{k−1}, those to come add up to
+/// δ_k ρ/(1−ρ), the sum of a geometric series: the error after correction k. Where ρ ≥ 1/2 the series says little, and
+/// δ_k, the error of the correction before, is taken.
+class Corrections {
+ public:
+  void add(double change) { changes_.push_back(change); }
+  [[nodiscard]] std::size_t count() const { return changes_.size(); }
+
+  /// Estimated error after correction j = 1, 2, …, whether it was made or not; 0 before the first.
+  [[nodiscard]] double error_after(std::size_t j) const { return error_after(j, contraction()); }
+  /// The same if each correction to come contracts by this.
+  [[nodiscard]] double error_after(std::size_t j, double ratio) const;
+
+  /// ρ of the last correction, 1 as long as it is not known.
+  [[nodiscard]] double contraction() const;
+
+ private:
+  std::vector<double> changes_;
+};
+
+}  // namespace vehd
