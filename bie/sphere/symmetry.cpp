@@ -94,6 +94,22 @@ Matrix axisymmetric_part(const Matrix& field) {
   return result;
 }
 
+std::vector<std::vector<Index>> classes_of(const Symmetry& symmetry, int order) {
+  // A class is known by its |m| modulo the turns and by its signs under the reflections.
+  std::map<std::vector<int>, std::vector<Index>> classes;
+  for (int n = 0; n <= order; ++n) {
+    for (int m = -n; m <= n; ++m) {
+      const int rest = std::abs(m) % symmetry.fold;
+      std::vector<int> key{symmetry.axisymmetric ? std::abs(m) : std::min(rest, symmetry.fold - rest)};
+      for (const Reflection& g : symmetry.reflections) key.push_back(g.parity(n, m));
+      classes[key].push_back(coefficient_index(n, m));
+    }
+  }
+  std::vector<std::vector<Index>> result;
+  for (auto& [key, indices] : classes) result.push_back(std::move(indices));
+  return result;
+}
+
 }  // namespace
 
 int Symmetry::group_order() const {
@@ -105,49 +121,35 @@ int Symmetry::group_order() const {
 SymmetrySubspace::SymmetrySubspace(Symmetry symmetry, int order)
     : symmetry_(std::move(symmetry)),
       order_(order),
-      scalars_(kept_coefficients(symmetry_, even_signs(symmetry_), order)),
-      potentials_(kept_coefficients(symmetry_, symmetry_.potential_signs, order)) {}
+      lists_(std::make_shared<const Lists>(lists_of(symmetry_, order))) {}
 
-std::vector<Index> SymmetrySubspace::vectors() const {
-  const Symmetry mirrors = reflections_of(symmetry_);
-  std::vector<Index> result;
+SymmetrySubspace::Lists SymmetrySubspace::lists_of(const Symmetry& symmetry, int order) {
+  Lists lists;
+  lists.scalars = kept_coefficients(symmetry, even_signs(symmetry), order);
+  lists.potentials = kept_coefficients(symmetry, symmetry.potential_signs, order);
+  const Symmetry mirrors = reflections_of(symmetry);
   for (int component = 0; component < 3; ++component) {
-    for (const Index i : kept_coefficients(mirrors, component_signs(mirrors, component), order_)) {
+    lists.components[component] = kept_coefficients(mirrors, component_signs(mirrors, component), order);
+    for (const Index i : lists.components[component]) {
       const int n = degree_of(i);
       const auto m = static_cast<int>(i - coefficient_index(n, 0));
-      const bool kept = !symmetry_.axisymmetric || std::abs(m) <= 1;
-      if (kept) result.push_back(component * n_coefficients() + i);
+      const bool kept = !symmetry.axisymmetric || std::abs(m) <= 1;
+      if (kept) lists.vectors.push_back(component * vehd::n_coefficients(order) + i);
     }
   }
-  return result;
+  lists.scalar_classes = classes_of(symmetry, order);
+  return lists;
 }
 
-std::vector<std::vector<Index>> SymmetrySubspace::scalar_classes() const {
-  // A class is known by its |m| modulo the turns and by its signs under the reflections.
-  std::map<std::vector<int>, std::vector<Index>> classes;
-  for (int n = 0; n <= order_; ++n) {
-    for (int m = -n; m <= n; ++m) {
-      const int rest = std::abs(m) % symmetry_.fold;
-      std::vector<int> key{symmetry_.axisymmetric ? std::abs(m) : std::min(rest, symmetry_.fold - rest)};
-      for (const Reflection& g : symmetry_.reflections) key.push_back(g.parity(n, m));
-      classes[key].push_back(coefficient_index(n, m));
-    }
-  }
-  std::vector<std::vector<Index>> result;
-  for (auto& [key, indices] : classes) result.push_back(std::move(indices));
-  return result;
+Vector SymmetrySubspace::symmetric_scalar(const Vector& field) const { return restricted(lists_->scalars, field); }
+
+Vector SymmetrySubspace::symmetric_potential(const Vector& field) const {
+  return restricted(lists_->potentials, field);
 }
-
-Vector SymmetrySubspace::symmetric_scalar(const Vector& field) const { return restricted(scalars_, field); }
-
-Vector SymmetrySubspace::symmetric_potential(const Vector& field) const { return restricted(potentials_, field); }
 
 Matrix SymmetrySubspace::symmetric_vector(const Matrix& field) const {
-  const Symmetry mirrors = reflections_of(symmetry_);
   Matrix result(field.rows(), 3);
-  for (int i = 0; i < 3; ++i) {
-    result.col(i) = restricted(kept_coefficients(mirrors, component_signs(mirrors, i), order_), field.col(i));
-  }
+  for (int i = 0; i < 3; ++i) result.col(i) = restricted(lists_->components[i], field.col(i));
   if (symmetry_.fold > 1) result = rotated_mean(symmetry_.fold, result);
   return symmetry_.axisymmetric ? axisymmetric_part(result) : result;
 }

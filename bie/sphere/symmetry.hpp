@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "bie/sphere/reflection.hpp"
@@ -25,7 +27,7 @@ struct Symmetry {
 };
 
 /// Which coefficients of the fields on one membrane can differ from zero under its symmetries, and the part of a field
-/// that is its own image. Immutable; copies are cheap next to a field.
+/// that is its own image. Immutable; copies share their lists.
 /// Accuracy: exact for reflections; means under rotations to rounding. Steps within the subspace agree with full ones
 /// to 1e-9 (tests/stepping/state/symmetry_test.cpp, tests/stepping/state/fold_test.cpp)
 class SymmetrySubspace {
@@ -38,15 +40,15 @@ class SymmetrySubspace {
   [[nodiscard]] Index n_coefficients() const { return Index{order_ + 1} * (order_ + 1); }
 
   /// coefficient_index of what is left of a scalar that is its own image, as H and λ are; ascending.
-  [[nodiscard]] const std::vector<Index>& scalars() const { return scalars_; }
+  [[nodiscard]] const std::vector<Index>& scalars() const { return lists_->scalars; }
   /// Likewise of one that takes the sign of V_m, as V_m, φ and the charges do.
-  [[nodiscard]] const std::vector<Index>& potentials() const { return potentials_; }
+  [[nodiscard]] const std::vector<Index>& potentials() const { return lists_->potentials; }
   /// Positions in a column-major [n_coefficients x 3] of what mirrors and the axis leave of a vector field; ascending.
   /// Turns relate its components to one another and leave no position out.
-  [[nodiscard]] std::vector<Index> vectors() const;
+  [[nodiscard]] const std::vector<Index>& vectors() const { return lists_->vectors; }
   /// coefficient_index of all scalars in classes, each ascending: an operator that is its own image under the
   /// symmetries takes none to another.
-  [[nodiscard]] std::vector<std::vector<Index>> scalar_classes() const;
+  [[nodiscard]] const std::vector<std::vector<Index>>& scalar_classes() const { return lists_->scalar_classes; }
 
   /// Means of a field and its images: what rounding breaks of a symmetry an instability would feed on.
   [[nodiscard]] Vector symmetric_scalar(const Vector& field) const;
@@ -56,10 +58,17 @@ class SymmetrySubspace {
   [[nodiscard]] Matrix symmetric_vector(const Matrix& field) const;
 
  private:
+  struct Lists {
+    std::vector<Index> scalars, potentials;
+    std::array<std::vector<Index>, 3> components;  ///< what mirrors leave of each component of a vector field
+    std::vector<Index> vectors;
+    std::vector<std::vector<Index>> scalar_classes;
+  };
+  static Lists lists_of(const Symmetry& symmetry, int order);
+
   Symmetry symmetry_;
   int order_;
-  std::vector<Index> scalars_;
-  std::vector<Index> potentials_;
+  std::shared_ptr<const Lists> lists_;
 };
 
 }  // namespace vehd
