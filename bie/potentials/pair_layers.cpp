@@ -12,6 +12,7 @@
 #include "bie/potentials/far_rule.hpp"
 #include "bie/potentials/near_rule.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/transform.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -19,13 +20,17 @@ namespace vehd {
 namespace {
 
 /// Far grids have orders that are multiples of this, so that targets share them.
-constexpr int kOrderStep = 4;
+constexpr int kOrderStep = 2;
 
 /// Targets that share a grid.
 struct FarGroup {
   FarRule rule;
   std::vector<Index> targets;
 };
+
+bool has_double_layers(const PairSelection& selection) {
+  return selection.laplace_double || selection.laplace_double_normal || selection.stokes_double;
+}
 
 /// A target whose row is made of coefficients.
 struct NearTarget {
@@ -43,11 +48,12 @@ struct PairLayers::Data {
   PairColumns columns;
   LayerFields fields;
   SmoothGrid grid;
-  Vector reach;  ///< of the nodes of the grid: what a unit angle spans there
+  Vector inverse_reach2;  ///< 1/c² at the nodes of the grid, c what a unit angle spans there
+  int degree;             ///< of what the kernels multiply
   std::vector<FarGroup> far;
   std::vector<Index> near;
   std::vector<Index> by_rows;  ///< the near targets, behind them far ones
-  std::vector<Matrix> rows;    ///< of each column, [targets by rows x n_coefficients]
+  Matrix rows;                 ///< [n_coefficients x columns], of one target behind the other
   PairCounts counts;
 
   Data(const Matrix& x, const Matrix& targets, const Matrix& n, const PairSelection& selection,
@@ -60,7 +66,8 @@ struct PairLayers::Data {
         columns(selection),
         fields(make_layer_fields(source, {})),
         grid(make_smooth_grid(fields, highest_order())),
-        reach(grid.spacing * (highest_order() / std::numbers::pi)) {}
+        inverse_reach2((grid.spacing * (highest_order() / std::numbers::pi)).cwiseAbs2().cwiseInverse()),
+        degree(order + (has_double_layers(selection) ? area_degree() : 0)) {}
 
   /// Of far grids; beyond it rows of coefficients take less time over some ten applications.
   [[nodiscard]] int highest_order() const { return kOrderStep * ((2 * order + 8 + kOrderStep - 1) / kOrderStep); }
@@ -68,13 +75,24 @@ struct PairLayers::Data {
   [[nodiscard]] Vector3 point(Index i) const { return points.row(i).transpose(); }
   [[nodiscard]] Vector3 normal(Index i) const { return normals.row(i).transpose(); }
 
-  /// Order of the grid that resolves the kernel of a target beside a density of degree p: the kernel's coefficients
-  /// fall like (1 + distance/reach)^−n as on a sphere, and the rule is exact up to the degree 2q + 1.
+  /// Degree beyond which nothing is left of J n, which double layers multiply their densities by.
+  [[nodiscard]] int area_degree() const {
+    const SphereTransform transform(2 * order, make_grid(highest_order()));
+    const Vector sizes = transform.analyze(grid.area_vectors).rowwise().norm();
+    int n = 2 * order;
+    while (n > 0 && sizes.tail(sizes.size() - n * n).norm() <= settings.tolerance * sizes.norm()) --n;
+    return n;
+  }
+
+  /// Order of the grid that resolves the kernel of a target and what it multiplies: the kernel's coefficients fall like
+  /// (1 + distance/reach)^−n as on a sphere, and the rule is exact up to the degree 2q + 1 of their product.
   [[nodiscard]] int grid_order(const Vector3& x) const {
-    const auto offsets = grid.nodes.leftCols<3>().rowwise() - x.transpose();
-    const double ratio = (offsets.rowwise().norm().array() / reach.array()).minCoeff();
-    const double order_of_kernel = std::log(1.0 / settings.tolerance) / (2.0 * std::log1p(ratio));
-    return kOrderStep * static_cast<int>(std::ceil(std::min(order + order_of_kernel, 1e6) / kOrderStep));
+    const auto component2 = [&](int i) { return (grid.nodes.col(i).array() - x[i]).square(); };
+    const double ratio =
+        std::sqrt(((component2(0) + component2(1) + component2(2)) * inverse_reach2.array()).minCoeff());
+    const double degree_of_kernel = std::log(1.0 / settings.tolerance) / std::log1p(ratio);
+    const double wanted = std::clamp(0.5 * (degree + degree_of_kernel), static_cast<double>(order), 1e6);
+    return kOrderStep * static_cast<int>(std::ceil(wanted / kOrderStep));
   }
 
   void sort_targets() {
@@ -160,7 +178,7 @@ struct PairLayers::Data {
 
   void make_rows() {
     const Index n = static_cast<Index>(near.size());
-    rows.assign(columns.count, Matrix(n, source.rows()));
+    rows.resize(source.rows(), n * columns.count);
     std::vector<NearTarget> targets(near.size());
     std::vector<std::exception_ptr> exceptions(near.size());
     const auto guarded = [&exceptions](Index i, const auto& work) {
@@ -197,7 +215,7 @@ struct PairLayers::Data {
             throw ConvergenceError(fmt::format("layers {:.3g} from the membrane: another part of it may be as near",
                                                members[i].foot.height));
           }
-          for (int c = 0; c < columns.count; ++c) rows[c].row(place) = found.rows.row(c);
+          rows.middleCols(place * columns.count, columns.count) = found.rows.transpose();
         });
       }
       rethrow();
@@ -209,28 +227,30 @@ struct PairLayers::Data {
     by_rows = near;
     const double bytes_of_one = 8.0 * static_cast<double>(columns.count) * static_cast<double>(source.rows());
     double room = settings.row_bytes;
+    std::vector<FarGroup> chosen;
     while (!far.empty() && static_cast<double>(far.back().targets.size()) * bytes_of_one <= room) {
       room -= static_cast<double>(far.back().targets.size()) * bytes_of_one;
-      add_rows(far.back());
+      by_rows.insert(by_rows.end(), far.back().targets.begin(), far.back().targets.end());
+      chosen.push_back(std::move(far.back()));
       far.pop_back();
+    }
+    rows.conservativeResize(Eigen::NoChange, static_cast<Index>(by_rows.size()) * columns.count);
+    Index first = static_cast<Index>(near.size());
+    for (const FarGroup& group : chosen) {
+      fill_rows(group, first);
+      first += static_cast<Index>(group.targets.size());
     }
   }
 
-  void add_rows(const FarGroup& group) {
+  void fill_rows(const FarGroup& group, Index first) {
     constexpr Index kBatch = 16;
-    const Index first = static_cast<Index>(by_rows.size()), n = static_cast<Index>(group.targets.size());
-    by_rows.insert(by_rows.end(), group.targets.begin(), group.targets.end());
-    for (Matrix& of_column : rows) of_column.conservativeResize(first + n, Eigen::NoChange);
+    const Index n = static_cast<Index>(group.targets.size());
 #pragma omp parallel for schedule(dynamic, 1)
     for (Index start = 0; start < n; start += kBatch) {
       const Index size = std::min(kBatch, n - start);
       const std::vector<Index> batch(group.targets.begin() + start, group.targets.begin() + start + size);
-      const Matrix found = group.rule.rows(points(batch, Eigen::all), normals(batch, Eigen::all), columns);
-      for (Index i = 0; i < size; ++i) {
-        for (int c = 0; c < columns.count; ++c) {
-          rows[c].row(first + start + i) = found.col(i * columns.count + c).transpose();
-        }
-      }
+      rows.middleCols((first + start) * columns.count, size * columns.count) =
+          group.rule.rows(points(batch, Eigen::all), normals(batch, Eigen::all), columns);
     }
   }
 
@@ -261,8 +281,9 @@ struct PairLayers::Data {
     add_far(density, values, [&sum](const FarRule& rule, Index i, const Matrix& charges) {
       return Eigen::Matrix<double, 1, 1>(sum(rule, i, charges));
     });
-    const Vector found = rows[column] * density;
-    for (std::size_t k = 0; k < by_rows.size(); ++k) values[by_rows[k]] = found[static_cast<Index>(k)];
+    const Index n = static_cast<Index>(by_rows.size());
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < n; ++k) values[by_rows[k]] = rows.col(k * columns.count + column).dot(density.col(0));
     return values;
   }
 
@@ -276,11 +297,16 @@ struct PairLayers::Data {
       return sum(rule, i, charges).transpose();
     });
     constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    Matrix found = Matrix::Zero(static_cast<Index>(by_rows.size()), 3);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) found.col(i) += rows[first + kBlock[i][j]] * density.col(j);
+    const Index n = static_cast<Index>(by_rows.size());
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < n; ++k) {
+      const auto blocks = rows.middleCols(k * columns.count + first, 6);
+      for (int i = 0; i < 3; ++i) {
+        double value = 0.0;
+        for (int j = 0; j < 3; ++j) value += blocks.col(kBlock[i][j]).dot(density.col(j));
+        values(by_rows[k], i) = value;
+      }
     }
-    for (std::size_t k = 0; k < by_rows.size(); ++k) values.row(by_rows[k]) = found.row(static_cast<Index>(k));
     return values;
   }
 };
