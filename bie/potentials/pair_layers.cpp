@@ -74,9 +74,10 @@ struct PairLayers::Data {
         single{{PairColumns(single_layers(selection)), {}, {}}, {}},
         double_layer{{PairColumns(double_layers(selection)), {}, {}}, {}} {
     const int highest = highest_grid_order(order);
-    at.grid = make_smooth_grid(at.fields, highest);
+    const SphereGrid nodes = make_grid(highest, fast_longitudes(2 * highest + 2));
+    at.grid = make_smooth_grid(at.fields, SphereTransform(order, nodes));
     inverse_reach2 = (at.grid.spacing * (highest / std::numbers::pi)).cwiseAbs2().cwiseInverse();
-    const SphereTransform transform(2 * order, make_grid(highest));
+    const SphereTransform transform(2 * order, nodes);
     const Vector sizes = transform.analyze(at.grid.area_vectors).rowwise().norm();
     area_degree = 2 * order;
     const auto left = [&sizes](int n) { return sizes.tail(sizes.size() - Index{n} * n).norm(); };
