@@ -1,8 +1,7 @@
 #include "bie/physics/background_flow.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include "bie/physics/rotated.hpp"
+#include "bie/sphere/principal_axes.hpp"
 
 namespace vehd {
 
@@ -71,8 +70,7 @@ std::shared_ptr<const ExplicitEffect> LinearFlowEffect::rotated(const Matrix3& r
 }
 
 std::vector<Vector3> LinearFlowEffect::axis_candidates() const {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> strain(0.5 * (flow_.gradient + flow_.gradient.transpose()));
-  const Matrix3& axes = strain.eigenvectors();
+  const Matrix3 axes = principal_axes(0.5 * (flow_.gradient + flow_.gradient.transpose())).directions;
   return {axes.col(0), axes.col(1), axes.col(2)};
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <sstream>
 
+#include "bie/sphere/principal_axes.hpp"
 #include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 
@@ -42,13 +42,12 @@ Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
     if (size > 0.0) weights += (gradient * gradient.transpose() + gradient.transpose() * gradient) / size;
   }
   // The one axis that differs most from the two others; its share decides only where nothing else does.
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
-  const Vector3 moments = solver.eigenvalues();
+  const auto [moments, axes] = principal_axes(gyration);
   const bool prolate = moments[2] - moments[1] > moments[1] - moments[0];
   constexpr double share = 0.01;
   const double difference = prolate ? moments[2] - moments[1] : moments[1] - moments[0];
   if (moments.sum() > 0.0 && difference > 1e-6 * moments.sum()) {
-    const Vector3 axis = solver.eigenvectors().col(prolate ? 2 : 0);
+    const Vector3 axis = axes.col(prolate ? 2 : 0);
     weights += share * axis * axis.transpose();
   }
   return weights;
@@ -116,10 +115,10 @@ Matrix3 default_view(const Scene& scene, const Matrix3& gyration) {
   for (const int axis : {2, 0}) {
     if (weights(axis, axis) < weights(best, best) - rounding) best = axis;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(weights);
+  const PrincipalAxes axes = principal_axes(weights);
   constexpr double oblique = 0.02;
-  if (weights(best, best) < oblique || solver.eigenvalues()[0] > 0.5 * weights(best, best)) return view_of_axis(best);
-  Vector3 eye = solver.eigenvectors().col(0);
+  if (weights(best, best) < oblique || axes.values[0] > 0.5 * weights(best, best)) return view_of_axis(best);
+  Vector3 eye = axes.directions.col(0);
   // From the front or from above.
   if (eye.y() > rounding || (std::abs(eye.y()) <= rounding && eye.z() < 0.0)) eye = -eye;
   return view_along(eye);

@@ -112,8 +112,8 @@ void node_kernels(const Nodes& at, const Vector3& target, const Vector3& normal,
 }  // namespace
 
 FarRule::FarRule(const Matrix& position, int grid_order)
-    : transform_(order_of(position.rows()), make_grid(grid_order)),
-      grid_(make_smooth_grid(make_layer_fields(position, {}), grid_order)) {}
+    : transform_(order_of(position.rows()), make_grid(grid_order, fast_longitudes(2 * grid_order + 2))),
+      grid_(make_smooth_grid(make_layer_fields(position, {}), transform_)) {}
 
 Matrix FarRule::charges(const Matrix& density) const {
   return grid_.weight.asDiagonal() * transform_.synthesize(density);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -53,9 +52,11 @@ FootPoint foot_point_at(const TangentFrame& direction, const PointDerivatives& y
   foot.area_element = cross.norm();
   foot.normal = cross / foot.area_element;
   foot.height = (target - foot.position).dot(foot.normal);
-  const Eigen::Vector2d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(q.hessian).eigenvalues();
-  foot.smallest_stretch = std::sqrt(std::max(eigenvalues[0], 0.0));
-  foot.largest_stretch = std::sqrt(std::max(eigenvalues[1], 0.0));
+  // Eigenvalues of the Hessian: their mean and half their difference.
+  const double mean = 0.5 * q.hessian.trace();
+  const double half = std::hypot(0.5 * (q.hessian(0, 0) - q.hessian(1, 1)), q.hessian(0, 1));
+  foot.smallest_stretch = std::sqrt(std::max(mean - half, 0.0));
+  foot.largest_stretch = std::sqrt(std::max(mean + half, 0.0));
   return foot;
 }
 

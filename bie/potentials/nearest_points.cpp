@@ -1,6 +1,6 @@
 #include "bie/potentials/nearest_points.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,6 +44,11 @@ Index nearest_node(const SampledMembrane& membrane, const Vector3& point, double
   return best;
 }
 
+/// Positive definite, every pivot at least `least`.
+bool is_convex(const Eigen::LLT<Eigen::Matrix4d>& factor, double least) {
+  return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() >= least;
+}
+
 /// A point of each membrane with what ½|x − y|² does about them.
 struct PointPair {
   TangentFrame u, v;
@@ -62,9 +67,9 @@ struct PointPair {
 
   [[nodiscard]] double value() const { return 0.5 * r.squaredNorm(); }
 
-  /// Newton's step; against directions in which the squared distance is not convex, downhill.
+  /// Newton's step, its Hessian shifted until it is convex: what results goes downhill.
   [[nodiscard]] Eigen::Vector4d step() const {
-    constexpr double kLongest = 0.3, kLeastCurvature = 1e-6;
+    constexpr double kLongest = 0.3, kLeastCurvature = 1e-6, kShiftGrowth = 4.0;
     Eigen::Matrix4d hessian;
     const auto dot = [](const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b) { return a.dot(b); };
     const Eigen::RowVectorXd d = r;
@@ -72,11 +77,13 @@ struct PointPair {
         dot(x.d1, x.d2) + dot(d, x.d12), dot(x.d2, x.d2) + dot(d, x.d22), -dot(x.d2, y.d1), -dot(x.d2, y.d2),
         -dot(x.d1, y.d1), -dot(x.d2, y.d1), dot(y.d1, y.d1) - dot(d, y.d11), dot(y.d1, y.d2) - dot(d, y.d12),
         -dot(x.d1, y.d2), -dot(x.d2, y.d2), dot(y.d1, y.d2) - dot(d, y.d12), dot(y.d2, y.d2) - dot(d, y.d22);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(hessian);
-    const double least = kLeastCurvature * modes.eigenvalues().cwiseAbs().maxCoeff();
-    const Eigen::Vector4d curvature = modes.eigenvalues().cwiseAbs().cwiseMax(least);
-    Eigen::Vector4d result =
-        -(modes.eigenvectors() * (modes.eigenvectors().transpose() * gradient).cwiseQuotient(curvature));
+    const double scale = hessian.cwiseAbs().maxCoeff();
+    Eigen::LLT<Eigen::Matrix4d> factor(hessian);
+    const double least = kLeastCurvature * scale;
+    for (double shift = least; std::isfinite(scale) && !is_convex(factor, least); shift *= kShiftGrowth) {
+      factor.compute(hessian + shift * Eigen::Matrix4d::Identity());
+    }
+    Eigen::Vector4d result = -factor.solve(gradient);
     if (const double length = result.norm(); length > kLongest) result *= kLongest / length;
     return result;
   }

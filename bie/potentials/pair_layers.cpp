@@ -1,17 +1,15 @@
 #include "bie/potentials/pair_layers.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "bie/potentials/far_rule.hpp"
-#include "bie/potentials/near_rule.hpp"
+#include "bie/potentials/near_targets.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/transform.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -19,7 +17,7 @@ namespace vehd {
 namespace {
 
 /// Far grids have orders that are multiples of this, so that targets share them.
-constexpr int kOrderStep = 4;
+constexpr int kOrderStep = 2;
 
 /// Targets that share a grid.
 struct FarGroup {
@@ -27,217 +25,167 @@ struct FarGroup {
   std::vector<Index> targets;
 };
 
-/// A target whose row is made of coefficients.
-struct NearTarget {
-  Index index = 0;
-  FootPoint foot;
-  NearRule rule;
+/// Targets whose layers are rows over the coefficients.
+struct RowTargets {
+  PairColumns columns;
+  std::vector<Index> targets;
+  Matrix rows;  ///< [n_coefficients x PairColumns::count], of one target behind the other
+
+  [[nodiscard]] auto row(Index k, int column) const { return rows.col(k * columns.count + column); }
 };
+
+/// Single or double layers at far targets: some by rows, the others summed at every application.
+struct FarLayers {
+  RowTargets by_rows;
+  std::vector<FarGroup> groups;
+};
+
+PairSelection single_layers(const PairSelection& all) {
+  return {all.laplace_single, all.laplace_single_normal, false, false, all.stokes_single, false};
+}
+
+PairSelection double_layers(const PairSelection& all) {
+  return {false, false, all.laplace_double, all.laplace_double_normal, false, all.stokes_double};
+}
+
+int next_multiple(double order) { return kOrderStep * static_cast<int>(std::ceil(order / kOrderStep)); }
+
+/// Of far grids; beyond it rows of near targets take less time over some ten applications.
+int highest_grid_order(int order) { return next_multiple(2 * order + 8); }
 
 }  // namespace
 
 struct PairLayers::Data {
   PairSettings settings;
   int order;
-  Matrix source, points, normals;
-  PairColumns columns;
-  LayerFields fields;
-  SmoothGrid grid;
-  Vector reach;  ///< of the nodes of the grid: what a unit angle spans there
-  std::vector<FarGroup> far;
-  std::vector<Index> near;
-  std::vector<Index> by_rows;  ///< the near targets, behind them far ones
-  std::vector<Matrix> rows;    ///< of each column, [targets by rows x n_coefficients]
+  PairGeometry at;
+  Vector inverse_reach2;  ///< 1/c² at the nodes of the grid, c what a unit angle spans there
+  int area_degree;        ///< beyond which nothing is left of J n, which double layers multiply their densities by
+  RowTargets near;
+  FarLayers single, double_layer;
   PairCounts counts;
 
-  Data(const Matrix& x, const Matrix& targets, const Matrix& n, const PairSelection& selection,
+  Data(const Matrix& x, const Matrix& targets, const Matrix& normals, const PairSelection& selection,
        const PairSettings& options)
       : settings(options),
         order(order_of(x.rows())),
-        source(x),
-        points(targets),
-        normals(n),
-        columns(selection),
-        fields(make_layer_fields(source, {})),
-        grid(make_smooth_grid(fields, highest_order())),
-        reach(grid.spacing * (highest_order() / std::numbers::pi)) {}
-
-  /// Of far grids; beyond it rows of coefficients take less time over some ten applications.
-  [[nodiscard]] int highest_order() const { return kOrderStep * ((2 * order + 8 + kOrderStep - 1) / kOrderStep); }
-
-  [[nodiscard]] Vector3 point(Index i) const { return points.row(i).transpose(); }
-  [[nodiscard]] Vector3 normal(Index i) const { return normals.row(i).transpose(); }
-
-  /// Order of the grid that resolves the kernel of a target beside a density of degree p: the kernel's coefficients
-  /// fall like (1 + distance/reach)^−n as on a sphere, and the rule is exact up to the degree 2q + 1.
-  [[nodiscard]] int grid_order(const Vector3& x) const {
-    const auto offsets = grid.nodes.leftCols<3>().rowwise() - x.transpose();
-    const double ratio = (offsets.rowwise().norm().array() / reach.array()).minCoeff();
-    const double order_of_kernel = std::log(1.0 / settings.tolerance) / (2.0 * std::log1p(ratio));
-    return kOrderStep * static_cast<int>(std::ceil(std::min(order + order_of_kernel, 1e6) / kOrderStep));
+        at{x, targets, normals, make_layer_fields(x, {}), {}},
+        near{PairColumns(selection), {}, {}},
+        single{{PairColumns(single_layers(selection)), {}, {}}, {}},
+        double_layer{{PairColumns(double_layers(selection)), {}, {}}, {}} {
+    const int highest = highest_grid_order(order);
+    const SphereGrid nodes = make_grid(highest, fast_longitudes(2 * highest + 2));
+    at.grid = make_smooth_grid(at.fields, SphereTransform(order, nodes));
+    inverse_reach2 = (at.grid.spacing * (highest / std::numbers::pi)).cwiseAbs2().cwiseInverse();
+    const SphereTransform transform(2 * order, nodes);
+    const Vector sizes = transform.analyze(at.grid.area_vectors).rowwise().norm();
+    area_degree = 2 * order;
+    const auto left = [&sizes](int n) { return sizes.tail(sizes.size() - Index{n} * n).norm(); };
+    while (area_degree > 0 && left(area_degree) <= settings.tolerance * sizes.norm()) --area_degree;
   }
 
-  void sort_targets() {
-    std::map<int, std::vector<Index>> by_order;
-    for (Index i = 0; i < points.rows(); ++i) {
-      const int wanted = grid_order(point(i));
-      if (wanted > highest_order()) {
-        near.push_back(i);
-      } else {
-        by_order[wanted].push_back(i);
-      }
+  /// Order of the grid that resolves the kernel of a target, J n and a density of degree p: the kernel's coefficients
+  /// fall like (1 + distance/reach)^−n as on a sphere, and the rule is exact up to the degree 2q + 1 of their product.
+  [[nodiscard]] int grid_order(const Vector3& x) const {
+    const auto component2 = [&](int i) { return (at.grid.nodes.col(i).array() - x[i]).square(); };
+    const double ratio =
+        std::sqrt(((component2(0) + component2(1) + component2(2)) * inverse_reach2.array()).minCoeff());
+    const double degree_of_kernel = std::log(1.0 / settings.tolerance) / std::log1p(ratio);
+    return next_multiple(std::clamp(0.5 * (order + area_degree + degree_of_kernel), static_cast<double>(order), 1e6));
+  }
+
+  /// The same without J n, which the densities of single layers bring along.
+  [[nodiscard]] int single_grid_order(int grid_order) const {
+    return std::max(next_multiple(order), grid_order - kOrderStep * (area_degree / (2 * kOrderStep)));
+  }
+
+  /// @return targets of every order of a grid
+  std::map<int, std::vector<Index>> sort_targets() {
+    const int highest = highest_grid_order(order);
+    std::map<int, std::vector<Index>> by_order, sorted;
+    for (Index i = 0; i < at.points.rows(); ++i) {
+      const int wanted = grid_order(at.point(i));
+      (wanted > highest ? near.targets : by_order[wanted]).push_back(i);
     }
     // A rule whose D[1] is not that of the outside is too coarse for its target.
-    for (int q = order; q <= highest_order(); ++q) {
+    for (int q = order; q <= highest; ++q) {
       const auto found = by_order.find(q);
       if (found == by_order.end()) continue;
-      FarGroup group{FarRule(source, q), {}};
+      const FarRule rule(at.source, q);
       for (const Index i : found->second) {
-        if (std::abs(group.rule.enclosure(point(i))) <= settings.tolerance) {
-          group.targets.push_back(i);
-        } else if (q + kOrderStep <= highest_order()) {
+        if (std::abs(rule.enclosure(at.point(i))) <= settings.tolerance) {
+          sorted[q].push_back(i);
+        } else if (q + kOrderStep <= highest) {
           by_order[q + kOrderStep].push_back(i);
         } else {
-          near.push_back(i);
+          near.targets.push_back(i);
         }
       }
-      counts.far += static_cast<Index>(group.targets.size());
-      counts.far_nodes += static_cast<Index>(group.targets.size()) * group.rule.n_nodes();
-      if (!group.targets.empty()) far.push_back(std::move(group));
     }
-    std::sort(near.begin(), near.end());
-    counts.near = static_cast<Index>(near.size());
+    std::sort(near.targets.begin(), near.targets.end());
+    return sorted;
   }
 
-  [[nodiscard]] NearTarget locate(Index i) const {
-    NearTarget target{i, nearest_foot(source, grid, nearest_nodes(grid, point(i)), point(i)), {}};
-    if (!(target.foot.height > 0.0)) {
-      throw ConvergenceError(fmt::format("({:.6g}, {:.6g}, {:.6g}) is not outside the membrane, by {:.3g}",
-                                         points(i, 0), points(i, 1), points(i, 2), -target.foot.height));
+  void make() {
+    const std::map<int, std::vector<Index>> far = sort_targets();
+    counts.near = static_cast<Index>(near.targets.size());
+    near.rows = rows_of_near_targets(at, near.targets, near.columns, {settings.tolerance, settings.max_rules});
+    double room = settings.row_bytes;
+    std::map<int, std::vector<Index>> of_single;
+    for (const auto& [q, targets] : far) {
+      counts.far += static_cast<Index>(targets.size());
+      std::vector<Index>& all = of_single[single_grid_order(q)];
+      all.insert(all.end(), targets.begin(), targets.end());
     }
-    target.rule = near_rule(target.foot, order, settings.tolerance, false);
-    return target;
-  }
-
-  [[nodiscard]] NearRows rows_of(const NearTarget& target, const GradedRule& rule) const {
-    const TargetFrame frame(fields, target.foot.theta, target.foot.phi);
-    return near_rows(frame, rule, point(target.index) - target.foot.position, normal(target.index), columns);
-  }
-
-  /// Largest change of a row from one rule to another, relative to the largest entry of each layer.
-  [[nodiscard]] static double change(const NearRows& a, const NearRows& b) {
-    double largest = 0.0;
-    for (Index c = 0; c < a.rows.rows(); ++c) {
-      largest = std::max(largest, (a.rows.row(c) - b.rows.row(c)).cwiseAbs().maxCoeff() /
-                                      std::max(b.rows.row(c).cwiseAbs().maxCoeff(), 1e-300));
-    }
-    return largest;
-  }
-
-  /// The first stage that agrees with the next at the targets that are nearest, farthest and between.
-  [[nodiscard]] GradedRule settled_rule(const NearRule& choice, const std::vector<NearTarget>& group) const {
-    std::vector<const NearTarget*> samples;
-    for (const std::size_t i : {std::size_t{0}, group.size() / 2, group.size() - 1}) samples.push_back(&group[i]);
-    samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-    GradedRule rule = make_near_rule(order, choice, 0);
-    std::vector<NearRows> before;
-    for (const NearTarget* sample : samples) before.push_back(rows_of(*sample, rule));
-    for (int stage = 1; stage < settings.max_rules; ++stage) {
-      rule = make_near_rule(order, choice, stage);
-      double largest = 0.0;
-      for (std::size_t i = 0; i < samples.size(); ++i) {
-        NearRows after = rows_of(*samples[i], rule);
-        largest = std::max(largest, change(before[i], after));
-        before[i] = std::move(after);
-      }
-      if (largest <= settings.tolerance) return rule;
-    }
-    const Index i = group.front().index;
-    throw ConvergenceError(
-        fmt::format("layers at ({:.6g}, {:.6g}, {:.6g}), {:.3g} from the membrane: the finest rules still disagree",
-                    points(i, 0), points(i, 1), points(i, 2), group.front().foot.height));
-  }
-
-  void make_rows() {
-    const Index n = static_cast<Index>(near.size());
-    rows.assign(columns.count, Matrix(n, source.rows()));
-    std::vector<NearTarget> targets(near.size());
-    std::vector<std::exception_ptr> exceptions(near.size());
-    const auto guarded = [&exceptions](Index i, const auto& work) {
-      try {
-        work();
-      } catch (...) {
-        exceptions[i] = std::current_exception();
-      }
-    };
-    const auto rethrow = [&exceptions] {
-      for (const std::exception_ptr& exception : exceptions) {
-        if (exception) std::rethrow_exception(exception);
-      }
-    };
-#pragma omp parallel for schedule(dynamic, 1)
-    for (Index i = 0; i < n; ++i) guarded(i, [&] { targets[i] = locate(near[i]); });
-    rethrow();
-
-    std::map<NearRule, std::vector<NearTarget>> groups;
-    for (const NearTarget& target : targets) groups[target.rule].push_back(target);
-    for (auto& [choice, group] : groups) {
-      std::ranges::sort(group, {}, [](const NearTarget& t) { return std::pair(t.foot.height, t.index); });
-      const GradedRule rule = settled_rule(choice, group);
-      const std::vector<NearTarget>& members = group;  // OpenMP takes no structured binding
-      const Index n_members = static_cast<Index>(members.size());
-#pragma omp parallel for schedule(dynamic, 1)
-      for (Index i = 0; i < n_members; ++i) {
-        const Index place = std::lower_bound(near.begin(), near.end(), members[i].index) - near.begin();
-        guarded(place, [&] {
-          const NearRows found = rows_of(members[i], rule);
-          // A solid angle that is off betrays another part of the membrane that no node has seen.
-          constexpr double kEnclosureDefect = 1e-2;
-          if (std::abs(found.enclosure) > kEnclosureDefect) {
-            throw ConvergenceError(fmt::format("layers {:.3g} from the membrane: another part of it may be as near",
-                                               members[i].foot.height));
-          }
-          for (int c = 0; c < columns.count; ++c) rows[c].row(place) = found.rows.row(c);
-        });
-      }
-      rethrow();
-    }
+    // Iterations apply single layers most.
+    make_far(of_single, single, room);
+    make_far(far, double_layer, room);
   }
 
   /// Rows of far targets as long as there is room, the finest grids first: theirs gain most.
-  void make_far_rows() {
-    by_rows = near;
-    const double bytes_of_one = 8.0 * static_cast<double>(columns.count) * static_cast<double>(source.rows());
-    double room = settings.row_bytes;
-    while (!far.empty() && static_cast<double>(far.back().targets.size()) * bytes_of_one <= room) {
-      room -= static_cast<double>(far.back().targets.size()) * bytes_of_one;
-      add_rows(far.back());
-      far.pop_back();
+  void make_far(const std::map<int, std::vector<Index>>& targets_of_order, FarLayers& layers, double& room) {
+    const Index n_columns = layers.by_rows.columns.count;
+    if (n_columns == 0) return;
+    for (const auto& [q, targets] : targets_of_order) {
+      layers.groups.push_back({FarRule(at.source, q), targets});
+      counts.far_nodes += static_cast<Index>(targets.size()) * layers.groups.back().rule.n_nodes();
+    }
+    const double bytes_of_one = 8.0 * static_cast<double>(n_columns) * static_cast<double>(at.source.rows());
+    std::vector<FarGroup> chosen;
+    std::vector<Index>& by_rows = layers.by_rows.targets;
+    while (!layers.groups.empty()) {
+      FarGroup& finest = layers.groups.back();
+      const double bytes = static_cast<double>(finest.targets.size()) * bytes_of_one;
+      if (bytes > room) break;
+      room -= bytes;
+      by_rows.insert(by_rows.end(), finest.targets.begin(), finest.targets.end());
+      chosen.push_back(std::move(finest));
+      layers.groups.pop_back();
+    }
+    layers.by_rows.rows.resize(at.source.rows(), static_cast<Index>(by_rows.size()) * n_columns);
+    Index first = 0;
+    for (const FarGroup& group : chosen) {
+      fill_rows(group, first, layers.by_rows);
+      first += static_cast<Index>(group.targets.size());
     }
   }
 
-  void add_rows(const FarGroup& group) {
+  void fill_rows(const FarGroup& group, Index first, RowTargets& all) const {
     constexpr Index kBatch = 16;
-    const Index first = static_cast<Index>(by_rows.size()), n = static_cast<Index>(group.targets.size());
-    by_rows.insert(by_rows.end(), group.targets.begin(), group.targets.end());
-    for (Matrix& of_column : rows) of_column.conservativeResize(first + n, Eigen::NoChange);
+    const Index n = static_cast<Index>(group.targets.size()), n_columns = all.columns.count;
 #pragma omp parallel for schedule(dynamic, 1)
     for (Index start = 0; start < n; start += kBatch) {
       const Index size = std::min(kBatch, n - start);
       const std::vector<Index> batch(group.targets.begin() + start, group.targets.begin() + start + size);
-      const Matrix found = group.rule.rows(points(batch, Eigen::all), normals(batch, Eigen::all), columns);
-      for (Index i = 0; i < size; ++i) {
-        for (int c = 0; c < columns.count; ++c) {
-          rows[c].row(first + start + i) = found.col(i * columns.count + c).transpose();
-        }
-      }
+      all.rows.middleCols((first + start) * n_columns, size * n_columns) =
+          group.rule.rows(at.points(batch, Eigen::all), at.normals(batch, Eigen::all), all.columns);
     }
   }
 
-  /// Every far target by its rule: `sum(rule, target, charges)`.
-  template <class Values, class Sum>
-  void add_far(const Matrix& density, Values& values, const Sum& sum) const {
-    for (const FarGroup& group : far) {
+  /// Every target that is summed: `sum(rule, target, charges)`.
+  template <class Sum>
+  static void add_sums(const FarLayers& far, const Matrix& density, Matrix& values, const Sum& sum) {
+    for (const FarGroup& group : far.groups) {
       const Matrix charges = group.rule.charges(density);
       const Index n = static_cast<Index>(group.targets.size());
 #pragma omp parallel for schedule(static)
@@ -248,39 +196,56 @@ struct PairLayers::Data {
     }
   }
 
-  static void require_selected(int column) {
-    if (column < 0) throw std::logic_error("a layer between two membranes was not selected");
+  /// Every target that has rows: `value(its rows, k, first column)`.
+  template <class Value>
+  static void add_rows(const RowTargets& all, int PairColumns::*first, Matrix& values, const Value& value) {
+    const Index n = static_cast<Index>(all.targets.size());
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < n; ++k) values.row(all.targets[k]) = value(all, k, all.columns.*first);
   }
 
-  /// A scalar layer. @param column  of its rows
+  void require_selected(int PairColumns::*column) const {
+    if (near.columns.*column < 0) throw std::logic_error("a layer between two membranes was not selected");
+  }
+
+  /// A scalar layer.
   template <class Sum>
-  [[nodiscard]] Vector scalar(int column, const Vector& density, const Sum& sum) const {
+  [[nodiscard]] Vector scalar(const FarLayers& far, int PairColumns::*column, const Vector& density,
+                              const Sum& sum) const {
     require_selected(column);
-    require_size("density", density.size(), source.rows());
-    Vector values(points.rows());
-    add_far(density, values, [&sum](const FarRule& rule, Index i, const Matrix& charges) {
+    require_size("density", density.size(), at.source.rows());
+    Matrix values(at.points.rows(), 1);
+    add_sums(far, density, values, [&sum](const FarRule& rule, Index i, const Matrix& charges) {
       return Eigen::Matrix<double, 1, 1>(sum(rule, i, charges));
     });
-    const Vector found = rows[column] * density;
-    for (std::size_t k = 0; k < by_rows.size(); ++k) values[by_rows[k]] = found[static_cast<Index>(k)];
+    const auto value = [&density](const RowTargets& all, Index k, int first) {
+      return Eigen::Matrix<double, 1, 1>(all.row(k, first).dot(density));
+    };
+    add_rows(near, column, values, value);
+    add_rows(far.by_rows, column, values, value);
     return values;
   }
 
-  /// A Stokes layer. @param first  column of its blocks xx, xy, xz, yy, yz, zz
+  /// A Stokes layer of blocks xx, xy, xz, yy, yz, zz.
   template <class Sum>
-  [[nodiscard]] Matrix stokes(int first, const Matrix& density, const Sum& sum) const {
-    require_selected(first);
-    require_size("density", density.rows(), source.rows());
-    Matrix values(points.rows(), 3);
-    add_far(density, values, [&sum](const FarRule& rule, Index i, const Matrix& charges) -> Eigen::RowVector3d {
+  [[nodiscard]] Matrix stokes(const FarLayers& far, int PairColumns::*column, const Matrix& density,
+                              const Sum& sum) const {
+    require_selected(column);
+    require_size("density", density.rows(), at.source.rows());
+    Matrix values(at.points.rows(), 3);
+    add_sums(far, density, values, [&sum](const FarRule& rule, Index i, const Matrix& charges) -> Eigen::RowVector3d {
       return sum(rule, i, charges).transpose();
     });
-    constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    Matrix found = Matrix::Zero(static_cast<Index>(by_rows.size()), 3);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) found.col(i) += rows[first + kBlock[i][j]] * density.col(j);
-    }
-    for (std::size_t k = 0; k < by_rows.size(); ++k) values.row(by_rows[k]) = found.row(static_cast<Index>(k));
+    const auto value = [&density](const RowTargets& all, Index k, int first) {
+      constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+      Eigen::RowVector3d v = Eigen::RowVector3d::Zero();
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) v[i] += all.row(k, first + kBlock[i][j]).dot(density.col(j));
+      }
+      return v;
+    };
+    add_rows(near, column, values, value);
+    add_rows(far.by_rows, column, values, value);
     return values;
   }
 };
@@ -291,9 +256,7 @@ PairLayers::PairLayers(const Matrix& source, const Matrix& points, const Matrix&
   require_size("normals", normals.rows(), points.rows());
   const auto timer = instruments.time("pair layers");
   auto data = std::make_unique<Data>(source, points, normals, selection, settings);
-  data->sort_targets();
-  data->make_rows();
-  data->make_far_rows();
+  data->make();
   data_ = std::move(data);
 }
 
@@ -304,42 +267,44 @@ PairLayers& PairLayers::operator=(PairLayers&&) noexcept = default;
 const PairCounts& PairLayers::counts() const { return data_->counts; }
 
 Vector PairLayers::laplace_single(const Vector& weighted) const {
-  return data_->scalar(data_->columns.single, weighted, [this](const FarRule& rule, Index i, const Matrix& charges) {
-    return rule.laplace_single(data_->point(i), charges);
-  });
+  return data_->scalar(data_->single, &PairColumns::single, weighted,
+                       [this](const FarRule& rule, Index i, const Matrix& charges) {
+                         return rule.laplace_single(data_->at.point(i), charges);
+                       });
 }
 
 Vector PairLayers::laplace_single_normal(const Vector& weighted) const {
-  return data_->scalar(data_->columns.single_normal, weighted,
+  return data_->scalar(data_->single, &PairColumns::single_normal, weighted,
                        [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.laplace_single_normal(data_->point(i), data_->normal(i), charges);
+                         return rule.laplace_single_normal(data_->at.point(i), data_->at.normal(i), charges);
                        });
 }
 
 Vector PairLayers::laplace_double(const Vector& density) const {
-  return data_->scalar(data_->columns.double_layer, density,
+  return data_->scalar(data_->double_layer, &PairColumns::double_layer, density,
                        [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.laplace_double(data_->point(i), charges);
+                         return rule.laplace_double(data_->at.point(i), charges);
                        });
 }
 
 Vector PairLayers::laplace_double_normal(const Vector& density) const {
-  return data_->scalar(data_->columns.double_normal, density,
+  return data_->scalar(data_->double_layer, &PairColumns::double_normal, density,
                        [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.laplace_double_normal(data_->point(i), data_->normal(i), charges);
+                         return rule.laplace_double_normal(data_->at.point(i), data_->at.normal(i), charges);
                        });
 }
 
 Matrix PairLayers::stokes_single(const Matrix& weighted) const {
-  return data_->stokes(data_->columns.stokes, weighted, [this](const FarRule& rule, Index i, const Matrix& charges) {
-    return rule.stokes_single(data_->point(i), charges);
-  });
+  return data_->stokes(data_->single, &PairColumns::stokes, weighted,
+                       [this](const FarRule& rule, Index i, const Matrix& charges) {
+                         return rule.stokes_single(data_->at.point(i), charges);
+                       });
 }
 
 Matrix PairLayers::stokes_double(const Matrix& velocity) const {
-  return data_->stokes(data_->columns.stokes_double, velocity,
+  return data_->stokes(data_->double_layer, &PairColumns::stokes_double, velocity,
                        [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.stokes_double(data_->point(i), charges);
+                         return rule.stokes_double(data_->at.point(i), charges);
                        });
 }
 

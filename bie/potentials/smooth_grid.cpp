@@ -39,12 +39,15 @@ void put_columns(const LayerFields& fields, const SphereDerivatives& f, Matrix& 
 }  // namespace
 
 SmoothGrid make_smooth_grid(const LayerFields& fields, int grid_order) {
-  const SphereTransform transform(order_of(fields.coefficients.rows()), make_grid(grid_order));
+  return make_smooth_grid(fields, SphereTransform(order_of(fields.coefficients.rows()), make_grid(grid_order)));
+}
+
+SmoothGrid make_smooth_grid(const LayerFields& fields, const SphereTransform& transform) {
   const SphereDerivatives f = transform.synthesize_gradient(fields.coefficients);
   const SphereGrid& grid = transform.grid();
   SmoothGrid smooth;
   put_columns(fields, f, smooth.nodes);
-  smooth.spacing = std::numbers::pi / grid_order * largest_stretch(f.d1.leftCols(3), f.d2.leftCols(3));
+  smooth.spacing = std::numbers::pi / grid.order * largest_stretch(f.d1.leftCols(3), f.d2.leftCols(3));
   smooth.weight.resize(grid.n_points());
   smooth.directions.resize(grid.n_points(), 3);
   smooth.area_vectors.resize(grid.n_points(), 3);

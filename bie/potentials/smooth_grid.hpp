@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bie/potentials/layer_fields.hpp"
+#include "bie/sphere/transform.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -19,6 +20,8 @@ struct SmoothGrid {
 /// The fields on the grid of order grid_order, with their quadrature.
 /// Source: paper Eq. (22)
 SmoothGrid make_smooth_grid(const LayerFields& fields, int grid_order);
+/// The same on the grid of a transform of their degree.
+SmoothGrid make_smooth_grid(const LayerFields& fields, const SphereTransform& transform);
 
 /// Sums of the smooth rule: error about exp(−2π distance/spacing).
 /// @param target  off the surface, in the coordinates of the grid

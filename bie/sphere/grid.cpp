@@ -23,7 +23,20 @@ LegendreValue legendre_polynomial(int n, double x) {
   return {current, n * (previous - x * current) / ((1.0 - x) * (1.0 + x))};
 }
 
+bool has_large_prime(int n) {
+  for (const int prime : {2, 3, 5, 7, 11, 13}) {
+    while (n % prime == 0) n /= prime;
+  }
+  return n > 1;
+}
+
 }  // namespace
+
+int fast_longitudes(int least, int step) {
+  int count = (least + step - 1) / step;
+  while (has_large_prime(count)) ++count;
+  return step * count;
+}
 
 GaussLegendre gauss_legendre(int n) {
   GaussLegendre rule{Vector::Zero(n), Vector::Zero(n)};

@@ -19,6 +19,10 @@ constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, tru
 /// Grid values below which waking a second thread costs more than it saves.
 constexpr Index kParallelValues = 60000;
 
+/// Fields that are analyzed together, so that the sums over latitudes are products of matrices, and columns below which
+/// such a product takes longer than one by one.
+constexpr Index kTogether = 4, kFewColumns = 3;
+
 }  // namespace
 
 struct SphereTransform::Tables {
@@ -160,22 +164,37 @@ Matrix SphereTransform::analyze(const Matrix& values) const {
   const Index n_fields = values.cols();
   Matrix coefficients(n_coefficients(t.order), n_fields);
   if (t.azimuthal_order < t.order) coefficients.setZero();
-  const auto analyze_field = [&](Index f) {
-    const Eigen::MatrixXcd spectrum = t.fourier.analyze(values.col(f).data());
+  const auto analyze_fields = [&](Index first) {
+    const Index count = std::min(kTogether, n_fields - first);
+    std::vector<Eigen::MatrixXcd> spectra;
+    for (Index f = 0; f < count; ++f) spectra.push_back(t.fourier.analyze(values.col(first + f).data()));
+    Matrix gathered, product;
     for (int m = 0; m <= t.azimuthal_order; ++m) {
-      const Vector cosine_part = t.analysis[m] * spectrum.col(m).real();
-      for (int n = m; n <= t.order; ++n) coefficients(coefficient_index(n, m), f) = cosine_part[n - m];
-      if (m == 0) continue;
-      const Vector sine_part = t.analysis[m] * spectrum.col(m).imag();
-      for (int n = m; n <= t.order; ++n) coefficients(coefficient_index(n, -m), f) = -sine_part[n - m];
+      gathered.resize(t.grid.n_theta, m == 0 ? count : 2 * count);
+      for (Index f = 0; f < count; ++f) {
+        gathered.col(f) = spectra[f].col(m).real();
+        if (m > 0) gathered.col(count + f) = -spectra[f].col(m).imag();
+      }
+      product.resize(t.order + 1 - m, gathered.cols());
+      if (gathered.cols() < kFewColumns) {
+        for (Index i = 0; i < gathered.cols(); ++i) product.col(i).noalias() = t.analysis[m] * gathered.col(i);
+      } else {
+        product.noalias() = t.analysis[m] * gathered;
+      }
+      for (Index f = 0; f < count; ++f) {
+        for (int n = m; n <= t.order; ++n) {
+          coefficients(coefficient_index(n, m), first + f) = product(n - m, f);
+          if (m > 0) coefficients(coefficient_index(n, -m), first + f) = product(n - m, count + f);
+        }
+      }
     }
   };
   if (values.size() <= kParallelValues) {
-    for (Index f = 0; f < n_fields; ++f) analyze_field(f);
+    for (Index f = 0; f < n_fields; f += kTogether) analyze_fields(f);
     return coefficients;
   }
 #pragma omp parallel for schedule(static)
-  for (Index f = 0; f < n_fields; ++f) analyze_field(f);
+  for (Index f = 0; f < n_fields; f += kTogether) analyze_fields(f);
   return coefficients;
 }
 

@@ -112,6 +112,9 @@ constexpr double charge_share = 3.0;
 /// Share of the target of x and V_m below which a lower degree is idle: far enough that the degree does not rise again
 /// at once.
 constexpr double idle_truncation = 0.1;
+/// What the layers between vesicles may lose, as a share of the tolerance of the quadrature: they never decide how exact
+/// a run is.
+constexpr double pair_share = 1e-3;
 /// Degrees that a change has to save: four of sixteen are a quarter of the coefficients and half of the assembly.
 constexpr int worthwhile_degrees = 4;
 /// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error

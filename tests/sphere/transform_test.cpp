@@ -1,5 +1,6 @@
 #include "bie/sphere/transform.hpp"
 
+#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -136,6 +137,15 @@ BOOST_AUTO_TEST_CASE(rotation_blocks_are_orthogonal_at_high_order) {
     const Matrix& block = rotation.cosine[n];
     BOOST_TEST(max_difference(block * block.transpose(), Matrix::Identity(n + 1, n + 1)) < 1e-12);
   }
+}
+
+BOOST_AUTO_TEST_CASE(longitudes_of_fast_transforms_are_the_next_without_a_large_prime) {
+  for (const auto& [least, step, expected] :
+       {std::array{66, 2, 66}, {34, 2, 36}, {82, 2, 84}, {74, 2, 78}, {50, 6, 54}}) {
+    BOOST_TEST(fast_longitudes(least, step) == expected);
+  }
+  // Turns of a large prime are as many as they are.
+  BOOST_TEST(fast_longitudes(40, 34) == 68);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

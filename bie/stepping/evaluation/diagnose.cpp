@@ -1,6 +1,5 @@
 #include "bie/stepping/evaluation/diagnose.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "bie/sphere/axis_crossing.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/maximum.hpp"
+#include "bie/sphere/principal_axes.hpp"
 #include "bie/stepping/evaluation/field_poles.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/volume_moments.hpp"
@@ -27,10 +27,9 @@ namespace {
 /// the one where both planes meet. Zero where no direction of the x-z plane stands out.
 Vector3 long_axis_in_plane(const Matrix3& gyration) {
   constexpr double kRounding = 1e-9;
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(gyration);
-  const Vector3& squares = solver.eigenvalues();
-  Vector3 axis = solver.eigenvectors().col(2);
-  if (squares[2] - squares[1] <= kRounding * squares[2]) axis = Vector3::UnitY().cross(solver.eigenvectors().col(0));
+  const auto [squares, axes] = principal_axes(gyration);
+  Vector3 axis = axes.col(2);
+  if (squares[2] - squares[1] <= kRounding * squares[2]) axis = Vector3::UnitY().cross(axes.col(0));
   if (squares[2] - squares[0] <= kRounding * squares[2]) axis.setZero();
   axis.y() = 0.0;
   return axis.norm() > kRounding ? axis : Vector3::Zero();

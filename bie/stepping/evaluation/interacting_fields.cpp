@@ -1,9 +1,12 @@
 #include "bie/stepping/evaluation/interacting_fields.hpp"
 
+#include <algorithm>
+
 #include "bie/physics/coupled_electric.hpp"
 #include "bie/stepping/solve/coupled_tension.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -92,7 +95,10 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
     }
     membranes.push_back({task.state.position, task.space.targets(), selection});
   }
-  return std::make_shared<const Interaction>(membranes, PairSettings{}, instruments);
+  PairSettings settings;
+  settings.tolerance =
+      std::max(settings.tolerance, thresholds::pair_share * tasks.front().settings.quadrature_tolerance);
+  return std::make_shared<const Interaction>(membranes, settings, instruments);
 }
 
 void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,

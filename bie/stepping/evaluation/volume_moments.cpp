@@ -1,7 +1,8 @@
 #include "bie/stepping/evaluation/volume_moments.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "bie/sphere/principal_axes.hpp"
 
 namespace vehd {
 namespace {
@@ -15,8 +16,8 @@ Eigen::RowVectorXd flux_mean(const Surface& s, const Matrix& a, const Matrix& f)
 }  // namespace
 
 double VolumeMoments::aspect_ratio() const {
-  const Vector3 axes = Eigen::SelfAdjointEigenSolver<Matrix3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
-  return std::sqrt(axes[2] / axes[0]);
+  const Vector3 squares = principal_axes(spread).values;
+  return std::sqrt(squares[2] / squares[0]);
 }
 
 double VolumeMoments::aspect_ratio_along(const Vector3& direction) const {

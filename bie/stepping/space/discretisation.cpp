@@ -6,17 +6,18 @@ namespace vehd {
 
 namespace {
 
-/// The least even number of longitudes that integrates products of harmonics and that the turns map onto itself.
-int n_longitudes(int grid_order, int fold) {
-  const int step = std::lcm(2, fold);
-  return step * ((2 * grid_order + 2 + step - 1) / step);
+/// The least even number of longitudes that integrates products of harmonics and that the turns map onto itself; a few
+/// more where that makes transforms fast.
+int n_longitudes(int grid_order, int fold, bool fast) {
+  const int step = std::lcm(2, fold), least = 2 * grid_order + 2;
+  return fast ? fast_longitudes(least, step) : step * ((least + step - 1) / step);
 }
 
 /// Cartesian components of axisymmetric vectors have the modes m = 0 and ±1 only.
-SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings& settings, int grid_order) {
+SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings& settings, int grid_order, bool fast) {
   if (symmetry.axisymmetric) return {settings.order, make_grid(grid_order, 4), 1};
   const int fold = std::lcm(symmetry.fold, settings.longitude_fold);
-  return {settings.order, make_grid(grid_order, n_longitudes(grid_order, fold))};
+  return {settings.order, make_grid(grid_order, n_longitudes(grid_order, fold, fast))};
 }
 
 }  // namespace
@@ -24,8 +25,9 @@ SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings&
 MembraneSpace::MembraneSpace(const NumericalSettings& settings, const Symmetry& symmetry)
     : subspace_(symmetry, settings.order),
       whole_(settings.order, make_grid(settings.order), symmetry.axisymmetric ? 1 : settings.order),
-      targets_(transform_for(symmetry, settings, settings.order)),
-      fine_(transform_for(symmetry, settings, settings.upsampling * settings.order)),
+      // Each of its nodes is a target, which costs more than a transform.
+      targets_(transform_for(symmetry, settings, settings.order, false)),
+      fine_(transform_for(symmetry, settings, settings.upsampling * settings.order, true)),
       quadrature_(make_rotated_quadrature(targets_.grid(), settings.quadrature_oversampling)),
       fold_(symmetry.axisymmetric ? targets_.grid().n_phi : symmetry.fold) {}
 

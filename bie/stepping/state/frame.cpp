@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "bie/sphere/principal_axes.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/rotated.hpp"
 
@@ -36,8 +36,8 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
   for (const VesicleState& vesicle : state.vesicles) {
     // ∫ x xᵀ over the parameter sphere has the axes of the shape.
     const Matrix shape = vesicle.position.bottomRows(vesicle.position.rows() - 1);
-    const Eigen::SelfAdjointEigenSolver<Matrix3> moments(Matrix3(shape.transpose() * shape));
-    for (int i = 0; i < 3; ++i) add(moments.eigenvectors().col(i));
+    const Matrix3 axes = principal_axes(shape.transpose() * shape).directions;
+    for (int i = 0; i < 3; ++i) add(axes.col(i));
   }
   return result;
 }
