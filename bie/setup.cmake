@@ -4,6 +4,8 @@
 #   cmake -DSTEP=build -P bie/setup.cmake  installs what is missing, builds
 #   cmake -DSTEP=check -P bie/setup.cmake  installs deal.II and gmsh as well, builds the finite-element check, compares the
 #                                          two methods on the first shape of Example 2
+#   cmake -DSTEP=python -P bie/setup.cmake   installs pybind11 and numpy as well, builds the module of Python in
+#                                            build/python, runs Example 1 of the paper with it
 #   cmake -DSTEP=callgrind -P bie/setup.cmake  installs valgrind, counts the instructions of a run without electricity:
 #                                              none in electric code, next to none in bookkeeping
 #   cmake -DSTEP=faults -P bie/setup.cmake    kills a run 200 times and breaks its files and its disk in every other way
@@ -20,6 +22,9 @@
 #   -DINSTALL=OFF                   installs nothing: says what is missing, and goes on where it can do without
 #   -DVEHD_FEM_CHECK=ON             test, build and docs include the finite-element check and install what it needs; without
 #                                   it they include the check where deal.II and gmsh are there already
+#   -DVEHD_PYTHON=ON                test, build and docs include the module of Python and install what it needs; without it
+#                                   they include it where pybind11 and numpy are there already; package includes it
+#                                   unless this is OFF
 #   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of that of this machine;
 #                                   levels: for every x86-64, the numerical libraries for its newer levels as well
 #   -DVEHD_TEST_LEVEL=x86-64-v3     test runs the tests that rounding could change once more, on numerical libraries for this
@@ -28,7 +33,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
-set(steps run test build check package callgrind faults sanitize fuzz docs site)
+set(steps run test build check python package callgrind faults sanitize fuzz docs site)
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
@@ -119,6 +124,13 @@ if(STEP MATCHES "^(test|sanitize|docs)$")
   need_python_module(python3-numpy numpy)
   need_python_module(python3-matplotlib matplotlib)
 endif()
+if(STEP STREQUAL "test" AND VEHD_PYTHON)
+  # The tests solve with scipy, make a table of pandas and execute the notebooks.
+  need_python_module(python3-scipy scipy)
+  need_python_module(python3-pandas pandas)
+  need_python_module(python3-nbconvert nbconvert)
+  need_python_module(python3-ipykernel ipykernel)
+endif()
 if(STEP MATCHES "^(test|sanitize|package)$")
   # A Debian package of the build is made, read and tried.
   need_program(help2man help2man)
@@ -183,6 +195,15 @@ if(STEP STREQUAL "check")
   set(VEHD_FEM_CHECK ON)
 endif()
 
+if(STEP MATCHES "^(python|package)$" AND NOT DEFINED VEHD_PYTHON)
+  set(VEHD_PYTHON ON)
+elseif(NOT DEFINED VEHD_PYTHON)
+  set(VEHD_PYTHON OFF)
+  if(STEP MATCHES "^(test|build|docs)$")
+    set(VEHD_PYTHON AUTO)
+  endif()
+endif()
+
 # One compiler needs up to 2 GB of memory.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
@@ -207,6 +228,9 @@ endforeach()
 if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|docs)$")
   # The other steps leave a build with the check as it is.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
+endif()
+if(VEHD_PYTHON OR STEP MATCHES "^(test|build|package|docs|sanitize)$")
+  list(APPEND options -DVEHD_PYTHON=${VEHD_PYTHON})
 endif()
 set(configure "${CMAKE_COMMAND}")
 if(STEP MATCHES "^(sanitize|fuzz)$")
@@ -243,6 +267,8 @@ else()
     list(APPEND targets test_faults)
   elseif(STEP STREQUAL "fuzz")
     list(TRANSFORM fuzzers PREPEND fuzz_ OUTPUT_VARIABLE targets)
+  elseif(STEP STREQUAL "python")
+    list(APPEND targets vehd_python_example)
   elseif(STEP MATCHES "^(build|docs|check|package)$")
     set(targets all)
   endif()
@@ -269,6 +295,9 @@ if(STEP STREQUAL "package")
 endif()
 if(STEP STREQUAL "check")
   run_or_stop("${build}/vehd" check docs/scenes/figure2.toml --quick -o out/figure2_check)
+endif()
+if(STEP STREQUAL "python")
+  message(STATUS "Python finds it with: export PYTHONPATH=${build}/python")
 endif()
 if(STEP STREQUAL "run")
   # --resume: a second call continues an interrupted run and leaves a complete one alone.

@@ -14,18 +14,23 @@
 namespace vehd {
 namespace {
 
-std::filesystem::path program_beside_this_one() {
+constexpr const char* fem_name = "vehd_fem";
+
+std::filesystem::path folder_of_this_program() {
   std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::filesystem::path("vehd_fem") : self.parent_path() / "vehd_fem";
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
+
+bool is_program(const std::filesystem::path& path) { return ::access(path.c_str(), X_OK) == 0; }
 
 }  // namespace
 
-bool fem_program_is_built() { return ::access(program_beside_this_one().c_str(), X_OK) == 0; }
+bool fem_program_is_built() { return is_program(folder_of_this_program() / fem_name); }
 
-FemProgram::FemProgram() : path_(program_beside_this_one()) {
-  if (fem_program_is_built()) return;
+FemProgram::FemProgram() : FemProgram(folder_of_this_program()) {}
+
+FemProgram::FemProgram(const std::filesystem::path& folder) : path_(folder / fem_name) {
+  if (is_program(path_)) return;
   throw InputError(
       fmt::format("{}: the finite-element program is not built; configure with VEHD_FEM_CHECK=ON "
                   "(cmake -DSTEP=check -P bie/setup.cmake)",

@@ -18,6 +18,8 @@ class FemProgram {
  public:
   /// Looks beside the running program. @throws InputError saying how to build it if it is not there
   FemProgram();
+  /// Looks in a folder. @throws InputError likewise
+  explicit FemProgram(const std::filesystem::path& folder);
 
   /// What it leaves behind.
   struct Result {

@@ -1,6 +1,7 @@
 #include "bie/physics/point_sources.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "bie/kernels/laplace.hpp"
 
@@ -41,19 +42,14 @@ double relative_l2(const Surface& s, const Matrix& difference, const Matrix& ref
 
 }  // namespace
 
-PointSourceErrors point_source_errors(const ElectricParameters& electric, const std::vector<PointSource>& sources,
-                                      const Membrane& membrane, double tolerance) {
+JumpSolution solve_jumps(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
+                         const Vector& current_jump, double tolerance) {
   const Surface& s = membrane.surface;
   const SphereTransform& fine = membrane.fine;
-  const PointSourceFields exact = point_source_fields(sources, s);
-  const double sigma_in = electric.conductivity_in;
-  const double sigma_out = electric.conductivity_out;
   const double eta = conductivity_contrast(electric);
-  const Vector potential = fine.analyze(exact.potential_in - exact.potential_out);
-  const Vector current_jump = (sigma_in * exact.flux_in - sigma_out * exact.flux_out) / (sigma_in + sigma_out);
-
+  const double sum = electric.conductivity_in + electric.conductivity_out;
   const Vector hypersingular = weighted_hypersingular(membrane, potential);
-  const Vector rhs = eta * hypersingular + s.area_element.cwiseProduct(current_jump);
+  const Vector rhs = eta * hypersingular + s.area_element.cwiseProduct(current_jump / sum);
   const SecondKindSolution density = solve_second_kind(membrane, eta, rhs, tolerance, {});
 
   ElectricTraces traces;
@@ -69,6 +65,16 @@ PointSourceErrors point_source_errors(const ElectricParameters& electric, const 
       membrane.layers.laplace_single.apply(density.weighted) - membrane.layers.laplace_double.apply(potential);
   traces.potential_in = layers + 0.5 * potential;
   traces.potential_out = layers - 0.5 * potential;
+  return {std::move(traces), density.report};
+}
+
+PointSourceErrors point_source_errors(const ElectricParameters& electric, const std::vector<PointSource>& sources,
+                                      const Membrane& membrane, double tolerance) {
+  const Surface& s = membrane.surface;
+  const PointSourceFields exact = point_source_fields(sources, s);
+  const Vector potential = membrane.fine.analyze(exact.potential_in - exact.potential_out);
+  const Vector current_jump = electric.conductivity_in * exact.flux_in - electric.conductivity_out * exact.flux_out;
+  const auto [traces, report] = solve_jumps(electric, membrane, potential, current_jump, tolerance);
 
   const Matrix force = electric_force(electric.permittivity, membrane, traces);
   const Matrix exact_force = maxwell_traction_of_gradient(electric.permittivity, s, exact.gradient_in, exact.flux_in) -
@@ -76,7 +82,7 @@ PointSourceErrors point_source_errors(const ElectricParameters& electric, const 
   const Vector exact_charge = exact.flux_in - exact.flux_out;
   return {relative_max(traces.charge - exact_charge, exact_charge), relative_max(force - exact_force, exact_force),
           relative_l2(s, traces.charge - exact_charge, exact_charge), relative_l2(s, force - exact_force, exact_force),
-          density.report};
+          report};
 }
 
 }  // namespace vehd

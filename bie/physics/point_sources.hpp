@@ -27,6 +27,22 @@ struct PointSourceFields {
 /// Accuracy: rounding (tests/physics/example1_test.cpp)
 PointSourceFields point_source_fields(const std::vector<PointSource>& sources, const Surface& surface);
 
+/// Solution of (35) for any jumps.
+struct JumpSolution {
+  ElectricTraces traces;
+  SolveReport report;
+};
+
+/// Harmonic potentials on both sides with [[φ]] = V_m and [[σ ∂φ/∂n]] = J_m, decaying at infinity:
+/// (½ + ηS′) q = ηD′[V_m] + J_m/(σ_i + σ_e). Fluxes follow from q and their mean S′[q] − D′[V_m].
+/// @param potential     V_m, coefficients of degree p
+/// @param current_jump  J_m, values on the upsampled grid
+/// @param tolerance     of the solve, see solve_second_kind
+/// Accuracy: that of Example 1, see point_source_errors
+/// Source: paper Eqs. (34), (35)
+JumpSolution solve_jumps(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
+                         const Vector& current_jump, double tolerance);
+
 /// Example 1 of the paper: solution of (35) for the jumps V_m and J_m of the point sources, against the exact one.
 struct PointSourceErrors {
   double charge;               ///< max |q − q*| / max |q*| over the upsampled grid

@@ -272,6 +272,23 @@ HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::
   }
 }
 
+HistoryTable::HistoryTable(const OutputUnits& units, HistoryKind kind) : file_("history"), kind_(kind) {
+  for (const HistoryColumn& column : history_columns(kind)) {
+    const OutputUnit unit = units.of(column.dimension);
+    names_.emplace_back(column.name);
+    units_.push_back(unit.symbol);
+    factors_.push_back(unit.factor);
+  }
+  columns_.resize(names_.size());
+}
+
+void HistoryTable::append(const HistoryRow& row) {
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    columns_[i].push_back(history_columns(kind_)[i].value(row) * factors_[i]);
+  }
+  ++n_rows_;
+}
+
 std::int64_t HistoryTable::n_steps() const {
   const std::vector<double>& sizes = column("dt");
   return std::count_if(sizes.begin(), sizes.end(), [](double dt) { return dt > 0.0; });

@@ -85,8 +85,15 @@ class HistoryTable {
   explicit HistoryTable(const std::filesystem::path& path);
   /// The same from any stream; `name` stands for the file in messages.
   HistoryTable(std::istream& stream, std::string name);
+  /// One without rows and without a file.
+  HistoryTable(const OutputUnits& units, HistoryKind kind);
+
+  /// A row more, with the bits that a file would give back, of a table that began without rows.
+  void append(const HistoryRow& row);
 
   [[nodiscard]] std::size_t n_rows() const { return n_rows_; }
+  /// Of all columns, in their order.
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   /// Steps that the rows tell of: neither the start nor the other side of a jump took one.
   /// @throws InputError if there is no column of step sizes
   [[nodiscard]] std::int64_t n_steps() const;
@@ -110,6 +117,8 @@ class HistoryTable {
   [[nodiscard]] std::size_t index(const std::string& name) const;
 
   std::string file_;
+  HistoryKind kind_ = HistoryKind::of_one;
+  std::vector<double> factors_;  ///< of the columns of a table without a file
   std::vector<std::string> names_, units_;
   std::vector<std::vector<double>> columns_;
   std::size_t n_rows_ = 0;

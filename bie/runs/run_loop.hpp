@@ -6,8 +6,11 @@
 
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/run_directory.hpp"
+#include "bie/runs/run_recorder.hpp"
 #include "bie/runs/run_status.hpp"
+#include "bie/runs/simulation.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/support/errors.hpp"
 #include "bie/support/interruption.hpp"
 
 namespace vehd {
@@ -26,6 +29,34 @@ struct RunTask {
   const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
   TellStatus tell{};                            ///< called when the start and each step are in the files
   std::function<void()> after_step{};           ///< called when a step is in the files; may be empty
+};
+
+/// A simulation with its files, which are up to date after every accepted step.
+class RecordedRun {
+ public:
+  /// @param task  what it refers to must outlive the run
+  /// @throws InputError, ConvergenceError if the run cannot be started; no file of a run exists then
+  explicit RecordedRun(const RunTask& task);
+
+  /// The simulation; nothing but this run steps it.
+  [[nodiscard]] Simulation& simulation() { return simulation_; }
+  [[nodiscard]] const Simulation& simulation() const { return simulation_; }
+  /// Solves everything at the start. @throws ConvergenceError, OutputError
+  void start();
+  /// One accepted step. @throws ConvergenceError, OutputError
+  void step();
+  /// How the run has ended where a step has thrown this: a snapshot of the last state is added.
+  [[nodiscard]] RunOutcome failed(const ConvergenceError& error);
+  /// Brings all files up to date. @throws OutputError
+  void end(const RunOutcome& outcome);
+
+ private:
+  void record();
+
+  Simulation simulation_;
+  RunRecorder recorder_;
+  TellStatus tell_;
+  std::function<void()> after_step_;
 };
 
 /// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date

@@ -94,20 +94,16 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
 }
 
 void RunRecorder::record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals) {
-  for (const auto& [row, at, fields] : sides) {
-    const State written = resized(at, output_.order());
-    HistoryRow shown = row;
-    if (lab_frame_.is_rotated()) {
-      shown.diagnostics = lab_frame_.diagnostics(row.diagnostics, written, resized(fields, output_.order()));
-    } else {
-      shown.diagnostics = lab_frame_.diagnostics(row.diagnostics);
-    }
+  for (const RecordedSide& side : sides) {
+    const HistoryRow shown = row_in_laboratory(lab_frame_, output_.order(), side);
     history_.append(vesicles_ ? row_of_all(shown) : shown);
     if (vesicles_) {
       for (const HistoryRow& own : rows_of_each(shown)) vesicles_->append(own);
     }
     ++last_.n_rows;
-    if (row.step.at_snapshot) add_snapshot(written, resized(fields, output_.order()));
+    if (side.row.step.at_snapshot) {
+      add_snapshot(resized(side.state, output_.order()), resized(side.fields, output_.order()));
+    }
   }
   last_.state = state;
   last_.history_bytes = history_.bytes();

@@ -10,19 +10,12 @@
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/runs/run_directory.hpp"
+#include "bie/runs/simulation.hpp"
 #include "bie/runs/snapshot_store.hpp"
 #include "bie/sphere/transform.hpp"
-#include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/evaluation/lab_frame_output.hpp"
 
 namespace vehd {
-
-/// A row of the history and what it tells of.
-struct RecordedSide {
-  HistoryRow row;
-  const State& state;
-  const Fields& fields;
-};
 
 /// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
 /// the checkpoint never counts what is not there. Only run.xdmf may lag, by half a second at most: it is written anew

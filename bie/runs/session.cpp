@@ -11,9 +11,9 @@
 namespace vehd {
 namespace {
 
-DirectoryLock lock_in(const RunPaths& paths) {
+std::unique_ptr<DirectoryLock> lock_in(const RunPaths& paths) {
   make_directory(paths.directory);
-  return DirectoryLock(paths.lock());
+  return std::make_unique<DirectoryLock>(paths.lock());
 }
 
 /// A run that has reached the end of the scene. How its steps would be computed does not matter any more.
@@ -42,7 +42,7 @@ std::vector<SceneChange> RunSession::changes() const {
 }
 
 RunOutcome RunSession::simulate(Interruption& interruption, TellStatus tell) const {
-  return vehd::simulate({scene_, paths_, checkpoint_, std::move(tell)}, interruption);
+  return vehd::simulate(task(std::move(tell)), interruption);
 }
 
 nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bie/runs/checkpoint.hpp"
@@ -33,6 +35,8 @@ class RunSession {
   /// What this session finds changed in the scene.
   [[nodiscard]] std::vector<SceneChange> changes() const;
 
+  /// What it is to do; refers to the session, which must outlive it.
+  [[nodiscard]] RunTask task(TellStatus tell) const { return {scene_, paths_, checkpoint_, std::move(tell)}; }
   /// See `simulate`.
   RunOutcome simulate(Interruption& interruption, TellStatus tell) const;
 
@@ -41,11 +45,13 @@ class RunSession {
   [[nodiscard]] nlohmann::json summarise(const RunOutcome& outcome) const;
   /// That of the last session.
   [[nodiscard]] nlohmann::json last_summary() const;
+  /// Leaves the directory to other sessions: this one writes nothing any more.
+  void leave() { lock_.reset(); }
 
  private:
   Scene scene_;
   RunPaths paths_;
-  DirectoryLock lock_;
+  std::unique_ptr<DirectoryLock> lock_;
   std::optional<Checkpoint> checkpoint_;
   std::optional<std::int64_t> threads_before_;
   std::size_t n_changes_before_ = 0;

@@ -44,7 +44,7 @@ std::string key_text(const Scene& scene, const std::string& name) {
 std::string key_place(const SceneSource& source, const std::string& name) {
   const std::string file = source.file.string();
   try {
-    toml::table table = toml::parse_file(file);
+    toml::table table = source.text ? toml::parse(*source.text, file) : toml::parse_file(file);
     apply_settings(table, source.settings);
     const auto vesicle = parts_of_name(name);
     const std::string plain = vesicle ? vesicle->second : name;

@@ -280,7 +280,8 @@ Scene scene_of_several(const std::vector<toml::table>& files, const std::vector<
 Scene read_scene(const std::filesystem::path& path) { return read_scene(SceneSource{path, {}}); }
 
 Scene read_scene(const SceneSource& source) {
-  return parse_scene(file_text(source.file), source.file.string(), source.file.parent_path(), source.settings);
+  return parse_scene(source.text ? *source.text : file_text(source.file), source.file.string(),
+                     source.file.parent_path(), source.settings);
 }
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,

@@ -3,16 +3,18 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vehd {
 
-/// Where a scene comes from: a file, and values that take the place of its own.
+/// Where a scene comes from: a file or a text, and values that take the place of its own.
 struct SceneSource {
   std::filesystem::path file;  ///< paths in either are relative to its folder
   std::vector<std::string>
       settings;  ///< "table.key=value", as of the option --set; of two for one key the later counts
+  std::optional<std::string> text{};  ///< in place of what the file holds, which need not exist
 };
 
 /// Puts values into the tables of a scene file. A value is TOML; what is no TOML is a text, so that a shell's words

@@ -173,9 +173,14 @@ void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_l
   // Less work that is not exact enough would have to be undone at the next step.
   const bool is_economy = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
   if (is_economy && evaluation.diagnostics.vesicles[a].quadrature_is_coarse) return;
-  evaluation_ = std::move(evaluation);
   discretisation_ = std::move(discretisation);
+  replace(std::move(state), std::move(evaluation));
+}
+
+void Evolution::replace(State state, Evaluation evaluation) {
+  if (keep_former_) keep_former_(std::move(state_), std::move(evaluation_));
   state_ = std::move(state);
+  evaluation_ = std::move(evaluation);
 }
 
 namespace {
@@ -215,9 +220,8 @@ void Evolution::arrive(State state) {
   if (has_former && jumps_at(setup_.model, state.time)) {
     before = without_operators(evaluated(&evaluation, Limit::before));
   }
-  evaluation_ = std::move(evaluation);
   discretisation_ = std::move(discretisation);
-  state_ = std::move(state);
+  replace(std::move(state), std::move(evaluation));
   gap_ = gap;
   before_jump_ = std::move(before);
 }

@@ -30,6 +30,9 @@ struct EvolutionSetup {
   std::function<std::string(double)> time_text = [](double time) { return fmt::format("{:g}", time); };
 };
 
+/// Takes over what is about to be given up for another state, with all that it points to.
+using KeepFormer = std::function<void(State&&, Evaluation&&)>;
+
 /// Vesicles on their way through time. With a tolerance the degree of each follows the spectrum of its state: it rises,
 /// and the step is taken again, where the degrees left out would matter, and falls where they have long ceased to. The
 /// singular quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves, parts of
@@ -53,6 +56,10 @@ class Evolution {
   /// One accepted step towards the next of the given times; its state is state().
   /// @throws ConvergenceError where no step is acceptable; the state is the last good one
   StepAttempt step(const EventTimes& events);
+
+  /// Whoever looks at state and evaluation without a copy can keep them alive: called before either changes. May be
+  /// empty.
+  void keep_former(KeepFormer keep) { keep_former_ = std::move(keep); }
 
   /// The last accepted state.
   [[nodiscard]] const State& state() const { return state_; }
@@ -90,6 +97,7 @@ class Evolution {
   void start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start);
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);
+  void replace(State state, Evaluation evaluation);
   [[nodiscard]] StepGoal goal_for(const EventTimes& events) const;
   StepAttempt step_within(const StepPlan& plan, double wanted, const StepAttempt& former, const StepGoal& goal);
   void raise_order(std::size_t vesicle, const Resolution& reached, int enough);
@@ -108,6 +116,7 @@ class Evolution {
   std::vector<StartMembrane> start_;  // until it is evaluated
   std::optional<Evaluation> before_jump_;
   std::vector<Moment> passed_;
+  KeepFormer keep_former_;
 };
 
 }  // namespace vehd

@@ -1,0 +1,35 @@
+# The module of Python: build/python/vehd, compiled part and texts side by side as they are installed. Only it knows
+# pybind11.
+set(python_source ${PROJECT_SOURCE_DIR}/bie/python)
+set(python_package ${CMAKE_BINARY_DIR}/python/vehd)
+# Where Debian's python3 looks in /usr, below the prefix.
+set(VEHD_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the module of Python is installed")
+
+file(GLOB sources CONFIGURE_DEPENDS ${python_source}/*.cpp)
+pybind11_add_module(vehd_python MODULE NO_EXTRAS ${sources})
+target_link_libraries(vehd_python PRIVATE vehd_bench vehd_compilation)
+target_compile_options(vehd_python PRIVATE ${quickly_compiled})
+# From the folder of the module to that of the libraries.
+file(RELATIVE_PATH to_libraries /${VEHD_PYTHON_FOLDER}/vehd /${library_folder})
+set_target_properties(vehd_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${python_package}
+                                             INSTALL_RPATH "$ORIGIN/${to_libraries}")
+
+file(GLOB texts CONFIGURE_DEPENDS ${python_source}/vehd/*.py ${python_source}/vehd/*.pyi ${python_source}/vehd/py.typed)
+set(copies)
+foreach(text IN LISTS texts)
+  get_filename_component(name ${text} NAME)
+  add_custom_command(OUTPUT ${python_package}/${name}
+                     COMMAND ${CMAKE_COMMAND} -E copy ${text} ${python_package}/${name}
+                     DEPENDS ${text} VERBATIM)
+  list(APPEND copies ${python_package}/${name})
+endforeach()
+add_custom_target(vehd_python_texts ALL DEPENDS ${copies})
+add_dependencies(vehd_python vehd_python_texts)
+
+# What a set-up ends with.
+add_custom_target(vehd_python_example
+                  COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_BINARY_DIR}/python ${Python3_EXECUTABLE} -m vehd
+                  DEPENDS vehd_python USES_TERMINAL VERBATIM)
+
+install(TARGETS vehd_python LIBRARY DESTINATION ${VEHD_PYTHON_FOLDER}/vehd)
+install(FILES ${texts} DESTINATION ${VEHD_PYTHON_FOLDER}/vehd)

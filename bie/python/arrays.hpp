@@ -1,0 +1,22 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "bie/support/types.hpp"
+
+namespace vehd::python {
+
+namespace py = pybind11;
+
+/// Read-only numpy array on the numbers of a vector or a matrix, without a copy.
+/// @param owner  Python object that keeps them alive as long as the array is
+/// @return  [n] of a vector; [n, columns] of a matrix, whose columns are contiguous; None where it is empty
+py::object view(const Vector& values, py::handle owner);
+/// See above.
+py::object view(const Matrix& values, py::handle owner);
+
+/// A result with one axis where the argument that it was made from has one, with two otherwise.
+py::object shaped_like(const py::array& argument, Matrix result);
+
+}  // namespace vehd::python

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <toml++/toml.h>
+
+#include <sstream>
+
+#include "bie/python/arrays.hpp"
+#include "bie/python/bindings.hpp"
+#include "bie/python/scene_run.hpp"
+#include "bie/scene/effective_scene.hpp"
+#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/scene/vesicles.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd::python {
+namespace {
+
+/// What is wrong with a scene, in Python an exception of its own.
+class SceneProblem : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// `read`, with its errors as those of a scene.
+template <typename Read>
+GivenScene read_given(SceneSource source, const Read& read) {
+  try {
+    Scene scene = read(source);
+    return {std::move(source), std::move(scene)};
+  } catch (const InputError& error) {
+    throw SceneProblem(error.what());
+  }
+}
+
+GivenScene given(SceneSource source) {
+  return read_given(std::move(source), [](const SceneSource& from) { return read_scene(from); });
+}
+
+toml::table table_of(const py::dict& dict);
+toml::array array_of(py::handle list, const std::string& name);
+
+/// Hands the value to `take` as the type that TOML has for it.
+template <typename Take>
+void with_value(py::handle value, const std::string& name, const Take& take) {
+  if (py::isinstance<py::bool_>(value)) return take(value.cast<bool>());
+  if (py::isinstance<py::str>(value)) return take(value.cast<std::string>());
+  if (py::isinstance<py::dict>(value)) return take(table_of(value.cast<py::dict>()));
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value) || py::isinstance<py::array>(value)) {
+    return take(array_of(value, name));
+  }
+  // Whatever else is a number, those of numpy among them.
+  if (PyIndex_Check(value.ptr()) != 0)
+    return take(py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>());
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    throw SceneProblem(fmt::format("{}: \"{}\" is a {}; accepted: a number, text, list or dict", name, name,
+                                   std::string(py::str(py::type::of(value).attr("__name__")))));
+  }
+  take(number);
+}
+
+toml::array array_of(py::handle list, const std::string& name) {
+  toml::array array;
+  for (const py::handle item : list) with_value(item, name, [&](const auto& entry) { array.push_back(entry); });
+  return array;
+}
+
+toml::table table_of(const py::dict& dict) {
+  toml::table table;
+  for (const auto& [key, value] : dict) {
+    const std::string name = py::str(key);
+    with_value(value, name, [&](const auto& entry) { table.insert(name, entry); });
+  }
+  return table;
+}
+
+GivenScene scene_of_dict(const py::dict& dict, const std::filesystem::path& folder) {
+  std::ostringstream text;
+  text << toml::toml_formatter(table_of(dict)) << "\n";
+  return given({folder / "dict", {}, text.str()});
+}
+
+}  // namespace
+
+void bind_scene(py::module_& module) {
+  py::register_exception<SceneProblem>(module, "SceneError", module.attr("InputError"));
+  py::class_<GivenScene>(module, "Scene")
+      .def(py::init([](const std::filesystem::path& path, const std::vector<std::string>& settings) {
+             return given({path, settings});
+           }),
+           py::arg("path"), py::arg("settings") = std::vector<std::string>())
+      .def_static(
+          "from_text",
+          [](const std::string& text, const std::string& name, const std::filesystem::path& folder,
+             const std::vector<std::string>& settings) {
+            return given({folder / name, settings, text});
+          },
+          py::arg("text"), py::arg("name") = "scene", py::arg("folder") = std::filesystem::path(),
+          py::arg("settings") = std::vector<std::string>())
+      .def_static("from_dict", &scene_of_dict, py::arg("tables"), py::arg("folder") = std::filesystem::path())
+      .def_property_readonly("text", [](const GivenScene& s) { return effective_scene(s.scene); })
+      .def_property_readonly(
+          "source",
+          [](const GivenScene& s) { return s.source.text ? py::object(py::cast(*s.source.text)) : py::none(); })
+      .def_property_readonly("path", [](const GivenScene& s) { return s.source.file; })
+      .def_property_readonly("end_time", [](const GivenScene& s) { return s.scene.numerics.end_time; })
+      .def_property_readonly("degree", [](const GivenScene& s) { return s.scene.numerics.order; })
+      .def_property_readonly("n_vesicles", [](const GivenScene& s) { return n_vesicles(s.scene); })
+      .def("__eq__", [](const GivenScene& a, const GivenScene& b) { return a.scene == b.scene; })
+      .def(
+          "position",
+          [](const GivenScene& s, std::size_t vesicle) {
+            if (vesicle >= n_vesicles(s.scene)) throw py::index_error("no such vesicle");
+            return view(initial_position(alone(s.scene, vesicle)), py::none()).attr("copy")();
+          },
+          py::arg("vesicle") = 0);
+}
+
+}  // namespace vehd::python

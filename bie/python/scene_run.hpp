@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bie/python/moment.hpp"
+#include "bie/runs/session.hpp"
+
+namespace vehd::python {
+
+/// A scene with where it comes from.
+struct GivenScene {
+  SceneSource source;  ///< of text: a file that need not exist
+  Scene scene;
+};
+
+/// A scene that is simulated step by step, in memory or with the files of a run.
+class SceneRun {
+ public:
+  /// @param directory  of the run; absent: no files
+  /// @param resume     whether a former run there may go on
+  /// @throws InputError, OutputError, ConvergenceError as `vehd run`
+  SceneRun(const GivenScene& given, const std::optional<std::filesystem::path>& directory, bool resume);
+  /// Leaves the files of a run that did not reach its end as Ctrl-C does.
+  ~SceneRun();
+  SceneRun(const SceneRun&) = delete;
+  SceneRun& operator=(const SceneRun&) = delete;
+
+  /// One accepted step. @returns false where the end is reached already
+  /// @throws ConvergenceError where none is acceptable: the state is the last good one
+  bool step();
+  /// Brings the files up to date, writes the summary and leaves the directory; no step can follow.
+  void close();
+
+  [[nodiscard]] bool completed() const;
+  [[nodiscard]] bool closed() const { return closed_; }
+  [[nodiscard]] RunStatus status() const;
+  [[nodiscard]] const Simulation& simulation() const;
+  [[nodiscard]] const std::optional<std::filesystem::path>& directory() const { return directory_; }
+  /// In the axes of the laboratory.
+  [[nodiscard]] std::shared_ptr<Moment> moment();
+  /// Rows of all vesicles, as in history.csv.
+  [[nodiscard]] HistoryTable history() const;
+  /// Rows of each, as in vesicles.csv; those of history.csv where there is one vesicle.
+  [[nodiscard]] HistoryTable vesicle_history() const;
+
+ private:
+  [[nodiscard]] bool at_end() const { return simulation().at_end(); }
+  void start();
+  void append_rows();
+  void end(const RunOutcome& outcome);
+  void require_idle() const;
+
+  /// What a moment may outlive the rest with.
+  struct Parts {
+    explicit Parts(const Scene& given) : scene(given) {}
+    Scene scene;
+    std::optional<RunSession> session{};
+    std::optional<RecordedRun> recorded{};
+    std::optional<Simulation> in_memory{};
+  };
+
+  std::shared_ptr<Parts> parts_;
+  std::optional<std::filesystem::path> directory_;
+  std::optional<LabFrameOutput> laboratory_;
+  std::optional<HistoryTable> history_, vesicles_;
+  std::shared_ptr<Moment> moment_;
+  bool looks_ = false;  ///< the moment is that of the state
+  bool closed_ = false;
+  std::atomic<bool> busy_ = false;
+};
+
+}  // namespace vehd::python

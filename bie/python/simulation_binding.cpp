@@ -1,0 +1,127 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstdint>
+#include <memory>
+
+#include "bie/python/arrays.hpp"
+#include "bie/python/bindings.hpp"
+#include "bie/python/scene_run.hpp"
+
+namespace vehd::python {
+namespace {
+
+/// One vesicle of a moment.
+struct Vesicle {
+  std::shared_ptr<Moment> moment;
+  std::size_t number;
+};
+
+std::size_t count_of(const Moment& moment) {
+  return moment.with([](const State& state, const Fields&) { return state.vesicles.size(); });
+}
+
+/// A property: an array on a field of the state.
+template <auto member>
+py::object of_state(const Vesicle& vesicle) {
+  return vesicle.moment->with([&](const State& state, const Fields&) {
+    return view(state.vesicles[vesicle.number].*member, py::cast(vesicle.moment));
+  });
+}
+
+/// A property: an array on what was solved for.
+template <auto member>
+py::object of_fields(const Vesicle& vesicle) {
+  return vesicle.moment->with([&](const State&, const Fields& fields) {
+    return view(fields.vesicles[vesicle.number].*member, py::cast(vesicle.moment));
+  });
+}
+
+py::dict columns_of(const HistoryTable& table) {
+  py::dict columns;
+  for (const std::string& name : table.names()) {
+    const std::vector<double>& values = table.column(name);
+    columns[py::str(name)] = py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  }
+  return columns;
+}
+
+py::dict units_of(const HistoryTable& table) {
+  py::dict units;
+  for (const std::string& name : table.names()) units[py::str(name)] = table.unit(name);
+  return units;
+}
+
+/// A step without the lock of Python; a signal that has come meanwhile raises once the step is whole.
+bool step(SceneRun& run) {
+  bool stepped = false;
+  {
+    const py::gil_scoped_release others_run;
+    stepped = run.step();
+  }
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  return stepped;
+}
+
+void bind_moment(py::module_& module) {
+  py::class_<Vesicle>(module, "Vesicle")
+      .def_property_readonly("position", of_state<&SurfaceFields::position>)
+      .def_property_readonly("area_strain", of_state<&SurfaceFields::area_strain>)
+      .def_property_readonly("Vm", of_state<&SurfaceFields::transmembrane_potential>)
+      .def_property_readonly("velocity", of_fields<&VesicleFields::velocity>)
+      .def_property_readonly("tension", of_fields<&VesicleFields::tension>)
+      .def_property_readonly("q", of_fields<&VesicleFields::charge>)
+      .def_property_readonly("force_bending", of_fields<&VesicleFields::force_bending>)
+      .def_property_readonly("force_tension", of_fields<&VesicleFields::force_tension>)
+      .def_property_readonly("force_electric", of_fields<&VesicleFields::force_electric>);
+  py::class_<Moment, std::shared_ptr<Moment>>(module, "State")
+      .def_property_readonly("time", &Moment::time)
+      .def("__len__", [](const std::shared_ptr<Moment>& moment) { return count_of(*moment); })
+      .def("__getitem__", [](const std::shared_ptr<Moment>& moment, py::ssize_t number) {
+        const auto count = static_cast<py::ssize_t>(count_of(*moment));
+        if (number < 0) number += count;
+        if (number < 0 || number >= count) throw py::index_error("no such vesicle");
+        return Vesicle{moment, static_cast<std::size_t>(number)};
+      });
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+  bind_moment(module);
+  py::class_<RunStatus>(module, "Status")
+      .def_readonly("step", &RunStatus::step)
+      .def_readonly("time", &RunStatus::time)
+      .def_readonly("end_time", &RunStatus::end_time)
+      .def_readonly("dt", &RunStatus::dt)
+      .def_readonly("drift", &RunStatus::drift)
+      .def_readonly("seconds", &RunStatus::seconds)
+      .def_readonly("time_unit", &RunStatus::time_unit);
+  py::class_<HistoryTable>(module, "HistoryTable")
+      .def(py::init<const std::filesystem::path&>(), py::arg("path"))
+      .def("columns", &columns_of)
+      .def("units", &units_of);
+  py::class_<SceneRun>(module, "SceneRun")
+      .def(py::init([](const GivenScene& scene, const std::optional<std::filesystem::path>& directory, bool resume) {
+             const py::gil_scoped_release others_run;
+             return std::make_unique<SceneRun>(scene, directory, resume);
+           }),
+           py::arg("scene"), py::arg("directory") = std::nullopt, py::arg("resume") = false)
+      .def("step", &step)
+      .def("close", &SceneRun::close, py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("completed", &SceneRun::completed)
+      .def_property_readonly("closed", &SceneRun::closed)
+      .def_property_readonly("status", &SceneRun::status)
+      .def_property_readonly("state", &SceneRun::moment)
+      .def_property_readonly("directory", &SceneRun::directory)
+      .def("history", &SceneRun::history)
+      // Where the solver itself has the first shape: for tests.
+      .def("position_address",
+           [](const SceneRun& run) {
+             const State& state = run.simulation().evolution().state();
+             return reinterpret_cast<std::uintptr_t>(state.vesicles.front().position.data());
+           })
+      .def("vesicle_history", &SceneRun::vesicle_history);
+}
+
+}  // namespace vehd::python

@@ -1,0 +1,98 @@
+"""Scenes: what is simulated."""
+
+import json
+import os
+import re
+from typing import Any, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _core
+
+def _place(error: BaseException) -> tuple:
+    """File and line that a message begins with."""
+    found = re.match(r"(.+?):(\d+): ", str(error))
+    return (found.group(1), int(found.group(2))) if found else (None, None)
+
+
+# The compiled part knows the message alone.
+_core.SceneError.file = property(lambda error: _place(error)[0])
+_core.SceneError.line = property(lambda error: _place(error)[1])
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+def _settings(values: Optional[Mapping[str, Any]]) -> list:
+    """As the option --set takes them. What JSON and TOML write alike is all that a value can be."""
+    def plain(value: Any) -> Any:
+        return value.tolist() if hasattr(value, "tolist") else value
+
+    return [f"{key}={json.dumps(plain(value))}" for key, value in (values or {}).items()]
+
+
+class Scene:
+    """A validated scene, with the keys of `vehd help scene`.
+
+    Scene("scene.toml", {"flow.rate": 2.0})  # other values for some keys
+    Scene.from_text(toml)
+    Scene.from_dict({"shape": {"kind": "ellipsoid", "axes": [1, 1, 2]}, "numerics": {...}})
+
+    What is wrong raises SceneError with the words of the program: file, line, value, what is accepted, and the nearest
+    key of one that is unknown. Its attributes `file` and `line` tell where.
+    """
+
+    def __init__(self, path: Path, settings: Optional[Mapping[str, Any]] = None):
+        self._core = _core.Scene(os.fspath(path), _settings(settings))
+
+    @classmethod
+    def _of(cls, core: "_core.Scene") -> "Scene":
+        scene = cls.__new__(cls)
+        scene._core = core
+        return scene
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "scene", folder: Path = "",
+                  settings: Optional[Mapping[str, Any]] = None) -> "Scene":
+        """Of TOML in memory.
+
+        name: stands for the file in messages; folder: where relative paths in the scene start.
+        """
+        return cls._of(_core.Scene.from_text(text, name, os.fspath(folder), _settings(settings)))
+
+    @classmethod
+    def from_dict(cls, tables: Mapping[str, Any], folder: Path = "") -> "Scene":
+        """Of a dict of tables; several vesicles are a list of dicts under "vesicle".
+
+        Lines in messages count in the TOML that the dict makes, table by table.
+        """
+        return cls._of(_core.Scene.from_dict(tables, os.fspath(folder)))
+
+    @property
+    def text(self) -> str:
+        """The scene as TOML with every default spelled out."""
+        return self._core.text
+
+    @property
+    def path(self) -> str:
+        """The file that it comes from; of a text its name."""
+        return str(self._core.path)
+
+    @property
+    def degree(self) -> int:
+        """Degree p of the harmonics; with a tolerance the highest."""
+        return self._core.degree
+
+    @property
+    def n_vesicles(self) -> int:
+        """Number of vesicles."""
+        return self._core.n_vesicles
+
+    def position(self, vesicle: int = 0) -> np.ndarray:
+        """Initial shape, coefficients [(p+1)², 3]."""
+        return self._core.position(vesicle)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Scene) and self._core == other._core
+
+    def __repr__(self) -> str:
+        return f"<vehd.Scene {self.path}: degree {self.degree}, {self.n_vesicles} vesicle(s)>"

@@ -1,0 +1,125 @@
+"""Simulations, step by step."""
+
+import os
+import sys
+from typing import Any, Callable, Iterator, Mapping, Optional, Union
+
+from . import _core
+from .scenes import Scene
+from .tables import Table
+
+Progress = Union[bool, Callable[["_core.Status"], Any]]
+
+
+def _show(status: "_core.Status") -> None:
+    unit = f" {status.time_unit}" if status.time_unit else ""
+    print(f"\rstep {status.step}  t {status.time:.4g}/{status.end_time:.4g}{unit}  dt {status.dt:.3g}  "
+          f"drift {status.drift:.1e}", end="", file=sys.stderr, flush=True)
+
+
+class Simulation:
+    """A scene on its way through time: the steps of `vehd run`, bit for bit.
+
+    scene: Scene, path of a scene file, or dict of tables.
+    directory: where the files of a run are kept, as `vehd run -o` does, up to date after every step; `--resume` of the
+        program and `resume=True` here go on with it. None: everything stays in memory.
+    resume: go on with the run in the directory if there is one.
+
+    Raises what the program says of wrong input: SceneError, InputError, OutputError, ConvergenceError.
+
+    Other threads of Python run during a step. Ctrl-C lets the step in hand end and raises KeyboardInterrupt: nothing is
+    torn, and the simulation can go on.
+    """
+
+    def __init__(self, scene: Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]],
+                 directory: Optional[Union[str, "os.PathLike[str]"]] = None, *, resume: bool = False):
+        if isinstance(scene, Mapping):
+            scene = Scene.from_dict(scene)
+        elif not isinstance(scene, Scene):
+            scene = Scene(scene)
+        self.scene = scene
+        self._core = _core.SceneRun(scene._core, None if directory is None else os.fspath(directory), resume)
+
+    def step(self) -> bool:
+        """One accepted step; False where the end of the scene is reached already.
+
+        ConvergenceError: no step is acceptable; the state is the last good one.
+        """
+        return self._core.step()
+
+    def __iter__(self) -> Iterator["_core.Status"]:
+        """Steps to the end of the scene, or as long as the loop wants."""
+        while self.step():
+            yield self.status
+
+    def run(self, until: Optional[float] = None, progress: Progress = False) -> "Simulation":
+        """Steps to the end of the scene, or until a time is reached or passed.
+
+        until: in the unit of the history. Steps are not cut for it, so that they stay those of the program.
+        progress: True shows a line on standard error; a function is called with the status after every step.
+        """
+        show = _show if progress is True else progress
+        try:
+            while (until is None or self.time < until) and self.step():
+                if show:
+                    show(self.status)
+        finally:
+            if progress is True:
+                print(file=sys.stderr)
+        return self
+
+    @property
+    def status(self) -> "_core.Status":
+        """step, time, end_time, dt, drift, seconds, time_unit; times are those of the history."""
+        return self._core.status
+
+    @property
+    def time(self) -> float:
+        """Of the state, in the unit of the history."""
+        return self._core.status.time
+
+    @property
+    def completed(self) -> bool:
+        """Whether the end of the scene is reached."""
+        return self._core.completed
+
+    @property
+    def state(self) -> "_core.State":
+        """The vesicles as they are now: `state[0].position` and so on, coefficients of their degrees.
+
+        Arrays are read-only views of the solver's own numbers, and stay what they are when the simulation goes on.
+        Where it computes in axes of its own, as along a field, they are turned to those of the laboratory once.
+        Vesicles: position [(p+1)², 3], area_strain, Vm, tension, q [(p+1)²], velocity, force_bending, force_tension,
+        force_electric [(p+1)², 3]; None where the effect is absent. Forces act as in f = f_b + f_λ − f_E. Numbers are
+        those of the scene, dimensionless in one with [units].
+        """
+        return self._core.state
+
+    @property
+    def history(self) -> Table:
+        """One row per accepted step, that of history.csv bit for bit."""
+        return Table._of(self._core.history())
+
+    @property
+    def vesicle_history(self) -> Table:
+        """One row per step and vesicle, that of vesicles.csv; of one vesicle the history."""
+        return Table._of(self._core.vesicle_history())
+
+    @property
+    def directory(self) -> Optional[str]:
+        """Of the files, or None."""
+        return None if self._core.directory is None else str(self._core.directory)
+
+    def close(self) -> None:
+        """Writes the summary and leaves the directory to others; no step can follow. The end of the scene, of a `with`
+        block and of the object do the same."""
+        self._core.close()
+
+    def __enter__(self) -> "Simulation":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<vehd.Simulation of {self.scene.path}: step {self.status.step}, time {self.time:g}>"

@@ -1,0 +1,239 @@
+"""Surfaces, harmonics and layer operators."""
+
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _core
+from .scenes import Scene
+
+
+class Operator:
+    """A layer operator from coefficients to coefficients of degree p, as principal value: plain densities in, plain
+    potentials out. Vector fields are [(p+1)², 3] or their three columns one after the other.
+
+        operator @ density, operator.matrix, operator.linear_operator()
+    """
+
+    def __init__(self, surface: "_core.Surface", layer: "_core.Layer", name: str):
+        self._layer = _core.LayerMatrix(surface, layer)
+        self._matrix: Optional[np.ndarray] = None
+        self._of_vectors = layer in (_core.Layer.stokes_single, _core.Layer.stokes_double)
+        self.name = name
+        self.shape = (self._layer.size, self._layer.size)
+
+    def __matmul__(self, density: np.ndarray) -> np.ndarray:
+        density = np.asarray(density, dtype=float)
+        if self._of_vectors and density.shape == (self.shape[0] // 3, 3):
+            return self._layer.apply(density.reshape(-1, order="F")).reshape(density.shape, order="F")
+        return self._layer.apply(density)
+
+    @property
+    def matrix(self) -> np.ndarray:
+        """[n, n], found once."""
+        if self._matrix is None:
+            self._matrix = self._layer.matrix()
+        return self._matrix
+
+    def linear_operator(self) -> Any:
+        """A scipy.sparse.linalg.LinearOperator, for Krylov solvers; needs scipy."""
+        from scipy.sparse.linalg import LinearOperator
+
+        return LinearOperator(self.shape, matvec=lambda x: self @ np.ravel(x), matmat=lambda x: self @ x, dtype=float)
+
+    def __repr__(self) -> str:
+        return f"<vehd.Operator {self.name}, {self.shape[0]} x {self.shape[1]}>"
+
+
+class Surface:
+    """A frozen closed surface x(θ, φ) of degree p with its geometry and layer operators.
+
+    coefficients: of x, [(p+1)², 3], or a vesicle of a state.
+    upsampling: the grid is that of degree upsampling·p, so that products of fields are found without aliasing; 1 as in
+        Example 1 of the paper.
+    quadrature: nodes of the singular quadrature in θ per degree.
+
+    Values have one row per point of the grid, latitude by latitude: `values.reshape(surface.shape)` is [n_theta, n_phi].
+    H = −1 on the unit sphere, whose normal points outwards.
+    """
+
+    def __init__(self, coefficients: Any, upsampling: int = 2, quadrature: float = 1.15):
+        position = getattr(coefficients, "position", coefficients)
+        self._core = _core.Surface(np.asarray(position, dtype=float), upsampling, quadrature)
+        self._operators: dict = {}
+
+    @classmethod
+    def from_shape(cls, kind: str = "ellipsoid", degree: int = 16, upsampling: int = 2, quadrature: float = 1.15,
+                   **keys: Any) -> "Surface":
+        """A shape as in the table [shape] of a scene: from_shape("ellipsoid", axes=[1, 1, 2]),
+        from_shape("radial", base=1, amplitude=0.2, exponent=-3, modes=[{"n": 3, "m": 2, "a": 1}]), …
+
+        SceneError: as of a scene.
+        """
+        tables = {"shape": {"kind": kind, **keys}, "membrane": {}, "numerics": {"degree": degree, "dt": 1.0,
+                                                                              "end_time": 0.0}}
+        return cls(Scene.from_dict(tables).position(), upsampling, quadrature)
+
+    @classmethod
+    def sphere(cls, radius: float = 1.0, degree: int = 16, **keys: Any) -> "Surface":
+        """A sphere about the origin."""
+        return cls.from_shape("ellipsoid", degree, axes=[radius] * 3, **keys)
+
+    @property
+    def degree(self) -> int:
+        """p."""
+        return self._core.degree
+
+    @property
+    def coefficients(self) -> np.ndarray:
+        """Of x, [(p+1)², 3]; a view, as are all arrays of the geometry."""
+        return self._core.coefficients
+
+    @property
+    def shape(self) -> tuple:
+        """(n_theta, n_phi) of the grid."""
+        return self._core.shape
+
+    @property
+    def theta(self) -> np.ndarray:
+        """Angles from +z of the grid, [n_theta]."""
+        return self._core.theta
+
+    @property
+    def phi(self) -> np.ndarray:
+        """Longitudes of the grid, [n_phi]."""
+        return self._core.phi
+
+    @property
+    def position(self) -> np.ndarray:
+        """x on the grid, [n_points, 3]."""
+        return self._core.position
+
+    @property
+    def normal(self) -> np.ndarray:
+        """Outward unit normal, [n_points, 3]."""
+        return self._core.normal
+
+    @property
+    def mean_curvature(self) -> np.ndarray:
+        """H, 1/length, [n_points]; −1 on the unit sphere."""
+        return self._core.mean_curvature
+
+    @property
+    def gauss_curvature(self) -> np.ndarray:
+        """K, 1/area, [n_points]."""
+        return self._core.gauss_curvature
+
+    @property
+    def area_element(self) -> np.ndarray:
+        """J = dA/dω against the unit sphere, [n_points]."""
+        return self._core.area_element
+
+    @property
+    def weight(self) -> np.ndarray:
+        """∫f dA = Σ f weight, [n_points]."""
+        return self._core.weight
+
+    @property
+    def area(self) -> float:
+        """∫dA."""
+        return self._core.area
+
+    @property
+    def volume(self) -> float:
+        """Enclosed volume."""
+        return self._core.volume
+
+    @property
+    def centroid(self) -> np.ndarray:
+        """∫x dA/∫dA, [3]."""
+        return self._core.centroid
+
+    @property
+    def bending_energy_scaled(self) -> float:
+        """∫H² dA; 4π of every sphere."""
+        return self._core.bending_energy_scaled
+
+    def integrate(self, values: np.ndarray) -> Any:
+        """∫f dA of values [n_points] or of every column of [n_points, k]."""
+        return self._core.integrate(values)
+
+    def synthesize(self, coefficients: np.ndarray) -> np.ndarray:
+        """Values on the grid from coefficients [(p+1)²] or [(p+1)², k]."""
+        return self._core.synthesize(coefficients)
+
+    def analyze(self, values: np.ndarray) -> np.ndarray:
+        """Coefficients of degree up to p from values [n_points] or [n_points, k]."""
+        return self._core.analyze(values)
+
+    def gradient(self, scalar: np.ndarray) -> np.ndarray:
+        """∇_γ f on the grid, [n_points, 3], of coefficients [(p+1)²]."""
+        return self._core.gradient(scalar)
+
+    def divergence(self, vector: np.ndarray) -> np.ndarray:
+        """∇_γ·v on the grid, [n_points], of coefficients [(p+1)², 3], tangential or not."""
+        return self._core.divergence(vector)
+
+    def laplacian(self, fields: np.ndarray) -> np.ndarray:
+        """Δ_γ f on the grid of coefficients [(p+1)²] or [(p+1)², k]."""
+        return self._core.laplacian(fields)
+
+    def bending_force(self, modulus: float = 1.0) -> np.ndarray:
+        """f_b = −κ_B (Δ_γ H + 2H(H² − K)) n on the fluid per area, [n_points, 3]; −δ/δx of κ_B ∫H² dA, Eq. (2)."""
+        return self._core.bending_force(modulus)
+
+    def tension_force(self, tension: np.ndarray) -> np.ndarray:
+        """f_λ = λ Δ_γ x + ∇_γ λ on the fluid per area, [n_points, 3], of coefficients of λ, force per length; Eq. (2)."""
+        return self._core.tension_force(tension)
+
+    def _operator(self, layer: str, name: str) -> Operator:
+        if layer not in self._operators:
+            self._operators[layer] = Operator(self._core, getattr(_core.Layer, layer), name)
+        return self._operators[layer]
+
+    @property
+    def single_layer(self) -> Operator:
+        """S, Eq. (8): ∫G f dA, G = 1/(4π|x−y|); 1/(2n+1) on the unit sphere."""
+        return self._operator("single", "S")
+
+    @property
+    def double_layer(self) -> Operator:
+        """D, Eq. (8): ∫∂G/∂n(y) f dA; −1/(2(2n+1)) on the unit sphere. Inside D − ½, outside D + ½."""
+        return self._operator("double_layer", "D")
+
+    @property
+    def adjoint(self) -> Operator:
+        """S′, Eq. (10): ∂/∂n(x) of S; −1/(2(2n+1)) on the unit sphere. Inside S′ + ½, outside S′ − ½."""
+        return self._operator("adjoint", "S'")
+
+    @property
+    def hypersingular(self) -> Operator:
+        """D′, Eq. (24): ∂/∂n(x) of D; −n(n+1)/(2n+1) on the unit sphere."""
+        return self._operator("hypersingular", "D'")
+
+    @property
+    def stokes_single(self) -> Operator:
+        """Stokes single layer, Eq. (6), at viscosity 1: velocity of a force per area, [3(p+1)², 3(p+1)²]."""
+        return self._operator("stokes_single", "Stokes S")
+
+    @property
+    def stokes_double(self) -> Operator:
+        """Stokes double layer, velocity of a velocity, [3(p+1)², 3(p+1)²]."""
+        return self._operator("stokes_double", "Stokes D")
+
+    def evaluate(self, points: np.ndarray, *, single: Optional[np.ndarray] = None,
+                 double: Optional[np.ndarray] = None, stokes_single: Optional[np.ndarray] = None,
+                 stokes_double: Optional[np.ndarray] = None, gradients: bool = False, side: str = "principal_value",
+                 tolerance: float = 1e-9) -> "_core.OffSurfaceValues":
+        """Layers of given densities, coefficients, at any points [n, 3], near and far.
+
+        side: of points on the surface itself: "interior", "exterior" or "principal_value".
+        Returns single, double, stokes_single, stokes_double [n] or [n, 3], single_gradient, double_gradient [n, 3] with
+        gradients, each with its estimated error `single_error` … [n] (truncation to degree p is no part of it);
+        inside, distance, resolved [n].
+        """
+        return _core.evaluate_layers(self._core, np.asarray(points, dtype=float), single, double, stokes_single,
+                                     stokes_double, gradients, getattr(_core.Side, side), tolerance)
+
+    def __repr__(self) -> str:
+        return f"<vehd.Surface of degree {self.degree}, area {self.area:.6g}>"

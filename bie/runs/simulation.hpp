@@ -1,0 +1,107 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "bie/runs/checkpoint.hpp"
+#include "bie/runs/history.hpp"
+#include "bie/runs/run_status.hpp"
+#include "bie/scene/output_units.hpp"
+#include "bie/scene/problem.hpp"
+#include "bie/stepping/evaluation/lab_frame_output.hpp"
+#include "bie/stepping/evolution.hpp"
+
+namespace vehd {
+
+/// A row of the history and what it tells of, in the frame that a run computes in.
+struct RecordedSide {
+  HistoryRow row;
+  const State& state;
+  const Fields& fields;
+};
+
+/// The row as the laboratory sees it.
+/// @param order  degree of the results, that of `laboratory`
+HistoryRow row_in_laboratory(const LabFrameOutput& laboratory, int order, const RecordedSide& side);
+
+/// Work of this session on top of that of former ones.
+class WorkMeter {
+ public:
+  WorkMeter(RunTotals before, const Instruments& instruments) : before_(std::move(before)), instruments_(instruments) {}
+
+  /// Of this session.
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  /// Of all sessions.
+  [[nodiscard]] RunTotals totals() const;
+
+ private:
+  RunTotals before_;
+  const Instruments& instruments_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A scene on its way through time, in memory: whoever steps it decides what is kept. The steps are those of a run of
+/// the scene, bit for bit.
+class Simulation {
+ public:
+  /// @param scene  must outlive the simulation
+  /// @param from   where a run goes on; that of a new one has no state
+  /// @param units  of results and messages
+  /// @throws InputError if the shape file cannot be used, ConvergenceError
+  Simulation(const Scene& scene, Checkpoint from, OutputUnits units);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Solves everything at the start; before the first step. @throws ConvergenceError
+  void start();
+  /// Whether the end of the scene is reached.
+  [[nodiscard]] bool at_end() const { return evolution_.state().time >= scene_.numerics.end_time; }
+  /// One accepted step. @throws ConvergenceError where none is acceptable; everything stays as it is
+  void step();
+
+  /// The rows that the history gets of the start or of the last step, those of moments within it first.
+  [[nodiscard]] std::vector<RecordedSide> sides() const;
+  /// Where it is after the start or the last step.
+  [[nodiscard]] RunStatus status() const;
+  /// Work of all sessions.
+  [[nodiscard]] RunTotals totals() const { return meter_.totals(); }
+  /// From which a run goes on where this one is; the numerics, the end and the snapshot times may differ from those of
+  /// the former session.
+  [[nodiscard]] Checkpoint checkpoint() const;
+  /// A time of the scene as messages write it.
+  [[nodiscard]] std::string time_text(double time) const { return time_unit_.text_of(time); }
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// What it computes with.
+  [[nodiscard]] const Problem& problem() const { return problem_; }
+  /// State and evaluation, in the frame of the problem.
+  [[nodiscard]] const Evolution& evolution() const { return evolution_; }
+  /// See Evolution::keep_former.
+  void keep_former(KeepFormer keep) { evolution_.keep_former(std::move(keep)); }
+  [[nodiscard]] const OutputUnits& units() const { return units_; }
+
+ private:
+  [[nodiscard]] bool goes_on() const { return !from_.state.vesicles.empty(); }
+  [[nodiscard]] int start_order() const;
+  Evolution evolution_of_scene();
+  [[nodiscard]] RecordedSide side_of(const State& state, const Evaluation& evaluation, const SmallestGap& gap,
+                                     const StepAttempt& step) const;
+  [[nodiscard]] std::string gap_text() const;
+
+  const Scene& scene_;
+  Instruments instruments_;
+  Checkpoint from_;
+  OutputUnits units_;
+  OutputUnit time_unit_;
+  Problem problem_;
+  EventTimes events_;
+  Evolution evolution_;
+  WorkMeter meter_;
+  StepAttempt last_;
+  double start_time_;
+};
+
+}  // namespace vehd

@@ -1,0 +1,100 @@
+"""What a user meets first: python3 -m vehd, the scripts of the pages, the check, pictures."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import vehd
+from helpers import PROGRAM, SHEARED, SOURCE, InFolder
+
+try:
+    import matplotlib
+except ImportError:
+    matplotlib = None
+
+has_elements = os.access(os.path.join(os.path.dirname(PROGRAM), "vehd_fem"), os.X_OK)
+
+
+def blocks_of(page):
+    """The scripts of a page, one after the other."""
+    return re.findall(r"```python\n(.*?)```", (SOURCE / page).read_text(), re.S)
+
+
+class Programs(InFolder):
+    def test_example_1_is_that_of_the_program(self):
+        self.run_program("verify", "--degree", "10", "--json", self.folder / "verify.json")
+        expected = json.loads((self.folder / "verify.json").read_text())
+        result = subprocess.run([sys.executable, "-m", "vehd", "--degree", "10"], capture_output=True, text=True,
+                                check=True)
+        self.assertIn(f"vehd {vehd.__version__}\n", result.stdout)
+        self.assertIn("eigen", result.stdout.lower())
+        found = vehd.example1(10)
+        self.assertIn(f"error of q {found['error_q']:.2e}", result.stdout)
+        self.assertEqual(found["iterations"], expected["iterations"])
+        for key in ("error_q", "error_force"):
+            self.assertAlmostEqual(found[key], expected[key], delta=1e-6 * expected[key])
+
+    @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
+    def test_scripts_of_the_pages_run(self):
+        (self.folder / "docs/scenes").mkdir(parents=True)
+        for scene in (SOURCE / "docs/scenes").glob("*.toml"):
+            text = re.sub(r"degree = \d+", "degree = 8", scene.read_text())
+            (self.folder / "docs/scenes" / scene.name).write_text(re.sub(r"end_time = [\d.]+$", "end_time = 0.3", text,
+                                                                         flags=re.M))
+        for page in ("README.md", "docs/python.md"):
+            blocks = blocks_of(page)
+            self.assertTrue(blocks, page)
+            script = "\n".join(blocks)
+            if not has_elements:
+                script = re.sub(r"^.*vehd\.check\(.*\n", "", script, flags=re.M)
+            result = subprocess.run([sys.executable, "-c", script], cwd=self.folder, capture_output=True, text=True,
+                                    check=False)
+            self.assertEqual(result.returncode, 0, page + "\n" + result.stderr)
+            shutil.rmtree(self.folder / "out", ignore_errors=True)
+        self.assertEqual(len(blocks_of("README.md")), 1)
+        self.assertLessEqual(len(blocks_of("README.md")[0].splitlines()), 15)
+
+
+class Checks(InFolder):
+    def test_what_cannot_be_checked_says_why(self):
+        scene = vehd.Scene.from_text(SHEARED)
+        with self.assertRaisesRegex(vehd.InputError, "in memory"):
+            vehd.check(vehd.Simulation(scene))
+        with self.assertRaisesRegex(vehd.InputError, "give a directory"):
+            vehd.check(scene)
+        if not has_elements:
+            with self.assertRaisesRegex(vehd.InputError, "VEHD_FEM_CHECK=ON"):
+                vehd.check(scene, self.folder / "check")
+
+
+@unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
+class Pictures(unittest.TestCase):
+    def test_curves_are_those_of_the_data(self):
+        run = vehd.Simulation(vehd.Scene.from_text(SHEARED)).run(until=0.03)
+        figure = vehd.plot.history(run, ["extent_x", "Vm_max"])
+        np.testing.assert_array_equal(figure.axes[1].lines[0].get_ydata(), run.history["Vm_max"])
+        self.assertEqual(figure.axes[1].get_xlabel(), "time")
+        line = vehd.plot.outline(vehd.Surface.from_shape("ellipsoid", 8, axes=[1.0, 1.0, 2.0])).lines[0]
+        x, z = line.get_data()
+        np.testing.assert_allclose(x**2 + z**2 / 4, 1.0, atol=1e-12)
+        axes = vehd.plot.shape(run.state[0], run.state[0].Vm)
+        self.assertEqual(len(axes.collections), 1)
+
+    def test_tables_become_frames_of_pandas(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("pandas (Debian package python3-pandas) is missing")
+        run = vehd.Simulation(vehd.Scene.from_text(SHEARED))
+        frame = run.history.to_pandas()
+        self.assertIsInstance(frame, pandas.DataFrame)
+        self.assertEqual(list(frame), list(run.history))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,170 @@
+"""Simulations: the bits of the program, views, files, signals, threads."""
+
+import gc
+import os
+import signal
+import threading
+import unittest
+
+import numpy as np
+import vehd
+from helpers import ADAPTIVE, IN_SI, SEVERAL, SHEARED, TURNED, InFolder, address, table_of
+
+
+class Bits(InFolder):
+    def assert_same_table(self, table, expected):
+        self.assertEqual(list(table), list(expected))
+        for name, column in expected.items():
+            np.testing.assert_array_equal(table[name], column, err_msg=name)
+
+    def test_histories_are_those_of_the_program(self):
+        for name, scene in {"sheared": SHEARED, "turned": TURNED, "several": SEVERAL, "adaptive": ADAPTIVE,
+                            "si": IN_SI}.items():
+            with self.subTest(name):
+                file = self.write(scene, name + ".toml")
+                self.run_program("run", file, "-o", self.folder / name, "--no-plot", "--quiet")
+                expected = table_of(self.folder / name / "history.csv")
+                run = vehd.Simulation(file).run()
+                self.assertTrue(run.completed)
+                self.assert_same_table(run.history, expected)
+                self.assert_same_table(vehd.read_history(self.folder / name), expected)
+                if name == "several":
+                    self.assert_same_table(run.vesicle_history, table_of(self.folder / name / "vesicles.csv"))
+                if name == "si":
+                    self.assertEqual(run.history.units["time"], "ms")
+                    self.assertAlmostEqual(run.time, 60.0)
+
+    def test_files_are_those_of_the_program_whoever_goes_on(self):
+        file = self.write(SHEARED)
+        self.run_program("run", file, "-o", self.folder / "program", "--no-plot", "--quiet")
+        expected = (self.folder / "program/history.csv").read_bytes()
+
+        with vehd.Simulation(file, self.folder / "python") as run:
+            run.run(until=0.03)
+            self.assertEqual(run.status.step, 2)
+        with self.assertRaisesRegex(RuntimeError, "closed"):
+            run.step()
+        with self.assertRaisesRegex(vehd.InputError, "resume"):
+            vehd.Simulation(file, self.folder / "python")
+        with vehd.Simulation(file, self.folder / "python", resume=True) as run:
+            self.assertTrue(run.step())
+            self.assertEqual(run.status.step, 3)
+        self.run_program("run", file, "-o", self.folder / "python", "--no-plot", "--quiet", "--resume")
+        self.assertEqual((self.folder / "python/history.csv").read_bytes(), expected)
+
+        run = vehd.Simulation(file, self.folder / "python", resume=True)
+        self.assertTrue(run.completed)
+        self.assertFalse(run.step())
+        self.assertEqual(len(run.history["time"]), 6)
+
+    def test_another_scene_does_not_go_on(self):
+        scene = vehd.Scene.from_text(SHEARED)
+        vehd.Simulation(scene, self.folder / "run").run(until=0.01).close()
+        other = vehd.Scene.from_text(SHEARED.replace("rate = 1.0", "rate = 2.0"))
+        with self.assertRaisesRegex(vehd.InputError, 'scene:13: "flow.rate" is 2'):
+            vehd.Simulation(other, self.folder / "run", resume=True)
+
+    def test_a_directory_is_for_one_at_a_time(self):
+        scene = vehd.Scene.from_text(SHEARED)
+        run = vehd.Simulation(scene, self.folder / "run")
+        with self.assertRaises(vehd.InputError):
+            vehd.Simulation(scene, self.folder / "run", resume=True)
+        run.close()
+        vehd.Simulation(scene, self.folder / "run", resume=True).close()
+
+
+class Views(unittest.TestCase):
+    def setUp(self):
+        self.run_ = vehd.Simulation(vehd.Scene.from_text(SHEARED))
+
+    def test_arrays_are_the_numbers_of_the_solver(self):
+        for _ in range(2):
+            position = self.run_.state[0].position
+            self.assertGreater(position.nbytes, 1000)
+            self.assertEqual(address(position), self.run_._core.position_address())
+            self.run_.step()
+
+    def test_arrays_stay_what_they_are(self):
+        vesicle = self.run_.state[0]
+        fields = {name: getattr(vesicle, name) for name in (
+            "position", "area_strain", "Vm", "velocity", "tension", "q", "force_bending", "force_tension",
+            "force_electric")}
+        copies = {name: (address(array), array.copy()) for name, array in fields.items()}
+        self.run_.run()
+        self.assertGreater(np.abs(self.run_.state[0].position - fields["position"]).max(), 1e-3)
+        del self.run_, vesicle
+        gc.collect()
+        for name, (place, copy) in copies.items():
+            self.assertEqual(address(fields[name]), place, name)
+            np.testing.assert_array_equal(fields[name], copy, err_msg=name)
+
+    def test_arrays_outlive_a_simulation_that_has_not_gone_on(self):
+        copy = self.run_.state[0].position.copy()
+        vesicle = self.run_.state[0]
+        position = vesicle.position
+        place = address(position)
+        del self.run_
+        gc.collect()
+        others = [np.random.default_rng(1).random(copy.shape) for _ in range(100)]
+        self.assertEqual(len(others), 100)
+        self.assertEqual(address(position), place)
+        np.testing.assert_array_equal(position, copy)
+        np.testing.assert_array_equal(vesicle.position, copy)
+
+    def test_arrays_are_read_only(self):
+        for array in (self.run_.state[0].position, vehd.Surface.sphere(degree=6).normal):
+            with self.assertRaises(ValueError):
+                array[0, 0] = 1.0
+
+    def test_absent_effects_have_no_field(self):
+        run = vehd.Simulation(vehd.Scene.from_text(SEVERAL))
+        self.assertEqual(len(run.state), 2)
+        self.assertIsNone(run.state[1].Vm)
+        self.assertIsNone(run.state[1].force_electric)
+        with self.assertRaises(IndexError):
+            run.state[2]
+
+    def test_states_are_those_of_the_laboratory(self):
+        run = vehd.Simulation(vehd.Scene.from_text(TURNED))
+        x = vehd.Surface(run.state[0]).position
+        np.testing.assert_allclose(np.ptp(x, axis=0), [3.0, 2.0, 2.0], rtol=0.03)
+        self.assertLess(run.state.time, 1e-12)
+
+
+class Interruptions(unittest.TestCase):
+    def test_ctrl_c_ends_after_the_step_in_hand_and_tears_nothing(self):
+        expected = vehd.Simulation(vehd.Scene.from_text(SHEARED)).run().history
+        run = vehd.Simulation(vehd.Scene.from_text(SHEARED))
+        in_step = threading.Thread(target=lambda: self.wait_for_step(run) and os.kill(os.getpid(), signal.SIGINT))
+        in_step.start()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in run:
+                pass
+        in_step.join()
+        self.assertFalse(run.completed)
+        self.assertEqual(len(run.history["time"]), run.status.step + 1)
+        np.testing.assert_array_equal(run.run().history["bending_energy_scaled"], expected["bending_energy_scaled"])
+
+    def test_other_threads_run_during_a_step(self):
+        run = vehd.Simulation(vehd.Scene.from_text(SHEARED))
+        worker = threading.Thread(target=run.run)
+        worker.start()
+        # Only a thread that runs during a step can be told of it.
+        seen = self.wait_for_step(run)
+        worker.join()
+        self.assertTrue(seen)
+        self.assertTrue(run.completed)
+
+    @staticmethod
+    def wait_for_step(run):
+        """Whether there is one before the end."""
+        while True:
+            try:
+                if run.completed:
+                    return False
+            except RuntimeError:
+                return True
+
+
+if __name__ == "__main__":
+    unittest.main()
