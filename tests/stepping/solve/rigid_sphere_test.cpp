@@ -14,7 +14,7 @@ BOOST_AUTO_TEST_SUITE(rigid_sphere, *boost::unit_test::label("slow"))
 
 namespace {
 
-constexpr int kOrder = 10;
+constexpr int kOrder = 8;
 const Vector3 kCentre(0.3, -0.2, 0.5);
 constexpr double kRadius = 1.3;
 
