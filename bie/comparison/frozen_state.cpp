@@ -19,6 +19,21 @@ namespace {
 
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
 
+/// Finite elements solve for one instant.
+void require_instant(const Scene& scene, const std::filesystem::path& file) {
+  if (!has_averaged_field(scene)) return;
+  throw InputError(fmt::format(
+      "{}: has an averaged ac field; vehd check accepts fields that are followed in time, without \"average\"",
+      file.string()));
+}
+
+/// They know no charge of the fluids.
+void require_no_relaxing_charge(const Scene& scene, const std::filesystem::path& file) {
+  if (!has_relaxing_charge(scene)) return;
+  throw InputError(fmt::format(
+      "{}: has displacement currents; vehd check accepts fields without \"displacement_current\"", file.string()));
+}
+
 void require_start(const std::filesystem::path& file, const std::optional<std::string>& time) {
   // Of a time that is not 0 the unit does not matter.
   UnitsScene any;
@@ -43,6 +58,8 @@ Symmetry symmetry_of(const Scene& scene, const FrozenState& frozen) {
 FrozenState start_of_scene(const SceneSource& source) {
   const Scene scene = read_scene(source);
   require_one_vesicle(scene, source.file, "vehd check");
+  require_instant(scene, source.file);
+  require_no_relaxing_charge(scene, source.file);
   FrozenState frozen;
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
@@ -64,6 +81,8 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   const std::size_t snapshot = choice.snapshot;
   run.require_sealed(snapshot);
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
+  require_instant(scene, file);
+  require_no_relaxing_charge(scene, file);
   FrozenState frozen;
   frozen.source = file.string();
   frozen.note = choice.note;

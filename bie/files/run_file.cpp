@@ -7,6 +7,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/surface_mesh.hpp"
 #include "bie/support/checksum.hpp"
+#include "bie/support/complex_columns.hpp"
 
 namespace vehd {
 namespace {
@@ -18,6 +19,12 @@ const DatasetLabel tension_force_label{"force/area", "tension force f_lambda on 
 const DatasetLabel electric_label{"force/area", "electric force f_E = [[n . Sigma_el]]; f = f_b + f_lambda - f_E"};
 const DatasetLabel potential_label{"potential", "transmembrane potential V_m = [[phi]], interior minus exterior"};
 const DatasetLabel charge_label{"potential/length", "q = [[d phi/d n]], interior minus exterior"};
+const DatasetLabel potential_amplitude_label{"potential", "magnitude of the amplitude of V_m in an averaged ac field"};
+const DatasetLabel potential_part_label{"potential", "part of the amplitude z of V_m, which is Re(z exp(i omega t))"};
+const DatasetLabel phase_label{"1", "phase of V_m against the field in degrees, 0 where there is no V_m"};
+const DatasetLabel charge_amplitude_label{"potential/length",
+                                          "magnitude of the amplitude of q in an averaged ac field"};
+const DatasetLabel charge_part_label{"potential/length", "part of the amplitude z of q, which is Re(z exp(i omega t))"};
 const DatasetLabel tension_label{"force/length", "membrane tension lambda"};
 const DatasetLabel strain_label{"1", "area strain W/W_ref - 1 of the material"};
 
@@ -84,6 +91,16 @@ class VesicleWriter {
     numbers("surface/" + name, surface, extents, label);
   }
 
+  /// A field that is computed from columns of coefficients, point by point, has none itself.
+  template <typename ValuesOf>
+  void derived_field(const std::string& name, const Matrix& coefficients, const DatasetLabel& label,
+                     const ValuesOf& values_of) {
+    const Matrix values = transform_.synthesize(coefficients);
+    const Vector all = values_of(with_poles(values, coefficients));
+    grid_field(name, all.head(values.rows()), label);
+    numbers("surface/" + name, all, {static_cast<hsize_t>(all.size())}, label);
+  }
+
   void grid_field(const std::string& name, const Matrix& values, const DatasetLabel& label) {
     const SphereGrid& grid = transform_.grid();
     numbers(name, values,
@@ -112,6 +129,18 @@ void write_grid(Hdf5Writer& file, const std::string& group, const SphereGrid& gr
                {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element"});
 }
 
+/// V_m and q of an averaged field.
+void write_amplitudes(VesicleWriter& writer, const Matrix& potential, const Matrix& charge) {
+  if (potential.size() == 0) return;
+  writer.derived_field("Vm_amplitude", potential, potential_amplitude_label, magnitudes);
+  writer.derived_field("Vm_phase_deg", potential, phase_label, phases_deg);
+  writer.field("Vm_real", potential.col(0), potential_part_label);
+  writer.field("Vm_imaginary", potential.col(1), potential_part_label);
+  writer.derived_field("q_amplitude", charge, charge_amplitude_label, magnitudes);
+  writer.field("q_real", charge.col(0), charge_part_label);
+  writer.field("q_imaginary", charge.col(1), charge_part_label);
+}
+
 void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, const VesicleState& vesicle,
                    const VesicleFields& f) {
   writer.field("x", vesicle.position, position_label);
@@ -119,8 +148,9 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, cons
   writer.field("force_bending", f.force_bending, bending_label);
   writer.field("force_tension", f.force_tension, tension_force_label);
   writer.field("force_electric", f.force_electric, electric_label);
-  writer.field("Vm", vesicle.transmembrane_potential, potential_label);
+  writer.field("Vm", transmembrane_potential(vesicle, f), potential_label);
   writer.field("q", f.charge, charge_label);
+  write_amplitudes(writer, f.potential_amplitude, f.charge_amplitude);
   writer.field("tension", f.tension, tension_label);
   if (vesicle.area_strain.size() == vesicle.position.rows()) {
     writer.field("area_strain", vesicle.area_strain, strain_label);

@@ -27,7 +27,7 @@ std::vector<Vector> fluxes_of_others(const std::vector<ElectricMembrane>& membra
 }  // namespace
 
 PairSelection electric_pair_selection(const ElectricParameters& electric) {
-  const bool charged = conductivity_contrast(electric) != 0.0;
+  const bool charged = carries_charge(electric);
   return {.laplace_single = charged,
           .laplace_single_normal = charged,
           .laplace_double = true,

@@ -38,6 +38,11 @@ double series_conductivity(const ElectricParameters& electric) {
          (electric.conductivity_out / (electric.conductivity_in + electric.conductivity_out));
 }
 
+bool carries_charge(const ElectricParameters& electric) {
+  return conductivity_contrast(electric) != 0.0 ||
+         (electric.displacement_current && (!electric.averaged_frequency || electric.permittivity_ratio != 1.0));
+}
+
 Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density) {
   Vector result = 0.5 * weighted_density;
   if (eta != 0.0) result += eta * membrane.layers.laplace_adjoint.apply(weighted_density);
@@ -138,9 +143,21 @@ EffectDescription electric_description(const ElectricParameters& electric) {
                  {&LayerSelection::laplace_double, "potentials on the membrane, Eq. (11)"},
                  {&LayerSelection::stokes_single, "velocity of f_E, Eq. (5)"}};
   d.unknowns = {"V_m"};
-  if (conductivity_contrast(electric) != 0.0) {
+  if (electric.displacement_current) {
+    d.adds =
+        "f_E = [[n.Sigma_el]], Eqs. (3), (11), (15); free charge of both faces, D q_i/Dt = sigma_i E_i - G_m V, "
+        "D q_e/Dt = G_m V - sigma_e E_e";
+  }
+  if (electric.averaged_frequency) {
+    d.adds = std::string(
+                 "mean of f_E over a period; (1/2 + eta S') y V - kappa D'[V] = kappa E.n, y = G_m + i omega C_m, "
+                 "eta and kappa of K = sigma") +
+             (electric.displacement_current ? " + i omega epsilon" : "");
+    d.unknowns = {"Re V_m", "Im V_m"};
+  }
+  if (carries_charge(electric)) {
     d.operators.push_back({&LayerSelection::laplace_adjoint, "charge density, Eq. (12)"});
-    d.unknowns.emplace_back("g");
+    if (!electric.averaged_frequency && !electric.displacement_current) d.unknowns.emplace_back("g");
   }
   return d;
 }

@@ -13,6 +13,9 @@ double conductivity_contrast(const ElectricParameters& electric);
 /// σ_i σ_e/(σ_i + σ_e), the prefactor of Eq. (14).
 /// Source: paper Eqs. (14), (29)
 double series_conductivity(const ElectricParameters& electric);
+/// Is q other than zero anywhere? Not between fluids of equal conductivity, and of equal permittivity where that counts
+/// in an averaged field. Charge that relaxes in time may be anything.
+bool carries_charge(const ElectricParameters& electric);
 
 /// (½ + η S′) on weighted coefficients: J g ↦ J (½ g + η S′[g]); the left side of Eq. (12). Its entry of degree 0 is
 /// ½(1 − η) times that of J g exactly (∫S′[g] = −½∫g), also where the quadrature would only come close.

@@ -24,10 +24,14 @@ struct FlowParameters {
 
 /// The uniform field far away and the fluid that it is applied to.
 struct AppliedField {
-  Vector3 field = Vector3::Zero();  ///< E_inf where the waveform is 1
-  double conductivity = 1.0;        ///< sigma_e
-  double permittivity = 1.0;        ///< epsilon outside
-  Waveform waveform{};              ///< of the field
+  Vector3 field = Vector3::Zero();    ///< E_inf where the waveform is 1
+  double conductivity = 1.0;          ///< sigma_e
+  double permittivity = 1.0;          ///< epsilon outside
+  Waveform waveform{};                ///< of the field
+  bool displacement_current = false;  ///< in both fluids
+  /// Of a field that alternates so fast that only the mean of its force over a period moves anything; the waveform is 1
+  /// then.
+  std::optional<double> averaged_frequency{};
 };
 
 /// The leaky dielectric inside one vesicle.
@@ -39,12 +43,14 @@ struct InnerDielectric {
 /// Leaky-dielectric bulk fluids on both sides of one membrane in a uniform applied field, Eq. (4).
 /// Source: paper Eqs. (3), (4)
 struct ElectricParameters {
-  Vector3 field = Vector3::Zero();  ///< E_inf where the waveform is 1
-  double conductivity_in = 1.0;     ///< sigma_i
-  double conductivity_out = 1.0;    ///< sigma_e
-  double permittivity = 1.0;        ///< epsilon outside
-  double permittivity_ratio = 1.0;  ///< epsilon inside over outside
-  Waveform waveform{};              ///< of the field
+  Vector3 field = Vector3::Zero();             ///< E_inf where the waveform is 1
+  double conductivity_in = 1.0;                ///< sigma_i
+  double conductivity_out = 1.0;               ///< sigma_e
+  double permittivity = 1.0;                   ///< epsilon outside
+  double permittivity_ratio = 1.0;             ///< epsilon inside over outside
+  Waveform waveform{};                         ///< of the field
+  bool displacement_current = false;           ///< in both fluids
+  std::optional<double> averaged_frequency{};  ///< see AppliedField
 
   /// The same problem with the field of one time and no waveform.
   [[nodiscard]] ElectricParameters at(double time, Limit limit) const {

@@ -17,7 +17,7 @@ struct ColumnRow {
   const char* label;
 };
 
-enum class Shown { always, with_field, with_flow, with_tolerance };
+enum class Shown { always, with_field, with_averaged_field, with_flow, with_tolerance };
 
 constexpr const char* step_size = "dt";
 
@@ -42,7 +42,12 @@ const std::vector<QuantityRow>& quantity_rows() {
       {shown_quantity::potential,
        {{"Vm_north", "V_m at the north pole"}, {"Vm_max", "largest |V_m|"}},
        Shown::with_field},
+      {shown_quantity::potential,
+       {{"Vm_north", "|V_m| at the north pole"}, {"Vm_max", "largest |V_m|"}},
+       Shown::with_averaged_field},
       {shown_quantity::charge, {{"q_north", "q at the north pole"}}, Shown::with_field},
+      {shown_quantity::charge, {{"q_north", "|q| at the north pole"}}, Shown::with_averaged_field},
+      {"phase of the potential", {{"Vm_phase_deg", "phase of V_m (degrees)"}}, Shown::with_averaged_field},
       {shown_quantity::inclination, {{"inclination_deg", "inclination (degrees)"}}, Shown::with_flow},
       {shown_quantity::aspect, {{"aspect_ratio", "aspect ratio"}}},
       {shown_quantity::errors,
@@ -67,7 +72,9 @@ constexpr std::array least_drifts = {LeastDrift{"area_drift", 1e-7}, LeastDrift{
 bool applies(Shown shown, const Scene& scene) {
   switch (shown) {
     case Shown::with_field:
-      return scene.electric.has_value();
+      return scene.electric.has_value() && !has_averaged_field(scene);
+    case Shown::with_averaged_field:
+      return has_averaged_field(scene);
     case Shown::with_flow:
       return scene.flow.has_value();
     case Shown::with_tolerance:

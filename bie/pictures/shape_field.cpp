@@ -9,6 +9,7 @@
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/surface_mesh.hpp"
+#include "bie/support/complex_columns.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -18,6 +19,17 @@ namespace {
 constexpr std::array forces = {std::pair{"force_bending", 1.0}, std::pair{"force_tension", 1.0},
                                std::pair{"force_electric", -1.0}};
 
+/// Datasets of the real and of the imaginary part.
+std::array<std::string_view, 2> parts_of(ShapeField field) {
+  if (field == ShapeField::charge_amplitude) return {"q_real", "q_imaginary"};
+  return {"Vm_real", "Vm_imaginary"};
+}
+
+bool is_of_amplitude(ShapeField field) {
+  return field == ShapeField::potential_amplitude || field == ShapeField::potential_phase ||
+         field == ShapeField::charge_amplitude;
+}
+
 bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
   switch (field) {
     case ShapeField::potential:
@@ -26,6 +38,10 @@ bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
       return run.has_field(snapshot, "q");
     case ShapeField::tension:
       return run.has_field(snapshot, "tension");
+    case ShapeField::potential_amplitude:
+    case ShapeField::potential_phase:
+    case ShapeField::charge_amplitude:
+      return run.has_field(snapshot, std::string(parts_of(field).front()));
     case ShapeField::force:
       return std::ranges::any_of(forces, [&](const auto& force) { return run.has_field(snapshot, force.first); });
     case ShapeField::none:
@@ -43,7 +59,11 @@ Vector values_of(const VesicleCoefficients& read, ShapeField field, const Sphere
     case ShapeField::tension:
       return transform.synthesize(read.field).col(0);
     case ShapeField::force:
+    case ShapeField::potential_amplitude:
+    case ShapeField::charge_amplitude:
       return transform.synthesize(read.field).rowwise().norm();
+    case ShapeField::potential_phase:
+      return phases_deg(transform.synthesize(read.field));
     case ShapeField::curvature:
       return surface.mean_curvature;
     case ShapeField::none:
@@ -75,6 +95,12 @@ FieldLabel label_of(ShapeField field) {
       return {"force |f|", "force/area"};
     case ShapeField::curvature:
       return {"curvature H", "1/length"};
+    case ShapeField::potential_amplitude:
+      return {"|V_m|", "potential"};
+    case ShapeField::potential_phase:
+      return {"phase of V_m (degrees)", "1"};
+    case ShapeField::charge_amplitude:
+      return {"|q|", "potential/length"};
     case ShapeField::none:
       break;
   }
@@ -82,7 +108,7 @@ FieldLabel label_of(ShapeField field) {
 }
 
 ShapeField default_field(const RunReader& run, std::size_t snapshot) {
-  for (const ShapeField field : {ShapeField::potential, ShapeField::tension}) {
+  for (const ShapeField field : {ShapeField::potential, ShapeField::potential_amplitude, ShapeField::tension}) {
     if (has(run, snapshot, field)) return field;
   }
   return ShapeField::curvature;
@@ -105,6 +131,12 @@ VesicleCoefficients read_vesicle(const RunReader& run, std::size_t snapshot, Sha
   VesicleCoefficients read{run.coefficients(snapshot, "x", 3, vesicle), {}};
   if (const std::string_view dataset = label_of(field).dataset; !dataset.empty()) {
     read.field = run.coefficients(snapshot, std::string(dataset), 1, vesicle);
+  }
+  if (is_of_amplitude(field)) {
+    const auto [real, imaginary] = parts_of(field);
+    read.field.resize(read.position.rows(), 2);
+    read.field << run.coefficients(snapshot, std::string(real), 1, vesicle),
+        run.coefficients(snapshot, std::string(imaginary), 1, vesicle);
   }
   if (field == ShapeField::force) {
     // The whole force of the membrane on the fluid.

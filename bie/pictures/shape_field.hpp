@@ -11,10 +11,21 @@
 namespace vehd {
 
 /// What the colours of a shape show.
-enum class ShapeField { none, potential, charge, tension, force, curvature };
+enum class ShapeField {
+  none,
+  potential,
+  charge,
+  tension,
+  force,
+  curvature,
+  potential_amplitude,
+  potential_phase,
+  charge_amplitude
+};
 
 /// Their names on the command line.
-constexpr std::array<std::string_view, 6> shape_field_names = {"none", "V_m", "q", "tension", "force", "curvature"};
+constexpr std::array<std::string_view, 9> shape_field_names = {
+    "none", "V_m", "q", "tension", "force", "curvature", "V_m_amplitude", "V_m_phase", "q_amplitude"};
 
 /// How a field is called in pictures.
 struct FieldLabel {
@@ -25,7 +36,7 @@ struct FieldLabel {
 };
 FieldLabel label_of(ShapeField field);
 
-/// V_m, without it the tension, without that the curvature.
+/// V_m, or its amplitude in an averaged field, without it the tension, without that the curvature.
 ShapeField default_field(const RunReader& run, std::size_t snapshot);
 
 /// @throws InputError that names what there is, if the snapshot does not have what the field needs
@@ -43,7 +54,8 @@ struct Shape {
 /// What a picture needs of one vesicle.
 struct VesicleCoefficients {
   Matrix position;  ///< [n_coefficients x 3]
-  Matrix field;     ///< [n_coefficients x 1]; of the force x 3; empty of what is computed from the position
+  Matrix field;     ///< [n_coefficients x 1]; of the force x 3; real and imaginary part of what a complex amplitude
+                    ///< gives; empty of what is computed from the position
 };
 
 /// What a picture of one snapshot needs of its file.

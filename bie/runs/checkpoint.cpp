@@ -41,6 +41,7 @@ void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("quadrature_level", vesicle.quadrature_level);
   visit("position", vesicle.position);
   visit("transmembrane_potential", vesicle.transmembrane_potential);
+  visit("free_charge", vesicle.free_charge);
   visit("tension", vesicle.tension);
   visit("area_strain", vesicle.area_strain);
   visit("reference_area", vesicle.reference_area);
@@ -187,7 +188,7 @@ class SoundCheck {
     } catch (const ShapeError&) {
       require(false, "/state/position");
     }
-    for (const Vector* values : {&vesicle.transmembrane_potential, &vesicle.tension}) {
+    for (const Vector* values : {&vesicle.transmembrane_potential, &vesicle.free_charge, &vesicle.tension}) {
       require((values->size() == 0 || values->size() == vesicle.position.rows()) && values->allFinite(), "/state");
     }
     require(vesicle.area_strain.allFinite(), "/state/area_strain");

@@ -116,6 +116,7 @@ const std::vector<HistoryColumn>& columns_of_one() {
       {"aspect_ratio_field", "1", of_vesicle<&D::aspect_ratio_field>},
       {"Vm_pole_plus", "potential", of_vesicle<&D::Vm_pole_plus>},
       {"Vm_pole_minus", "potential", of_vesicle<&D::Vm_pole_minus>},
+      {"Vm_phase_deg", "1", of_vesicle<&D::Vm_phase_deg>},
   };
   return all;
 }

@@ -17,6 +17,12 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
     const Matrix values = matrix(field);
     return values.size() == 0 ? Vector() : Vector(values.col(0));
   };
+  const auto amplitude = [&](const char* real, const char* imaginary) {
+    const Matrix first = matrix(real), second = matrix(imaginary);
+    Matrix parts(first.rows(), first.cols() + second.cols());
+    parts << first, second;
+    return parts;
+  };
   vesicle.position = matrix("x");
   vesicle.transmembrane_potential = vector("Vm");
   vesicle.area_strain = vector("area_strain");
@@ -26,6 +32,10 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
   fields.force_electric = matrix("force_electric");
   fields.tension = vector("tension");
   fields.charge = vector("q");
+  if (source.has(group + "/coefficients/Vm_real")) {
+    fields.potential_amplitude = amplitude("Vm_real", "Vm_imaginary");
+    fields.charge_amplitude = amplitude("q_real", "q_imaginary");
+  }
 }
 
 }  // namespace

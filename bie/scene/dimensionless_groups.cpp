@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bie/physics/sphere_in_ac_field.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
@@ -94,13 +95,23 @@ class Groups {
       add({"permittivity ratio", "S", electric.permittivity_ratio, "1", "ε_i/ε_e"});
     }
     // Without units the permittivity is that of the stress alone, as in the paper, whatever the conductivities.
-    if (scene_.units) {
+    if (scene_.units || electric.displacement_current) {
       add({"Maxwell–Wagner time", "t_MW",
            electric.permittivity * (electric.permittivity_ratio + 2.0) / (inside + 2.0 * outside), "time",
            "(ε_i + 2ε_e)/(σ_i + 2σ_e): the charge of the fluids relaxes"});
     }
     const double stress = electric.permittivity * electric.field.squaredNorm();
     if (stress == 0.0) return;
+    if (electric.averaged_frequency) {
+      const double drive = sphere_in_ac_field(electric, vesicle_.charging, radius()).drive;
+      add({"drive of the averaged field", "Q", drive / electric.permittivity, "1",
+           "P₂ part of its stress over ε: above 0 a nearly spherical vesicle becomes prolate along the field"});
+      const double ripple =
+          ripple_amplitude(electric, vesicle_.charging, radius(), model_.viscosity, vesicle_.viscosity_ratio);
+      add({"ripple", "s₂", ripple, "1",
+           "amplitude over a of the motion at 2f, which the average leaves out, of a sphere: "
+           "εE²|Q₂|/((32 + 23Λ)μ 2ω)"});
+    }
     add({"electric time", "t_el", model_.viscosity / stress, "time", "μ/(εE²): the field deforms the membrane"});
     if (vesicle_.bending) {
       add({"electric capillary number", "Ca", stress / vesicle_.bending->modulus * 3.0 * size_.volume / (4.0 * pi), "1",

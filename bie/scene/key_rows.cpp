@@ -36,7 +36,8 @@ void add_units_keys(KeyTable& table) {
   add_scale("time",
             {"T", "time",
              "reference time; absent: the shortest that values in SI units give: duration of a pulse, period or "
-             "1/frequency, 1/rate (of a Poiseuille flow R/v_c), LC_m(1/σ_i + 1/(2σ_e)), μ/(εE²), μL³/κ_B"},
+             "1/frequency (not of an averaged field), 1/rate (of a Poiseuille flow R/v_c), LC_m(1/σ_i + 1/(2σ_e)), "
+             "μ/(εE²), μL³/κ_B"},
             &UnitsScene::time);
   add_scale("viscosity", {"M", "viscosity", "reference viscosity; absent: that of the fluid in SI units"},
             &UnitsScene::viscosity);
@@ -146,8 +147,8 @@ void add_waveform_keys(KeyTable& table, std::string_view name, Part part) {
       .required = true;
   table.begin(name, {"ac"});
   table
-      .add("frequency", positive, {"f", "1/time", "at least four steps a period are taken"}, part,
-           &WaveformScene::frequency)
+      .add("frequency", positive, {"f", "1/time", "at least four steps a period are taken, unless it is averaged"},
+           part, &WaveformScene::frequency)
       .required = true;
   table.add("phase", any_number, {"", "1", "in radians; −π/2 makes a sine"}, part, &WaveformScene::phase);
   table.begin(name, {"pulse", "pulse_train"});
@@ -210,7 +211,17 @@ void add_electric_keys(KeyTable& table) {
       "transmembrane potential at time 0: none; that of a membrane fully charged; that of the file of [shape], "
       "which is the default with a file that has one",
       electric, &ElectricScene::initial_potential);
+  table.add(
+      "displacement_current", any_number,
+      {"", "", "of both fluids, which matters in fields of some 100 kHz and pulses below some us; needs permittivity"},
+      electric, &ElectricScene::displacement_current);
   add_waveform_keys(table, "electric.waveform", electric_waveform);
+  table.begin("electric.waveform", {"ac"});
+  table.add("average", any_number,
+            {"", "",
+             "the shape follows the mean force of a period, and V_m is known by amplitude and phase; see "
+             "docs/experiments/ac_field_averaged.md"},
+            electric_waveform, &WaveformScene::average);
 }
 
 void add_numerics_keys(KeyTable& table) {

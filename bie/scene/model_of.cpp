@@ -98,8 +98,13 @@ Model model_of(const Scene& scene) {
   for (const Scene& one : each_alone(scene)) model.vesicles.push_back(vesicle_of(one));
   if (scene.flow) add_flow(*scene.flow, model);
   if (scene.electric) {
-    model.electric = AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out,
-                                  scene.electric->permittivity, waveform_of(scene.electric->waveform)};
+    model.electric =
+        AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out, scene.electric->permittivity,
+                     waveform_of(scene.electric->waveform), scene.electric->displacement_current};
+    if (has_averaged_field(scene)) {
+      model.electric->waveform = {};
+      model.electric->averaged_frequency = scene.electric->waveform->frequency;
+    }
   }
   return model;
 }
@@ -113,7 +118,7 @@ double eighth_of_period(const Scene& scene) {
     if (waveform && waveform->kind == WaveformKind::ac) result = std::min(result, 1.0 / (8.0 * waveform->frequency));
   };
   if (scene.flow) add(scene.flow->waveform);
-  if (scene.electric) add(scene.electric->waveform);
+  if (scene.electric && !has_averaged_field(scene)) add(scene.electric->waveform);
   return result;
 }
 

@@ -39,7 +39,7 @@ std::optional<double> sum(std::optional<double> a, std::optional<double> b) {
 void add_waveform(Shortest& times, const SiValues& si, std::string_view table) {
   times.add(si.size(table, "duration"));
   times.add(si.size(table, "period"));
-  times.add(inverse(si.size(table, "frequency")));
+  if (!si.is_true(table, "average")) times.add(inverse(si.size(table, "frequency")));
 }
 
 void add_flow(Shortest& times, const SiValues& si) {

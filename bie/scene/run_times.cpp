@@ -52,7 +52,7 @@ class Times {
         return;
       case WaveformKind::ac:
         forcing(of + " period", "1/f", 1.0 / waveform.frequency, 2.0 * std::numbers::pi,
-                "at least four steps each; the run has {:.3g}");
+                waveform.average ? "averaged; the run has {:.3g}" : "at least four steps each; the run has {:.3g}");
         return;
       case WaveformKind::pulse_train:
         add(of + " period", "", waveform.period,
@@ -81,6 +81,7 @@ class Times {
     for (const RunTime& each : times_) {
       if (each.symbol == "t_m") other = std::min(other, each.value);
     }
+    if (scene_.electric->displacement_current) return "; by displacement currents";
     if (time <= short_against * other) return "; short, as the model needs";
     return "; not short against charging and waveform: displacement currents would matter";
   }

@@ -100,6 +100,7 @@ struct WaveformScene {
   double start = 0.0;
   double duration = 1.0;
   double period = 1.0;
+  bool average = false;             ///< of an ac field: only the mean of its force over a period counts
   std::optional<std::string> path;  ///< of a table that is still to be read
   std::vector<double> times, values;
   bool operator==(const WaveformScene&) const = default;
@@ -123,6 +124,7 @@ struct ElectricScene {
   double conductivity_out = 1.0;
   double permittivity = 1.0;
   double permittivity_ratio = 1.0;
+  bool displacement_current = false;
   std::optional<WaveformScene> waveform;                        ///< absent: constant
   InitialPotential initial_potential = InitialPotential::zero;  ///< of the file by default, where it has one
   bool operator==(const ElectricScene&) const = default;
@@ -182,5 +184,16 @@ struct Scene {
   std::vector<VesicleScene> vesicles{};
   bool operator==(const Scene&) const = default;
 };
+
+/// Does only the mean of the field's force over a period count?
+inline bool has_averaged_field(const Scene& scene) {
+  return scene.electric && scene.electric->waveform && scene.electric->waveform->kind == WaveformKind::ac &&
+         scene.electric->waveform->average;
+}
+
+/// Does free charge relax in time beside V_m?
+inline bool has_relaxing_charge(const Scene& scene) {
+  return scene.electric && scene.electric->displacement_current && !has_averaged_field(scene);
+}
 
 }  // namespace vehd

@@ -35,6 +35,9 @@ class Checks {
     if (scene_.flow && scene_.flow->kind == FlowKind::gradient) check_gradient();
     if (scene_.electric) check_conductivities();
     if (scene_.electric) check_permittivity();
+    if (scene_.electric) check_displacement_current();
+    if (scene_.electric && has_averaged_field(scene_)) check_average();
+    if (scene_.electric && has_relaxing_charge(scene_)) check_relaxing_charge();
     check_effects();
     if (scene_.flow && scene_.flow->waveform) check_waveform("flow", *scene_.flow->waveform, flow_is_zero());
     if (scene_.electric && scene_.electric->waveform) {
@@ -85,6 +88,42 @@ class Checks {
                        of_one));
   }
 
+  void check_displacement_current() const {
+    if (!scene_.electric->displacement_current) return;
+    if (!table_["electric"]["permittivity"]) {
+      refuse("electric", "displacement_current",
+             "\"displacement_current\" in [electric] needs \"permittivity\" there, whose default is not that of any "
+             "fluid");
+    }
+  }
+
+  void check_relaxing_charge() const {
+    const ElectricScene& electric = *scene_.electric;
+    if (electric.initial_potential == InitialPotential::file) {
+      refuse("electric", "initial_Vm",
+             "\"initial_Vm\" in [electric] is file, but with \"displacement_current\" the charges of both faces count, "
+             "which "
+             "no file has; accepted: zero, steady");
+    }
+    if (electric.initial_potential == InitialPotential::steady &&
+        (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0)) {
+      refuse("electric", "initial_Vm",
+             "\"initial_Vm\" in [electric] is steady, but a conductivity is 0; accepted with \"displacement_current\": "
+             "zero");
+    }
+  }
+
+  void check_average() const {
+    if (scene_.electric->initial_potential != InitialPotential::zero) {
+      refuse("electric", "initial_Vm",
+             "\"initial_Vm\" in [electric] has no effect with \"average\" in [electric.waveform]; accepted: zero");
+    }
+    if (scene_.electric->waveform->phase != 0.0) {
+      refuse("electric.waveform", "phase",
+             "\"phase\" in [electric.waveform] has no effect with \"average\"; accepted: 0");
+    }
+  }
+
   [[nodiscard]] bool flow_is_zero() const {
     const FlowScene& flow = *scene_.flow;
     if (flow.kind == FlowKind::gradient) return flow.gradient == TripleOfTriples{};
@@ -101,7 +140,7 @@ class Checks {
       case WaveformKind::pulse:
         break;
       case WaveformKind::ac: {
-        if (!scene_.numerics.dt) break;
+        if (!scene_.numerics.dt || waveform.average) break;
         const double steps = 1.0 / (waveform.frequency * *scene_.numerics.dt);
         if (steps >= fewest_steps_a_period) break;
         refuse(table, "frequency",

@@ -41,6 +41,10 @@ std::optional<double> size_of(const toml::node& node, const Dimension& dimension
 
 bool SiValues::has_table(std::string_view table) const { return file_.at_path(table).is_table(); }
 
+bool SiValues::is_true(std::string_view table, std::string_view key) const {
+  return file_.at_path(table)[key].value_or(false);
+}
+
 std::optional<double> SiValues::size(std::string_view table, std::string_view key) const {
   const KeyDescription* description = find_key(table, key);
   const Dimension* dimension = description == nullptr ? nullptr : find_dimension(description->unit);

@@ -17,6 +17,8 @@ class SiValues {
 
   /// Whether the file has this table.
   [[nodiscard]] bool has_table(std::string_view table) const;
+  /// Whether the file says true there.
+  [[nodiscard]] bool is_true(std::string_view table, std::string_view key) const;
   /// Magnitude of a number, length of a vector or of the longest row of a matrix, in SI base units.
   /// @return nullopt if it is absent, zero, or has a part other than zero without a unit
   [[nodiscard]] std::optional<double> size(std::string_view table, std::string_view key) const;

@@ -90,7 +90,8 @@ bool Evolution::raise_orders_for_charge() {
   bool raised = false;
   for (std::size_t a = 0; a < start_.size(); ++a) {
     orders.push_back(order(a));
-    const Vector& charge = evaluation_.fields.vesicles[a].charge;
+    const VesicleFields& fields = evaluation_.fields.vesicles[a];
+    const Matrix charge = is_averaged(setup_.model) ? fields.charge_amplitude : Matrix(fields.charge);
     if (!adapts() || order(a) >= setup_.settings.order || charge.size() == 0) continue;
     if (Resolution(charge).remainder() <= thresholds::charge_share * setup_.control.tolerance) continue;
     // A spectrum that is cut too early says little of how many degrees more are needed.
@@ -129,7 +130,13 @@ double Evolution::truncation(const State& state) const {
   return most;
 }
 
-Resolution Evolution::resolution(const State& state, std::size_t a) const { return {setup_.model, state.vesicles[a]}; }
+Resolution Evolution::resolution(const State& state, std::size_t a) const {
+  const VesicleState& vesicle = state.vesicles[a];
+  if (!is_averaged(setup_.model) || evaluation_.vesicles.empty()) return {setup_.model, vesicle};
+  // That of the last shape that was solved for.
+  const Matrix& potential = evaluation_.fields.vesicles[a].potential_amplitude;
+  return {setup_.model, vesicle, resize_order(potential, order_of(vesicle.position.rows()))};
+}
 
 std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& start) const {
   std::vector<int> orders;

@@ -73,8 +73,15 @@ Numbers right_numbers() {
   numbers.high.order = 18;
   numbers.solve(frozen);
   const CheckFields& of_run = numbers.bie;
-  frozen.fields.vesicles.front() = {of_run.velocity_of_shape, of_run.force_bending,   of_run.force_tension,
-                                    of_run.force_electric,    Vector(of_run.tension), of_run.charge};
+  frozen.fields.vesicles.front() = {of_run.velocity_of_shape,
+                                    of_run.force_bending,
+                                    of_run.force_tension,
+                                    of_run.force_electric,
+                                    Vector(of_run.tension),
+                                    of_run.charge,
+                                    {},
+                                    {},
+                                    {}};
   numbers.force = vehd::total_force(frozen, frozen.fields.vesicles.front());
   numbers.solve(frozen);
   return numbers;

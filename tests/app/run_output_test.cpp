@@ -38,7 +38,7 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
              "iterations_flow,iterations_electric,rejected,order,truncation,error_estimate,quadrature_error,separation,"
              "raw_area,wrinkle_degree,centroid_x,centroid_y,centroid_z,centroid_velocity_x,centroid_velocity_y,"
              "centroid_velocity_z,tension_max,elastic_energy_scaled,aspect_ratio,aspect_ratio_field,Vm_pole_plus,"
-             "Vm_pole_minus");
+             "Vm_pole_minus,Vm_phase_deg");
   const vehd::HistoryTable history(output + "/history.csv");
   BOOST_TEST(history.column("time").front() == 0.0);
   BOOST_TEST(history.column("time").back() == 3.0);

@@ -84,6 +84,7 @@ const std::vector<Column>& columns() {
       {"aspect_ratio_field", &VesicleDiagnostics::aspect_ratio_field},
       {"Vm_pole_plus", &VesicleDiagnostics::Vm_pole_plus, {0, 0, 0, 1}},
       {"Vm_pole_minus", &VesicleDiagnostics::Vm_pole_minus, {0, 0, 0, 1}},
+      {"Vm_phase_deg", &VesicleDiagnostics::Vm_phase_deg, {}, on_nothing, 90.0},
   };
   return all;
 }

@@ -68,18 +68,20 @@ VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame
   Matrix position = membrane.position * frame.axes.transpose();
   position.row(0).setZero();
   const SphereDerivatives x = fine.synthesize_hessian(position);
-  if (membrane.transmembrane_potential.size() > 0) {
+  const bool alternates = fields.potential_amplitude.size() > 0;
+  if (membrane.transmembrane_potential.size() > 0 || alternates) {
     // A transform that knows no more belongs to states that are axisymmetric about z.
     const bool axisymmetric = fine.azimuthal_order() < fine.order();
     const std::optional<SpherePoint> north =
         axisymmetric ? higher_pole(position)
                      : highest_on_line(frame.axes * (centroid(s) - mean), fine.grid(), x, position);
-    const auto there = [&](const Vector& field) {
+    const auto there = [&](const Matrix& field) {
       if (!north) return std::numeric_limits<double>::quiet_NaN();
-      return evaluate_harmonics(field, Vector{{north->theta}}, Vector{{north->phi}})(0, 0);
+      const Matrix value = evaluate_harmonics(field, Vector{{north->theta}}, Vector{{north->phi}});
+      return alternates ? value.norm() : value(0, 0);
     };
-    d.Vm_north = there(membrane.transmembrane_potential);
-    d.q_north = there(fields.charge);
+    d.Vm_north = there(alternates ? fields.potential_amplitude : Matrix(transmembrane_potential(membrane, fields)));
+    d.q_north = there(alternates ? fields.charge_amplitude : Matrix(fields.charge));
   }
   const auto extent = [&](Index axis) {
     return maximum(fine.grid(), x, axis, position.col(axis), 1.0) +
@@ -105,6 +107,23 @@ void add_moments(const DiagnosedModel& model, const SphereTransform& fine, const
   }
   d.aspect_ratio = moments.aspect_ratio();
   if (!model.field.isZero(0.0)) d.aspect_ratio_field = moments.aspect_ratio_along(model.field);
+}
+
+/// V_m of an averaged field, by its magnitude.
+void add_amplitudes(const DiagnosedModel& model, const SphereTransform& fine, const Surface& s,
+                    const VesicleState& vesicle, const Matrix& amplitude, VesicleDiagnostics& d) {
+  const Vector3 mean = vesicle.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+  const auto at_poles = [&](Index part) {
+    return values_at_poles(model.field, fine, centroid(s) - mean, vesicle.position, amplitude.col(part));
+  };
+  const auto [plus_real, minus_real] = at_poles(0);
+  const auto [plus_imaginary, minus_imaginary] = at_poles(1);
+  d.Vm_pole_plus = std::hypot(plus_real, plus_imaginary);
+  d.Vm_pole_minus = std::hypot(minus_real, minus_imaginary);
+  d.Vm_phase_deg = std::atan2(plus_imaginary, plus_real) * 180.0 / std::numbers::pi;
+  // The magnitude has kinks, its square has none.
+  const Vector square = fine.analyze(Vector(fine.synthesize(amplitude).rowwise().squaredNorm()));
+  d.Vm_max = std::sqrt(maximum(fine.grid(), fine.synthesize_hessian(square), 0, square, 1.0));
 }
 
 void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
@@ -152,7 +171,10 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
     // The tension of a sphere is known up to its mean.
     if (!solution.is_sphere) d.wrinkle_degree = wrinkle_degree(model.flow, tension.minCoeff(), membrane.radius);
   }
-  const Vector& potential = vesicle.transmembrane_potential;
+  if (fields.potential_amplitude.size() > 0) {
+    add_amplitudes(model, fine, s, vesicle, fields.potential_amplitude, d);
+  }
+  const Vector& potential = transmembrane_potential(vesicle, fields);
   if (potential.size() > 0) {
     const SphereDerivatives v = fine.synthesize_hessian(potential);
     if (!model.field.isZero(0.0)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bie/physics/charge_relaxation.hpp"
 #include "bie/physics/coupled_charging.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -16,11 +17,12 @@ namespace {
 /// Before what is solved for.
 SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, const StartMembrane& start) {
   const Index n = start.position.rows();
-  SurfaceFields fields{start.position, Vector::Zero(n), {}, {}};
+  SurfaceFields fields{start.position, Vector::Zero(n), {}, {}, {}};
   if (vesicle.inextensible) fields.tension = Vector::Zero(n);
-  if (!model.electric) return fields;
+  if (!model.electric || is_averaged(model)) return fields;
   const Vector& given = start.potential.given;
   fields.transmembrane_potential = given.size() > 0 ? resize_order(given, order_of(n)) : Vector::Zero(n);
+  if (relaxes_charge(model)) fields.free_charge = Vector::Zero(n);
   return fields;
 }
 
@@ -76,6 +78,12 @@ State initial_state(const Model& model, const Discretisation& discretisation,
       require_converged(steady_potential(electric_parameters(model, vesicle), vesicle.charging, membrane,
                                          discretisation.settings().electric_tolerance, start.transmembrane_potential),
                         "steady membrane potential");
+      if (relaxes_charge(model)) {
+        FaceCharges charges =
+            steady_charges(electric_parameters(model, vesicle), vesicle.charging, start.transmembrane_potential);
+        start.transmembrane_potential = std::move(charges.inner);
+        start.free_charge = std::move(charges.sum);
+      }
     }
   }
   const auto is_steady = [](const StartMembrane& membrane) { return membrane.potential.steady; };

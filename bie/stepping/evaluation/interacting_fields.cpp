@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bie/physics/coupled_electric.hpp"
+#include "bie/stepping/evaluation/averaged_forces.hpp"
 #include "bie/stepping/solve/coupled_tension.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/state/composition.hpp"
@@ -116,7 +117,9 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     }
   } else if (tasks.front().model.electric) {
     const auto timer = instruments.time("electric");
-    const std::vector<Matrix> forces = solve_fields_of_charges(tasks, time, limit, solved);
+    const std::vector<Matrix> forces = is_averaged(tasks.front().model)
+                                           ? averaged_forces(tasks, solved)
+                                           : solve_fields_of_charges(tasks, time, limit, solved);
     for (std::size_t a = 0; a < tasks.size(); ++a) forcing[a].force -= forces[a];
   }
   if (!tasks.front().model.mobile) return;

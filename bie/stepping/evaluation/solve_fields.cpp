@@ -2,8 +2,10 @@
 
 #include "bie/physics/electric.hpp"
 #include "bie/physics/tension.hpp"
+#include "bie/stepping/evaluation/averaged_forces.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/evaluation/interacting_fields.hpp"
+#include "bie/stepping/evaluation/relaxing_charge.hpp"
 #include "bie/stepping/evaluation/vesicle_task.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
@@ -65,10 +67,13 @@ void solve(const VesicleTask& task, double time, Limit limit, Instruments& instr
     task.fields.charge = Vector::Zero(n);
     task.solution.potential_rate = Vector::Zero(n);
     task.fields.force_electric = Matrix::Zero(n, 3);
+    if (relaxes_charge(task.model)) without_charges(task);
   } else if (task.model.electric) {
     const auto timer = instruments.time("electric");
     const ElectricParameters electric = electric_parameters(task.model, task.vesicle).at(time, limit);
-    const Matrix force = solve_electric(task, electric, solved.iterations_electric);
+    const Matrix force = is_averaged(task.model)      ? averaged_forces({task}, solved).front()
+                         : relaxes_charge(task.model) ? force_of_charges(task, electric, solved.iterations_electric)
+                                                      : solve_electric(task, electric, solved.iterations_electric);
     task.fields.force_electric = membrane.fine.analyze(force);
     forcing.force -= force;
   }

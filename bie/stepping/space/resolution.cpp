@@ -38,16 +38,19 @@ double potential_scale(const AppliedField& electric, double radius, double large
   return potential_scale(least_potential_scale(electric, radius), largest);
 }
 
-Resolution::Resolution(const Model& model, const VesicleState& vesicle) {
+Resolution::Resolution(const Model& model, const VesicleState& vesicle)
+    : Resolution(model, vesicle, vesicle.transmembrane_potential) {}
+
+Resolution::Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential) {
   const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
   shape_ = degree_bounds(vesicle.position) / radius;
   shape_[0] = 0.0;  // where the vesicle is
-  if (!model.electric || vesicle.transmembrane_potential.size() == 0) return;
-  potential_ = degree_bounds(vesicle.transmembrane_potential);
+  if (!model.electric || potential.size() == 0) return;
+  potential_ = degree_bounds(potential);
   least_scale_ = least_potential_scale(*model.electric, radius);
 }
 
-Resolution::Resolution(const Vector& field) {
+Resolution::Resolution(const Matrix& field) {
   shape_ = degree_bounds(field);
   const double size = shape_.maxCoeff();
   if (size > 0.0) shape_ /= size;

@@ -17,7 +17,11 @@ class Resolution {
   /// @param vesicle  of the state whose spectra are looked at
   Resolution(const Model& model, const VesicleState& vesicle);
   /// Of coefficients of another field, over its size.
-  explicit Resolution(const Vector& field);
+  /// @param field  a column for each component
+  explicit Resolution(const Matrix& field);
+  /// A vesicle in an averaged field, whose V_m is no part of the state.
+  /// @param potential  amplitude of V_m, of the degree of the vesicle
+  Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential);
 
   /// Estimate of what the degrees above p would add, in the maximum norm, to x over the radius or to V_m over its
   /// scale, whichever is more. A geometric series continues the upper half of the spectrum.

@@ -61,8 +61,9 @@ bool electric_inactive(const Model& model, const State& state, Limit limit) {
   const Waveform& waveform = model.electric->waveform;
   const bool quiet =
       limit == Limit::after ? waveform.is_quiet(state.time) : waveform.at(state.time, Limit::before) == 0.0;
-  return quiet && std::all_of(state.vesicles.begin(), state.vesicles.end(),
-                              [](const VesicleState& vesicle) { return vesicle.transmembrane_potential.isZero(0.0); });
+  return quiet && std::all_of(state.vesicles.begin(), state.vesicles.end(), [](const VesicleState& vesicle) {
+           return vesicle.transmembrane_potential.isZero(0.0) && vesicle.free_charge.isZero(0.0);
+         });
 }
 
 LayerSelection needed_layers(const Model& model, const VesicleModel& vesicle, bool electric_active) {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "bie/stepping/state/surface_fields.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -16,14 +17,23 @@ struct VesicleFields {
   Matrix force_electric;  ///< f_E = [[n·Σ_el]]
   Vector tension;         ///< λ
   Vector charge;          ///< q = [[∂φ/∂n]]
+  Vector potential;       ///< V_m where it is no part of the state but follows from free charges; empty elsewhere
+  // Of a field of which only the mean over a period counts, in place of V_m and q; the electric force is the mean.
+  Matrix potential_amplitude;  ///< of V_m, complex: the columns are real and imaginary part, [n_coefficients x 2]
+  Matrix charge_amplitude;     ///< of q likewise
 };
+
+/// V_m of a membrane at one time, coefficients; empty without electricity and in an averaged field.
+inline const Vector& transmembrane_potential(const SurfaceFields& membrane, const VesicleFields& fields) {
+  return fields.potential.size() > 0 ? fields.potential : membrane.transmembrane_potential;
+}
 
 /// The fields of every membrane of a State.
 struct Fields {
   std::vector<VesicleFields> vesicles;
 };
 
-/// What history.csv tells of one membrane at one time.
+/// What history.csv tells of one membrane at one time. Of an averaged field V_m and q are magnitudes of amplitudes.
 struct VesicleDiagnostics {
   double area = 0, volume = 0, reduced_volume = 0;
   double bending_energy_scaled = 0;  ///< ∫H² dA
@@ -47,6 +57,7 @@ struct VesicleDiagnostics {
   double aspect_ratio_field = 0;     ///< of the gyration tensor along the field over across, 0 without a field
   double Vm_pole_plus = 0,
          Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
+  double Vm_phase_deg = 0;   ///< of V_m at the former against the field, of an averaged field
 };
 
 /// The diagnostics of every membrane of a State.

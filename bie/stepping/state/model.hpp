@@ -34,6 +34,12 @@ struct Model {
 /// The fluids and the membrane that one vesicle moves with.
 FlowParameters flow_parameters(const Model& model, const VesicleModel& vesicle);
 
+/// Is there a field of which only the mean over a period counts? V_m follows from the shapes then and is no unknown.
+bool is_averaged(const Model& model);
+
+/// Does free charge of both faces relax in time, so that V_m is no part of the state?
+bool relaxes_charge(const Model& model);
+
 /// The electric problem of one vesicle, the waveform with it; the model must have a field.
 ElectricParameters electric_parameters(const Model& model, const VesicleModel& vesicle);
 

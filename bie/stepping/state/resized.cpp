@@ -23,10 +23,11 @@ VesicleState resized(VesicleState vesicle, int order) {
 }
 
 VesicleFields resized(VesicleFields fields, int order) {
-  for (Matrix* field : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric}) {
+  for (Matrix* field : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric,
+                        &fields.potential_amplitude, &fields.charge_amplitude}) {
     *field = resized(*field, order);
   }
-  for (Vector* field : {&fields.charge, &fields.tension}) *field = resized(Matrix(*field), order);
+  for (Vector* field : {&fields.charge, &fields.potential, &fields.tension}) *field = resized(Matrix(*field), order);
   return fields;
 }
 

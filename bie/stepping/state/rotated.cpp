@@ -12,6 +12,12 @@ Matrix rotated_vectors(const Matrix3& rotation, const Matrix& coefficients) {
   return rotated_fields(coefficients, rotation) * rotation.transpose();
 }
 
+/// Every column by itself.
+Matrix rotated_scalars(const Matrix3& rotation, const Matrix& coefficients) {
+  if (coefficients.size() == 0) return coefficients;
+  return rotated_fields(coefficients, rotation);
+}
+
 Vector rotated_scalar(const Matrix3& rotation, const Vector& coefficients) {
   if (coefficients.size() == 0) return coefficients;
   return rotated_fields(coefficients, rotation);
@@ -48,6 +54,9 @@ Fields rotated(const Matrix3& rotation, Fields fields) {
     }
     f.tension = rotated_scalar(rotation, f.tension);
     f.charge = rotated_scalar(rotation, f.charge);
+    f.potential = rotated_scalar(rotation, f.potential);
+    f.potential_amplitude = rotated_scalars(rotation, f.potential_amplitude);
+    f.charge_amplitude = rotated_scalars(rotation, f.charge_amplitude);
   }
   return fields;
 }

@@ -14,7 +14,8 @@ double state_difference(const State& state, const State& reference) {
     const VesicleState& one = state.vesicles[a];
     const VesicleState& other = reference.vesicles[a];
     largest = std::max({largest, relative(one.position, other.position),
-                        relative(one.transmembrane_potential, other.transmembrane_potential)});
+                        relative(one.transmembrane_potential, other.transmembrane_potential),
+                        relative(one.free_charge, other.free_charge)});
   }
   return largest;
 }

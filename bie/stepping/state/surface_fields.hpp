@@ -7,16 +7,19 @@ namespace vehd {
 /// What rides on the material points of one membrane, in spherical-harmonic coefficients of one degree, index
 /// n² + n + m (docs/conventions.md). Fields of absent effects are empty.
 struct SurfaceFields {
-  Matrix position;                 ///< x, [n_coefficients x 3]
-  Vector area_strain;              ///< W/W_ref − 1
-  Vector transmembrane_potential;  ///< V_m, interior minus exterior; empty without electricity
-  Vector tension;                  ///< λ, also the initial guess of the next solve; empty unless inextensible
+  Matrix position;     ///< x, [n_coefficients x 3]
+  Vector area_strain;  ///< W/W_ref − 1
+  /// V_m, interior minus exterior; empty without electricity. With displacement currents the charge of the inner face
+  /// over C_m, which is continuous where the field jumps, see FaceCharges.
+  Vector transmembrane_potential;
+  Vector free_charge;  ///< of both faces over C_m; empty without displacement currents
+  Vector tension;      ///< λ, also the initial guess of the next solve; empty unless inextensible
 };
 
 /// The scalars among them that are there, one after the other: visit(Vector&).
 template <typename Fields, typename Visit>
 void for_each_scalar(Fields& fields, const Visit& visit) {
-  for (auto* scalar : {&fields.area_strain, &fields.transmembrane_potential, &fields.tension}) {
+  for (auto* scalar : {&fields.area_strain, &fields.transmembrane_potential, &fields.free_charge, &fields.tension}) {
     if (scalar->size() > 0) visit(*scalar);
   }
 }

@@ -74,6 +74,9 @@ SurfaceFields symmetric_part(const SymmetrySubspace& subspace, SurfaceFields fie
   if (fields.transmembrane_potential.size() > 0) {
     fields.transmembrane_potential = subspace.symmetric_potential(fields.transmembrane_potential);
   }
+  if (fields.free_charge.size() > 0) {
+    fields.free_charge = subspace.symmetric_potential(fields.free_charge);
+  }
   return fields;
 }
 

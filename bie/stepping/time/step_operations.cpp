@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "bie/physics/averaged_field.hpp"
+#include "bie/physics/charge_relaxation.hpp"
 #include "bie/physics/coupled_charging.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
@@ -38,7 +40,9 @@ Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fi
   Rate::OfVesicle rate;
   rate.velocity = solution.is_sphere ? rigid_sphere_velocity(membrane, fields.velocity) : fields.velocity;
   rate.potential = solution.potential_rate;
-  rate.charge = fields.charge;
+  rate.free_charge = solution.free_charge_rate;
+  rate.charge = fields.charge_amplitude.size() > 0 ? fields.charge_amplitude : Matrix(fields.charge);
+  rate.potential_amplitude = fields.potential_amplitude;
   if (fields.tension.size() > 0 && !solution.is_sphere) {
     const Vector tension = membrane.fine.synthesize(fields.tension);
     rate.tension_integral = tension.dot(membrane.surface.quadrature);
@@ -86,15 +90,14 @@ Rate StepOperations::rate(const NodeSolution& node) {
 
 NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   NodeSolution result{start_.time + dt, {}};
-  std::vector<Vector> potentials;
-  for (const VesicleState& vesicle : start_.vesicles) potentials.push_back(vesicle.transmembrane_potential);
-  if (charges()) charge(electric_at(result.time), dt, potentials);
+  std::vector<Charge> charged;
+  for (const VesicleState& vesicle : start_.vesicles) {
+    charged.push_back({vesicle.transmembrane_potential, vesicle.free_charge});
+  }
+  if (charges()) charge(electric_at(result.time), dt, charged);
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = start_.vesicles[a];
-    if (charges()) {
-      fields.transmembrane_potential = std::move(potentials[a]);
-      forget_decayed(result.time, a, fields.transmembrane_potential);
-    }
+    if (charges()) take(std::move(charged[a]), result.time, a, fields);
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
     if (model_.mobile) fields.tension = instantaneous.tension;
     const auto rigid = [&](const Membrane& sphere) { return motion_of_velocity(sphere, instantaneous.velocity, dt); };
@@ -105,8 +108,10 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
 
 NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end) {
   NodeSolution result{y.time, {}};
-  std::vector<Vector> changes;
-  for (const Residual::OfVesicle& of_vesicle : r.vesicles) changes.push_back(of_vesicle.potential);
+  std::vector<Charge> changes;
+  for (const Residual::OfVesicle& of_vesicle : r.vesicles) {
+    changes.push_back({of_vesicle.potential, of_vesicle.free_charge});
+  }
   if (charges()) {
     std::vector<ElectricParameters> homogeneous = electric_at(y.time);
     for (ElectricParameters& electric : homogeneous) electric.field.setZero();
@@ -116,8 +121,9 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
     if (charges()) {
-      fields.transmembrane_potential += changes[a];
-      forget_decayed(result.time, a, fields.transmembrane_potential);
+      changes[a].potential += fields.transmembrane_potential;
+      changes[a].free += fields.free_charge;
+      take(std::move(changes[a]), result.time, a, fields);
     }
     const Matrix& lacks = r.vesicles[a].position;
     // A rigid motion has no stiffness, so nothing of it is implicit.
@@ -149,25 +155,39 @@ std::vector<ElectricParameters> StepOperations::electric_at(double time) const {
   return result;
 }
 
-void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt,
-                            std::vector<Vector>& potentials) {
+void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges) {
   const auto timer = instruments_.time("electric");
   const double tolerance = discretisation_.settings().electric_tolerance;
   SolveReport report;
-  if (potentials.size() == 1) {
+  if (relaxes_charge(model_)) {
+    FaceCharges faces{std::move(charges.front().potential), std::move(charges.front().free)};
+    report = relax_charges(electric.front(), model_.vesicles.front().charging, *at_start_.vesicles.front().membrane, dt,
+                           tolerance, faces);
+    charges.front() = {std::move(faces.inner), std::move(faces.sum)};
+  } else if (charges.size() == 1) {
     report = charge_membrane(electric.front(), model_.vesicles.front().charging, *at_start_.vesicles.front().membrane,
-                             dt, tolerance, potentials.front());
+                             dt, tolerance, charges.front().potential);
   } else {
+    std::vector<Vector> potentials;
     std::vector<ElectricMembrane> membranes;
     std::vector<ChargingParameters> charging;
-    for (std::size_t a = 0; a < potentials.size(); ++a) {
+    for (std::size_t a = 0; a < charges.size(); ++a) {
       membranes.push_back({electric[a], *at_start_.vesicles[a].membrane});
       charging.push_back(model_.vesicles[a].charging);
+      potentials.push_back(std::move(charges[a].potential));
     }
     report = charge_membranes(membranes, *at_start_.interaction, charging, dt, tolerance, potentials);
+    for (std::size_t a = 0; a < charges.size(); ++a) charges[a].potential = std::move(potentials[a]);
   }
   iterations_electric_ += report.iterations;
   if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
+}
+
+void StepOperations::take(Charge charge, double time, std::size_t a, SurfaceFields& fields) const {
+  forget_decayed(time, a, charge.potential);
+  if (charge.free.size() > 0) forget_decayed(time, a, charge.free);
+  fields.transmembrane_potential = std::move(charge.potential);
+  fields.free_charge = std::move(charge.free);
 }
 
 /// A potential this small does nothing any more, and without it the electric part becomes inactive.
@@ -232,7 +252,7 @@ State StepOperations::end_state(const NodeSolution& node) const {
 }
 
 double StepOperations::potential_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
-  if (!model_.electric) return 0.0;
+  if (y.transmembrane_potential.size() == 0) return 0.0;
   const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
   const double size = fine.synthesize(y.transmembrane_potential).cwiseAbs().maxCoeff();
   const Matrix change = fine.synthesize(y.transmembrane_potential - x.transmembrane_potential);
@@ -284,7 +304,9 @@ double StepOperations::least_tension(std::size_t a) const {
 /// A charge that the field of the scene makes much more of.
 double StepOperations::least_charge(std::size_t a) const {
   const ElectricParameters electric = electric_parameters(model_, model_.vesicles[a]);
-  return thresholds::least_charge_share * std::abs(conductivity_contrast(electric)) * electric.field.norm();
+  const double contrast = electric.averaged_frequency ? std::abs(complex_conductivities(electric).contrast())
+                                                      : std::abs(conductivity_contrast(electric));
+  return thresholds::least_charge_share * contrast * electric.field.norm();
 }
 
 InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, const Rate& b) const {
@@ -300,6 +322,11 @@ InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, 
     const double charge = fine.synthesize(y.charge - x.charge).cwiseAbs().maxCoeff();
     const double size = fine.synthesize(y.charge).cwiseAbs().maxCoeff();
     largest.charge = std::max(largest.charge, share(charge, std::max(size, least_charge(i))));
+    if (y.potential_amplitude.size() == 0) continue;
+    const double potential = fine.synthesize(y.potential_amplitude - x.potential_amplitude).cwiseAbs().maxCoeff();
+    const double most = fine.synthesize(y.potential_amplitude).cwiseAbs().maxCoeff();
+    const double radius = at_start_.vesicles[i].membrane->radius;
+    largest.charge = std::max(largest.charge, potential / potential_scale(*model_.electric, radius, most));
   }
   return largest;
 }

@@ -23,7 +23,9 @@ struct Rate {
   struct OfVesicle {
     Matrix velocity;
     Vector potential;
-    Vector charge;                  ///< q; empty without electricity
+    Vector free_charge;             ///< of SurfaceFields::free_charge; empty without
+    Matrix charge;                  ///< q, or its amplitude; empty without electricity
+    Matrix potential_amplitude;     ///< of V_m in an averaged field, which is solved for at once; empty without
     double tension_integral = 0.0;  ///< ∫λ dA; 0 where a sphere leaves its mean open
     double tension_size = 0.0;      ///< ∫|λ| dA
   };
@@ -39,7 +41,7 @@ struct VisibleDifference {
 /// How two rates of one node differ in what is solved for at once, the largest of all vesicles.
 struct InstantaneousDifference {
   double tension = 0.0;  ///< of ∫λ dA, over ∫|λ| dA
-  double charge = 0.0;   ///< of q in the maximum norm, over its size
+  double charge = 0.0;   ///< of q in the maximum norm, over its size, and of V_m where it is solved for at once
 };
 
 /// What a node lacks of the equation of its time scheme, in the unknowns y.
@@ -47,6 +49,7 @@ struct Residual {
   struct OfVesicle {
     Matrix position;
     Vector potential;
+    Vector free_charge;  ///< empty without displacement currents
   };
   std::vector<OfVesicle> vesicles;
 };
@@ -114,14 +117,21 @@ class StepOperations {
   [[nodiscard]] int iterations_electric() const { return iterations_electric_; }
 
  private:
-  [[nodiscard]] bool charges() const { return model_.electric.has_value() && !at_start_.electric_inactive; }
+  [[nodiscard]] bool charges() const {
+    return model_.electric.has_value() && !is_averaged(model_) && !at_start_.electric_inactive;
+  }
   [[nodiscard]] State state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const;
   [[nodiscard]] double least_tension(std::size_t vesicle) const;
   [[nodiscard]] double least_charge(std::size_t vesicle) const;
   [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
-  void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Vector>& potentials);
+  /// V_m of a membrane, or the charges of its faces.
+  struct Charge {
+    Vector potential, free;
+  };
+  void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges);
+  void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end) const;
   using RigidMotion = std::function<SphereMotion(const Membrane& sphere)>;

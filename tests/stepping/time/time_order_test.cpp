@@ -85,6 +85,16 @@ BOOST_AUTO_TEST_CASE(alternating_field_keeps_the_order) {
   OrderStudy(model, position, 0.3, 4).reaches(5, 3.7);
 }
 
+BOOST_AUTO_TEST_CASE(averaged_field_keeps_the_order) {
+  Model model = field_model();
+  model.electric->averaged_frequency = 0.5;
+  model.electric->displacement_current = true;
+  // Few steps: the errors come down to the tolerance of the solvers, 1e-9.
+  const Matrix position = ellipsoid(12, {1.0, 1.0, 1.2});
+  OrderStudy(model, position, 1.0, 4).reaches(2, 1.7);
+  OrderStudy(model, position, 4.0, 2).reaches(4, 3.4);
+}
+
 BOOST_AUTO_TEST_CASE(tank_treading_keeps_the_order) {
   OrderStudy(shear_model(), ellipsoid(8, {1.0, 1.2, 1.5}), 0.5, 2).reaches(2, 1.6);
 }

@@ -1,0 +1,31 @@
+#include "bie/stepping/evaluation/averaged_forces.hpp"
+
+#include <utility>
+
+#include "bie/physics/averaged_field.hpp"
+
+namespace vehd {
+
+std::vector<Matrix> averaged_forces(const std::vector<VesicleTask>& tasks, SolvedFields& solved) {
+  std::vector<ElectricMembrane> membranes;
+  std::vector<ChargingParameters> charging;
+  for (const VesicleTask& task : tasks) {
+    membranes.push_back({electric_parameters(task.model, task.vesicle), task.membrane});
+    charging.push_back(task.vesicle.charging);
+  }
+  AveragedFields averaged =
+      solve_averaged_fields(membranes, charging, solved.interaction.get(), tasks.front().settings.electric_tolerance);
+  require_converged(averaged.report, "amplitudes of V_m in an averaged field");
+  solved.iterations_electric += averaged.report.iterations;
+  std::vector<Matrix> forces;
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    AveragedField& field = averaged.membranes[a];
+    tasks[a].fields.potential_amplitude = std::move(field.potential);
+    tasks[a].fields.charge_amplitude = std::move(field.charge);
+    tasks[a].fields.force_electric = tasks[a].membrane.fine.analyze(field.force);
+    forces.push_back(std::move(field.force));
+  }
+  return forces;
+}
+
+}  // namespace vehd

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "bie/support/types.hpp"
+
+/// Complex numbers whose real and imaginary parts stand side by side, [n x 2]: amplitudes z of what is Re(z e^{iωt}).
+namespace vehd {
+
+/// c z.
+inline Matrix times(std::complex<double> c, const Matrix& z) {
+  Eigen::Matrix2d map;
+  map << c.real(), c.imag(), -c.imag(), c.real();
+  return z * map;
+}
+
+/// |z|.
+inline Vector magnitudes(const Matrix& z) { return z.rowwise().norm(); }
+
+/// arg z in degrees, 0 where |z| is rounding against the largest.
+inline Vector phases_deg(const Matrix& z) {
+  constexpr double kRounding = 1e-9;
+  const Vector sizes = magnitudes(z);
+  const double least = kRounding * sizes.maxCoeff();
+  Vector phases = Vector::Zero(z.rows());
+  for (Index i = 0; i < z.rows(); ++i) {
+    if (sizes[i] > least) phases[i] = std::atan2(z(i, 1), z(i, 0)) * 180.0 / std::numbers::pi;
+  }
+  return phases;
+}
+
+}  // namespace vehd

@@ -1,0 +1,31 @@
+#include "bie/comparison/frozen_state.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "bie/support/errors.hpp"
+#include "tests/support/files.hpp"
+
+BOOST_AUTO_TEST_SUITE(frozen_state)
+
+BOOST_AUTO_TEST_CASE(fields_that_the_elements_do_not_know_are_refused) {
+  const TemporaryDirectory directory;
+  const std::string start =
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1.2]\n[numerics]\ndegree = 4\ndt = 0.1\nend_time = 1\n"
+      "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\npermittivity = 1\n";
+  const auto message = [&](const std::string& more) {
+    write_text(directory / "scene.toml", start + more);
+    try {
+      vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
+    } catch (const vehd::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  BOOST_TEST(message("") == "");
+  const std::string waveform = "[electric.waveform]\nkind = \"ac\"\nfrequency = 1\n";
+  BOOST_TEST(message(waveform) == "");
+  BOOST_TEST(message(waveform + "average = true\n").find("averaged ac field") != std::string::npos);
+  BOOST_TEST(message("displacement_current = true\n").find("displacement currents") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
