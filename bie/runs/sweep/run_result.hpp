@@ -15,8 +15,9 @@ struct RunResult {
   std::string verdict;  ///< of the run; "refused" where it could not begin
   std::string reason;   ///< why it did not reach its end; empty if it did
   double seconds = 0.0;
-  std::map<std::string, std::string, std::less<>> final_values;  ///< of the last row of its history, by column, as written
-  std::map<std::string, std::string, std::less<>> units;         ///< of these columns where they have one
+  std::map<std::string, std::string, std::less<>>
+      final_values;                                       ///< of the last row of its history, by column, as written
+  std::map<std::string, std::string, std::less<>> units;  ///< of these columns where they have one
 };
 
 /// Of a session that has written its summary.
