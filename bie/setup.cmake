@@ -9,6 +9,7 @@
 #   cmake -DSTEP=callgrind -P bie/setup.cmake  installs valgrind, counts the instructions of a run without electricity:
 #                                              none in electric code, next to none in bookkeeping
 #   cmake -DSTEP=faults -P bie/setup.cmake    kills a run 200 times and breaks its files and its disk in every other way
+#   cmake -DSTEP=slurm -P bie/setup.cmake     installs Slurm, starts one of this machine alone and gives it a sweep; as root
 #   cmake -DSTEP=sanitize -P bie/setup.cmake  installs clang, runs all tests under address and undefined-behaviour
 #                                             sanitizers
 #   cmake -DSTEP=fuzz -P bie/setup.cmake      installs clang, fuzzes each reader of files for 10 minutes; -DSECONDS=60
@@ -33,7 +34,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
-set(steps run test build check python package callgrind faults sanitize fuzz docs site)
+set(steps run test build check python package callgrind faults slurm sanitize fuzz docs site)
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
@@ -141,6 +142,12 @@ endif()
 if(STEP STREQUAL "callgrind")
   need_program(valgrind valgrind)
 endif()
+if(STEP STREQUAL "slurm")
+  need_program(slurmctld slurmctld)
+  need_program(slurmd slurmd)
+  need_program(slurm-client sbatch)
+  need_program(munge munged)
+endif()
 if(STEP MATCHES "^(sanitize|fuzz)$")
   need_program(clang clang++)
   execute_process(COMMAND clang++ -print-runtime-dir OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
@@ -215,7 +222,7 @@ elseif(jobs LESS 1)
 endif()
 
 set(options "-DVEHD_ARCHITECTURE=${VEHD_ARCHITECTURE}" -DCMAKE_UNITY_BUILD=ON)
-if(STEP MATCHES "^(test|sanitize|faults|fuzz)$")
+if(STEP MATCHES "^(test|sanitize|faults|slurm|fuzz)$")
   list(APPEND options -DBUILD_TESTING=ON)
 else()
   list(APPEND options -DBUILD_TESTING=OFF)
@@ -263,7 +270,7 @@ if(STEP MATCHES "^(test|sanitize)$")
 else()
   set(targets vehd)
   set(fuzzers scene tables files edits)
-  if(STEP STREQUAL "faults")
+  if(STEP MATCHES "^(faults|slurm)$")
     list(APPEND targets test_faults)
   elseif(STEP STREQUAL "fuzz")
     list(TRANSFORM fuzzers PREPEND fuzz_ OUTPUT_VARIABLE targets)
@@ -276,6 +283,9 @@ else()
 endif()
 if(STEP STREQUAL "faults")
   run_or_stop("${build}/test_faults" -- 200)
+endif()
+if(STEP STREQUAL "slurm")
+  run_or_stop("${build}/test_faults" --run_test=slurm --log_level=message)
 endif()
 if(STEP STREQUAL "fuzz")
   foreach(fuzzer IN LISTS fuzzers)

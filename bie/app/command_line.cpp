@@ -89,6 +89,7 @@ int run_program(int argc, char** argv) {
   program.footer(footer);
   ExitCode exit_code = ExitCode::done;
   add_run_command(program, exit_code);
+  add_sweep_command(program, exit_code);
   add_plot_command(program, exit_code);
   add_report_command(program, exit_code);
   add_plan_command(program, exit_code);

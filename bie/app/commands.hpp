@@ -12,7 +12,9 @@ namespace vehd {
 
 /// vehd run: simulates a scene.
 void add_run_command(CLI::App& program, ExitCode& exit_code);
-/// vehd plot: pictures of a run.
+/// vehd sweep: simulates a scene for many values of its keys.
+void add_sweep_command(CLI::App& program, ExitCode& exit_code);
+/// vehd plot: pictures of a run, or of a sweep.
 void add_plot_command(CLI::App& program, ExitCode& exit_code);
 /// vehd report: one HTML file that shows a run.
 void add_report_command(CLI::App& program, ExitCode& exit_code);

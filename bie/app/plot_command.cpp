@@ -6,6 +6,7 @@
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
 #include "bie/pictures/movie.hpp"
+#include "bie/pictures/plot_sweep.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -18,7 +19,8 @@ struct PlotOptions {
   std::string output;
   std::string format;
   std::string field;
-  std::vector<std::string> times;
+  std::vector<std::string> times, columns;
+  std::optional<double> border;
   ShapesStyle style;
   bool movie = false;
   CommonOptions common;
@@ -48,8 +50,24 @@ PlotResult plot_file(const PlotOptions& options, const PlotTask& task, PictureFo
   return plot_shapes(task, {task.output, format});
 }
 
+/// The table of a sweep.
+ExitCode plot_table(const PlotOptions& options, const PlotTask& task) {
+  const auto pictures = plot_sweep({{options.directory}, options.columns, options.border, task.output, task.format});
+  nlohmann::json result;
+  for (const auto& picture : pictures) {
+    fmt::print("{}\n", picture.string());
+    result["pictures"].push_back(picture.string());
+  }
+  write_json(options.common, result);
+  return ExitCode::done;
+}
+
 ExitCode plot(const PlotOptions& options) {
   const PlotTask task = task_of(options);
+  if (is_sweep(options.directory)) return plot_table(options, task);
+  if (!options.columns.empty() || options.border) {
+    throw InputError(fmt::format("{}: is no sweep, to whose pictures --column and --border belong", options.directory));
+  }
   const auto format = format_of(options.output);
   if (options.movie && format) {
     throw InputError(fmt::format("--movie: -o {} is a picture; accepted: a directory", options.output));
@@ -75,9 +93,10 @@ ExitCode plot(const PlotOptions& options) {
 }  // namespace
 
 void add_plot_command(CLI::App& program, ExitCode& exit_code) {
-  CLI::App* command = program.add_subcommand("plot", "Draw pictures of a run: shapes, and histories against time");
+  CLI::App* command =
+      program.add_subcommand("plot", "Draw pictures of a run: shapes, and histories against time; or of a sweep");
   const auto options = std::make_shared<PlotOptions>();
-  command->add_option("DIR", options->directory, "Directory of the run")->required();
+  command->add_option("DIR", options->directory, "Directory of the run or the sweep")->required();
   command
       ->add_option("-o,--output", options->output,
                    "Directory for the pictures, DIR/plots if not given; or a file of shapes, NAME.pdf for example")
@@ -108,7 +127,15 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
       ->type_name("FORMAT")
       ->check(CLI::IsMember(std::vector<std::string>(picture_formats.begin(), picture_formats.end())));
   command->add_flag("--movie", options->movie, "Also write movie.mp4, a picture for each snapshot; needs ffmpeg");
-  command->footer("See docs/pictures.md.");
+  command->add_option("--column", options->columns, "Of a sweep: these columns of its table alone, in place of all")
+      ->type_name("NAME")
+      ->delimiter(',');
+  command
+      ->add_option("--border", options->border,
+                   "Of a sweep of two keys: the value of the column at which a line is drawn; 1 of a ratio of lengths "
+                   "and 0 of what has both signs if not given")
+      ->type_name("VALUE");
+  command->footer("See docs/pictures.md, of sweeps docs/sweeps.md.");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] { exit_code = plot(*options); });
 }

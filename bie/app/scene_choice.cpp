@@ -15,8 +15,9 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-/// As one word of a shell.
-std::string quoted(const std::string& word) {
+}  // namespace
+
+std::string shell_word(const std::string& word) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
   std::string text = "'";
@@ -30,11 +31,9 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-}  // namespace
-
 std::string SceneChoice::text() const {
-  std::string text = quoted(source.file.string());
-  for (const std::string& setting : source.settings) text += fmt::format(" --set {}", quoted(setting));
+  std::string text = shell_word(source.file.string());
+  for (const std::string& setting : source.settings) text += fmt::format(" --set {}", shell_word(setting));
   return text;
 }
 

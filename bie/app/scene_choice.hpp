@@ -10,6 +10,9 @@
 /// Options that several commands have.
 namespace vehd {
 
+/// A text as one word of a shell.
+std::string shell_word(const std::string& word);
+
 /// A scene as a command line gives it.
 struct SceneChoice {
   SceneSource source;

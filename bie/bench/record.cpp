@@ -7,39 +7,18 @@
 #include <limits>
 #include <sstream>
 
+#include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
-namespace {
-
-/// Cells of a line as csv_line writes it: some are in quotes, which stand twice within them.
-std::vector<std::string> quoted_cells(const std::string& line) {
-  std::vector<std::string> cells{""};
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += line[i++];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += line[i];
-    }
-  }
-  return cells;
-}
-
-}  // namespace
-
 BenchRecord::BenchRecord(const std::filesystem::path& csv) : file_(csv.string()) {
   if (!std::filesystem::exists(csv)) throw InputError(fmt::format("{}: no such file", file_));
   std::istringstream stream(text_of_file(csv));
   std::string line;
-  if (std::getline(stream, line)) columns_ = quoted_cells(line);
+  if (std::getline(stream, line)) columns_ = quoted_csv_cells(line);
   while (std::getline(stream, line)) {
-    rows_.push_back(quoted_cells(line));
+    rows_.push_back(quoted_csv_cells(line));
     if (rows_.back().size() != columns_.size()) {
       throw InputError(fmt::format("{}:{}: has {} cells; accepted: {}", file_, rows_.size() + 1, rows_.back().size(),
                                    columns_.size()));

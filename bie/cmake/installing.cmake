@@ -45,7 +45,7 @@ find_program(HELP2MAN help2man)
 mark_as_advanced(HELP2MAN)
 if(HELP2MAN)
   # One page for the program and one for each command, as git has them.
-  set(commands run plan plot report check mesh verify bench examples)
+  set(commands run sweep plan plot report check mesh verify bench examples)
   set(pages ${texts}/vehd.1.gz)
   foreach(command IN LISTS commands)
     list(APPEND pages ${texts}/vehd-${command}.1.gz)

@@ -5,10 +5,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/nearest_name.hpp"
@@ -16,6 +13,7 @@
 #include "bie/scene/scene_checks.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/shape_file_check.hpp"
+#include "bie/scene/toml_file.hpp"
 #include "bie/scene/toml_values.hpp"
 #include "bie/scene/vesicle_checks.hpp"
 #include "bie/scene/vesicle_reader.hpp"
@@ -25,63 +23,6 @@
 
 namespace vehd {
 namespace {
-
-/// No sensible scene comes near this; what does is some other file.
-constexpr std::uintmax_t largest_scene_bytes = 1 << 20;
-
-std::string file_text(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError(fmt::format("{}: not a file; a scene file (TOML) is expected", path.string()));
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (size > largest_scene_bytes) {
-    throw InputError(fmt::format("{}: {} bytes are too many for a scene file; accepted: at most {}", path.string(),
-                                 size, largest_scene_bytes));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  return text.str();
-}
-
-/// The parser limits nested values but builds a table for every part of a dotted key, whose destruction recurses.
-/// @throws InputError at the first key with too many parts
-void require_short_keys(const std::string& text, const std::string& name) {
-  constexpr int most_parts = 16;
-  int line = 1;
-  int dots = 0;
-  char quote = '\0';
-  for (const char letter : text) {
-    if (letter == '\n') {
-      ++line;
-      dots = 0;
-      quote = '\0';
-    } else if (quote != '\0') {
-      if (letter == quote) quote = '\0';
-    } else if (letter == '"' || letter == '\'') {
-      quote = letter;
-    } else if (letter == '.') {
-      if (++dots >= most_parts) {
-        throw InputError(fmt::format("{}:{}: a key of too many parts; accepted: at most {}", name, line, most_parts));
-      }
-    } else if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '_' && letter != '-' &&
-               letter != ' ' && letter != '\t') {
-      dots = 0;
-    }
-  }
-}
-
-toml::table parse_toml(const std::string& text, const std::string& name) {
-  require_short_keys(text, name);
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
-  }
-}
 
 constexpr std::string_view vesicle_table = "vesicle";
 
@@ -280,7 +221,7 @@ Scene scene_of_several(const std::vector<toml::table>& files, const std::vector<
 Scene read_scene(const std::filesystem::path& path) { return read_scene(SceneSource{path, {}}); }
 
 Scene read_scene(const SceneSource& source) {
-  return parse_scene(source.text ? *source.text : file_text(source.file), source.file.string(),
+  return parse_scene(source.text ? *source.text : text_of_toml_file(source.file, "a scene file"), source.file.string(),
                      source.file.parent_path(), source.settings);
 }
 

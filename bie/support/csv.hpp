@@ -12,4 +12,7 @@ std::string csv_line(const std::vector<std::string>& cells);
 /// Cells of a line of numbers and names, which hold no quotes. A carriage return at the end is left out.
 std::vector<std::string> csv_cells(const std::string& line);
 
+/// Cells of a line as csv_line writes it: some are in quotes, which stand twice within them.
+std::vector<std::string> quoted_csv_cells(const std::string& line);
+
 }  // namespace vehd

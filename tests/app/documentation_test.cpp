@@ -69,7 +69,7 @@ struct ReaderFolder {
   ReaderFolder() {
     fs::create_directories(directory / "build");
     fs::create_symlink(VEHD_PROGRAM, directory / "build/vehd");
-    for (const char* folder : {"docs/scenes", "docs/examples"}) {
+    for (const char* folder : {"docs/scenes", "docs/examples", "docs/sweeps"}) {
       fs::create_directories(directory / folder);
       for (const auto& entry : fs::directory_iterator(fs::path(VEHD_SOURCE_DIR) / folder)) {
         const fs::path copy = fs::path(directory / folder) / entry.path().filename();

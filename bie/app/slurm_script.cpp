@@ -1,0 +1,43 @@
+#include "bie/app/slurm_script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bie/app/scene_choice.hpp"
+
+namespace vehd {
+
+std::string slurm_script(const SlurmTask& task) {
+  // Time for the step in hand; Slurm may send the signal up to a minute early.
+  const int notice = std::clamp(task.minutes * 60 / 10, 10, 300);
+  return fmt::format(R"(#!/bin/bash
+# {predicted}
+# sbatch {directory_word}/sweep.sbatch
+#SBATCH --job-name={name}
+#SBATCH --array=0-{last}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={cpus}
+#SBATCH --time={minutes}
+#SBATCH --signal=TERM@{notice}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output={directory}/slurm-%a.log
+
+srun {program} sweep {sweep} -o {directory_word} --pack "$SLURM_ARRAY_TASK_ID" --jobs {jobs} --threads {threads}
+status=$?
+# Stopped at the end of the time, and its run can go on: once more, at the next turn.
+if [ "$status" -eq 3 ]; then
+  scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}"
+fi
+exit "$status"
+)",
+                     fmt::arg("predicted", task.predicted), fmt::arg("name", task.name),
+                     fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus),
+                     fmt::arg("minutes", task.minutes), fmt::arg("notice", notice),
+                     fmt::arg("directory", task.directory), fmt::arg("directory_word", shell_word(task.directory)),
+                     fmt::arg("program", shell_word(task.program)), fmt::arg("sweep", shell_word(task.sweep)),
+                     fmt::arg("jobs", task.n_jobs), fmt::arg("threads", task.n_threads));
+}
+
+}  // namespace vehd

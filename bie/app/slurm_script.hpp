@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace vehd {
+
+/// What an array of Slurm jobs is to do.
+struct SlurmTask {
+  std::string name;     ///< of the job
+  std::string program;  ///< this one
+  std::string sweep;    ///< file
+  std::string directory;
+  std::size_t n_members = 1;
+  int n_cpus = 1;  ///< of each member: as many workers, or threads of workers
+  int n_jobs = 1;  ///< workers of each member
+  int n_threads = 1;
+  int minutes = 60;       ///< that a member may take at once
+  std::string predicted;  ///< a line about the cost
+};
+
+/// Text of a script for sbatch: an array of jobs, each a worker of the sweep. Before the time is over a member is told
+/// to end; its run goes on when the member has its next turn, for which it asks itself.
+std::string slurm_script(const SlurmTask& task);
+
+}  // namespace vehd

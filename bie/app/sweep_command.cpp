@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <numeric>
+
+#include "bie/app/commands.hpp"
+#include "bie/app/scene_choice.hpp"
+#include "bie/app/slurm_script.hpp"
+#include "bie/estimate/sweep_packs.hpp"
+#include "bie/runs/sweep/run_result.hpp"
+#include "bie/runs/sweep/sweep_crew.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
+#include "bie/support/progress.hpp"
+#include "bie/support/thread_count.hpp"
+
+namespace vehd {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepOptions {
+  fs::path file;
+  std::string directory;
+  int n_jobs = 0;
+  int n_threads = 1;
+  std::optional<std::size_t> pack;
+  std::string emit;
+  int minutes = 60;
+  bool quiet = false;
+  CommonOptions common;
+
+  [[nodiscard]] SweepPaths paths() const { return {directory.empty() ? default_directory(file) : fs::path(directory)}; }
+  /// As many workers as there are processors for.
+  [[nodiscard]] int jobs() const { return n_jobs > 0 ? n_jobs : std::max(1, omp_get_num_procs() / n_threads); }
+};
+
+/// A sweep and its runs, all that can be said before one begins.
+struct PreparedSweep {
+  SweepFile sweep;
+  std::vector<SweepRun> runs;
+  SweepPaths paths;
+};
+
+PreparedSweep prepared(const SweepOptions& options) {
+  SweepFile sweep = read_sweep(options.file);
+  // Columns that there are not are said now.
+  static_cast<void>(columns_of(sweep));
+  const SweepPaths paths = options.paths();
+  if (fs::exists(RunPaths{paths.directory}.history())) {
+    throw InputError(fmt::format("{}: already holds a run (history.csv); choose another -o", paths.directory.string()));
+  }
+  make_directory(paths.runs());
+  std::vector<SweepRun> runs = runs_of(sweep);
+  return {std::move(sweep), std::move(runs), paths};
+}
+
+/// In which a worker looks at the runs: those of its pack first.
+std::vector<std::size_t> order_of_runs(const SweepOptions& options, const PreparedSweep& sweep) {
+  std::vector<std::size_t> order(sweep.runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!options.pack) return order;
+  const nlohmann::json packs = nlohmann::json::parse(text_of_file(sweep.paths.packs()), nullptr, false);
+  if (!packs.is_array() || *options.pack >= packs.size()) {
+    throw InputError(fmt::format("--pack {}: {} has no such pack; accepted: one of those that --emit slurm has made",
+                                 *options.pack, sweep.paths.packs().string()));
+  }
+  const auto names = packs[*options.pack].get<std::vector<std::string>>();
+  const auto is_mine = [&](std::size_t i) { return std::ranges::find(names, sweep.runs[i].name) != names.end(); };
+  std::stable_partition(order.begin(), order.end(), is_mine);
+  return order;
+}
+
+void show_sweep(Progress& progress, const CrewStatus& status) {
+  const double done = status.share - status.start_share;
+  const std::string left = done > 0.0 ? duration_text(status.seconds / done * std::max(0.0, 1.0 - status.share)) : "?";
+  progress.update(status.share, fmt::format("{}/{} runs  left {}", status.n_finished, status.n_runs, left));
+}
+
+nlohmann::json json_of(const SweepCount& count, const PreparedSweep& sweep) {
+  return {{"runs", sweep.runs.size()}, {"completed", count.completed},
+          {"stopped", count.stopped},  {"refused", count.refused},
+          {"crashed", count.crashed},  {"unfinished", count.unfinished},
+          {"seconds", count.seconds},  {"table", sweep.paths.table().string()}};
+}
+
+void print_count(const SweepCount& count, const PreparedSweep& sweep) {
+  std::string text = fmt::format("{} runs: {} completed", sweep.runs.size(), count.completed);
+  const auto add = [&](std::int64_t number, const char* what) {
+    if (number > 0) text += fmt::format(", {} {}", number, what);
+  };
+  add(count.stopped, "stopped");
+  add(count.refused, "refused");
+  add(count.crashed, "crashed");
+  add(count.unfinished, "unfinished");
+  fmt::print("{}; {} of computing\ntable: {}\n", text, duration_text(count.seconds), sweep.paths.table().string());
+}
+
+ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
+  CostCache cache;
+  const std::vector<double> seconds = predicted_seconds(sweep.runs, cache);
+  const int n_jobs = options.n_jobs > 0 ? options.n_jobs : 1;
+  const std::vector<SweepPack> packs = packs_of(seconds, packs_within(seconds, 60.0 * options.minutes * n_jobs));
+  nlohmann::json names = nlohmann::json::array(), json = nlohmann::json::array();
+  for (const SweepPack& pack : packs) {
+    nlohmann::json pack_names = nlohmann::json::array();
+    double total = 0.0;
+    for (const std::size_t run : pack) {
+      if (sweep.runs[run].scene) pack_names.push_back(sweep.runs[run].name);
+      total += seconds[run];
+    }
+    names.push_back(pack_names);
+    json.push_back({{"runs", pack_names.size()}, {"seconds", total}});
+  }
+  replace_shared_file(sweep.paths.packs(), names.dump(1) + "\n");
+  const double total = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  const double longest = seconds.empty() ? 0.0 : *std::ranges::max_element(seconds);
+  SlurmTask task;
+  task.name = options.file.stem().string();
+  task.program = fs::read_symlink("/proc/self/exe").string();
+  task.sweep = fs::absolute(options.file).lexically_normal().string();
+  task.directory = fs::absolute(sweep.paths.directory).lexically_normal().string();
+  task.n_members = packs.size();
+  task.n_jobs = n_jobs;
+  task.n_threads = options.n_threads;
+  task.n_cpus = n_jobs * options.n_threads;
+  task.minutes = options.minutes;
+  task.predicted = fmt::format("{} runs, predicted to take {} together and {} the longest of them", sweep.runs.size(),
+                               duration_text(total), duration_text(longest));
+  replace_shared_file(sweep.paths.slurm_script(), slurm_script(task));
+  fmt::print("{}\n{} jobs of {} min\nscript: {}\n", task.predicted, packs.size(), options.minutes,
+             sweep.paths.slurm_script().string());
+  write_json(options.common, {{"script", sweep.paths.slurm_script().string()}, {"packs", json}, {"seconds", total}});
+  return ExitCode::done;
+}
+
+ExitCode sweep(const SweepOptions& options) {
+  // One thread until the workers are there: copies of this process are made, which have no other thread.
+  const ThreadCount one(1);
+  const PreparedSweep sweep = prepared(options);
+  if (!options.emit.empty()) return emit_slurm(options, sweep);
+  CrewOutcome outcome;
+  {
+    Interruption interruption;
+    Progress progress(options.quiet ? Progress::Style::none : Progress::suitable_style());
+    CrewTask task{sweep.paths,
+                  sweep.sweep,
+                  sweep.runs,
+                  order_of_runs(options, sweep),
+                  options.jobs(),
+                  options.n_threads,
+                  [&progress](const CrewStatus& status) { show_sweep(progress, status); }};
+    task.n_workers = std::min<int>(task.n_workers, std::max<int>(1, static_cast<int>(sweep.runs.size())));
+    outcome = work_as_crew(task, interruption);
+    progress.finish();
+  }
+  const SweepCount count = write_sweep_table(sweep.paths, sweep.sweep, sweep.runs);
+  print_count(count, sweep);
+  write_json(options.common, json_of(count, sweep));
+  if (outcome.interrupted || !outcome.problem.empty()) {
+    fmt::print(stderr, "{}; the same command goes on from here\n",
+               outcome.problem.empty() ? "a signal came" : outcome.problem);
+    return ExitCode::stopped_early;
+  }
+  if (count.unfinished > 0) {
+    fmt::print(stderr,
+               "unfinished runs are in the hands of other workers; the same command takes over from those "
+               "that have ended\n");
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("sweep", "Simulate a scene for many values of its keys");
+  const auto options = std::make_shared<SweepOptions>();
+  command->add_option("SWEEP", options->file, "Sweep file (TOML): scene, [vary], mode, columns")->required();
+  command
+      ->add_option("-o,--output", options->directory,
+                   "Directory for the table and the runs, created if missing; out/NAME of NAME.toml if not given")
+      ->type_name("DIR");
+  command
+      ->add_option("--jobs", options->n_jobs,
+                   "Workers on this machine, each at a run of its own; as many as it has processors if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--threads", options->n_threads, "Number of threads of each worker; one if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--emit", options->emit, "Run nothing: write DIR/sweep.sbatch, an array of jobs for Slurm")
+      ->check(one_of({"slurm"}));
+  command
+      ->add_option("--minutes", options->minutes,
+                   "With --emit: that one of these jobs may take; what is not done by then goes on in its next turn")
+      ->type_name("N")
+      ->check(CLI::Range(1, 60 * 24 * 30))
+      ->capture_default_str();
+  command->add_option("--pack", options->pack, "Begin with the runs of this pack of --emit, then help with the others")
+      ->type_name("N");
+  command->add_flag("--quiet", options->quiet, "Show no progress");
+  add_common_options(*command, options->common);
+  command->footer(
+      "Writes table.csv, one row for each run, sweep.json, and the runs themselves below runs/.\n"
+      "The same command, on this machine or another one that has the same files, works at the same sweep, and\n"
+      "after a Ctrl-C, a crash or a change of SWEEP it goes on with what is left. Pictures: vehd plot DIR.\n"
+      "See docs/sweeps.md.");
+  command->callback([options, &exit_code] { exit_code = sweep(*options); });
+}
+
+}  // namespace vehd

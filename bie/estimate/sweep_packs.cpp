@@ -1,0 +1,89 @@
+#include "bie/estimate/sweep_packs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "bie/estimate/plan_cost.hpp"
+
+namespace vehd {
+namespace {
+
+/// What steps of one cost have in common.
+std::string cost_class(const Scene& scene, const RunPlan& plan) {
+  std::string text = fmt::format("{} {} {} {} {}", plan.unknowns, plan.symmetry, plan.shapes_per_step,
+                                 plan.kernel_evaluations, scene.numerics.tolerance.value_or(0.0));
+  for (const PlannedOperator& op : plan.operators) text += fmt::format(" {} {}", op.name, op.n_vesicles);
+  return text;
+}
+
+/// Costs of one class.
+struct MeasuredCost {
+  double seconds_per_step = 0.0;
+  double steps_per_time = 0.0;  ///< with a tolerance
+  bool known = false;
+};
+
+MeasuredCost measured(const Scene& scene, RunPlan plan, CostCache& cache) {
+  predict_cost(scene, plan, cache);
+  if (!plan.stops.empty()) return {};
+  return {plan.seconds_per_step, static_cast<double>(plan.n_steps) / scene.numerics.end_time, true};
+}
+
+}  // namespace
+
+std::vector<double> predicted_seconds(const std::vector<SweepRun>& runs, CostCache& cache) {
+  std::map<std::string, MeasuredCost> costs;
+  std::vector<double> seconds(runs.size(), 0.0);
+  std::vector<std::size_t> unknown;
+  double total = 0.0;
+  std::size_t n_known = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].scene || !(runs[i].scene->numerics.end_time > 0.0)) continue;
+    const Scene& scene = *runs[i].scene;
+    const RunPlan plan = plan_of(scene);
+    const std::string name = cost_class(scene, plan);
+    if (!costs.contains(name) || !costs.at(name).known) costs[name] = measured(scene, plan, cache);
+    const MeasuredCost& cost = costs.at(name);
+    if (!cost.known) {
+      unknown.push_back(i);
+      continue;
+    }
+    const double steps =
+        scene.numerics.tolerance ? cost.steps_per_time * scene.numerics.end_time : static_cast<double>(plan.n_steps);
+    seconds[i] = steps * cost.seconds_per_step;
+    total += seconds[i];
+    ++n_known;
+  }
+  for (const std::size_t i : unknown) seconds[i] = n_known > 0 ? total / static_cast<double>(n_known) : 1.0;
+  return seconds;
+}
+
+std::vector<SweepPack> packs_of(const std::vector<double>& seconds, std::size_t n_packs) {
+  std::vector<std::size_t> longest_first(seconds.size());
+  std::iota(longest_first.begin(), longest_first.end(), std::size_t{0});
+  std::stable_sort(longest_first.begin(), longest_first.end(),
+                   [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
+  std::vector<SweepPack> packs(std::max<std::size_t>(n_packs, 1));
+  std::vector<double> load(packs.size(), 0.0);
+  for (const std::size_t run : longest_first) {
+    const auto least = static_cast<std::size_t>(std::min_element(load.begin(), load.end()) - load.begin());
+    packs[least].push_back(run);
+    load[least] += seconds[run];
+  }
+  std::erase_if(packs, [](const SweepPack& pack) { return pack.empty(); });
+  return packs;
+}
+
+std::size_t packs_within(const std::vector<double>& seconds, double limit_seconds) {
+  constexpr double room = 1.5;
+  const double total = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  const auto wanted = std::ceil(room * total / limit_seconds);
+  const auto most = static_cast<double>(std::max<std::size_t>(seconds.size(), 1));
+  return static_cast<std::size_t>(std::clamp(wanted, 1.0, most));
+}
+
+}  // namespace vehd

@@ -1,0 +1,130 @@
+#include "bie/pictures/plot_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bie/pictures/page.hpp"
+#include "bie/pictures/sweep_axis.hpp"
+#include "bie/pictures/sweep_map.hpp"
+#include "bie/scene/nearest_name.hpp"
+#include "bie/scene/output_units.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
+
+namespace vehd {
+namespace {
+
+constexpr double lines_width = 255.0, lines_height = 172.0;
+constexpr const char *line_colour = "#1f5fa8", *stopped_colour = "#9a9a9a";
+
+std::vector<std::string> plain_names(const SweepRows& rows) {
+  std::vector<std::string> names;
+  for (const std::string& header : rows.columns()) names.push_back(header.substr(0, header.find(" [")));
+  return names;
+}
+
+std::vector<std::size_t> wanted_columns(const SweepPlotTask& task, const SweepRows& rows) {
+  const std::vector<std::string> names = plain_names(rows);
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (task.columns.empty() && names[i] != "time") wanted.push_back(i);
+  }
+  for (const std::string& column : task.columns) {
+    const auto found = std::ranges::find(names, column);
+    if (found == names.end()) {
+      throw InputError(fmt::format("--column {}: {} has no such column; {}", column, task.paths.table().string(),
+                                   suggestion(column, {names.begin(), names.end()})));
+    }
+    wanted.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  return wanted;
+}
+
+std::vector<double> numbers_of_column(const SweepRows& rows, std::size_t column) {
+  std::vector<double> numbers;
+  for (std::size_t row = 0; row < rows.n_rows(); ++row) numbers.push_back(rows.number(row, column));
+  return numbers;
+}
+
+/// A point as an octagon.
+PageArea dot(const PagePoint& at, const char* colour) {
+  constexpr double radius = 1.7;
+  PageArea area{{}, colour};
+  for (int i = 0; i < 8; ++i) {
+    const double angle = std::numbers::pi / 4.0 * (i + 0.5);
+    area.points.push_back({at[0] + radius * std::cos(angle), at[1] + radius * std::sin(angle)});
+  }
+  return area;
+}
+
+void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, const SweepAxis& x, const Box& box) {
+  const SweepAxis y = axis_of_numbers(column_label(rows.columns()[column]), numbers_of_column(rows, column));
+  draw_sweep_frame(page, box, x, y, true);
+  PageLine line{{}, 1.3, line_colour, false};
+  const auto end_line = [&] {
+    if (line.points.size() > 1) page.lines.push_back(line);
+    line.points.clear();
+  };
+  // In the order of the key, whatever that of the rows.
+  std::vector<std::size_t> order(rows.n_rows());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return x.places[i]; });
+  for (const std::size_t row : order) {
+    if (!std::isfinite(y.places[row])) {
+      end_line();
+      continue;
+    }
+    const PagePoint at{box.left + x.places[row] * box.width(), box.bottom + y.places[row] * box.height()};
+    line.points.push_back(at);
+    page.areas.push_back(dot(at, rows.is_completed(row) ? line_colour : stopped_colour));
+  }
+  end_line();
+}
+
+void draw_sweep_lines(const SweepPlotTask& task, const SweepRows& rows, const std::vector<std::size_t>& columns,
+                      const PictureFile& picture) {
+  std::vector<std::string> values;
+  for (std::size_t row = 0; row < rows.n_rows(); ++row) values.push_back(rows.value(row, 0));
+  const SweepRows::Key& key = rows.keys().front();
+  const SweepAxis x = axis_of_values(key.name, values, key.is_logarithmic);
+  if (columns.empty()) throw InputError(fmt::format("{}: has no column to draw", task.paths.table().string()));
+  const std::size_t across = columns.size() > 1 ? 2 : 1, down = (columns.size() + across - 1) / across;
+  Page page{lines_width * static_cast<double>(across), lines_height * static_cast<double>(down)};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double left = lines_width * static_cast<double>(i % across);
+    const double top = page.height - lines_height * static_cast<double>(i / across);
+    draw_line_panel(page, rows, columns[i], x,
+                    {left + 46.0, top - lines_height + 34.0, left + lines_width - 16.0, top - 24.0});
+  }
+  draw_page(page, picture);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task) {
+  const SweepRows rows(task.paths);
+  const std::vector<std::size_t> columns = wanted_columns(task, rows);
+  make_directory(task.output);
+  const auto file = [&](const std::string& stem) {
+    return PictureFile{task.output / fmt::format("{}.{}", stem, name_of(task.format)), task.format};
+  };
+  std::vector<std::filesystem::path> pictures;
+  if (rows.keys().size() == 1 || !rows.is_grid()) {
+    draw_sweep_lines(task, rows, columns, file("lines"));
+    return {file("lines").path};
+  }
+  if (rows.keys().size() > 2) {
+    throw InputError(fmt::format("{}: has {} keys; pictures are drawn of one or two, other programs read the table",
+                                 task.paths.table().string(), rows.keys().size()));
+  }
+  for (const std::size_t column : columns) {
+    const PictureFile picture = file("map_" + plain_names(rows)[column]);
+    draw_sweep_map(rows, column, task.border, picture);
+    pictures.push_back(picture.path);
+  }
+  return pictures;
+}
+
+}  // namespace vehd

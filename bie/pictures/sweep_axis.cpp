@@ -1,0 +1,130 @@
+#include "bie/pictures/sweep_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "bie/pictures/shown_numbers.hpp"
+#include "bie/scene/output_units.hpp"
+#include "bie/scene/units.hpp"
+
+namespace vehd {
+namespace {
+
+/// Numbers of one unit.
+struct KeyNumbers {
+  std::vector<double> values;
+  std::string unit;
+};
+
+std::optional<KeyNumbers> numbers_of(const std::vector<std::string>& texts) {
+  KeyNumbers numbers;
+  for (const std::string& text : texts) {
+    const auto quantity = parse_quantity(text);
+    if (!quantity || !std::isfinite(quantity->number)) return std::nullopt;
+    if (!numbers.values.empty() && quantity->unit != numbers.unit) return std::nullopt;
+    numbers.unit = quantity->unit;
+    numbers.values.push_back(quantity->number);
+  }
+  return numbers;
+}
+
+/// Gnuplot would lower what follows an underscore.
+std::string printed_key(const std::string& key) {
+  std::string text;
+  for (const char letter : key) text += letter == '_' ? std::string("\\_") : std::string(1, letter);
+  return text;
+}
+
+std::string tick_text(const std::string& value) {
+  const auto quantity = parse_quantity(value);
+  return quantity ? fmt::format("{:.3g}", quantity->number) : printed_key(value);
+}
+
+/// Few enough to be read.
+constexpr std::size_t most_ticks = 6;
+
+std::string label_of(const std::string& key, const std::optional<KeyNumbers>& numbers) {
+  return with_unit(printed_key(key), numbers ? numbers->unit : "");
+}
+
+SweepAxis side_by_side(const std::string& label, const std::vector<std::string>& values) {
+  SweepAxis axis{label, {}, {}};
+  const std::size_t every = (values.size() + most_ticks - 1) / most_ticks;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    axis.places.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(values.size()));
+    if (i % every == 0) axis.ticks.push_back({axis.places.back(), tick_text(values[i])});
+  }
+  return axis;
+}
+
+SweepAxis by_logarithm(const std::string& label, const KeyNumbers& numbers) {
+  const auto [least, most] = std::ranges::minmax(numbers.values);
+  const double lower = std::log10(least), upper = std::log10(most);
+  const auto place = [&](double value) { return (std::log10(value) - lower) / (upper - lower); };
+  SweepAxis axis{label, {}, {}};
+  for (const double value : numbers.values) axis.places.push_back(place(value));
+  constexpr double rounding = 1e-9;
+  const auto first = static_cast<int>(std::ceil(lower - rounding)),
+             last = static_cast<int>(std::floor(upper + rounding));
+  const int every = std::max(1, (last - first + static_cast<int>(most_ticks)) / static_cast<int>(most_ticks));
+  if (last > first) {
+    for (int power = first; power <= last; power += every) {
+      axis.ticks.push_back({place(std::pow(10.0, power)), fmt::format("10^{{{}}}", power)});
+    }
+  } else {
+    const std::size_t step = (numbers.values.size() + most_ticks - 1) / most_ticks;
+    for (std::size_t i = 0; i < numbers.values.size(); i += step) {
+      axis.ticks.push_back({axis.places[i], fmt::format("{:.3g}", numbers.values[i])});
+    }
+  }
+  return axis;
+}
+
+SweepAxis between(const std::string& label, const std::vector<double>& values, double lower, double upper) {
+  SweepAxis axis{label, {}, {}};
+  for (const double value : values) axis.places.push_back((value - lower) / (upper - lower));
+  const std::vector<double> ticks = round_ticks(lower, upper, 4);
+  int power = 0;
+  const std::vector<std::string> texts = tick_texts(ticks, power);
+  for (std::size_t i = 0; i < ticks.size(); ++i) axis.ticks.push_back({(ticks[i] - lower) / (upper - lower), texts[i]});
+  if (power != 0) axis.label += fmt::format(" / 10^{{{}}}", power);
+  return axis;
+}
+
+}  // namespace
+
+SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& values, bool is_logarithmic) {
+  const auto numbers = numbers_of(values);
+  const std::string label = label_of(key, numbers);
+  if (!numbers || numbers->values.empty()) return side_by_side(label, values);
+  const auto [least, most] = std::ranges::minmax(numbers->values);
+  if (!(most > least)) return side_by_side(label, values);
+  if (is_logarithmic && least > 0.0) return by_logarithm(label, *numbers);
+  return between(label, numbers->values, least, most);
+}
+
+SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& values) {
+  return side_by_side(label_of(key, numbers_of(values)), values);
+}
+
+SweepAxis axis_of_numbers(const std::string& label, const std::vector<double>& values) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  if (!std::isfinite(least)) return {label, values, {}};
+  // Rounding of a constant is no change.
+  constexpr double rounding = 1e-9, room = 0.06;
+  const double size = std::max(std::abs(least), std::abs(most));
+  double about = room * (most - least);
+  if (most - least <= rounding * size) about = size > 0.0 ? 0.1 * size : 1.0;
+  return between(label, values, least - about, most + about);
+}
+
+}  // namespace vehd

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bie/pictures/page.hpp"
+#include "bie/pictures/sweep_axis.hpp"
+#include "bie/runs/sweep/sweep_rows.hpp"
+
+namespace vehd {
+
+/// Label of a column: "time (ms)" of "time [ms]".
+std::string column_label(const std::string& header);
+
+/// The frame of a plot with ticks, the label of x below and that of y above its left corner.
+/// @param grid  whether pale lines go through the ticks
+void draw_sweep_frame(Page& page, const Box& box, const SweepAxis& x, const SweepAxis& y, bool grid);
+
+/// A map of one column over a grid of two keys: the last key upwards.
+/// @param border  value at which a border is shown; absent: 1 of a ratio of lengths, 0 of what has both signs
+void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<double> border,
+                    const PictureFile& picture);
+
+}  // namespace vehd

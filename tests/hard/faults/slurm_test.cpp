@@ -1,0 +1,94 @@
+#include <unistd.h>
+
+#include <boost/test/unit_test.hpp>
+#include <csignal>
+
+#include "tests/app/sweep_folder.hpp"
+#include "tests/support/waiting.hpp"
+
+namespace {
+
+std::string output_of(const std::string& command) { return run_command({"sh", "-c", command}).output; }
+
+bool slurm_can_be_started() {
+  return ::geteuid() == 0 && run_command({"sh", "-c", "command -v slurmctld slurmd sbatch munged"}).exit_code == 0;
+}
+
+/// A real Slurm of this machine, for as long as it lives.
+class OwnSlurm {
+ public:
+  OwnSlurm() {
+    const ProgramResult started =
+        run_command({"bash", VEHD_SOURCE_DIR "/tests/hard/faults/slurm/start.sh", directory_ / ""});
+    BOOST_TEST_REQUIRE(started.exit_code == 0, started.errors);
+    ::setenv("SLURM_CONF", (directory_ / "slurm.conf").c_str(), 1);
+  }
+  ~OwnSlurm() {
+    for (const char* daemon : {"slurmd", "slurmctld"}) {
+      const int process = std::atoi(file_text(directory_ / (std::string(daemon) + ".pid")).c_str());
+      if (process <= 0) continue;
+      ::kill(process, SIGTERM);
+      comes_true([&] { return ::kill(process, 0) != 0; }, std::chrono::seconds(20));
+    }
+    ::unsetenv("SLURM_CONF");
+  }
+  OwnSlurm(const OwnSlurm&) = delete;
+  OwnSlurm& operator=(const OwnSlurm&) = delete;
+
+  /// Whether all jobs have ended before long.
+  static bool is_done() {
+    return comes_true([] { return output_of("squeue -h | wc -l") == "0\n"; }, std::chrono::seconds(240));
+  }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(slurm, *boost::unit_test::label("alone"))
+
+BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
+  if (!slurm_can_be_started()) {
+    BOOST_TEST_MESSAGE("skipped: there is no Slurm, or this is not root; cmake -DSTEP=slurm -P bie/setup.cmake");
+    return;
+  }
+  const OwnSlurm slurm;
+  const OwnCache cache;
+  const SweepWork work(quick_scene("20"));
+  work.write_sweep("\"electric.conductivity_in\" = {from = 0.5, to = 2.0, count = 8}\n");
+  const std::string undisturbed = work.directory / "undisturbed";
+  BOOST_TEST_REQUIRE(work.run({"--jobs", "2"}, undisturbed).exit_code == 0);
+
+  // An array; a member that is told to end asks for another turn.
+  BOOST_TEST_REQUIRE(work.run({"--emit", "slurm"}).exit_code == 0);
+  std::string script = file_text(work.output + "/sweep.sbatch");
+  script.replace(script.find("--array=0-0"), 11, "--array=0-1");
+  script.replace(script.find("--pack \"$SLURM_ARRAY_TASK_ID\""), 29, "--pack 0");
+  write_text(work.output + "/sweep.sbatch", script);
+  const ProgramResult submitted = run_command({"sbatch", "--parsable", work.output + "/sweep.sbatch"});
+  BOOST_TEST_REQUIRE(submitted.exit_code == 0, submitted.errors);
+  const std::string job = submitted.output.substr(0, submitted.output.find('\n'));
+  BOOST_TEST(comes_true([&] { return !work.held().empty(); }, std::chrono::seconds(60)));
+  run_command({"scancel", "--signal=TERM", job + "_0"});
+  // Slurm would wait two minutes before the next turn.
+  BOOST_TEST(
+      comes_true([&] { return output_of("squeue -h -o '%F_%K %r'").find(job + "_0 BeginTime") != std::string::npos; },
+                 std::chrono::seconds(60)));
+  run_command({"scontrol", "update", "JobId=" + job + "_0", "StartTime=now"});
+  BOOST_TEST(slurm.is_done());
+  BOOST_TEST((work.table() == work.table(undisturbed)));
+  const std::string log = file_text(work.output + "/slurm-0.log");
+  BOOST_TEST(log.find("a signal came; the same command goes on from here") != std::string::npos, log);
+  BOOST_TEST(log.find("8 runs: 8 completed;") != std::string::npos, log);
+
+  // Tasks of srun.
+  std::filesystem::remove_all(work.output);
+  std::vector<std::string> tasks = {"srun", "-N", "1", "-n", "2", "--overcommit"};
+  for (const std::string& word : work.command({"--jobs", "1"})) tasks.push_back(word);
+  const ProgramResult result = run_command(tasks);
+  BOOST_TEST(result.exit_code == 0, result.errors);
+  BOOST_TEST((work.table() == work.table(undisturbed)));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
