@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 
@@ -17,11 +18,11 @@ namespace vehd {
 namespace {
 
 /// Far grids have orders that are multiples of this, so that targets share them.
-constexpr int kOrderStep = 2;
+constexpr int kOrderStep = 4;
 
 /// Targets that share a grid.
 struct FarGroup {
-  FarRule rule;
+  std::shared_ptr<const FarRule> rule;
   std::vector<Index> targets;
 };
 
@@ -52,6 +53,21 @@ int next_multiple(double order) { return kOrderStep * static_cast<int>(std::ceil
 
 /// Of far grids; beyond it rows of near targets take less time over some ten applications.
 int highest_grid_order(int order) { return next_multiple(2 * order + 8); }
+
+/// Rules of one membrane, each made once.
+class FarRules {
+ public:
+  explicit FarRules(const Matrix& position) : position_(position) {}
+  std::shared_ptr<const FarRule> of_order(int grid_order) {
+    std::shared_ptr<const FarRule>& rule = rules_[grid_order];
+    if (!rule) rule = std::make_shared<const FarRule>(position_, grid_order);
+    return rule;
+  }
+
+ private:
+  const Matrix& position_;
+  std::map<int, std::shared_ptr<const FarRule>> rules_;
+};
 
 }  // namespace
 
@@ -100,7 +116,7 @@ struct PairLayers::Data {
   }
 
   /// @return targets of every order of a grid
-  std::map<int, std::vector<Index>> sort_targets() {
+  std::map<int, std::vector<Index>> sort_targets(FarRules& rules) {
     const int highest = highest_grid_order(order);
     std::map<int, std::vector<Index>> by_order, sorted;
     for (Index i = 0; i < at.points.rows(); ++i) {
@@ -111,7 +127,7 @@ struct PairLayers::Data {
     for (int q = order; q <= highest; ++q) {
       const auto found = by_order.find(q);
       if (found == by_order.end()) continue;
-      const FarRule rule(at.source, q);
+      const FarRule& rule = *rules.of_order(q);
       for (const Index i : found->second) {
         if (std::abs(rule.enclosure(at.point(i))) <= settings.tolerance) {
           sorted[q].push_back(i);
@@ -127,7 +143,8 @@ struct PairLayers::Data {
   }
 
   void make() {
-    const std::map<int, std::vector<Index>> far = sort_targets();
+    FarRules rules(at.source);
+    const std::map<int, std::vector<Index>> far = sort_targets(rules);
     counts.near = static_cast<Index>(near.targets.size());
     near.rows = rows_of_near_targets(at, near.targets, near.columns, {settings.tolerance, settings.max_rules});
     double room = settings.row_bytes;
@@ -138,17 +155,18 @@ struct PairLayers::Data {
       all.insert(all.end(), targets.begin(), targets.end());
     }
     // Iterations apply single layers most.
-    make_far(of_single, single, room);
-    make_far(far, double_layer, room);
+    make_far(of_single, rules, single, room);
+    make_far(far, rules, double_layer, room);
   }
 
   /// Rows of far targets as long as there is room, the finest grids first: theirs gain most.
-  void make_far(const std::map<int, std::vector<Index>>& targets_of_order, FarLayers& layers, double& room) {
+  void make_far(const std::map<int, std::vector<Index>>& targets_of_order, FarRules& rules, FarLayers& layers,
+                double& room) {
     const Index n_columns = layers.by_rows.columns.count;
     if (n_columns == 0) return;
     for (const auto& [q, targets] : targets_of_order) {
-      layers.groups.push_back({FarRule(at.source, q), targets});
-      counts.far_nodes += static_cast<Index>(targets.size()) * layers.groups.back().rule.n_nodes();
+      layers.groups.push_back({rules.of_order(q), targets});
+      counts.far_nodes += static_cast<Index>(targets.size()) * layers.groups.back().rule->n_nodes();
     }
     const double bytes_of_one = 8.0 * static_cast<double>(n_columns) * static_cast<double>(at.source.rows());
     std::vector<FarGroup> chosen;
@@ -178,7 +196,7 @@ struct PairLayers::Data {
       const Index size = std::min(kBatch, n - start);
       const std::vector<Index> batch(group.targets.begin() + start, group.targets.begin() + start + size);
       all.rows.middleCols((first + start) * n_columns, size * n_columns) =
-          group.rule.rows(at.points(batch, Eigen::all), at.normals(batch, Eigen::all), all.columns);
+          group.rule->rows(at.points(batch, Eigen::all), at.normals(batch, Eigen::all), all.columns);
     }
   }
 
@@ -186,12 +204,12 @@ struct PairLayers::Data {
   template <class Sum>
   static void add_sums(const FarLayers& far, const Matrix& density, Matrix& values, const Sum& sum) {
     for (const FarGroup& group : far.groups) {
-      const Matrix charges = group.rule.charges(density);
+      const Matrix charges = group.rule->charges(density);
       const Index n = static_cast<Index>(group.targets.size());
 #pragma omp parallel for schedule(static)
       for (Index k = 0; k < n; ++k) {
         const Index i = group.targets[k];
-        values.row(i) = sum(group.rule, i, charges);
+        values.row(i) = sum(*group.rule, i, charges);
       }
     }
   }
