@@ -55,9 +55,7 @@ BOOST_AUTO_TEST_CASE(charges_of_the_faces_go_on_bit_for_bit) {
   scene.replace(scene.find("average = true\n"), 15, "");
   const RunPair pair(scene);
   pair.run_reference();
-  const ProgramResult half =
-      run_vehd({"run", pair.scene, "-o", pair.output, "--no-plot", "--set", "numerics.end_time=0.2"});
-  BOOST_TEST_REQUIRE(half.exit_code == 0, half.errors);
+  pair.run_until("0.2");
   pair.finish();
   const vehd::Hdf5Reader file(pair.output + "/run.h5");
   BOOST_TEST(file.has("/snapshots/000001/Vm"));
@@ -66,9 +64,7 @@ BOOST_AUTO_TEST_CASE(charges_of_the_faces_go_on_bit_for_bit) {
 BOOST_AUTO_TEST_CASE(a_stopped_run_goes_on_bit_for_bit_and_in_another_degree) {
   const RunPair pair(averaged_scene);
   pair.run_reference();
-  const ProgramResult half =
-      run_vehd({"run", pair.scene, "-o", pair.output, "--no-plot", "--set", "numerics.end_time=0.2"});
-  BOOST_TEST_REQUIRE(half.exit_code == 0, half.errors);
+  pair.run_until("0.2");
   pair.finish();
   const ProgramResult finer = run_vehd({"run", pair.scene, "-o", pair.output, "--resume", "--no-plot", "--set",
                                         "numerics.end_time=0.6", "--set", "numerics.degree=8"});

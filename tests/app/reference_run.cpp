@@ -51,6 +51,12 @@ void RunPair::run_reference() const {
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
 }
 
+void RunPair::run_until(const std::string& end_time) const {
+  const ProgramResult result =
+      run_vehd({"run", scene, "-o", output, "--no-plot", "--set", "numerics.end_time=" + end_time});
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+}
+
 ReferenceRun::ReferenceRun(const std::string& text) : RunPair(text) {
   const auto start = std::chrono::steady_clock::now();
   run_reference();

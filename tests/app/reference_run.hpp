@@ -34,6 +34,8 @@ struct RunPair {
   explicit RunPair(const std::string& text) { write_text(scene, text); }
 
   void run_reference() const;
+  /// Begins the run that goes on later.
+  void run_until(const std::string& end_time) const;
   /// Runs the command to its end and compares. It must succeed.
   void finish() const;
   /// Waits until the run has written at least one row.

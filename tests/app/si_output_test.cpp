@@ -96,9 +96,11 @@ BOOST_FIXTURE_TEST_CASE(a_history_in_si_does_not_depend_on_the_reference_scales,
         size = std::max(size, a.largest_magnitude(name.substr(0, name.size() - 1) + axis));
       }
     }
+    // What is left of sums that nearly cancel has fewer digits.
+    const double bound = name == "quadrature_error" ? 1e-3 : 1e-6;
     for (std::size_t i = 0; i < a.n_rows(); ++i) {
       const double x = a.column(name)[i], y = b.column(name)[i];
-      BOOST_TEST((std::abs(x - y) <= 1e-6 * size || x == y || (std::isnan(x) && std::isnan(y))),
+      BOOST_TEST((std::abs(x - y) <= bound * size || x == y || (std::isnan(x) && std::isnan(y))),
                  a.header(name) << " row " << i << ": " << x << " and " << y);
     }
   }

@@ -9,6 +9,7 @@
 #include "tests/invariance/scaled_scene.hpp"
 #include "tests/invariance/scenes.hpp"
 #include "tests/invariance/short_run.hpp"
+#include "tests/support/runs.hpp"
 
 using namespace vehd;
 using namespace vehd::testing;
@@ -71,6 +72,14 @@ UnitFactors random_factors(std::mt19937_64& random) {
   return {draw(), draw(), draw(), draw()};
 }
 
+/// With solves that go on to rounding: what the usual ones leave, up to 1e-5 of a step's change of curvature, is
+/// another remainder where they end elsewhere.
+ShortRun solved_run(const Scene& scene) {
+  Problem problem = problem_of(scene);
+  solve_to_rounding(problem.settings);
+  return short_run(problem, scene, kSteps);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(powers_of_two_change_no_bit_and_other_factors_nothing_but_rounding) {
@@ -83,8 +92,11 @@ BOOST_AUTO_TEST_CASE(powers_of_two_change_no_bit_and_other_factors_nothing_but_r
 
     const UnitFactors factors = random_factors(random);
     const ShortRun scaled = short_run(in_units(scene, factors), kSteps);
-    const double tolerance = same_iterations(base, scaled) && !scene.numerics.tolerance ? 1e-9 : 1e-6;
-    const Deviation worst = largest_deviation(base, scaled, factors);
+    const bool same = same_iterations(base, scaled);
+    const double tolerance = same && !scene.numerics.tolerance ? 1e-9 : 1e-6;
+    const Deviation worst = same || scene.numerics.tolerance
+                                ? largest_deviation(base, scaled, factors)
+                                : largest_deviation(solved_run(scene), solved_run(in_units(scene, factors)), factors);
     BOOST_TEST(worst.size < tolerance, name << ": " << worst.column << " by " << worst.size);
   }
 }

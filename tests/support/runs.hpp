@@ -48,14 +48,18 @@ inline Discretisation discretisation_of(int order) {
 
 /// Solves that go on to rounding. With those of a run, what two solvers make of one step differs by where each of them
 /// stopped, on one processor here and on another there.
-inline NumericalSettings solved_to_rounding(int order) {
-  NumericalSettings settings;
-  settings.order = order;
+inline void solve_to_rounding(NumericalSettings& settings) {
   settings.flow_tolerance = 1e-12;
   settings.electric_tolerance = 1e-13;
   settings.constraint_tolerance = 1e-12;
   settings.curvature_tolerance = 1e-9;
   settings.strain_tolerance = 1e-10;
+}
+
+inline NumericalSettings solved_to_rounding(int order) {
+  NumericalSettings settings;
+  settings.order = order;
+  solve_to_rounding(settings);
   return settings;
 }
 
@@ -139,6 +143,13 @@ inline double difference_per_step(const Model& model, const Matrix& position, co
   const State a = run(model, one, start(model, one, position, dt), dt, n_steps);
   const State b = run(model, other, start(model, other, position, dt), dt, n_steps);
   return largest_difference(a, b) / n_steps;
+}
+
+/// That with and without use of the symmetry that is found.
+inline double difference_with_symmetry(const Model& model, const Matrix& position, double dt, int n_steps) {
+  const NumericalSettings settings = solved_to_rounding(order_of(position.rows()));
+  const Discretisation reduced(settings, find_symmetry(model, at_rest(position))), full(settings, {});
+  return difference_per_step(model, position, reduced, full, dt, n_steps);
 }
 
 }  // namespace vehd::testing
