@@ -10,9 +10,9 @@
 /// Who works at which run of a sweep.
 ///
 /// Every run directory holds one file whose name says so: claim.free, claim.held with the worker and the number of
-/// takeovers, claim.done or claim.crashed with the signal. A claim changes by renaming that file: of several workers that
-/// try at once, also on different machines of a shared file system, one succeeds and the others find the old name gone.
-/// A new directory is renamed into its place with the claim in it, so that there is none without.
+/// takeovers, claim.done or claim.crashed with the signal. A claim changes by renaming that file: of several workers
+/// that try at once, also on different machines of a shared file system, one succeeds and the others find the old name
+/// gone. A new directory is renamed into its place with the claim in it, so that there is none without.
 ///
 /// A claim whose worker has ended goes to the next that asks. On the machine of that worker the process table tells
 /// whether it has ended. Elsewhere the time of the claim tells, which its worker renews: it counts as ended after

@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 
 #include "tests/app/sweep_folder.hpp"
 #include "tests/support/waiting.hpp"
@@ -10,8 +12,10 @@ namespace {
 
 std::string output_of(const std::string& command) { return run_command({"sh", "-c", command}).output; }
 
+/// Asked for in so many words: who is root on a cluster has another Slurm there.
 bool slurm_can_be_started() {
-  return ::geteuid() == 0 && run_command({"sh", "-c", "command -v slurmctld slurmd sbatch munged"}).exit_code == 0;
+  return std::getenv("VEHD_OWN_SLURM") != nullptr && ::geteuid() == 0 &&
+         run_command({"sh", "-c", "command -v slurmctld slurmd sbatch munged"}).exit_code == 0;
 }
 
 /// A real Slurm of this machine, for as long as it lives.
@@ -24,8 +28,10 @@ class OwnSlurm {
     ::setenv("SLURM_CONF", (directory_ / "slurm.conf").c_str(), 1);
   }
   ~OwnSlurm() {
-    for (const char* daemon : {"slurmd", "slurmctld"}) {
-      const int process = std::atoi(file_text(directory_ / (std::string(daemon) + ".pid")).c_str());
+    for (const char* daemon : {"slurmd", "slurmctld", "munged"}) {
+      const std::string number = directory_ / (std::string(daemon) + ".pid");
+      if (!std::filesystem::exists(number)) continue;
+      const int process = std::atoi(file_text(number).c_str());
       if (process <= 0) continue;
       ::kill(process, SIGTERM);
       comes_true([&] { return ::kill(process, 0) != 0; }, std::chrono::seconds(20));
@@ -50,7 +56,7 @@ BOOST_AUTO_TEST_SUITE(slurm, *boost::unit_test::label("alone"))
 
 BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   if (!slurm_can_be_started()) {
-    BOOST_TEST_MESSAGE("skipped: there is no Slurm, or this is not root; cmake -DSTEP=slurm -P bie/setup.cmake");
+    BOOST_TEST_MESSAGE("skipped: cmake -DSTEP=slurm -P bie/setup.cmake");
     return;
   }
   const OwnSlurm slurm;

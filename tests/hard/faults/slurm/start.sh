@@ -25,8 +25,11 @@ C
 export SLURM_CONF="$dir/slurm.conf"
 [ -f /etc/munge/munge.key ] || mungekey
 chown -R munge: /etc/munge /run/munge /var/log/munge /var/lib/munge
-# One may be running already.
-pgrep -x munged > /dev/null || runuser -u munge -- munged
+# One may be running already, and is left alone then.
+if ! pgrep -x munged > /dev/null; then
+  runuser -u munge -- munged
+  cp /run/munge/munged.pid "$dir/munged.pid"
+fi
 slurmctld -D > "$dir/slurmctld.log" 2>&1 &
 slurmd -D > "$dir/slurmd.log" 2>&1 &
 for _ in $(seq 100); do
