@@ -38,7 +38,7 @@ struct Extent {
 
 /// Where the tightest tolerance of a scene is predicted to take longer than this many seconds, all are compared
 /// earlier.
-constexpr double longest_run = 300.0;
+constexpr double longest_run = 120.0;
 
 Extent extent_of(bool quick) {
   if (quick) return {{6, 8}, {6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, 2};
