@@ -37,9 +37,13 @@ std::vector<NamedScene> all_scenes() {
     scene.numerics.order = 16;
     result.push_back({name + std::string("_tolerance"), at_tolerance(scene, 1e-3)});
   }
-  // Last, so that all others meet the random places that they have always met.
-  std::ranges::stable_partition(result, [](const NamedScene& of) { return !has_averaged_field(of.scene); });
   return result;
+}
+
+std::mt19937_64 random_of(const NamedScene& of, const std::string& purpose) {
+  const std::string text = purpose + " of " + of.name;
+  std::seed_seq seeds(text.begin(), text.end());
+  return std::mt19937_64(seeds);
 }
 
 }  // namespace vehd::testing

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,8 @@ struct NamedScene {
 /// Every shipped scene; every hard case in its short form; everything at once, and a pulse off the axis of a tube, at
 /// every order in time and with a tolerance.
 std::vector<NamedScene> all_scenes();
+
+/// Random numbers of a scene's own, whatever other scenes there are.
+std::mt19937_64 random_of(const NamedScene& of, const std::string& purpose);
 
 }  // namespace vehd::testing

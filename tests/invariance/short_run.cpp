@@ -23,7 +23,7 @@ ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps) {
                           LabFrameOutput(problem.frame, settings)
                               .diagnostics(evaluation.diagnostics, state, evaluation.fields)
                               .vesicles.back(),
-                          step, evolution.order(last)});
+                          step, evolution.order(last), evolution.truncation()});
     };
     evolution.evaluate_start();
     record({});

@@ -13,6 +13,7 @@ struct RunRow {
   VesicleDiagnostics diagnostics;  ///< of the last vesicle
   StepAttempt step;
   int order = 0;
+  double truncation = 0.0;  ///< see Evolution::truncation
 };
 
 struct ShortRun {
