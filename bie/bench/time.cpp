@@ -38,10 +38,15 @@ constexpr std::array kQuantities = {
     Quantity{"inclination_deg", &VesicleDiagnostics::inclination_deg},
 };
 
+struct TimedRow {
+  double time = 0.0;
+  VesicleDiagnostics diagnostics;
+};
+
 struct TimedRun {
   std::string integrator, setting;
   BenchCell dt{}, tolerance{};
-  VesicleDiagnostics diagnostics{};
+  std::vector<TimedRow> rows{};  ///< at snapshots and, last, at the end
   std::vector<double> seconds{};
   std::int64_t n_steps = 0;
   int highest_order = 0;
@@ -56,6 +61,14 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
   };
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.start, instruments);
+  const LabFrameOutput lab_frame(problem.frame, problem.settings);
+  const auto row_of = [&](const State& state, const Evaluation& evaluation) {
+    const Fields fields = resized(evaluation.fields, problem.settings.order);
+    return TimedRow{
+        state.time,
+        lab_frame.diagnostics(evaluation.diagnostics, resized(state, problem.settings.order), fields).vesicles.front()};
+  };
+  run.rows.clear();
   evolution.evaluate_start();
   run.highest_order = evolution.order(0);
   double raw_area = 0.0;
@@ -63,15 +76,15 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
     const StepAttempt step = evolution.step(events);
     run.highest_order = std::max(run.highest_order, evolution.order(0));
     raw_area += std::abs(step.raw_area);
+    for (const Evolution::Moment& moment : evolution.passed()) {
+      run.rows.push_back(row_of(moment.state, moment.evaluation));
+    }
     const VesicleDiagnostics& now = evolution.evaluation().diagnostics.vesicles.front();
     observer.status({evolution.state().step, 0.0, evolution.state().time, events.end_time, step.dt,
                      std::max(std::abs(now.area_drift), std::abs(now.volume_drift)), elapsed()});
   }
-  const LabFrameOutput lab_frame(problem.frame, problem.settings);
-  const State state = resized(evolution.state(), problem.settings.order);
-  const Fields fields = resized(evolution.evaluation().fields, problem.settings.order);
-  run.diagnostics = lab_frame.diagnostics(evolution.evaluation().diagnostics, state, fields).vesicles.front();
-  run.n_steps = state.step;
+  run.rows.push_back(row_of(evolution.state(), evolution.evaluation()));
+  run.n_steps = evolution.state().step;
   run.raw_drift = raw_area / events.end_time;
   run.seconds.push_back(elapsed());
 }
@@ -97,15 +110,25 @@ TimedRun adaptive_run(const TimeTask& task, double tolerance, BenchObserver& obs
   return run;
 }
 
-/// Difference of one quantity over its size; angles over a radian.
-double relative_error(const Quantity& quantity, const VesicleDiagnostics& d, const VesicleDiagnostics& reference) {
+/// Largest difference of one quantity in the rows that both have, over its largest value there; angles over a radian.
+double relative_error(const Quantity& quantity, const TimedRun& run, const TimedRun& reference) {
   constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-  const double value = reference.*quantity.member;
-  const double difference = std::abs(d.*quantity.member - value);
-  if (quantity.member == &VesicleDiagnostics::inclination_deg) {
-    return std::min(difference, 180.0 - difference) / kDegreesPerRadian;
+  constexpr double kSameTime = 1e-9;
+  const bool is_angle = quantity.member == &VesicleDiagnostics::inclination_deg;
+  double difference = 0.0, size = is_angle ? kDegreesPerRadian : 0.0;
+  for (auto row = run.rows.begin(), other = reference.rows.begin();
+       row != run.rows.end() && other != reference.rows.end();) {
+    if (std::abs(row->time - other->time) > kSameTime * reference.rows.back().time) {
+      ++(row->time < other->time ? row : other);
+      continue;
+    }
+    const double value = other->diagnostics.*quantity.member;
+    const double here = std::abs(row->diagnostics.*quantity.member - value);
+    difference = std::max(difference, is_angle ? std::min(here, 180.0 - here) : here);
+    if (!is_angle) size = std::max(size, std::abs(value));
+    ++row, ++other;
   }
-  return difference == 0.0 ? 0.0 : difference / std::abs(value);
+  return difference == 0.0 ? 0.0 : difference / size;
 }
 
 BenchTable empty_time_table() {
@@ -130,7 +153,7 @@ BenchTable empty_time_table() {
 std::vector<double> errors_of(const TimedRun& run, const TimedRun& reference) {
   std::vector<double> errors;
   for (const Quantity& quantity : kQuantities) {
-    errors.push_back(relative_error(quantity, run.diagnostics, reference.diagnostics));
+    errors.push_back(relative_error(quantity, run, reference));
   }
   return errors;
 }
@@ -166,7 +189,7 @@ std::vector<BenchCell> row_of(const TimedRun& run, const References& references)
                              over_tolerance,
                              run.raw_drift};
   row.insert(row.end(), errors.begin(), errors.end());
-  for (const Quantity& quantity : kQuantities) row.emplace_back(run.diagnostics.*quantity.member);
+  for (const Quantity& quantity : kQuantities) row.emplace_back(run.rows.back().diagnostics.*quantity.member);
   return row;
 }
 
@@ -180,14 +203,16 @@ std::vector<Quantity> shown_quantities() {
 void add_values(BenchTable& table, const std::vector<TimedRun>& runs, BenchObserver& observer) {
   for (const TimedRun& run : runs) {
     std::vector<BenchCell> row{run.integrator, run.setting};
-    for (const Quantity& quantity : shown_quantities()) row.emplace_back(run.diagnostics.*quantity.member);
+    for (const Quantity& quantity : shown_quantities()) row.emplace_back(run.rows.back().diagnostics.*quantity.member);
     add_row(table, std::move(row), observer);
   }
   if (runs.size() < 3) return;
   std::vector<BenchCell> orders{runs.front().integrator, "observed order"};
   std::vector<BenchCell> limits{runs.front().integrator, "dt → 0"};
   for (const Quantity& quantity : shown_quantities()) {
-    const auto value = [&](std::size_t from_end) { return runs[runs.size() - from_end].diagnostics.*quantity.member; };
+    const auto value = [&](std::size_t from_end) {
+      return runs[runs.size() - from_end].rows.back().diagnostics.*quantity.member;
+    };
     const double coarse = value(3), middle = value(2), fine = value(1);
     const double ratio = (coarse - middle) / (middle - fine);
     // Values that do not move monotonically, or not at all, have no order.

@@ -15,16 +15,16 @@ struct TimeTask {
   std::vector<double> steps{};       ///< fixed step sizes, each half of the one before
   std::vector<int> time_orders{};    ///< integrators that take them; empty: the scene's own
   std::vector<double> tolerances{};  ///< falling
-  std::optional<double> every{};     ///< steps of a tolerance end on its multiples, as snapshots make them
+  std::optional<double> every{};     ///< with a tolerance its multiples, those of snapshots, are compared as well
   int repeats = 1;
 };
 
 /// Error of the history quantities against the step size, the steps and the seconds, for each integrator and for a
 /// tolerance; with fixed steps also the values, the order observed from the last three and the limit that follows.
 /// The reference is the last tolerance; without any, a run of the highest order with half the smallest step where
-/// orders above 2 are compared, otherwise with the middle one. Errors are relative, those of angles in radians. Beside
-/// a tolerance, whose degree is its own, errors of fixed steps are also taken from that run of their own degree: the
-/// errors of the steps alone.
+/// orders above 2 are compared, otherwise with the middle one. Errors are the largest of all rows, over the largest
+/// value of the quantity in them; those of angles in radians. Beside a tolerance, whose degree is its own, errors of
+/// fixed steps are also taken from that run of their own degree: the errors of the steps alone.
 /// @throws InputError, ConvergenceError
 BenchResult bench_time(const TimeTask& task, BenchObserver& observer);
 

@@ -1,7 +1,10 @@
 #include "tests/invariance/short_run.hpp"
 
+#include <algorithm>
+
 #include "bie/stepping/evaluation/lab_frame_output.hpp"
 #include "bie/support/errors.hpp"
+#include "tests/support/runs.hpp"
 
 namespace vehd::testing {
 
@@ -35,6 +38,19 @@ ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps) {
     run.reason = error.what();
   }
   return run;
+}
+
+ShortRun solved_run(const Scene& scene, int most_steps) { return solved_run(problem_of(scene), scene, most_steps); }
+
+ShortRun solved_run(Problem problem, const Scene& scene, int most_steps) {
+  solve_to_rounding(problem.settings);
+  return short_run(problem, scene, most_steps);
+}
+
+bool same_iterations(const ShortRun& a, const ShortRun& b) {
+  return std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(), [](const RunRow& x, const RunRow& y) {
+    return x.step.iterations_flow == y.step.iterations_flow && x.step.iterations_electric == y.step.iterations_electric;
+  });
 }
 
 }  // namespace vehd::testing

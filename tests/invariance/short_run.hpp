@@ -29,4 +29,15 @@ ShortRun short_run(const Scene& scene, int most_steps);
 /// The same of a changed problem of the scene.
 ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps);
 
+/// With solves that go on to rounding: what the usual ones leave, up to 1e-5 of a step's change of curvature, is
+/// another remainder where they end elsewhere.
+ShortRun solved_run(const Scene& scene, int most_steps);
+
+/// The same of a changed problem of the scene.
+ShortRun solved_run(Problem problem, const Scene& scene, int most_steps);
+
+/// Rounding decides where an iteration ends that is at its tolerance; what is left then is another remainder below that
+/// tolerance, and with steps chosen by their error other steps follow.
+bool same_iterations(const ShortRun& a, const ShortRun& b);
+
 }  // namespace vehd::testing

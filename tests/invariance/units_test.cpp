@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <random>
@@ -9,7 +8,6 @@
 #include "tests/invariance/scaled_scene.hpp"
 #include "tests/invariance/scenes.hpp"
 #include "tests/invariance/short_run.hpp"
-#include "tests/support/runs.hpp"
 
 using namespace vehd;
 using namespace vehd::testing;
@@ -56,28 +54,10 @@ std::string first_difference(const ShortRun& base, const ShortRun& scaled, const
   return "";
 }
 
-/// Rounding decides where an iteration ends that is at its tolerance; what is left then is another remainder below that
-/// tolerance, and with steps chosen by their error other steps follow.
-bool same_iterations(const ShortRun& base, const ShortRun& scaled) {
-  return std::equal(base.rows.begin(), base.rows.end(), scaled.rows.begin(), scaled.rows.end(),
-                    [](const RunRow& a, const RunRow& b) {
-                      return a.step.iterations_flow == b.step.iterations_flow &&
-                             a.step.iterations_electric == b.step.iterations_electric;
-                    });
-}
-
 UnitFactors random_factors(std::mt19937_64 random) {
   std::uniform_real_distribution<double> exponent(-9.0, 9.0);
   const auto draw = [&] { return std::pow(10.0, exponent(random)); };
   return {draw(), draw(), draw(), draw()};
-}
-
-/// With solves that go on to rounding: what the usual ones leave, up to 1e-5 of a step's change of curvature, is
-/// another remainder where they end elsewhere.
-ShortRun solved_run(const Scene& scene) {
-  Problem problem = problem_of(scene);
-  solve_to_rounding(problem.settings);
-  return short_run(problem, scene, kSteps);
 }
 
 }  // namespace
@@ -94,9 +74,10 @@ BOOST_AUTO_TEST_CASE(powers_of_two_change_no_bit_and_other_factors_nothing_but_r
     const ShortRun scaled = short_run(in_units(scene, factors), kSteps);
     const bool same = same_iterations(base, scaled);
     const double tolerance = same && !scene.numerics.tolerance ? 1e-9 : 1e-6;
-    const Deviation worst = same || scene.numerics.tolerance
-                                ? largest_deviation(base, scaled, factors)
-                                : largest_deviation(solved_run(scene), solved_run(in_units(scene, factors)), factors);
+    const Deviation worst =
+        same || scene.numerics.tolerance
+            ? largest_deviation(base, scaled, factors)
+            : largest_deviation(solved_run(scene, kSteps), solved_run(in_units(scene, factors), kSteps), factors);
     BOOST_TEST(worst.size < tolerance, name << ": " << worst.column << " by " << worst.size);
   }
 }
