@@ -51,12 +51,13 @@ bool needs_finite_elements(const std::string& command) {
   return std::regex_search(command, std::regex("vehd (bench methods|check|mesh)")) && !finite_elements_are_built();
 }
 
-/// The suite `methods` runs it with all that is asserted of its results.
-bool another_suite_runs(const std::string& command) { return command == "build/vehd bench methods"; }
+/// The suites `methods` and `movie` run these with all that is asserted of their results.
+bool another_suite_runs(const std::string& command) {
+  return command == "build/vehd bench methods" || command.ends_with(" --movie");
+}
 
 /// What a command of a page needs and this machine does not have; empty if it has all.
 std::string missing_program(const std::string& command) {
-  if (command.find("--movie") != std::string::npos && !is_installed("ffmpeg")) return "ffmpeg";
   const std::string modules = modules_of(command);
   if (modules == "selenium" && !(is_installed("chromium") && is_installed("chromedriver"))) return "chromium";
   return !modules.empty() && python_with(modules).empty() ? modules : "";
