@@ -299,7 +299,11 @@ if(STEP STREQUAL "fuzz")
   endforeach()
 endif()
 if(STEP STREQUAL "package")
-  run_or_stop("${CMAKE_COMMAND}" "-DBUILD=${build}" -DLEVELS=2 "-DFOLDER=${build}/installed" -P
+  set(python)
+  if(VEHD_PYTHON STREQUAL "ON")
+    set(python -DPYTHON=/usr/bin/python3)
+  endif()
+  run_or_stop("${CMAKE_COMMAND}" "-DBUILD=${build}" -DLEVELS=2 "-DFOLDER=${build}/installed" ${python} -P
               "${source}/tests/installed/package.cmake")
   file(GLOB packages "${build}/package/*.deb")
   message(STATUS "Install it with: apt-get install ${packages}")

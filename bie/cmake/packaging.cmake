@@ -22,7 +22,8 @@ if(has_python)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), \
 python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}), python3-numpy")
-  string(APPEND CPACK_DEBIAN_PACKAGE_SUGGESTS ", python3-scipy, python3-pandas")
+  string(APPEND CPACK_DEBIAN_PACKAGE_SUGGESTS ", python3-scipy, python3-pandas, jupyter-notebook")
+  set(CPACK_DEBIAN_PACKAGE_PROVIDES "python3-vehd (= ${PROJECT_VERSION})")
 endif()
 # What Debian asks of the files and folders of a package.
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ

@@ -52,6 +52,26 @@ py::dict units_of(const HistoryTable& table) {
   return units;
 }
 
+/// Where the solver itself has the fields of a vesicle, by the names that arrays on them have: for tests.
+py::dict addresses_of(const SceneRun& run, std::size_t number) {
+  const SurfaceFields& state = run.simulation().evolution().state().vesicles.at(number);
+  const VesicleFields& fields = run.simulation().evolution().evaluation().fields.vesicles.at(number);
+  py::dict addresses;
+  const auto add = [&](const char* name, const auto& values) {
+    if (values.size() > 0) addresses[name] = reinterpret_cast<std::uintptr_t>(values.data());
+  };
+  add("position", state.position);
+  add("area_strain", state.area_strain);
+  add("Vm", state.transmembrane_potential);
+  add("velocity", fields.velocity);
+  add("tension", fields.tension);
+  add("q", fields.charge);
+  add("force_bending", fields.force_bending);
+  add("force_tension", fields.force_tension);
+  add("force_electric", fields.force_electric);
+  return addresses;
+}
+
 /// A step without the lock of Python; a signal that has come meanwhile raises once the step is whole.
 bool step(SceneRun& run) {
   bool stepped = false;
@@ -115,12 +135,7 @@ void bind_simulation(py::module_& module) {
       .def_property_readonly("state", &SceneRun::moment)
       .def_property_readonly("directory", &SceneRun::directory)
       .def("history", &SceneRun::history)
-      // Where the solver itself has the first shape: for tests.
-      .def("position_address",
-           [](const SceneRun& run) {
-             const State& state = run.simulation().evolution().state();
-             return reinterpret_cast<std::uintptr_t>(state.vesicles.front().position.data());
-           })
+      .def("addresses", &addresses_of, py::arg("vesicle"))
       .def("vesicle_history", &SceneRun::vesicle_history);
 }
 

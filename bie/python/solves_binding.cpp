@@ -10,6 +10,7 @@
 #include "bie/physics/tension.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
+#include "bie/python/point_sources.hpp"
 #include "bie/python/surface_object.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/support/errors.hpp"
@@ -119,10 +120,8 @@ void bind_solves(py::module_& module) {
              py::arg("tolerance") = 1e-9, py::call_guard<py::gil_scoped_release>());
   module.def(
       "point_source_fields",
-      [](const Shared& surface, const std::vector<std::tuple<Vector3, double, bool>>& sources) {
-        std::vector<PointSource> given;
-        for (const auto& [position, strength, inside] : sources) given.push_back({position, strength, inside});
-        PointSourceFields fields = point_source_fields(given, surface->geometry());
+      [](const Shared& surface, const GivenSources& sources) {
+        PointSourceFields fields = point_source_fields(sources_of(sources), surface->geometry());
         py::dict result;
         result["potential_in"] = std::move(fields.potential_in);
         result["potential_out"] = std::move(fields.potential_out);
@@ -134,7 +133,7 @@ void bind_solves(py::module_& module) {
       },
       py::arg("surface"), py::arg("sources"));
   module.def("example1_sources", [] {
-    std::vector<std::tuple<Vector3, double, bool>> sources;
+    GivenSources sources;
     for (const PointSource& source : example1_sources()) {
       sources.emplace_back(source.position, source.strength, source.inside);
     }

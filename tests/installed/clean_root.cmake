@@ -1,5 +1,5 @@
 # Installs a package as an administrator would, into a Debian 12 that has nothing beside apt, and goes on to the first
-# picture; tells how long both take:
+# picture, and to Example 1 from Python; tells how long both take:
 #   cmake -DPACKAGE=vehd.deb -DFOLDER=work -P clean_root.cmake
 # It needs root, mmdebstrap or debootstrap, and the network; where one of the first two is missing it says so and ends.
 cmake_minimum_required(VERSION 3.25)
@@ -47,6 +47,11 @@ within(installed "apt-get install -q -y /vehd.deb")
 within(ran "vehd examples figure2 && vehd run figure2.toml" "picture: out/figure2/plots/shapes.png")
 if(NOT EXISTS "${root}/root/out/figure2/plots/shapes.png")
   message(FATAL_ERROR "no picture")
+endif()
+# The module is where there is one in the package, whose recommendations bring python3 and numpy.
+execute_process(COMMAND dpkg-deb --field "${PACKAGE}" Provides OUTPUT_VARIABLE provided COMMAND_ERROR_IS_FATAL ANY)
+if(provided MATCHES python3-vehd)
+  within(imported "python3 -m vehd" "degree 16: error of q")
 endif()
 math(EXPR sum "${installed} + ${ran}")
 message(STATUS "lists of packages ${updated} s; installed in ${installed} s; first picture ${ran} s after that: ${sum} s")

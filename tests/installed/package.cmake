@@ -1,6 +1,7 @@
 # Makes a Debian package of a build, in BUILD/package, lets lintian read it and runs what is in it from a folder of its own.
-# LEVELS is how many instruction sets its numerical libraries are for beside that of the rest:
-#   cmake -DBUILD=build -DLEVELS=2 -DFOLDER=work -P package.cmake
+# LEVELS is how many instruction sets its numerical libraries are for beside that of the rest; PYTHON runs the module of
+# Python, where there is one:
+#   cmake -DBUILD=build -DLEVELS=2 -DFOLDER=work -DPYTHON=python3 -P package.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 
@@ -35,4 +36,12 @@ if(NOT n_levels EQUAL LEVELS)
 endif()
 if(LEVELS GREATER 0)
   expect("x86-64" "${prefix}/bin/vehd" --version)
+endif()
+
+# Where Debian's python3 looks, and with what it needs.
+if(PYTHON)
+  expect("Example 1[^\n]*\ndegree 6: error of q" "${CMAKE_COMMAND}" -E env
+         "PYTHONPATH=${prefix}/lib/python3/dist-packages" "${PYTHON}" -m vehd --degree 6)
+  expect("python3-numpy" dpkg-deb --field "${PACKAGE}" Recommends)
+  expect("^python3-vehd" dpkg-deb --field "${PACKAGE}" Provides)
 endif()

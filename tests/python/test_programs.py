@@ -70,6 +70,27 @@ class Checks(InFolder):
         if not has_elements:
             with self.assertRaisesRegex(vehd.InputError, "VEHD_FEM_CHECK=ON"):
                 vehd.check(scene, self.folder / "check")
+            with self.assertRaisesRegex(vehd.InputError, "VEHD_FEM_CHECK=ON"):
+                vehd.solve_by_elements(vehd.Surface.sphere(degree=8), vehd.example1_sources(), 2.0, 1.0)
+
+    def test_a_check_is_a_table(self):
+        row = {"l2": 0.25, "max": 0.5, "fem_error": 1e-3, "bie_error": 1e-4, "verdict": "agree", "fem_solver": 0.0}
+        table = vehd.CheckResult({"verdict": "agree", "fields": {"q": row}, "from_shape": {},
+                                  "stored": {"q": {**row, "verdict": "undecided"}}}).table
+        self.assertEqual(list(table["group"]), ["fields", "stored"])
+        self.assertEqual(list(table["verdict"]), ["agree", "undecided"])
+        np.testing.assert_array_equal(table["l2"], 0.25)
+        self.assertEqual(list(table), ["group", "field", "l2", "max", "fem_error", "bie_error", "verdict"])
+
+    @unittest.skipUnless(has_elements, "the finite elements are not built (VEHD_FEM_CHECK)")
+    def test_elements_find_the_charge_of_point_sources(self):
+        # Exact solution; a degree more divides the error by about four (docs/two_methods.md).
+        shape = vehd.Surface.from_shape("radial", 16, base=1.0, amplitude=0.2, exponent=-3.0,
+                                        modes=[{"n": 3, "m": 2, "a": 1.0}])
+        errors = [vehd.solve_by_elements(shape, vehd.example1_sources(), 2.0, 1.0, degree=k)["fields"]["q"]["l2"]
+                  for k in (2, 3)]
+        self.assertLess(errors[0], 0.02)
+        self.assertLess(errors[1], 0.5 * errors[0])
 
 
 @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
@@ -84,6 +105,17 @@ class Pictures(unittest.TestCase):
         np.testing.assert_allclose(x**2 + z**2 / 4, 1.0, atol=1e-12)
         axes = vehd.plot.shape(run.state[0], run.state[0].Vm)
         self.assertEqual(len(axes.collections), 1)
+
+    def test_meshes_of_pyvista_are_the_shape(self):
+        try:
+            import pyvista  # noqa: F401
+        except ImportError:
+            self.skipTest("pyvista (not in Debian 12; pip) is missing")
+        surface = vehd.Surface.from_shape("ellipsoid", 8, axes=[1.0, 1.0, 2.0])
+        mesh = vehd.plot.pyvista_mesh(surface, surface.coefficients[:, 2])
+        x, y, z = mesh.points.T
+        np.testing.assert_allclose(x**2 + y**2 + z**2 / 4, 1.0, atol=1e-6)
+        np.testing.assert_allclose(mesh["values"], z, atol=1e-6)
 
     def test_tables_become_frames_of_pandas(self):
         try:

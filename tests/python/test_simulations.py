@@ -78,11 +78,16 @@ class Views(unittest.TestCase):
         self.run_ = vehd.Simulation(vehd.Scene.from_text(SHEARED))
 
     def test_arrays_are_the_numbers_of_the_solver(self):
-        for _ in range(2):
-            position = self.run_.state[0].position
-            self.assertGreater(position.nbytes, 1000)
-            self.assertEqual(address(position), self.run_._core.position_address())
-            self.run_.step()
+        for scene, n_fields in ((SHEARED.replace("degree = 6", "degree = 12"), 9), (SEVERAL, 6)):
+            run = vehd.Simulation(vehd.Scene.from_text(scene))
+            for _ in range(2):
+                for number, vesicle in enumerate(run.state):
+                    addresses = run._core.addresses(number)
+                    self.assertEqual(len(addresses), n_fields)
+                    for name, place in addresses.items():
+                        self.assertEqual(address(getattr(vesicle, name)), place, name)
+                run.step()
+        self.assertGreater(vehd.Simulation(vehd.Scene.from_text(SHEARED)).state[0].position.nbytes, 1000)
 
     def test_arrays_stay_what_they_are(self):
         vesicle = self.run_.state[0]

@@ -1,13 +1,17 @@
-"""The check by finite elements."""
+"""The check by finite elements, and what they find themselves."""
 
 import json
 import os
 from pathlib import Path
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
 
 from . import _core
 from .scenes import Scene, _settings
 from .simulation import Simulation
+from .surface import Surface
+from .tables import Table
 
 
 class CheckResult(dict):
@@ -17,6 +21,17 @@ class CheckResult(dict):
     agrees: bool
     note: str
 
+    @property
+    def table(self) -> Table:
+        """One row for each comparison: group ("fields", "from_shape", "stored"), field, l2 and max of the relative
+        difference, fem_error, bie_error, verdict; `table.to_pandas()` is a DataFrame."""
+        rows = [{"group": group, "field": field, **values} for group in ("fields", "from_shape", "stored")
+                for field, values in self.get(group, {}).items()]
+        names = ("group", "field", "l2", "max", "fem_error", "bie_error", "verdict")
+        table = Table({name: np.array([row[name] for row in rows]) for name in names})
+        table.units = {name: "" for name in names}
+        return table
+
 
 def _program_folder() -> str:
     """Of the finite-element program: the next folder above this one that has it, or a folder bin there."""
@@ -25,6 +40,11 @@ def _program_folder() -> str:
             if os.access(folder / "vehd_fem", os.X_OK):
                 return str(folder)
     return str(Path(__file__).resolve().parents[2])
+
+
+def has_finite_elements() -> bool:
+    """Whether `check` and `solve_by_elements` find the finite-element program (cmake -DSTEP=check -P bie/setup.cmake)."""
+    return os.access(os.path.join(_program_folder(), "vehd_fem"), os.X_OK)
 
 
 def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
@@ -66,3 +86,24 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
     result.agrees = code == 0
     result.note = note
     return result
+
+
+def solve_by_elements(surface: Surface, sources: List[Tuple[Sequence[float], float, bool]], conductivity_in: float,
+                      conductivity_out: float, *, degree: int = 5, cells: int = 3,
+                      outer_radius: float = 8.0) -> Dict[str, Any]:
+    """The problem of `solve_jumps` for the jumps of point sources, by finite elements in the volume, in a program of its
+    own, and how far its solution is from the exact one.
+
+    sources: as of `point_source_fields`; conductivity_in, conductivity_out: σ_i, σ_e; degree: of the elements; cells:
+    along an edge of each block of the mesh; outer_radius: where the space ends, over the radius of the shape.
+    Returns dofs (unknowns), cells, seconds (processor time from the shape to the fields; seconds_mesh of it for the
+    mesh), memory_bytes (peak of the program), fields{"q", "force"}{"l2", "max"}: errors relative to the exact solution.
+
+    InputError: there is no finite-element program. RuntimeError: it has not come to its end.
+    """
+    code, text = _core.solve_sources_by_elements(
+        _program_folder(), surface.coefficients, [(np.asarray(p, dtype=float), s, i) for p, s, i in sources],
+        conductivity_in, conductivity_out, degree, cells, outer_radius)
+    if code != 0:
+        raise RuntimeError(f"the finite elements ended with exit code {code}; their messages are on standard error")
+    return json.loads(text)
