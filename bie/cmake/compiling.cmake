@@ -14,6 +14,8 @@ target_compile_options(vehd_compilation INTERFACE -Wall -Wextra -Wshadow -fno-ma
 # GCC 12 sees uninitialised registers inside its own AVX-512 headers.
 target_compile_options(vehd_compilation INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
                                                   -Wno-uninitialized)
+# It collects its garbage at a gigabyte: at its own limit it spends a seventh of its time on that.
+target_compile_options(vehd_compilation INTERFACE "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=1000000>")
 if(CMAKE_UNITY_BUILD)
   # Every file is then included by another, whose names are not seen by others either, and meets those of its neighbours.
   target_compile_options(vehd_compilation INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
