@@ -30,8 +30,8 @@ constexpr std::array kOperators = {OperatorFlag{"laplace_single", &LayerSelectio
                                    OperatorFlag{"stokes_double", &LayerSelection::stokes_double}};
 
 constexpr std::array kKnownEffects = {
-    "bending",         "inextensibility", "electric field",        "background flow",
-    "Poiseuille flow", "gravity",         "spontaneous curvature", "viscosity contrast"};
+    "bending", "inextensibility",       "electric field",     "background flow", "Poiseuille flow",
+    "gravity", "spontaneous curvature", "viscosity contrast", "contact"};
 
 /// The model without one of its effects.
 Model without(const Model& model, const std::string& name) {
@@ -47,6 +47,7 @@ Model without(const Model& model, const std::string& name) {
   }
   if (name == "electric field") result.electric.reset();
   if (name == "background flow") result.flow.reset();
+  if (name == "contact") result.contact.reset();
   erase_from(result.effects);
   return result;
 }

@@ -17,6 +17,7 @@ const DatasetLabel velocity_label{"velocity", "membrane velocity dx/dt"};
 const DatasetLabel bending_label{"force/area", "bending force f_b on the fluid"};
 const DatasetLabel tension_force_label{"force/area", "tension force f_lambda on the fluid"};
 const DatasetLabel electric_label{"force/area", "electric force f_E = [[n . Sigma_el]]; f = f_b + f_lambda - f_E"};
+const DatasetLabel contact_label{"force/area", "force of the contact potential on the fluid"};
 const DatasetLabel potential_label{"potential", "transmembrane potential V_m = [[phi]], interior minus exterior"};
 const DatasetLabel charge_label{"potential/length", "q = [[d phi/d n]], interior minus exterior"};
 const DatasetLabel potential_amplitude_label{"potential", "magnitude of the amplitude of V_m in an averaged ac field"};
@@ -148,6 +149,7 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, cons
   writer.field("force_bending", f.force_bending, bending_label);
   writer.field("force_tension", f.force_tension, tension_force_label);
   writer.field("force_electric", f.force_electric, electric_label);
+  writer.field("force_contact", f.force_contact, contact_label);
   writer.field("Vm", transmembrane_potential(vesicle, f), potential_label);
   writer.field("q", f.charge, charge_label);
   write_amplitudes(writer, f.potential_amplitude, f.charge_amplitude);

@@ -22,6 +22,17 @@ TargetNodes target_nodes(const InteractingMembrane& membrane) {
   return result;
 }
 
+/// Of rows for all pairs.
+double bytes_of_rows(const std::vector<InteractingMembrane>& membranes, const std::vector<TargetNodes>& nodes,
+                     Index n_all) {
+  double bytes = 0.0;
+  for (std::size_t b = 0; b < membranes.size(); ++b) {
+    bytes += 8.0 * static_cast<double>(n_all - nodes[b].points.rows()) *
+             static_cast<double>(membranes[b].position.rows()) * PairColumns(membranes[b].selection).count;
+  }
+  return bytes;
+}
+
 }  // namespace
 
 Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
@@ -35,11 +46,25 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     nodes.push_back(target_nodes(membrane));
     n_all += nodes.back().points.rows();
   }
-  for (std::size_t b = 0; b < membranes.size(); ++b) {
-    TargetNodes others{Matrix(n_all - nodes[b].points.rows(), 3), Matrix(n_all - nodes[b].points.rows(), 3)};
-    Index first = 0;
+  if (bytes_of_rows(membranes, nodes, n_all) > settings.row_bytes) {
+    const auto timer = instruments.time("pair layers");
+    std::vector<ExpandedMembrane> expanded;
     for (std::size_t a = 0; a < membranes.size(); ++a) {
-      if (a == b) continue;
+      expanded.push_back({membranes[a].position, nodes[a].points, nodes[a].area_vectors});
+    }
+    expansions_.emplace(expanded, settings.tolerance);
+  }
+  for (std::size_t b = 0; b < membranes.size(); ++b) {
+    std::vector<std::size_t>& near = near_.emplace_back();
+    Index n_near = 0;
+    for (std::size_t a = 0; a < membranes.size(); ++a) {
+      if (a == b || (expansions_ && expansions_->is_far(a, b))) continue;
+      near.push_back(a);
+      n_near += nodes[a].points.rows();
+    }
+    TargetNodes others{Matrix(n_near, 3), Matrix(n_near, 3)};
+    Index first = 0;
+    for (const std::size_t a : near) {
       others.points.middleRows(first, nodes[a].points.rows()) = nodes[a].points;
       others.area_vectors.middleRows(first, nodes[a].points.rows()) = nodes[a].area_vectors;
       first += nodes[a].points.rows();
@@ -54,19 +79,23 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
   }
 }
 
-template <class Field, class Layer>
-std::vector<Field> Interaction::sums(const std::vector<Field>& densities, Index components, const Layer& layer) const {
+template <class Field, class Layer, class Expanded>
+std::vector<Field> Interaction::sums(const std::vector<Field>& densities, Index components, const Layer& layer,
+                                     const Expanded& expanded) const {
   require_size("densities of membranes", static_cast<long>(densities.size()), static_cast<long>(n_membranes()));
   std::vector<Matrix> values;
-  for (const SphereTransform& nodes : targets_) {
-    values.emplace_back(Matrix::Zero(nodes.grid().n_points(), components));
+  if (expansions_) {
+    values = expanded(*expansions_, densities);
+  } else {
+    for (const SphereTransform& nodes : targets_) {
+      values.emplace_back(Matrix::Zero(nodes.grid().n_points(), components));
+    }
   }
   for (std::size_t b = 0; b < n_membranes(); ++b) {
     if (densities[b].size() == 0) continue;
     const Matrix from_b = layer(layers_[b], densities[b]);
     Index first = 0;
-    for (std::size_t a = 0; a < n_membranes(); ++a) {
-      if (a == b) continue;
+    for (const std::size_t a : near_[b]) {
       values[a] += from_b.middleRows(first, values[a].rows());
       first += values[a].rows();
     }
@@ -76,35 +105,48 @@ std::vector<Field> Interaction::sums(const std::vector<Field>& densities, Index 
   return result;
 }
 
-template <class Layer>
-std::vector<Vector> Interaction::fluxes(const std::vector<Vector>& densities, const Layer& layer) const {
-  std::vector<Vector> result = sums(densities, 1, layer);
+template <class Layer, class Expanded>
+std::vector<Vector> Interaction::fluxes(const std::vector<Vector>& densities, const Layer& layer,
+                                        const Expanded& expanded) const {
+  std::vector<Vector> result = sums(densities, 1, layer, expanded);
   for (Vector& flux : result) flux[0] = 0.0;
   return result;
 }
 
 std::vector<Vector> Interaction::weighted_single_flux(const std::vector<Vector>& weighted) const {
-  return fluxes(weighted, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single_normal(f); });
+  return fluxes(
+      weighted, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single_normal(f); },
+      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_single_normal(f); });
 }
 
 std::vector<Vector> Interaction::weighted_double_flux(const std::vector<Vector>& densities) const {
-  return fluxes(densities, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double_normal(f); });
+  return fluxes(
+      densities, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double_normal(f); },
+      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_double_normal(f); });
 }
 
 std::vector<Vector> Interaction::single_potential(const std::vector<Vector>& weighted) const {
-  return sums(weighted, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single(f); });
+  return sums(
+      weighted, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single(f); },
+      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_single(f); });
 }
 
 std::vector<Vector> Interaction::double_potential(const std::vector<Vector>& densities) const {
-  return sums(densities, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double(f); });
+  return sums(
+      densities, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double(f); },
+      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_double(f); });
 }
 
 std::vector<Matrix> Interaction::stokes_single(const std::vector<Matrix>& weighted) const {
-  return sums(weighted, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_single(f); });
+  return sums(
+      weighted, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_single(f); },
+      [](const FarExpansions& far, const std::vector<Matrix>& f) { return far.stokes_single(f); });
 }
 
 std::vector<Matrix> Interaction::stokes_double(const std::vector<Matrix>& velocities) const {
-  return sums(velocities, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_double(f); });
+  return sums(
+      velocities, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_double(f); },
+      [](const FarExpansions& far, const std::vector<Matrix>& f) { return far.stokes_double(f); });
 }
 
 PairCounts Interaction::counts() const {

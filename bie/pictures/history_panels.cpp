@@ -17,7 +17,7 @@ struct ColumnRow {
   const char* label;
 };
 
-enum class Shown { always, with_field, with_averaged_field, with_flow, with_tolerance };
+enum class Shown { always, with_field, with_averaged_field, with_flow, with_linear_flow, with_tolerance };
 
 constexpr const char* step_size = "dt";
 
@@ -32,7 +32,8 @@ struct QuantityRow {
 namespace shown_quantity {
 constexpr std::string_view energy = "bending energy", tension = "tension", potential = "potential across the membrane",
                            charge = "charge density", inclination = "inclination", aspect = "aspect ratio",
-                           errors = "errors", extent = "extent", gap = "gap";
+                           errors = "errors", extent = "extent", gap = "gap", viscosity = "viscosity",
+                           dipole = "dipole";
 }  // namespace shown_quantity
 
 const std::vector<QuantityRow>& quantity_rows() {
@@ -55,6 +56,12 @@ const std::vector<QuantityRow>& quantity_rows() {
        Shown::always,
        true},
       {shown_quantity::gap, {{"smallest_gap", "smallest gap"}}},
+      {shown_quantity::viscosity,
+       {{"effective_viscosity_intrinsic", "intrinsic viscosity of all"}},
+       Shown::with_linear_flow},
+      {shown_quantity::dipole,
+       {{"dipole_x", "dipole along x"}, {"dipole_y", "along y"}, {"dipole_z", "along z"}},
+       Shown::with_field},
       {shown_quantity::extent, {{"extent_x", "along x"}, {"extent_y", "along y"}, {"extent_z", "along z"}}},
       {"step", {{step_size, "dt"}}, Shown::with_tolerance, true},
       {"degree", {{"order", "p"}}, Shown::with_tolerance}};
@@ -77,6 +84,8 @@ bool applies(Shown shown, const Scene& scene) {
       return has_averaged_field(scene);
     case Shown::with_flow:
       return scene.flow.has_value();
+    case Shown::with_linear_flow:
+      return scene.flow.has_value() && scene.flow->kind != FlowKind::poiseuille;
     case Shown::with_tolerance:
       return scene.numerics.tolerance.has_value();
     case Shown::always:
@@ -168,6 +177,7 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
   // Several vesicles have no charge density that is that of all.
   if (history.has("smallest_gap")) {
     add({shown_quantity::gap, shown_quantity::potential});
+    add({shown_quantity::viscosity});
   } else {
     add({shown_quantity::potential, shown_quantity::charge});
   }

@@ -17,7 +17,7 @@ namespace {
 
 /// Forces that a snapshot may have; the electric one is that on the membrane's charges, which the membrane hands on.
 constexpr std::array forces = {std::pair{"force_bending", 1.0}, std::pair{"force_tension", 1.0},
-                               std::pair{"force_electric", -1.0}};
+                               std::pair{"force_electric", -1.0}, std::pair{"force_contact", 1.0}};
 
 /// Datasets of the real and of the imaginary part.
 std::array<std::string_view, 2> parts_of(ShapeField field) {

@@ -93,7 +93,8 @@ void bind_moment(py::module_& module) {
       .def_property_readonly("q", of_fields<&VesicleFields::charge>)
       .def_property_readonly("force_bending", of_fields<&VesicleFields::force_bending>)
       .def_property_readonly("force_tension", of_fields<&VesicleFields::force_tension>)
-      .def_property_readonly("force_electric", of_fields<&VesicleFields::force_electric>);
+      .def_property_readonly("force_electric", of_fields<&VesicleFields::force_electric>)
+      .def_property_readonly("force_contact", of_fields<&VesicleFields::force_contact>);
   py::class_<Moment, std::shared_ptr<Moment>>(module, "State")
       .def_property_readonly("time", &Moment::time)
       .def("__len__", [](const std::shared_ptr<Moment>& moment) { return count_of(*moment); })

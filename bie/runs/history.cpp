@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <initializer_list>
 #include <map>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -18,21 +17,6 @@
 
 namespace vehd {
 namespace {
-
-template <auto member>
-double of_vesicle(const HistoryRow& row) {
-  return row.diagnostics.vesicles.front().*member;
-}
-template <auto member>
-double of_step(const HistoryRow& row) {
-  return static_cast<double>(row.step.*member);
-}
-template <auto member>
-double of_row(const HistoryRow& row) {
-  return static_cast<double>(row.*member);
-}
-
-using D = VesicleDiagnostics;
 
 std::string header_of(std::string_view name, const std::string& unit) {
   return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
@@ -53,11 +37,15 @@ std::pair<std::string, std::string> parts_of(const std::string& header) {
   return {header.substr(0, at), header.substr(at + 2, header.size() - at - 3)};
 }
 
-bool is_header(const std::string& line, HistoryKind kind) {
-  const std::vector<std::string> cells = csv_cells(line);
-  return std::ranges::equal(
-      cells, history_columns(kind), {}, [](const std::string& cell) { return parts_of(cell).first; },
+/// Columns of a file that has all, or those of an earlier vehd; nothing of any other.
+std::optional<std::size_t> columns_under(const std::string& header, HistoryKind kind) {
+  const std::vector<std::string> cells = csv_cells(header);
+  const std::vector<HistoryColumn>& known = history_columns(kind);
+  if (cells.size() > known.size() || cells.size() < first_columns(kind)) return std::nullopt;
+  const bool same = std::ranges::equal(
+      cells, std::span(known).first(cells.size()), {}, [](const std::string& cell) { return parts_of(cell).first; },
       &HistoryColumn::name);
+  return same ? std::optional(cells.size()) : std::nullopt;
 }
 
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
@@ -72,124 +60,6 @@ Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
 
 }  // namespace
 
-namespace {
-
-const std::vector<HistoryColumn>& columns_of_one() {
-  static const std::vector<HistoryColumn> all = {
-      {"time", "time", of_row<&HistoryRow::time>},
-      {"dt", "time", of_step<&StepAttempt::dt>},
-      {"area", "area", of_vesicle<&D::area>},
-      {"volume", "volume", of_vesicle<&D::volume>},
-      {"reduced_volume", "1", of_vesicle<&D::reduced_volume>},
-      {"bending_energy_scaled", "1", of_vesicle<&D::bending_energy_scaled>},
-      {"tension_integral", "energy", of_vesicle<&D::tension_integral>},
-      {"Vm_north", "potential", of_vesicle<&D::Vm_north>},
-      {"q_north", "potential/length", of_vesicle<&D::q_north>},
-      {"Vm_max", "potential", of_vesicle<&D::Vm_max>},
-      {"extent_x", "length", of_vesicle<&D::extent_x>},
-      {"extent_y", "length", of_vesicle<&D::extent_y>},
-      {"extent_z", "length", of_vesicle<&D::extent_z>},
-      {"inclination_deg", "1", of_vesicle<&D::inclination_deg>},
-      {"area_drift", "1", of_vesicle<&D::area_drift>},
-      {"volume_drift", "1", of_vesicle<&D::volume_drift>},
-      {"strain_max", "1", of_vesicle<&D::strain_max>},
-      {"spectrum_tail", "1", of_vesicle<&D::spectrum_tail>},
-      {"iterations_flow", "1", of_step<&StepAttempt::iterations_flow>},
-      {"iterations_electric", "1", of_step<&StepAttempt::iterations_electric>},
-      {"rejected", "1", of_step<&StepAttempt::rejected>},
-      {"order", "1", of_row<&HistoryRow::order>},
-      {"truncation", "1", of_row<&HistoryRow::truncation>},
-      {"error_estimate", "1", of_step<&StepAttempt::error_estimate>},
-      {"quadrature_error", "1", of_vesicle<&D::quadrature_error>},
-      {"separation", "1", of_vesicle<&D::separation>},
-      {"raw_area", "1", of_step<&StepAttempt::raw_area>},
-      {"wrinkle_degree", "1", of_vesicle<&D::wrinkle_degree>},
-      {"centroid_x", "length", of_vesicle<&D::centroid_x>},
-      {"centroid_y", "length", of_vesicle<&D::centroid_y>},
-      {"centroid_z", "length", of_vesicle<&D::centroid_z>},
-      {"centroid_velocity_x", "velocity", of_vesicle<&D::centroid_velocity_x>},
-      {"centroid_velocity_y", "velocity", of_vesicle<&D::centroid_velocity_y>},
-      {"centroid_velocity_z", "velocity", of_vesicle<&D::centroid_velocity_z>},
-      {"tension_max", "force/length", of_vesicle<&D::tension_max>},
-      {"elastic_energy_scaled", "1", of_vesicle<&D::elastic_energy_scaled>},
-      {"aspect_ratio", "1", of_vesicle<&D::aspect_ratio>},
-      {"aspect_ratio_field", "1", of_vesicle<&D::aspect_ratio_field>},
-      {"Vm_pole_plus", "potential", of_vesicle<&D::Vm_pole_plus>},
-      {"Vm_pole_minus", "potential", of_vesicle<&D::Vm_pole_minus>},
-      {"Vm_phase_deg", "1", of_vesicle<&D::Vm_phase_deg>},
-  };
-  return all;
-}
-
-std::vector<HistoryColumn> columns_named(std::initializer_list<std::string_view> names) {
-  std::vector<HistoryColumn> columns;
-  for (const std::string_view name : names) {
-    columns.push_back(*std::ranges::find(columns_of_one(), name, &HistoryColumn::name));
-  }
-  return columns;
-}
-
-const std::vector<HistoryColumn>& columns_of_all() {
-  static const std::vector<HistoryColumn> all = [] {
-    auto columns = columns_named({"time",
-                                  "dt",
-                                  "bending_energy_scaled",
-                                  "tension_integral",
-                                  "Vm_max",
-                                  "area_drift",
-                                  "volume_drift",
-                                  "strain_max",
-                                  "spectrum_tail",
-                                  "iterations_flow",
-                                  "iterations_electric",
-                                  "rejected",
-                                  "order",
-                                  "truncation",
-                                  "error_estimate",
-                                  "quadrature_error",
-                                  "separation",
-                                  "raw_area",
-                                  "wrinkle_degree",
-                                  "tension_max",
-                                  "elastic_energy_scaled"});
-    columns.push_back({"smallest_gap", "length", [](const HistoryRow& row) { return row.gap.distance; }});
-    columns.push_back({"gap_vesicle_a", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.first); }});
-    columns.push_back(
-        {"gap_vesicle_b", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.second); }});
-    columns.push_back({"gap_degree", "1", [](const HistoryRow& row) { return row.gap.degree(); }});
-    return columns;
-  }();
-  return all;
-}
-
-/// What one vesicle has of its own.
-const std::vector<HistoryColumn>& columns_of_each() {
-  static const std::vector<HistoryColumn> all = [] {
-    std::vector<HistoryColumn> columns = {columns_of_one().front(), {"vesicle", "1", of_row<&HistoryRow::vesicle>}};
-    for (const HistoryColumn& column : columns_of_one()) {
-      constexpr std::array of_the_step = {"time",     "dt",         "iterations_flow", "iterations_electric",
-                                          "rejected", "truncation", "error_estimate",  "raw_area"};
-      if (std::ranges::find(of_the_step, column.name) == of_the_step.end()) columns.push_back(column);
-    }
-    return columns;
-  }();
-  return all;
-}
-
-}  // namespace
-
-const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
-  switch (kind) {
-    case HistoryKind::of_one:
-      break;
-    case HistoryKind::of_all:
-      return columns_of_all();
-    case HistoryKind::of_each:
-      return columns_of_each();
-  }
-  return columns_of_one();
-}
-
 void require_history(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
                      HistoryKind kind) {
   if (kept_bytes == 0) return;
@@ -202,7 +72,7 @@ void require_history(const std::filesystem::path& path, std::int64_t kept_bytes,
   std::ifstream kept(path, std::ios::binary);
   std::string first_line;
   std::getline(kept, first_line);
-  if (!is_header(first_line, kind)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
+  if (!columns_under(first_line, kind)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
   kept.seekg(0);
   if (checksum_of(kept, kept_bytes).value() != checksum) {
     throw InputError(fmt::format("{}: was altered: its first {} bytes do not match the checksum in checkpoint.h5",
@@ -214,7 +84,12 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_by
                          const OutputUnits& units, HistoryKind kind)
     : path_(path), kind_(kind), checksum_(checksum) {
   for (const HistoryColumn& column : history_columns(kind)) factors_.push_back(units.of(column.dimension).factor);
-  if (kept_bytes == 0) {
+  if (kept_bytes > 0) {
+    std::ifstream kept(path, std::ios::binary);
+    std::string header;
+    std::getline(kept, header);
+    if (const auto n_columns = columns_under(header, kind)) factors_.resize(*n_columns);
+  } else {
     stream_.open(path, std::ios::binary | std::ios::trunc);
     write(header_line(units, kind));
     return;

@@ -43,6 +43,8 @@ struct HistoryColumn {
 
 /// All columns in the order of the file: new ones come last.
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind = HistoryKind::of_one);
+/// How many of them a file at least has. One of an earlier vehd, which has not all, goes on with those that it has.
+std::size_t first_columns(HistoryKind kind);
 
 /// Checks the first bytes of a history.csv.
 /// @throws InputError if the file is shorter, was altered there or has other columns

@@ -59,7 +59,7 @@ void name_fields(XdmfSeries& series, const Predicate& has) {
   for (const char* name : {"Vm", "q", "Vm_amplitude", "Vm_phase_deg", "q_amplitude", "tension"}) {
     if (has(name)) series.scalars.emplace_back(name);
   }
-  for (const char* name : {"velocity", "force_bending", "force_tension", "force_electric"}) {
+  for (const char* name : {"velocity", "force_bending", "force_tension", "force_electric", "force_contact"}) {
     if (has(name)) series.vectors.emplace_back(name);
   }
 }

@@ -30,6 +30,7 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
   fields.force_bending = matrix("force_bending");
   fields.force_tension = matrix("force_tension");
   fields.force_electric = matrix("force_electric");
+  fields.force_contact = matrix("force_contact");
   fields.tension = vector("tension");
   fields.charge = vector("q");
   if (source.has(group + "/coefficients/Vm_real")) {

@@ -32,6 +32,9 @@ void add(VesicleDiagnostics& all, const VesicleDiagnostics& one) {
 HistoryRow row_of_all(HistoryRow row) {
   VesicleDiagnostics all = row.diagnostics.vesicles.front();
   for (std::size_t a = 1; a < row.diagnostics.vesicles.size(); ++a) add(all, row.diagnostics.vesicles[a]);
+  std::vector<Rheology> rheology;
+  for (const VesicleDiagnostics& one : row.diagnostics.vesicles) rheology.push_back(one.rheology);
+  all.rheology = together(rheology);
   row.diagnostics.vesicles = {all};
   return row;
 }

@@ -7,7 +7,8 @@
 /// What the tables of a run of several vesicles tell of one moment.
 namespace vehd {
 
-/// The row of all of them: energies and ∫λ dA are sums, everything else is the worst of any vesicle.
+/// The row of all of them: energies, ∫λ dA and what the suspension feels are sums, everything else is the worst of any
+/// vesicle.
 HistoryRow row_of_all(HistoryRow row);
 
 /// One row of each vesicle.

@@ -19,6 +19,8 @@ const auto shape = [](auto& scene) -> auto& { return scene.shape; };
 const auto membrane = [](auto& scene) -> auto& { return scene.membrane; };
 const auto fluid = [](auto& scene) -> auto& { return scene.fluid; };
 const auto gravity = [](auto& scene) -> auto& { return *scene.gravity; };
+const auto contact = [](auto& scene) -> auto& { return *scene.contact; };
+const auto suspension = [](auto& scene) -> auto& { return *scene.suspension; };
 const auto flow = [](auto& scene) -> auto& { return *scene.flow; };
 const auto electric = [](auto& scene) -> auto& { return *scene.electric; };
 const auto flow_waveform = [](auto& scene) -> auto& { return *scene.flow->waveform; };
@@ -166,6 +168,17 @@ void add_waveform_keys(KeyTable& table, std::string_view name, Part part) {
             &WaveformScene::values);
 }
 
+void add_contact_keys(KeyTable& table) {
+  table.begin("contact");
+  table
+      .add("energy", any_number,
+           {"W", "force/length",
+            "two flat membranes at distance d have W exp(−d²/range²) per area; positive repels, negative attracts"},
+           contact, &ContactScene::energy)
+      .required = true;
+  table.add("range", positive, {"", "length", "of the potential"}, contact, &ContactScene::range).required = true;
+}
+
 void add_flow_keys(KeyTable& table) {
   table.begin("flow");
   table
@@ -297,6 +310,29 @@ TableDescription optional_table(std::string_view name, std::string_view descript
           [member](Scene& scene) { (scene.*member).emplace(); }};
 }
 
+void add_suspension_keys(KeyTable& table) {
+  table.begin("suspension");
+  table
+      .add_word("kind", {"box", "ball"}, "the region; every vesicle is within it as a whole", suspension,
+                &SuspensionScene::kind)
+      .required = true;
+  table.begin("suspension", {"box"});
+  table.add("size", positive, {"", "length", "along x, y, z"}, suspension, &SuspensionScene::size).required = true;
+  table.begin("suspension", {"ball"});
+  table.add("radius", positive, {"", "length", "of the ball"}, suspension, &SuspensionScene::radius).required = true;
+  table.begin("suspension");
+  table.add("centre", any_number, {"", "length", "of the region"}, suspension, &SuspensionScene::centre);
+  table.add("count", {1.0, 1e9}, {"", "1", "number of vesicles; or volume_fraction"}, suspension,
+            &SuspensionScene::count);
+  table.add("volume_fraction", {0.0, 1.0, true}, {"", "1", "of the vesicles in the region; or count"}, suspension,
+            &SuspensionScene::volume_fraction);
+  table.add("seed", {0.0, 1e9}, {"", "1", "of the random places and orientations"}, suspension, &SuspensionScene::seed);
+  table.add_word("orientation", {"random", "aligned"}, "random takes the place of rotation in [shape]", suspension,
+                 &SuspensionScene::orientation);
+  table.add("gap", not_negative, {"", "1", "least distance of two vesicles over the radius √(area/4π)"}, suspension,
+            &SuspensionScene::gap);
+}
+
 }  // namespace
 
 std::vector<TableDescription> table_rows() {
@@ -306,12 +342,14 @@ std::vector<TableDescription> table_rows() {
       always_present("membrane", "mechanical and electric properties of the membrane"),
       always_present("fluid", "the fluids inside and outside"),
       optional_table("gravity", "weight of the inner fluid; absent: none", &Scene::gravity),
+      optional_table("contact", "potential between different vesicles; absent: none", &Scene::contact),
       optional_table("flow", "background flow; absent: quiescent", &Scene::flow),
       waveform_table("flow.waveform", "factor of the flow in time; absent: 1", &Scene::flow),
       optional_table("electric", "applied field; absent: nothing electric is assembled", &Scene::electric),
       waveform_table("electric.waveform", "factor of the field in time; absent: 1", &Scene::electric),
       always_present("numerics", "resolution in space and time", true),
       always_present("output", "what is written"),
+      optional_table("suspension", "copies of the vesicle at random places; absent: none", &Scene::suspension),
   };
 }
 
@@ -322,10 +360,12 @@ std::vector<KeyDescription> key_rows() {
   add_membrane_keys(table);
   add_fluid_keys(table);
   add_gravity_keys(table);
+  add_contact_keys(table);
   add_flow_keys(table);
   add_electric_keys(table);
   add_numerics_keys(table);
   add_output_keys(table);
+  add_suspension_keys(table);
   return table.take();
 }
 

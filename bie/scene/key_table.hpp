@@ -25,6 +25,8 @@ struct MemberTraits<bool> : PlainMember<bool, ValueType::boolean> {};
 template <>
 struct MemberTraits<int> : PlainMember<std::int64_t, ValueType::integer> {};
 template <>
+struct MemberTraits<std::int64_t> : PlainMember<std::int64_t, ValueType::integer> {};
+template <>
 struct MemberTraits<double> : PlainMember<double, ValueType::number> {};
 template <>
 struct MemberTraits<std::string> : PlainMember<std::string, ValueType::text> {};

@@ -97,6 +97,7 @@ Model model_of(const Scene& scene) {
   model.vesicles.clear();
   for (const Scene& one : each_alone(scene)) model.vesicles.push_back(vesicle_of(one));
   if (scene.flow) add_flow(*scene.flow, model);
+  if (scene.contact) model.contact = ContactParameters{scene.contact->energy, scene.contact->range};
   if (scene.electric) {
     model.electric =
         AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out, scene.electric->permittivity,

@@ -30,8 +30,9 @@ struct PowerOf {
 constexpr std::array powers = {PowerOf{"area", "length", 2}, PowerOf{"length^2", "length", 2},
                                PowerOf{"volume", "length", 3}};
 /// The other dimensions that results have.
-constexpr std::array<std::string_view, 8> plain_dimensions = {
-    "length", "time", "velocity", "potential", "potential/length", "force/length", "force/area", "energy"};
+constexpr std::array<std::string_view, 10> plain_dimensions = {
+    "length",           "time",         "velocity",   "potential", "dipole",
+    "potential/length", "force/length", "force/area", "energy",    "power"};
 
 int power_of(std::string_view dimension) {
   const auto found = std::ranges::find(powers, dimension, &PowerOf::dimension);
@@ -73,6 +74,8 @@ class Magnitudes {
     if (dimension == "force/length") return tension();
     if (dimension == "force/area") return tension() / radius();
     if (dimension == "energy") return tension() * radius() * radius();
+    if (dimension == "power") return tension() * radius() * radius() / duration();
+    if (dimension == "dipole") return dipole();
     return si(1.0, dimension);
   }
 
@@ -97,6 +100,11 @@ class Magnitudes {
   }
 
   [[nodiscard]] double field() const { return scene_.electric ? si(length_of(scene_.electric->field), "field") : 0.0; }
+
+  [[nodiscard]] double dipole() const {
+    if (!(field() > 0.0)) return si(1.0, "dipole");
+    return si(scene_.electric->permittivity, "permittivity") * field() * std::pow(radius(), 3);
+  }
 
   /// Of bending, flow and field, whichever gives most.
   [[nodiscard]] double tension() const {

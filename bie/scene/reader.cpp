@@ -13,6 +13,7 @@
 #include "bie/scene/scene_checks.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/shape_file_check.hpp"
+#include "bie/scene/suspension.hpp"
 #include "bie/scene/toml_file.hpp"
 #include "bie/scene/toml_values.hpp"
 #include "bie/scene/vesicle_checks.hpp"
@@ -236,6 +237,10 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   require_known_tables(file, name);
   Scene scene;
   if (has_vesicles(file)) {
+    if (const toml::node* suspension = file.get("suspension")) {
+      throw InputError(
+          fmt::format("{}: [suspension] beside tables [[vesicle]]; accepted: one of them", place(*suspension, name)));
+    }
     const std::vector<std::string> names = read_vesicle_names(file, name);
     std::vector<toml::table> files;
     for (std::size_t a = 0; a < names.size(); ++a) {
@@ -247,6 +252,8 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   } else {
     scene = scene_of(file, name, folder, nullptr);
     check_one(scene, file, name, folder, false);
+    if (scene.suspension) scene = placed_suspension(scene, file, name);
+    check_vesicles(scene, file, name);
   }
   check_symmetry(scene, file, name);
   return scene;

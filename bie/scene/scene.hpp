@@ -92,6 +92,31 @@ struct GravityScene {
   bool operator==(const GravityScene&) const = default;
 };
 
+/// Table [contact]: a potential between the membranes of different vesicles.
+struct ContactScene {
+  double energy = 0.0;
+  double range = 1.0;
+  bool operator==(const ContactScene&) const = default;
+};
+
+/// Values of kind and orientation in [suspension].
+enum class SuspensionKind { box, ball };
+enum class SuspensionOrientation { random, aligned };
+
+/// Table [suspension]: copies of one vesicle in a region.
+struct SuspensionScene {
+  SuspensionKind kind = SuspensionKind::box;
+  Triple size{1.0, 1.0, 1.0};
+  double radius = 1.0;
+  Triple centre{0.0, 0.0, 0.0};
+  std::optional<std::int64_t> count;
+  std::optional<double> volume_fraction;
+  int seed = 1;
+  SuspensionOrientation orientation = SuspensionOrientation::random;
+  double gap = 0.1;
+  bool operator==(const SuspensionScene&) const = default;
+};
+
 /// Factor of a field or flow in the course of time; which members count depends on the kind.
 struct WaveformScene {
   WaveformKind kind = WaveformKind::dc;
@@ -176,10 +201,12 @@ struct Scene {
   MembraneScene membrane;
   FluidScene fluid;
   std::optional<GravityScene> gravity;
+  std::optional<ContactScene> contact;
   std::optional<FlowScene> flow;
   std::optional<ElectricScene> electric;
   NumericsScene numerics;
   OutputScene output;
+  std::optional<SuspensionScene> suspension{};  ///< until its vesicles are placed
   /// Empty: one vesicle, that of the tables above. Otherwise all of them; the tables above are then those of the first.
   std::vector<VesicleScene> vesicles{};
   bool operator==(const Scene&) const = default;

@@ -42,8 +42,10 @@ std::vector<Dimension> make_dimensions() {
       {"volume", {3, 0, 0, 0}, {{"m^3"}}},
       {"length^2", {2, 0, 0, 0}, {{"m^2"}}},
       {"force/area", {0, -1, 1, 0}, {{"Pa"}}},
-      {"force/length", {1, -1, 1, 0}, {{"N/m"}}},
+      {"force/length", {1, -1, 1, 0}, {{"N/m"}, {"mN/m", 1, 1e3}, {"J/m^2"}, {"mJ/m^2", 1, 1e3}, {"uJ/m^2", 1, 1e6}}},
       {"potential/length", {-1, 0, 0, 1}, {{"V/m"}}},
+      {"dipole", {4, -1, 1, -1}, {{"C m"}}},
+      {"power", {3, -2, 1, 0}, {{"W"}}},
   };
 }
 

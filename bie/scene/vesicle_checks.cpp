@@ -36,6 +36,7 @@ class VesicleChecks {
       : scene_(scene), file_(file), name_(name) {}
 
   void run() const {
+    if (scene_.contact) check_contact();
     if (scene_.vesicles.empty()) return;
     if (scene_.electric) check_electric();
     check_places();
@@ -43,7 +44,23 @@ class VesicleChecks {
 
  private:
   [[noreturn]] void refuse(std::size_t vesicle, const std::string& problem) const {
-    throw InputError(fmt::format("{}: {}", place((*file_["vesicle"].as_array())[vesicle], name_), problem));
+    // Those of a suspension stand nowhere.
+    const toml::node& node =
+        file_.contains("vesicle") ? (*file_["vesicle"].as_array())[vesicle] : *file_.get("suspension");
+    throw InputError(fmt::format("{}: {}", place(node, name_), problem));
+  }
+
+  void check_contact() const {
+    const auto refuse_contact = [&](const std::string& problem) {
+      throw InputError(fmt::format("{}: {}", place(*file_.get("contact"), name_), problem));
+    };
+    if (scene_.vesicles.empty()) {
+      refuse_contact("[contact] acts between vesicles, and there is one; accepted: with tables [[vesicle]]");
+    }
+    if (scene_.contact->energy == 0.0) {
+      refuse_contact("\"energy\" in [contact] is 0: it has no effect; accepted: any other value");
+    }
+    if (!scene_.membrane.mobile) refuse_contact("[contact] has no effect while \"mobile\" in [membrane] is false");
   }
 
   [[nodiscard]] std::string called(std::size_t vesicle) const {
@@ -77,8 +94,19 @@ class VesicleChecks {
   void check_places() const {
     std::vector<Matrix> positions;
     for (const Scene& one : each_alone(scene_)) positions.push_back(initial_position(one));
+    if (scene_.contact) check_range(positions);
     for (std::size_t b = 0; b < positions.size(); ++b) {
       for (std::size_t a = 0; a < b; ++a) check_pair(a, b, positions);
+    }
+  }
+
+  void check_range(const std::vector<Matrix>& positions) const {
+    for (std::size_t a = 0; a < positions.size(); ++a) {
+      const double radius = std::sqrt(vehd::size_of(positions[a]).area / (4.0 * std::numbers::pi));
+      if (scene_.contact->range >= thresholds::shortest_contact * radius) continue;
+      throw InputError(fmt::format("{}: \"range\" in [contact] is {:.2g} radii of {}; accepted: at least {:g}",
+                                   place(*file_.at_path("contact.range").node(), name_), scene_.contact->range / radius,
+                                   called(a), thresholds::shortest_contact));
     }
   }
 

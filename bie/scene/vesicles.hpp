@@ -11,7 +11,7 @@
 namespace vehd {
 
 /// Most vesicles of a scene: every pair is computed directly, so that work and memory grow with their square.
-constexpr std::size_t most_vesicles = 64;
+constexpr std::size_t most_vesicles = 500;
 
 /// How many a scene has.
 std::size_t n_vesicles(const Scene& scene);

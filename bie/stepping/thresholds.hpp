@@ -139,6 +139,9 @@ constexpr double contact = 0.1;
 constexpr double least_approach = 0.5;
 /// Gap between two vesicles over the radius up to which the layers between them are tested (PairLayers).
 constexpr double smallest_gap = 1e-3;
+
+/// Ranges of a contact potential, over the radius, from which on grids of degree 256 see it between smooth vesicles.
+constexpr double shortest_contact = 0.02;
 /// Where two curved membranes are h apart their distance doubles over √h, and densities vary as fast: the degree that
 /// follows them times √h, both over the radius.
 constexpr double degrees_of_gap = 4.0;

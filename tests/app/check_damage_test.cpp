@@ -77,6 +77,7 @@ Numbers right_numbers() {
                                     of_run.force_bending,
                                     of_run.force_tension,
                                     of_run.force_electric,
+                                    {},
                                     Vector(of_run.tension),
                                     of_run.charge,
                                     {},

@@ -38,7 +38,13 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
              "iterations_flow,iterations_electric,rejected,order,truncation,error_estimate,quadrature_error,separation,"
              "raw_area,wrinkle_degree,centroid_x,centroid_y,centroid_z,centroid_velocity_x,centroid_velocity_y,"
              "centroid_velocity_z,tension_max,elastic_energy_scaled,aspect_ratio,aspect_ratio_field,Vm_pole_plus,"
-             "Vm_pole_minus,Vm_phase_deg");
+             "Vm_pole_minus,Vm_phase_deg,stress_xx,stress_yy,stress_zz,stress_xy,stress_xz,stress_yz,"
+             "effective_viscosity_intrinsic,dipole_x,dipole_y,dipole_z,power,power_electric,"
+             "stress_bending_xx,stress_bending_yy,stress_bending_zz,stress_bending_xy,stress_bending_xz,"
+             "stress_bending_yz,stress_tension_xx,stress_tension_yy,stress_tension_zz,stress_tension_xy,"
+             "stress_tension_xz,stress_tension_yz,stress_electric_xx,stress_electric_yy,stress_electric_zz,"
+             "stress_electric_xy,stress_electric_xz,stress_electric_yz,stress_viscosity_xx,stress_viscosity_yy,"
+             "stress_viscosity_zz,stress_viscosity_xy,stress_viscosity_xz,stress_viscosity_yz");
   const vehd::HistoryTable history(output + "/history.csv");
   BOOST_TEST(history.column("time").front() == 0.0);
   BOOST_TEST(history.column("time").back() == 3.0);

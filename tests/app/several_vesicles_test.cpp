@@ -5,6 +5,7 @@
 
 #include "bie/files/run_reader.hpp"
 #include "bie/runs/history.hpp"
+#include "bie/scene/reader.hpp"
 #include "tests/app/reference_run.hpp"
 
 BOOST_AUTO_TEST_SUITE(several_vesicles, *boost::unit_test::label("slow"))
@@ -116,6 +117,24 @@ BOOST_AUTO_TEST_CASE(files_tell_of_every_vesicle) {
   }
   const ProgramResult plot = run_vehd({"plot", run.output});
   BOOST_TEST(plot.exit_code == 0, plot.errors);
+}
+
+BOOST_AUTO_TEST_CASE(a_suspension_runs_as_what_was_placed) {
+  const std::string scene =
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
+      "[flow]\nkind = \"shear\"\nrate = 1.0\n[contact]\nenergy = 0.1\nrange = 0.5\n"
+      "[numerics]\norder = 4\ndt = 0.1\nend_time = 0.1\n"
+      "[suspension]\nkind = \"ball\"\nradius = 3\ncount = 3\n";
+  const FinishedRun run(scene);
+  const vehd::HistoryTable all(run.output + "/history.csv"), each(run.output + "/vesicles.csv");
+  BOOST_TEST(each.n_rows() == 3 * all.n_rows());
+  BOOST_TEST(all.column("effective_viscosity_intrinsic").back() != 0.0);
+  const vehd::Scene placed = vehd::read_scene(run.output + "/scene.toml");
+  BOOST_TEST((placed == vehd::read_scene(run.scene)));
+  BOOST_TEST(file_text(run.output + "/scene.toml").find("[suspension]") == std::string::npos);
+  const vehd::RunReader snapshots(run.output + "/run.h5");
+  BOOST_TEST(snapshots.n_vesicles() == 3);
+  BOOST_TEST(snapshots.has_field(0, "force_contact"));
 }
 
 BOOST_AUTO_TEST_CASE(what_knows_one_vesicle_alone_says_so) {

@@ -22,7 +22,8 @@ bool has_inclination(const State& state) {
 double natural_scale(const Column& column, const ShortRun& run) {
   double scale = column.least_scale;
   for (const RunRow& row : run.rows) {
-    scale = std::max(scale, std::abs(row.diagnostics.*column.member));
+    scale = std::max(scale, std::abs(column.value(row.diagnostics)));
+    if (column.scale != nullptr) scale = std::max(scale, column.scale(row.diagnostics));
     if (column.member == &VesicleDiagnostics::q_north)
       scale = std::max(scale, row.diagnostics.Vm_max / row.diagnostics.extent_x);
   }
@@ -42,10 +43,22 @@ double natural_scale(const Column& column, const ShortRun& run) {
 }
 
 double difference(const Column& column, const RunRow& a, const RunRow& b, double factor) {
-  const double size = std::abs(a.diagnostics.*column.member - b.diagnostics.*column.member / factor);
+  const double size = std::abs(column.value(a.diagnostics) - column.value(b.diagnostics) / factor);
   if (column.member != &VesicleDiagnostics::inclination_deg) return size;
   // An axis is the same after half a turn.
   return has_inclination(a.state) ? std::min(size, std::abs(180.0 - size)) : 0.0;
+}
+
+template <int i, int j>
+double stress(const VesicleDiagnostics& d) {
+  const Matrix3 moment = d.rheology.moment();
+  return 0.5 * (moment(i, j) + moment(j, i));
+}
+
+/// Forces that all but cancel are as exact as each of them.
+double largest_share(const VesicleDiagnostics& d) {
+  const Rheology& r = d.rheology;
+  return std::max({r.bending.norm(), r.tension.norm(), r.electric.norm(), r.others.norm(), r.viscosity.norm()});
 }
 
 bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(a); }
@@ -85,6 +98,41 @@ const std::vector<Column>& columns() {
       {"Vm_pole_plus", &VesicleDiagnostics::Vm_pole_plus, {0, 0, 0, 1}},
       {"Vm_pole_minus", &VesicleDiagnostics::Vm_pole_minus, {0, 0, 0, 1}},
       {"Vm_phase_deg", &VesicleDiagnostics::Vm_phase_deg, {}, on_nothing, 90.0},
+      {"stress_xx", nullptr, {3, -1, 1, 0}, on_axes, 0.0, stress<0, 0>, largest_share},
+      {"stress_xy", nullptr, {3, -1, 1, 0}, on_axes, 0.0, stress<0, 1>, largest_share},
+      {"stress_xz", nullptr, {3, -1, 1, 0}, on_axes, 0.0, stress<0, 2>, largest_share},
+      {"stress_yz", nullptr, {3, -1, 1, 0}, on_axes, 0.0, stress<1, 2>, largest_share},
+      {"effective_viscosity_intrinsic",
+       nullptr,
+       {},
+       on_nothing,
+       0.0,
+       [](const VesicleDiagnostics& d) { return d.rheology.intrinsic_viscosity(); },
+       [](const VesicleDiagnostics& d) {
+         const double strain = (d.rheology.gradient + d.rheology.gradient.transpose()).norm();
+         return strain > 0.0 ? largest_share(d) / (d.rheology.fluid_viscosity * strain * d.rheology.volume) : 0.0;
+       }},
+      {"dipole_x",
+       nullptr,
+       {4, -1, 1, -1},
+       on_axes,
+       0.0,
+       [](const VesicleDiagnostics& d) { return d.rheology.dipole.x(); },
+       [](const VesicleDiagnostics& d) { return d.rheology.dipole.norm(); }},
+      {"dipole",
+       nullptr,
+       {4, -1, 1, -1},
+       on_nothing,
+       0.0,
+       [](const VesicleDiagnostics& d) { return d.rheology.dipole.norm(); },
+       nullptr},
+      {"power",
+       nullptr,
+       {3, -2, 1, 0},
+       on_nothing,
+       0.0,
+       [](const VesicleDiagnostics& d) { return d.rheology.power(); },
+       [](const VesicleDiagnostics& d) { return largest_share(d) * d.rheology.gradient.norm(); }},
   };
   return all;
 }

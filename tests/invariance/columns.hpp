@@ -17,6 +17,11 @@ struct Column {
   /// Whether it is the same in every place and orientation, in every place, or is the place or the drift itself.
   enum class Depends { on_nothing, on_axes, on_place } depends = Depends::on_nothing;
   double least_scale = 0.0;  ///< of differences, dimensionless: what is this small is rounding or solver error
+  /// Of a column that is no member, and by what differences of it are measured beside its own size; may be null.
+  double (*derived)(const VesicleDiagnostics&) = nullptr;
+  double (*scale)(const VesicleDiagnostics&) = nullptr;
+
+  [[nodiscard]] double value(const VesicleDiagnostics& d) const { return derived != nullptr ? derived(d) : d.*member; }
 
   [[nodiscard]] double factor(const UnitFactors& units) const {
     return units.of(powers[0], powers[1], powers[2], powers[3]);

@@ -46,7 +46,7 @@ std::string first_difference(const ShortRun& base, const ShortRun& scaled, const
     find(a.step.iterations_flow != b.step.iterations_flow, "flow iterations");
     find(a.step.iterations_electric != b.step.iterations_electric, "electric iterations");
     for (const Column& column : columns()) {
-      const double x = a.diagnostics.*column.member * column.factor(factors), y = b.diagnostics.*column.member;
+      const double x = column.value(a.diagnostics) * column.factor(factors), y = column.value(b.diagnostics);
       find(x != y && !(std::isnan(x) && std::isnan(y)), column.name);
     }
     if (!what.empty()) return what + " after step " + std::to_string(i);

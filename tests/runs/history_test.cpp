@@ -4,6 +4,7 @@
 
 #include "bie/runs/run_units.hpp"
 #include "bie/runs/verdict.hpp"
+#include "bie/support/checksum.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
 
@@ -82,6 +83,31 @@ BOOST_AUTO_TEST_CASE(a_history_goes_on_after_what_the_checkpoint_counts) {
   other.replace(other.find("extent_x"), 8, "extent_w");
   write_text(si.path, other);
   BOOST_CHECK_THROW(vehd::require_history(si.path, si.bytes, si.checksum), vehd::InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_history_of_an_earlier_program_goes_on_with_its_columns) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = directory / "history.csv";
+  std::string header;
+  for (std::size_t i = 0; i < vehd::first_columns(vehd::HistoryKind::of_one); ++i) {
+    header += (i == 0 ? "" : ",") + std::string(vehd::history_columns()[i].name);
+  }
+  write_text(path, header + "\n");
+  const auto bytes = static_cast<std::int64_t>(file_text(path).size());
+  const auto of_text = [](const std::string& text) {
+    vehd::Checksum checksum;
+    checksum.add(text);
+    return checksum.value();
+  };
+  vehd::require_history(path, bytes, of_text(file_text(path)));
+  vehd::HistoryFile file(path, bytes, of_text(file_text(path)));
+  file.append(row_at(1.5));
+  const vehd::HistoryTable table(path);
+  BOOST_TEST(table.column("time").back() == 1.5);
+  BOOST_TEST(table.names().back() == "Vm_phase_deg");
+  // Fewer no program ever had that wrote checkpoints of today.
+  write_text(path, "time,dt\n");
+  BOOST_CHECK_THROW(vehd::require_history(path, 8, of_text("time,dt\n")), vehd::InputError);
 }
 
 BOOST_AUTO_TEST_CASE(the_verdict_says_times_with_their_unit) {

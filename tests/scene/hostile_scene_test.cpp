@@ -30,6 +30,8 @@ std::string scene_with(const vehd::KeyDescription& key, const std::string& value
     text += "kind = '" + std::string(key.kinds.front()) + "'\n";
   } else if (table == "shape") {
     text += "kind = 'ellipsoid'\naxes = [1, 1, 2]\n";
+  } else if (table == "suspension") {
+    text += "kind = 'ball'\nradius = 9\n";
   }
   return text + std::string(key.name) + " = " + value + "\n";
 }

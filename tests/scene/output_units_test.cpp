@@ -20,8 +20,8 @@ std::string with_end(const std::string& time) {
   return replaced(si_scene(), "end_time = \"1 s\"", "end_time = " + time);
 }
 
-constexpr const char* shown[] = {"length",           "area",      "volume", "time",      "velocity", "force/length",
-                                 "potential/length", "potential", "energy", "force/area"};
+constexpr const char* shown[] = {"length",           "area",      "volume", "time",       "velocity", "force/length",
+                                 "potential/length", "potential", "energy", "force/area", "dipole",   "power"};
 
 }  // namespace
 
@@ -39,6 +39,9 @@ BOOST_AUTO_TEST_CASE(si_units_have_the_prefix_that_suits_the_scene) {
   // εE²a = 708 nN/m is more than κ/a² and μγ̇a.
   BOOST_TEST(symbol("force/length") == "nN/m");
   BOOST_TEST(symbol("energy") == "aJ");
+  // εEa³ = 7.08e-21 C m; 70.8 aJ in a second.
+  BOOST_TEST(symbol("dipole") == "zC m");
+  BOOST_TEST(symbol("power") == "aW");
   BOOST_TEST(symbol("1") == "");
 }
 

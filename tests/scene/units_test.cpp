@@ -242,7 +242,13 @@ BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
                                                {"kBT", 1.380649e-23 * 300.0},
                                                {"m^3", 1},
                                                {"Pa", 1},
-                                               {"N/m", 1}};
+                                               {"N/m", 1},
+                                               {"mN/m", 1e-3},
+                                               {"J/m^2", 1},
+                                               {"mJ/m^2", 1e-3},
+                                               {"uJ/m^2", 1e-6},
+                                               {"C m", 1},
+                                               {"W", 1}};
   for (const vehd::Dimension& dimension : vehd::dimensions()) {
     for (const vehd::Unit& unit : dimension.units) {
       const auto size = sizes.find(std::string(unit.symbol));

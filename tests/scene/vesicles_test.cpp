@@ -108,8 +108,8 @@ BOOST_AUTO_TEST_CASE(are_refused_where_they_say_what_they_may_not) {
   BOOST_TEST(message_of(kForAll + "[vesicle]\nname = \"a\"\n") ==
              "scene.toml:8: \"vesicle\" is a table; accepted: tables [[vesicle]]");
   std::string many = kForAll;
-  for (int i = 0; i < 100; ++i) many += at("[0, 0, 0]");
-  BOOST_TEST(message_of(many).ends_with(": 100 tables [[vesicle]]; accepted: at most 64"), message_of(many));
+  for (int i = 0; i < 501; ++i) many += at("[0, 0, 0]");
+  BOOST_TEST(message_of(many).ends_with(": 501 tables [[vesicle]]; accepted: at most 500"), message_of(many));
 }
 
 BOOST_AUTO_TEST_CASE(charge_alike_from_the_start) {
@@ -120,6 +120,26 @@ BOOST_AUTO_TEST_CASE(charge_alike_from_the_start) {
   BOOST_TEST(message_of(kForAll + electric + at("[0, 0, 0]") + at("[4, 0, 0]\nelectric.conductivity_in = 0")) ==
              "scene.toml:14: \"conductivity_in\" or \"conductivity_out\" of vesicle \"1\" is 0; accepted with several "
              "vesicles: > 0, as small as it has to be");
+}
+
+BOOST_AUTO_TEST_CASE(may_attract_or_repel_each_other) {
+  const std::string pair = at("[0, 0, 0]") + at("[4, 0, 0]");
+  const vehd::Scene scene = parsed(kForAll + "[contact]\nenergy = -0.2\nrange = 0.5\n" + pair);
+  const vehd::Model model = vehd::problem_of(scene).model;
+  BOOST_REQUIRE(model.contact.has_value());
+  BOOST_TEST(model.contact->energy == -0.2);
+  BOOST_TEST(model.contact->range == 0.5);
+  BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
+  const auto message = [&](const std::string& keys, const std::string& vesicles) {
+    return message_of(kForAll + "[contact]\n" + keys + vesicles);
+  };
+  BOOST_TEST(message("energy = 0\nrange = 0.5\n", pair) ==
+             "scene.toml:8: \"energy\" in [contact] is 0: it has no effect; accepted: any other value");
+  BOOST_TEST(message("energy = 1\nrange = 0.5\n", "") ==
+             "scene.toml:8: [contact] acts between vesicles, and there is one; accepted: with tables [[vesicle]]");
+  BOOST_TEST(message("energy = 1\n", pair).starts_with("scene.toml:8: missing key \"range\" in [contact]"));
+  BOOST_TEST(message("energy = 1\nrange = 0.01\n", pair) ==
+             "scene.toml:10: \"range\" in [contact] is 0.0076 radii of vesicle \"0\"; accepted: at least 0.02");
 }
 
 // The scale follows from the first.

@@ -90,8 +90,8 @@ class Simulation:
         Arrays are read-only views of the solver's own numbers, and stay what they are when the simulation goes on.
         Where it computes in axes of its own, as along a field, they are turned to those of the laboratory once.
         Vesicles: position [(p+1)², 3], area_strain, Vm, tension, q [(p+1)²], velocity, force_bending, force_tension,
-        force_electric [(p+1)², 3]; None where the effect is absent. Forces act as in f = f_b + f_λ − f_E. Numbers are
-        those of the scene, dimensionless in one with [units].
+        force_electric, force_contact [(p+1)², 3]; None where the effect is absent. Forces act as in f = f_b + f_λ − f_E +
+        f_c. Numbers are those of the scene, dimensionless in one with [units].
         """
         return self._core.state
 

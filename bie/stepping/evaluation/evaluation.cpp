@@ -1,6 +1,7 @@
 #include "bie/stepping/evaluation/evaluation.hpp"
 
 #include "bie/stepping/evaluation/diagnose.hpp"
+#include "bie/stepping/evaluation/find_rheology.hpp"
 
 namespace vehd {
 
@@ -14,6 +15,8 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
         diagnose(diagnosed_model(model, model.vesicles[a]), discretisation.vesicle(a),
                  discretisation.settings().quadrature_tolerance, state.vesicles[a], solution,
                  evaluation.fields.vesicles[a], same ? &previous->diagnostics.vesicles[a] : nullptr));
+    evaluation.diagnostics.vesicles[a].rheology = find_rheology(
+        model, model.vesicles[a], state.time, limit, state.vesicles[a], solution, evaluation.fields.vesicles[a]);
   }
   return evaluation;
 }

@@ -43,6 +43,18 @@ std::vector<Matrix> solve_fields_of_charges(const std::vector<VesicleTask>& task
   return forces;
 }
 
+/// Adds the forces of the potential between the vesicles, which become fields of theirs.
+void add_contact(const ContactParameters& contact, const std::vector<VesicleTask>& tasks,
+                 std::vector<Forcing>& forcing) {
+  std::vector<ContactMembrane> membranes;
+  for (const VesicleTask& task : tasks) membranes.push_back({task.state.position, task.membrane});
+  const std::vector<Matrix> forces = contact_forces(contact, membranes);
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    tasks[a].fields.force_contact = tasks[a].membrane.fine.analyze(forces[a]);
+    forcing[a].force += forces[a];
+  }
+}
+
 /// What the symmetry leaves of a velocity; the interaction knows nothing of it.
 Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
   return membrane.subspace.symmetry().any() ? membrane.subspace.symmetric_vector(velocity) : velocity;
@@ -123,6 +135,10 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     for (std::size_t a = 0; a < tasks.size(); ++a) forcing[a].force -= forces[a];
   }
   if (!tasks.front().model.mobile) return;
+  if (tasks.front().model.contact) {
+    const auto timer = instruments.time("contact");
+    add_contact(*tasks.front().model.contact, tasks, forcing);
+  }
   const auto timer = instruments.time("tension solve");
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     add_forces(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, forcing[a]);

@@ -53,6 +53,7 @@ std::vector<EffectDescription> effects_of(const Model& model) {
   }
   if (!model.mobile) return result;
   for (const auto& effect : explicit_effects(model)) append(result, effect->description());
+  if (model.contact) append(result, contact_description());
   return result;
 }
 

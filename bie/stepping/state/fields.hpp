@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "bie/stepping/state/rheology.hpp"
 #include "bie/stepping/state/surface_fields.hpp"
 #include "bie/support/types.hpp"
 
@@ -15,6 +16,7 @@ struct VesicleFields {
   Matrix force_bending;   ///< f_b
   Matrix force_tension;   ///< f_λ
   Matrix force_electric;  ///< f_E = [[n·Σ_el]]
+  Matrix force_contact;   ///< f_c, which joins the sum with plus
   Vector tension;         ///< λ
   Vector charge;          ///< q = [[∂φ/∂n]]
   Vector potential;       ///< V_m where it is no part of the state but follows from free charges; empty elsewhere
@@ -58,6 +60,7 @@ struct VesicleDiagnostics {
   double Vm_pole_plus = 0,
          Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
   double Vm_phase_deg = 0;   ///< of V_m at the former against the field, of an averaged field
+  Rheology rheology{};       ///< of this vesicle by itself
 };
 
 /// The diagnostics of every membrane of a State.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bie/physics/background_flow.hpp"
+#include "bie/physics/contact.hpp"
 #include "bie/physics/parameters.hpp"
 
 namespace vehd {
@@ -25,6 +26,7 @@ struct Model {
   double viscosity = 1.0;  ///< μ_e, of the fluid around the vesicles
   std::optional<BackgroundFlow> flow;
   std::optional<AppliedField> electric;
+  std::optional<ContactParameters> contact;  ///< between vesicles
   /// Whatever else acts on every vesicle: Poiseuille flow, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
   bool mobile = true;  ///< false: the shapes are frozen and only the membranes charge

@@ -24,7 +24,7 @@ VesicleState resized(VesicleState vesicle, int order) {
 
 VesicleFields resized(VesicleFields fields, int order) {
   for (Matrix* field : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric,
-                        &fields.potential_amplitude, &fields.charge_amplitude}) {
+                        &fields.force_contact, &fields.potential_amplitude, &fields.charge_amplitude}) {
     *field = resized(*field, order);
   }
   for (Vector* field : {&fields.charge, &fields.potential, &fields.tension}) *field = resized(Matrix(*field), order);

@@ -49,7 +49,7 @@ State rotated(const Matrix3& rotation, State state) {
 Fields rotated(const Matrix3& rotation, Fields fields) {
   if (rotation.isIdentity(0.0)) return fields;
   for (VesicleFields& f : fields.vesicles) {
-    for (Matrix* vectors : {&f.velocity, &f.force_bending, &f.force_tension, &f.force_electric}) {
+    for (Matrix* vectors : {&f.velocity, &f.force_bending, &f.force_tension, &f.force_electric, &f.force_contact}) {
       *vectors = rotated_vectors(rotation, *vectors);
     }
     f.tension = rotated_scalar(rotation, f.tension);

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "tests/stepping/stimson_jeffery.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -67,6 +68,35 @@ BOOST_AUTO_TEST_CASE(spheres_in_an_axial_field_approach_each_other_with_the_exac
       BOOST_TEST(std::abs(above + exact) < 3e-8 * exact);
     }
   }
+}
+
+// Minus the slope of the energy of two unit spheres over the drag of Stimson and Jeffery. ∫∫ w over the distance d of
+// the centres is (2π/d) ∫ (energy/s)(part(s − 1) − part(s + 1)) s ds from d − 1 to d + 1, part(r) = exp(−r²/range²).
+BOOST_AUTO_TEST_CASE(spheres_in_contact_approach_each_other_with_the_exact_speed) {
+  constexpr double kGap = 0.5, kEnergy = -0.2, kRange = 0.4;
+  const auto energy = [&](double d) {
+    const GaussLegendre rule = gauss_legendre(100);
+    const auto part = [](double r) { return std::exp(-r * r / (kRange * kRange)); };
+    double sum = 0.0;
+    for (Index i = 0; i < rule.nodes.size(); ++i) {
+      const double s = d + rule.nodes[i];
+      sum += rule.weights[i] * (part(s - 1.0) - part(s + 1.0));
+    }
+    return 2.0 * std::numbers::pi / d * kEnergy * sum;
+  };
+  constexpr double kStep = 1e-4, d = 2.0 + kGap;
+  const double force = (energy(d + kStep) - energy(d - kStep)) / (2.0 * kStep);
+  const Vector3 up(0.0, 0.0, d / 2.0);
+  const std::vector<Matrix> spheres{translated(sphere(16), -up), translated(sphere(16), up)};
+  Model model = with_vesicles(relaxation_model(0.1), 2);
+  model.viscosity = 1.7;
+  model.contact = ContactParameters{kEnergy, kRange};
+  const Discretisation discretisation = discretisation_of(spheres, {}, find_symmetry(model, at_rest(spheres)));
+  const SolvedFields found = solved(model, discretisation, start(model, discretisation, spheres, 0.1));
+  const double exact = force / (6.0 * std::numbers::pi * 1.7 * stimson_jeffery(kGap).opposite);
+  BOOST_TEST(exact > 0.0);
+  BOOST_TEST(std::abs(translation(found.fields.vesicles[0].velocity).z() / exact - 1.0) < 1e-6);
+  BOOST_TEST(std::abs(translation(found.fields.vesicles[1].velocity).z() / exact + 1.0) < 1e-6);
 }
 
 BOOST_AUTO_TEST_CASE(forces_between_two_shapes_have_no_resultant) {

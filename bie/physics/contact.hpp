@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/physics/effect.hpp"
+#include "bie/physics/membrane.hpp"
+
+namespace vehd {
+
+/// A potential between the membranes of different vesicles, E = Σ_{a<b} ∫∫ w(|x − y|) dA_b dA_a with
+///   w(r) = energy/(π range²) exp(−r²/range²):
+/// two flat membranes at distance d have energy · exp(−d²/range²) per area. Positive energies repel, negative attract.
+struct ContactParameters {
+  double energy = 0.0;  ///< per area of two flat membranes that touch
+  double range = 1.0;
+};
+
+/// One of several membranes.
+struct ContactMembrane {
+  const Matrix& position;  ///< coefficients of x
+  const Membrane& membrane;
+};
+
+/// The force −δE/δx of each membrane on the fluid per area, values on its upsampled grid: with W(x) = Σ_b ∫ w dA_b of
+/// all others it is (2HW − ∂W/∂n) n. Membranes that are six ranges apart feel nothing of each other.
+/// @throws ConvergenceError where the range is so short that no grid resolves it
+/// Accuracy: quadrature to 1e-9 of the largest force; slope of the energy to 1e-6 (tests/physics/contact_test.cpp)
+std::vector<Matrix> contact_forces(const ContactParameters& contact, const std::vector<ContactMembrane>& membranes);
+
+/// E of all.
+/// Accuracy: as the forces
+double contact_energy(const ContactParameters& contact, const std::vector<ContactMembrane>& membranes);
+
+/// What the potential asks of a step.
+EffectDescription contact_description();
+
+}  // namespace vehd

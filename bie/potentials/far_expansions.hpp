@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bie/potentials/solid_harmonics.hpp"
+#include "bie/sphere/transform.hpp"
+
+namespace vehd {
+
+/// One of many membranes, with the points of it where the layers of the others are wanted.
+struct ExpandedMembrane {
+  Matrix position;         ///< coefficients, [n_coefficients x 3]
+  Matrix points, normals;  ///< of the targets, [n_targets x 3]; normals of any length
+};
+
+/// Layers of many membranes at points of others that are far from them: of each the moments about its centre, from
+/// these local coefficients about the centres of the others, and values from those. The degree of every pair follows
+/// from its distance.
+/// Accuracy: the tolerance relative to what the density makes at the distance of the centre; direct sums to 1e-9
+/// (tests/potentials/far_expansions_test.cpp)
+/// Source: Epton and Dembart 1995; Stokes layers as four harmonic functions, Tornberg and Greengard 2008
+class FarExpansions {
+ public:
+  /// @param tolerance  relative, below 1
+  FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance);
+
+  /// Whether the layers of the second at the first are among the sums.
+  [[nodiscard]] bool is_far(std::size_t target, std::size_t source) const;
+
+  // For each membrane the sum over all that are far from it, at its points. Empty densities count as zero.
+
+  /// S[f] from J f. @return [n_targets]
+  [[nodiscard]] std::vector<Matrix> laplace_single(const std::vector<Vector>& weighted) const;
+  /// N·∇S[f] from J f.
+  [[nodiscard]] std::vector<Matrix> laplace_single_normal(const std::vector<Vector>& weighted) const;
+  /// D[f] from f.
+  [[nodiscard]] std::vector<Matrix> laplace_double(const std::vector<Vector>& densities) const;
+  /// N·∇D[f] from f.
+  [[nodiscard]] std::vector<Matrix> laplace_double_normal(const std::vector<Vector>& densities) const;
+  /// Stokes single layer at μ = 1 from J f. @return [n_targets x 3]
+  [[nodiscard]] std::vector<Matrix> stokes_single(const std::vector<Matrix>& weighted) const;
+  /// Stokes double layer from v.
+  [[nodiscard]] std::vector<Matrix> stokes_double(const std::vector<Matrix>& velocities) const;
+
+ private:
+  /// Lengths are over scale_.
+  struct Place {
+    Vector3 centre;
+    double radius;
+    SphereTransform nodes;
+    Vector weight;
+    Matrix from_centre, area_vectors;  ///< of the nodes
+    Matrix regular;                    ///< at the nodes, [n_nodes x n_solid]
+    Matrix target_from_centre, target_normals, target_regular;
+  };
+  /// From the membrane of the smaller number to that of the larger one.
+  struct Pair {
+    std::size_t first, second;
+    Index n;  ///< entries of its degree
+    Matrix to_second;
+  };
+
+  [[nodiscard]] Place place_of(const ExpandedMembrane& membrane, const Vector3& centre) const;
+  [[nodiscard]] int degree_of(const Place& a, const Place& b) const;
+  [[nodiscard]] Matrix dipole_moments(const Place& place, const std::vector<Matrix>& components) const;
+  /// @param moments     of each membrane, [n_solid x columns] or empty
+  /// @param is_stokes   the last of four columns is about the centre of its source
+  [[nodiscard]] std::vector<Matrix> local(const std::vector<Matrix>& moments, bool is_stokes) const;
+  [[nodiscard]] std::vector<Matrix> scalar_values(const std::vector<Matrix>& moments, double factor) const;
+  [[nodiscard]] std::vector<Matrix> scalar_slopes(const std::vector<Matrix>& moments, double factor) const;
+  [[nodiscard]] std::vector<Matrix> stokes_values(const std::vector<Matrix>& moments, double factor) const;
+  [[nodiscard]] std::vector<Matrix> single_moments(const std::vector<Vector>& weighted) const;
+  [[nodiscard]] std::vector<Matrix> double_moments(const std::vector<Vector>& densities) const;
+
+  double tolerance_, scale_ = 1.0;
+  std::vector<Eigen::SparseMatrix<double>> derivative_;
+  Vector parity_;  ///< (−1)^l
+  std::vector<Place> places_;
+  std::vector<Pair> pairs_;
+  std::vector<std::vector<Index>> pairs_of_;  ///< of each membrane
+};
+
+}  // namespace vehd

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
+
+#include "bie/runs/history.hpp"
+
+namespace vehd {
+namespace {
+
+template <auto member>
+double of_vesicle(const HistoryRow& row) {
+  return row.diagnostics.vesicles.front().*member;
+}
+template <auto member>
+double of_step(const HistoryRow& row) {
+  return static_cast<double>(row.step.*member);
+}
+template <auto member>
+double of_row(const HistoryRow& row) {
+  return static_cast<double>(row.*member);
+}
+
+using D = VesicleDiagnostics;
+
+const Rheology& rheology_of(const HistoryRow& row) { return row.diagnostics.vesicles.front().rheology; }
+
+template <auto vector, int i>
+double component(const HistoryRow& row) {
+  return (rheology_of(row).*vector)[i];
+}
+
+/// Of the symmetric part.
+template <auto share, int i, int j>
+double stress(const HistoryRow& row) {
+  const Matrix3 moment = std::invoke(share, rheology_of(row));
+  return 0.5 * (moment(i, j) + moment(j, i));
+}
+
+/// @param names  of the entries xx, yy, zz, xy, xz, yz
+template <auto share>
+void add_stress(const std::array<std::string_view, 6>& names, std::vector<HistoryColumn>& columns) {
+  constexpr std::array entries = {stress<share, 0, 0>, stress<share, 1, 1>, stress<share, 2, 2>,
+                                  stress<share, 0, 1>, stress<share, 0, 2>, stress<share, 1, 2>};
+  for (std::size_t i = 0; i < names.size(); ++i) columns.push_back({names[i], "energy", entries[i]});
+}
+
+/// What vesicles do to the suspension: of one as of all.
+void add_rheology(std::vector<HistoryColumn>& columns) {
+  add_stress<&Rheology::moment>({"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz"},
+                                columns);
+  columns.push_back({"effective_viscosity_intrinsic", "1",
+                     [](const HistoryRow& row) { return rheology_of(row).intrinsic_viscosity(); }});
+  columns.push_back({"dipole_x", "dipole", component<&Rheology::dipole, 0>});
+  columns.push_back({"dipole_y", "dipole", component<&Rheology::dipole, 1>});
+  columns.push_back({"dipole_z", "dipole", component<&Rheology::dipole, 2>});
+  columns.push_back({"power", "power", [](const HistoryRow& row) { return rheology_of(row).power(); }});
+  columns.push_back({"power_electric", "power", [](const HistoryRow& row) { return rheology_of(row).electric_power; }});
+  add_stress<&Rheology::bending>({"stress_bending_xx", "stress_bending_yy", "stress_bending_zz", "stress_bending_xy",
+                                  "stress_bending_xz", "stress_bending_yz"},
+                                 columns);
+  add_stress<&Rheology::tension>({"stress_tension_xx", "stress_tension_yy", "stress_tension_zz", "stress_tension_xy",
+                                  "stress_tension_xz", "stress_tension_yz"},
+                                 columns);
+  add_stress<&Rheology::electric>({"stress_electric_xx", "stress_electric_yy", "stress_electric_zz",
+                                   "stress_electric_xy", "stress_electric_xz", "stress_electric_yz"},
+                                  columns);
+  add_stress<&Rheology::viscosity>({"stress_viscosity_xx", "stress_viscosity_yy", "stress_viscosity_zz",
+                                    "stress_viscosity_xy", "stress_viscosity_xz", "stress_viscosity_yz"},
+                                   columns);
+}
+
+const std::vector<HistoryColumn>& columns_of_one() {
+  static const std::vector<HistoryColumn> all = [] {
+    std::vector<HistoryColumn> columns = {
+        {"time", "time", of_row<&HistoryRow::time>},
+        {"dt", "time", of_step<&StepAttempt::dt>},
+        {"area", "area", of_vesicle<&D::area>},
+        {"volume", "volume", of_vesicle<&D::volume>},
+        {"reduced_volume", "1", of_vesicle<&D::reduced_volume>},
+        {"bending_energy_scaled", "1", of_vesicle<&D::bending_energy_scaled>},
+        {"tension_integral", "energy", of_vesicle<&D::tension_integral>},
+        {"Vm_north", "potential", of_vesicle<&D::Vm_north>},
+        {"q_north", "potential/length", of_vesicle<&D::q_north>},
+        {"Vm_max", "potential", of_vesicle<&D::Vm_max>},
+        {"extent_x", "length", of_vesicle<&D::extent_x>},
+        {"extent_y", "length", of_vesicle<&D::extent_y>},
+        {"extent_z", "length", of_vesicle<&D::extent_z>},
+        {"inclination_deg", "1", of_vesicle<&D::inclination_deg>},
+        {"area_drift", "1", of_vesicle<&D::area_drift>},
+        {"volume_drift", "1", of_vesicle<&D::volume_drift>},
+        {"strain_max", "1", of_vesicle<&D::strain_max>},
+        {"spectrum_tail", "1", of_vesicle<&D::spectrum_tail>},
+        {"iterations_flow", "1", of_step<&StepAttempt::iterations_flow>},
+        {"iterations_electric", "1", of_step<&StepAttempt::iterations_electric>},
+        {"rejected", "1", of_step<&StepAttempt::rejected>},
+        {"order", "1", of_row<&HistoryRow::order>},
+        {"truncation", "1", of_row<&HistoryRow::truncation>},
+        {"error_estimate", "1", of_step<&StepAttempt::error_estimate>},
+        {"quadrature_error", "1", of_vesicle<&D::quadrature_error>},
+        {"separation", "1", of_vesicle<&D::separation>},
+        {"raw_area", "1", of_step<&StepAttempt::raw_area>},
+        {"wrinkle_degree", "1", of_vesicle<&D::wrinkle_degree>},
+        {"centroid_x", "length", of_vesicle<&D::centroid_x>},
+        {"centroid_y", "length", of_vesicle<&D::centroid_y>},
+        {"centroid_z", "length", of_vesicle<&D::centroid_z>},
+        {"centroid_velocity_x", "velocity", of_vesicle<&D::centroid_velocity_x>},
+        {"centroid_velocity_y", "velocity", of_vesicle<&D::centroid_velocity_y>},
+        {"centroid_velocity_z", "velocity", of_vesicle<&D::centroid_velocity_z>},
+        {"tension_max", "force/length", of_vesicle<&D::tension_max>},
+        {"elastic_energy_scaled", "1", of_vesicle<&D::elastic_energy_scaled>},
+        {"aspect_ratio", "1", of_vesicle<&D::aspect_ratio>},
+        {"aspect_ratio_field", "1", of_vesicle<&D::aspect_ratio_field>},
+        {"Vm_pole_plus", "potential", of_vesicle<&D::Vm_pole_plus>},
+        {"Vm_pole_minus", "potential", of_vesicle<&D::Vm_pole_minus>},
+        {"Vm_phase_deg", "1", of_vesicle<&D::Vm_phase_deg>},
+    };
+    add_rheology(columns);
+    return columns;
+  }();
+  return all;
+}
+
+std::vector<HistoryColumn> columns_named(std::initializer_list<std::string_view> names) {
+  std::vector<HistoryColumn> columns;
+  for (const std::string_view name : names) {
+    columns.push_back(*std::ranges::find(columns_of_one(), name, &HistoryColumn::name));
+  }
+  return columns;
+}
+
+const std::vector<HistoryColumn>& columns_of_all() {
+  static const std::vector<HistoryColumn> all = [] {
+    auto columns = columns_named({"time",
+                                  "dt",
+                                  "bending_energy_scaled",
+                                  "tension_integral",
+                                  "Vm_max",
+                                  "area_drift",
+                                  "volume_drift",
+                                  "strain_max",
+                                  "spectrum_tail",
+                                  "iterations_flow",
+                                  "iterations_electric",
+                                  "rejected",
+                                  "order",
+                                  "truncation",
+                                  "error_estimate",
+                                  "quadrature_error",
+                                  "separation",
+                                  "raw_area",
+                                  "wrinkle_degree",
+                                  "tension_max",
+                                  "elastic_energy_scaled"});
+    columns.push_back({"smallest_gap", "length", [](const HistoryRow& row) { return row.gap.distance; }});
+    columns.push_back({"gap_vesicle_a", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.first); }});
+    columns.push_back(
+        {"gap_vesicle_b", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.second); }});
+    columns.push_back({"gap_degree", "1", [](const HistoryRow& row) { return row.gap.degree(); }});
+    add_rheology(columns);
+    return columns;
+  }();
+  return all;
+}
+
+/// What one vesicle has of its own.
+const std::vector<HistoryColumn>& columns_of_each() {
+  static const std::vector<HistoryColumn> all = [] {
+    std::vector<HistoryColumn> columns = {columns_of_one().front(), {"vesicle", "1", of_row<&HistoryRow::vesicle>}};
+    for (const HistoryColumn& column : columns_of_one()) {
+      constexpr std::array of_the_step = {"time",     "dt",         "iterations_flow", "iterations_electric",
+                                          "rejected", "truncation", "error_estimate",  "raw_area"};
+      if (std::ranges::find(of_the_step, column.name) == of_the_step.end()) columns.push_back(column);
+    }
+    return columns;
+  }();
+  return all;
+}
+
+}  // namespace
+
+std::size_t first_columns(HistoryKind kind) {
+  // What came before the rheology.
+  const auto& all = history_columns(kind);
+  return static_cast<std::size_t>(std::ranges::find(all, "stress_xx", &HistoryColumn::name) - all.begin());
+}
+
+const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
+  switch (kind) {
+    case HistoryKind::of_one:
+      break;
+    case HistoryKind::of_all:
+      return columns_of_all();
+    case HistoryKind::of_each:
+      return columns_of_each();
+  }
+  return columns_of_one();
+}
+
+}  // namespace vehd

@@ -1,0 +1,238 @@
+#include "bie/scene/suspension.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "bie/geometry/surface.hpp"
+#include "bie/potentials/nearest_points.hpp"
+#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/placement.hpp"
+#include "bie/scene/toml_values.hpp"
+#include "bie/scene/vesicles.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// Random places that are tried for each vesicle, and how many of those where only the shapes themselves can tell.
+constexpr int kTries = 20000, kExactTries = 500;
+/// Degree in which shapes are compared: they are placed, not computed with.
+constexpr int kHighestOrder = 12;
+
+Vector3 point_of(const Triple& t) { return {t[0], t[1], t[2]}; }
+Triple triple_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Numbers that are the same everywhere.
+class Random {
+ public:
+  explicit Random(int seed) : bits_(static_cast<std::uint64_t>(seed)) {}
+
+  /// In [−1, 1).
+  double number() { return static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0; }
+  Vector3 in_cube() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+  Vector3 in_ball() {
+    for (;;) {
+      const Vector3 v = in_cube();
+      if (v.squaredNorm() <= 1.0) return v;
+    }
+  }
+  /// Of equal density in all orientations.
+  Eigen::Quaterniond rotation() {
+    for (;;) {
+      const double w = number();
+      const Vector3 v = in_cube();
+      const double squared = w * w + v.squaredNorm();
+      if (squared <= 1.0 && squared > 0.01) return Eigen::Quaterniond(w, v.x(), v.y(), v.z()).normalized();
+    }
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+/// The shape that all have, about its origin.
+struct CopiedShape {
+  Matrix position;  ///< without rotation
+  double volume, radius, inner, outer;
+
+  explicit CopiedShape(Scene one) {
+    one.suspension.reset();
+    one.shape.centre = {};
+    one.shape.rotation.reset();
+    one.numerics.order = std::min(one.numerics.order, kHighestOrder);
+    position = initial_position(one);
+    const int order = order_of(position.rows());
+    const Surface s = make_surface(SphereTransform(order, make_grid(4 * order)), position);
+    volume = enclosed_volume(s);
+    radius = std::sqrt(surface_area(s) / (4.0 * std::numbers::pi));
+    inner = s.position.rowwise().norm().minCoeff();
+    outer = s.position.rowwise().norm().maxCoeff();
+  }
+
+  [[nodiscard]] Matrix at(const Matrix3& rotation, const Vector3& centre) const {
+    Matrix moved = position * rotation.transpose();
+    moved.row(0) += std::sqrt(4.0 * std::numbers::pi) * centre.transpose();
+    return moved;
+  }
+};
+
+struct PlacedVesicle {
+  Vector3 centre;
+  Matrix3 rotation;
+  std::optional<AxisAngle> axis_angle;
+};
+
+class Placement {
+ public:
+  Placement(const Scene& one, const toml::table& file, const std::string& name)
+      : one_(one), wanted_(*one.suspension), file_(file), name_(name), shape_(one), random_(wanted_.seed) {}
+
+  std::vector<PlacedVesicle> run() {
+    const int count = counted();
+    std::vector<PlacedVesicle> placed;
+    while (static_cast<int>(placed.size()) < count) {
+      std::optional<PlacedVesicle> next = next_beside(placed);
+      if (!next) {
+        refuse(wanted_.count ? "count" : "volume_fraction",
+               fmt::format("no room for the vesicles of [suspension]: {} of {} found a place, {:.3g} of the volume; "
+                           "accepted: fewer, a larger region or a smaller \"gap\"",
+                           placed.size(), count, static_cast<double>(placed.size()) * shape_.volume / region_volume()));
+      }
+      placed.push_back(std::move(*next));
+    }
+    return placed;
+  }
+
+ private:
+  [[noreturn]] void refuse(std::string_view key, const std::string& problem) const {
+    const auto owner = file_["suspension"];
+    const auto node = owner[key];
+    throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *owner.node(), name_), problem));
+  }
+
+  [[nodiscard]] bool is_box() const { return wanted_.kind == SuspensionKind::box; }
+
+  [[nodiscard]] double region_volume() const {
+    if (is_box()) return wanted_.size[0] * wanted_.size[1] * wanted_.size[2];
+    return 4.0 / 3.0 * std::numbers::pi * std::pow(wanted_.radius, 3);
+  }
+
+  [[nodiscard]] int counted() const {
+    if (wanted_.count.has_value() == wanted_.volume_fraction.has_value()) {
+      refuse("kind", "[suspension] accepts one of \"count\" and \"volume_fraction\"");
+    }
+    const double count = wanted_.count ? static_cast<double>(*wanted_.count)
+                                       : std::round(*wanted_.volume_fraction * region_volume() / shape_.volume);
+    if (wanted_.count && count > static_cast<double>(most_vesicles)) {
+      refuse("count",
+             fmt::format("\"count\" in [suspension] is {}; accepted: at most {}", *wanted_.count, most_vesicles));
+    }
+    if (!wanted_.count && !(count >= 1.0 && count <= static_cast<double>(most_vesicles))) {
+      refuse("volume_fraction",
+             fmt::format("\"volume_fraction\" in [suspension] makes {:.6g} vesicles; accepted: 1 to {}", count,
+                         most_vesicles));
+    }
+    const double narrowest = is_box() ? *std::ranges::min_element(wanted_.size) : 2.0 * wanted_.radius;
+    if (narrowest < 2.0 * shape_.outer) {
+      refuse(is_box() ? "size" : "radius",
+             fmt::format("the region of [suspension] is {:.3g} wide, a vesicle {:.3g}; accepted: no room less",
+                         narrowest, 2.0 * shape_.outer));
+    }
+    if (count * shape_.volume > region_volume()) {
+      refuse(wanted_.count ? "count" : "volume_fraction",
+             fmt::format(
+                 "{:.6g} vesicles have {:.3g} times the volume of the region of [suspension]; accepted: less than 1",
+                 count, count * shape_.volume / region_volume()));
+    }
+    return static_cast<int>(count);
+  }
+
+  /// With the whole vesicle within the region.
+  Vector3 random_centre() {
+    Vector3 offset;
+    if (is_box()) {
+      const Vector3 half = 0.5 * point_of(wanted_.size) - Vector3::Constant(shape_.outer);
+      offset = random_.in_cube().cwiseProduct(half.cwiseMax(0.0));
+    } else {
+      offset = (wanted_.radius - shape_.outer) * random_.in_ball();
+    }
+    return point_of(wanted_.centre) + offset;
+  }
+
+  std::optional<PlacedVesicle> next_beside(const std::vector<PlacedVesicle>& placed) {
+    int exact_tries = 0;
+    for (int i = 0; i < kTries && exact_tries < kExactTries; ++i) {
+      PlacedVesicle candidate{random_centre(), Matrix3::Identity(), one_.shape.rotation};
+      if (wanted_.orientation == SuspensionOrientation::random) {
+        const Eigen::Quaterniond turn = random_.rotation();
+        const Eigen::AngleAxisd axis(turn);
+        candidate.axis_angle =
+            AxisAngle{axis.axis().x(), axis.axis().y(), axis.axis().z(), axis.angle() * 180.0 / std::numbers::pi};
+      }
+      if (candidate.axis_angle) candidate.rotation = rotation_matrix(*candidate.axis_angle);
+      if (is_free(candidate, placed, exact_tries)) return candidate;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool is_free(const PlacedVesicle& candidate, const std::vector<PlacedVesicle>& placed,
+                             int& exact_tries) const {
+    const double gap = wanted_.gap * shape_.radius;
+    std::vector<const PlacedVesicle*> neighbours;
+    for (const PlacedVesicle& other : placed) {
+      const double distance = (other.centre - candidate.centre).norm();
+      if (distance < 2.0 * shape_.inner + gap) return false;
+      if (distance < 2.0 * shape_.outer + gap) neighbours.push_back(&other);
+    }
+    if (neighbours.empty()) return true;
+    ++exact_tries;
+    const Matrix own = shape_.at(candidate.rotation, candidate.centre);
+    return std::ranges::all_of(neighbours, [&](const PlacedVesicle* other) {
+      return are_apart(own, shape_.at(other->rotation, other->centre), gap);
+    });
+  }
+
+  static bool are_apart(const Matrix& a, const Matrix& b, double gap) {
+    try {
+      return arrangement_of(a, b) == Arrangement::apart && nearest_points(a, b).gap >= gap;
+    } catch (const ConvergenceError&) {
+      return false;
+    }
+  }
+
+  const Scene& one_;
+  const SuspensionScene& wanted_;
+  const toml::table& file_;
+  const std::string& name_;
+  CopiedShape shape_;
+  Random random_;
+};
+
+}  // namespace
+
+Scene placed_suspension(const Scene& one, const toml::table& file, const std::string& name) {
+  std::vector<Scene> scenes;
+  std::vector<std::string> names;
+  for (const PlacedVesicle& placed : Placement(one, file, name).run()) {
+    Scene& scene = scenes.emplace_back(one);
+    scene.suspension.reset();
+    scene.shape.centre = triple_of(placed.centre);
+    scene.shape.rotation = placed.axis_angle;
+    names.push_back(fmt::format("{}", names.size()));
+  }
+  return together(scenes, names);
+}
+
+}  // namespace vehd

@@ -1,0 +1,105 @@
+#include "bie/stepping/evaluation/find_rheology.hpp"
+
+#include <numbers>
+
+#include "bie/physics/averaged_field.hpp"
+#include "bie/stepping/evaluation/volume_moments.hpp"
+
+namespace vehd {
+
+namespace {
+
+/// ∫ a bᵀ dA of vectors, [n_points x 3].
+Matrix3 integral_of_products(const Surface& s, const Matrix& a, const Matrix& b) {
+  return a.transpose() * s.quadrature.asDiagonal() * b;
+}
+
+/// ∫ (q x − V n) dA.
+Vector3 dipole_over_permittivity(const Membrane& membrane, const Matrix& y, const Vector& potential,
+                                 const Vector& charge) {
+  const Surface& s = membrane.surface;
+  const Vector q = membrane.fine.synthesize(charge).cwiseProduct(s.quadrature);
+  const Vector v = membrane.fine.synthesize(potential).cwiseProduct(s.quadrature);
+  return y.transpose() * q - s.normal.transpose() * v;
+}
+
+void add_electric(const ElectricParameters& electric, const Membrane& membrane, const Matrix& y,
+                  const VesicleState& state, const VesicleFields& fields, Rheology& r) {
+  if (electric.averaged_frequency) {
+    if (fields.potential_amplitude.size() == 0) return;
+    const auto part = [&](Index i) {
+      return dipole_over_permittivity(membrane, y, fields.potential_amplitude.col(i), fields.charge_amplitude.col(i));
+    };
+    const Vector3 in_phase = part(0), behind = part(1);
+    const std::complex<double> outside = complex_conductivities(electric).outside;
+    r.dipole = electric.permittivity * in_phase;
+    r.electric_power = 0.5 * electric.field.dot(outside.real() * in_phase - outside.imag() * behind);
+    return;
+  }
+  const Vector3 dipole = dipole_over_permittivity(membrane, y, transmembrane_potential(state, fields), fields.charge);
+  r.dipole = electric.permittivity * dipole;
+  r.electric_power = electric.conductivity_out * electric.field.dot(dipole);
+}
+
+/// What effects without a field of their own do.
+Matrix forces_of_effects(const Model& model, const VesicleModel& vesicle, const EffectInput& input) {
+  Forcing forcing{Matrix::Zero(input.membrane.surface.n_points(), 3), Matrix::Zero(input.position.rows(), 3)};
+  for (const auto& effect : model.effects) effect->add(input, forcing);
+  for (const auto& effect : vesicle.effects) effect->add(input, forcing);
+  return std::move(forcing.force);
+}
+
+/// Of one matrix the symmetric part without trace.
+Matrix3 deviator(const Matrix3& m) {
+  const Matrix3 symmetric = 0.5 * (m + m.transpose());
+  return symmetric - symmetric.trace() / 3.0 * Matrix3::Identity();
+}
+
+/// An inextensible sphere has no motion but a rigid one, whatever the tension that keeps its area elements for the
+/// moment: what its velocity lacks for that, the tension does. A disturbance u on a sphere has the stress
+/// −5μ ∫ ½(u nᵀ + n uᵀ) dA by the reciprocal theorem with the flow about a rigid sphere.
+void make_rigid(const Surface& s, const Matrix& velocity, Rheology& r) {
+  r.tension += 5.0 * r.fluid_viscosity * deviator(integral_of_products(s, velocity, s.normal)) + r.viscosity;
+  r.viscosity.setZero();
+}
+
+}  // namespace
+
+Rheology find_rheology(const Model& model, const VesicleModel& vesicle, double time, Limit limit,
+                       const VesicleState& state, const VesicleSolution& solution, const VesicleFields& fields) {
+  const Membrane& membrane = *solution.membrane;
+  const Surface& s = membrane.surface;
+  Rheology r;
+  r.volume = enclosed_volume(s);
+  r.centre = volume_moments(s).centroid;
+  r.fluid_viscosity = model.viscosity;
+  const Matrix y = s.position.rowwise() - r.centre.transpose();
+  if (model.electric) {
+    add_electric(electric_parameters(model, vesicle).at(time, limit), membrane, y, state, fields, r);
+  }
+  if (!model.mobile) return r;
+  if (model.flow) r.gradient = model.flow->waveform.at(time, limit) * model.flow->gradient;
+  const auto add_force = [&](const Matrix& values, Matrix3& share, Vector3* total) {
+    share = -integral_of_products(s, values, y);
+    if (total != nullptr) *total = values.transpose() * s.quadrature;
+  };
+  if (fields.force_bending.size() > 0) add_force(membrane.fine.synthesize(fields.force_bending), r.bending, nullptr);
+  if (fields.force_tension.size() > 0) add_force(membrane.fine.synthesize(fields.force_tension), r.tension, nullptr);
+  // On the fluid it is −f_E.
+  if (fields.force_electric.size() > 0) {
+    add_force(-membrane.fine.synthesize(fields.force_electric), r.electric, &r.electric_force);
+  }
+  if (!model.effects.empty() || !vesicle.effects.empty() || model.contact) {
+    Matrix others = forces_of_effects(model, vesicle, {membrane, state.position, time, limit});
+    if (fields.force_contact.size() > 0) others += membrane.fine.synthesize(fields.force_contact);
+    add_force(others, r.others, &r.other_force);
+  }
+  if (vesicle.viscosity_ratio != 1.0) {
+    const Matrix3 products = integral_of_products(s, membrane.fine.synthesize(fields.velocity), s.normal);
+    r.viscosity = model.viscosity * (vesicle.viscosity_ratio - 1.0) * (products + products.transpose());
+  }
+  if (solution.is_sphere) make_rigid(s, membrane.fine.synthesize(fields.velocity), r);
+  return r;
+}
+
+}  // namespace vehd
