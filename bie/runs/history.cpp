@@ -74,6 +74,27 @@ Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
 
 namespace {
 
+/// Behind all others where there is poration.
+std::vector<HistoryColumn> columns_of(PorationModel model) {
+  switch (model) {
+    case PorationModel::porosity:
+      return {{"conductance_max", "conductance/area", of_vesicle<&D::conductance_max>},
+              {"porosity_max", "1", of_vesicle<&D::poration_max>},
+              {"porosity_mean", "1", of_vesicle<&D::poration_mean>}};
+    case PorationModel::pores:
+      return {{"conductance_max", "conductance/area", of_vesicle<&D::conductance_max>},
+              {"pore_density_max", "1/area", of_vesicle<&D::poration_max>},
+              {"pore_density_mean", "1/area", of_vesicle<&D::poration_mean>}};
+    case PorationModel::criterion:
+      break;
+  }
+  return {{"poration_load", "1", of_vesicle<&D::poration_load>},
+          {"poration_time", "time", of_vesicle<&D::poration_time>},
+          {"poration_x", "length", of_vesicle<&D::poration_x>},
+          {"poration_y", "length", of_vesicle<&D::poration_y>},
+          {"poration_z", "length", of_vesicle<&D::poration_z>}};
+}
+
 const std::vector<HistoryColumn>& columns_of_one() {
   static const std::vector<HistoryColumn> all = {
       {"time", "time", of_row<&HistoryRow::time>},
@@ -179,15 +200,31 @@ const std::vector<HistoryColumn>& columns_of_each() {
 }  // namespace
 
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
-  switch (kind) {
-    case HistoryKind::of_one:
-      break;
-    case HistoryKind::of_all:
-      return columns_of_all();
-    case HistoryKind::of_each:
-      return columns_of_each();
-  }
-  return columns_of_one();
+  static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
+  if (!kind.poration) return *usual.at(kind.rows);
+  static const auto with_poration = [] {
+    std::array<std::array<std::vector<HistoryColumn>, 3>, n_poration_models> all;
+    for (std::size_t model = 0; model < all.size(); ++model) {
+      const std::vector<HistoryColumn> further = columns_of(static_cast<PorationModel>(model));
+      for (std::size_t rows = 0; rows < usual.size(); ++rows) {
+        std::vector<HistoryColumn>& columns = all.at(model).at(rows) = *usual.at(rows);
+        columns.insert(columns.end(), further.begin(), further.end());
+      }
+    }
+    return all;
+  }();
+  return with_poration.at(static_cast<std::size_t>(*kind.poration)).at(kind.rows);
+}
+
+HistoryKind history_kind(const Scene& scene) {
+  HistoryKind kind(scene.vesicles.size() > 1 ? HistoryKind::of_all : HistoryKind::of_one);
+  if (scene.poration) kind.poration = scene.poration->model;
+  return kind;
+}
+
+HistoryKind of_each_like(HistoryKind kind) {
+  kind.rows = HistoryKind::of_each;
+  return kind;
 }
 
 void require_history(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
@@ -325,11 +362,15 @@ std::string HistoryTable::time_text(double time) const {
 
 OutputUnits HistoryTable::units(std::optional<UnitsScene> scales) const {
   std::map<std::string, std::string, std::less<>> symbols;
-  for (const HistoryColumn& column : history_columns()) {
+  const auto add = [&](const HistoryColumn& column) {
     const auto found = std::ranges::find(names_, column.name);
-    if (found == names_.end()) continue;
+    if (found == names_.end()) return;
     const std::string& symbol = units_[static_cast<std::size_t>(found - names_.begin())];
     if (!symbol.empty()) symbols.emplace(column.dimension, symbol);
+  };
+  std::ranges::for_each(history_columns(), add);
+  for (std::size_t model = 0; model < n_poration_models; ++model) {
+    std::ranges::for_each(columns_of(static_cast<PorationModel>(model)), add);
   }
   return {std::move(scales), std::move(symbols)};
 }

@@ -22,7 +22,9 @@ bool has_inclination(const State& state) {
 double natural_scale(const Column& column, const ShortRun& run) {
   double scale = column.least_scale;
   for (const RunRow& row : run.rows) {
-    scale = std::max(scale, std::abs(row.diagnostics.*column.member));
+    const double size = std::abs(row.diagnostics.*column.member);
+    // Nothing until the criterion of poration is met.
+    if (std::isfinite(size)) scale = std::max(scale, size);
     if (column.member == &VesicleDiagnostics::q_north)
       scale = std::max(scale, row.diagnostics.Vm_max / row.diagnostics.extent_x);
   }
@@ -42,6 +44,8 @@ double natural_scale(const Column& column, const ShortRun& run) {
 }
 
 double difference(const Column& column, const RunRow& a, const RunRow& b, double factor) {
+  const bool none_here = !std::isfinite(a.diagnostics.*column.member);
+  if (none_here && !std::isfinite(b.diagnostics.*column.member)) return 0.0;
   const double size = std::abs(a.diagnostics.*column.member - b.diagnostics.*column.member / factor);
   if (column.member != &VesicleDiagnostics::inclination_deg) return size;
   // An axis is the same after half a turn.
@@ -85,6 +89,12 @@ const std::vector<Column>& columns() {
       {"Vm_pole_plus", &VesicleDiagnostics::Vm_pole_plus, {0, 0, 0, 1}},
       {"Vm_pole_minus", &VesicleDiagnostics::Vm_pole_minus, {0, 0, 0, 1}},
       {"Vm_phase_deg", &VesicleDiagnostics::Vm_phase_deg, {}, on_nothing, 90.0},
+      {"conductance_max", &VesicleDiagnostics::conductance_max, {1, -2, 1, -2}},
+      {"poration_load", &VesicleDiagnostics::poration_load},
+      {"poration_time", &VesicleDiagnostics::poration_time, {0, 1, 0, 0}},
+      {"poration_x", &VesicleDiagnostics::poration_x, {1, 0, 0, 0}, on_place},
+      {"poration_y", &VesicleDiagnostics::poration_y, {1, 0, 0, 0}, on_place},
+      {"poration_z", &VesicleDiagnostics::poration_z, {1, 0, 0, 0}, on_place},
   };
   return all;
 }

@@ -242,7 +242,12 @@ BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
                                                {"kBT", 1.380649e-23 * 300.0},
                                                {"m^3", 1},
                                                {"Pa", 1},
-                                               {"N/m", 1}};
+                                               {"N/m", 1},
+                                               {"mN/m", 1e-3},
+                                               {"1/m^2", 1},
+                                               {"1/um^2", 1e12},
+                                               {"1/(m^2 s)", 1},
+                                               {"1/(um^2 us)", 1e18}};
   for (const vehd::Dimension& dimension : vehd::dimensions()) {
     for (const vehd::Unit& unit : dimension.units) {
       const auto size = sizes.find(std::string(unit.symbol));

@@ -1,6 +1,7 @@
 #include "bie/stepping/evaluation/evaluation.hpp"
 
 #include "bie/stepping/evaluation/diagnose.hpp"
+#include "bie/stepping/evaluation/poration_load.hpp"
 
 namespace vehd {
 
@@ -15,6 +16,7 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
                  discretisation.settings().quadrature_tolerance, state.vesicles[a], solution,
                  evaluation.fields.vesicles[a], same ? &previous->diagnostics.vesicles[a] : nullptr));
   }
+  tell_crossings(state, state.time, evaluation);
   return evaluation;
 }
 
