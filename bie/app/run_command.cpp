@@ -48,6 +48,9 @@ void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
   fmt::print("bending energy ∫H² dA {:.6g}, area drift {:.1e}, volume drift {:.1e}, local strain {:.1e}\n",
              summary["bending_energy_scaled"].get<double>(), summary["area_drift"].get<double>(),
              summary["volume_drift"].get<double>(), summary["strain_max"].get<double>());
+  if (summary.contains("poration")) {
+    fmt::print("criterion of poration: {}\n", summary["poration"]["text"].get<std::string>());
+  }
   fmt::print("verdict: {}\n", summary["verdict"].get<std::string>());
   fmt::print("files: {}\n", paths.directory.string());
 }

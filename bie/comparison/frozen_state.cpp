@@ -34,6 +34,15 @@ void require_no_relaxing_charge(const Scene& scene, const std::filesystem::path&
       "{}: has displacement currents; vehd check accepts fields without \"displacement_current\"", file.string()));
 }
 
+/// Nor what a membrane conducts that porates.
+void require_no_reaction(const Scene& scene, const std::filesystem::path& file) {
+  if (!scene.poration || scene.poration->model == PorationModel::criterion) return;
+  throw InputError(
+      fmt::format("{}: has a membrane that porates; vehd check accepts scenes without [poration], or \"criterion\" as "
+                  "its \"model\"",
+                  file.string()));
+}
+
 void require_start(const std::filesystem::path& file, const std::optional<std::string>& time) {
   // Of a time that is not 0 the unit does not matter.
   UnitsScene any;
@@ -60,6 +69,7 @@ FrozenState start_of_scene(const SceneSource& source) {
   require_one_vesicle(scene, source.file, "vehd check");
   require_instant(scene, source.file);
   require_no_relaxing_charge(scene, source.file);
+  require_no_reaction(scene, source.file);
   FrozenState frozen;
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
@@ -83,6 +93,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   require_instant(scene, file);
   require_no_relaxing_charge(scene, file);
+  require_no_reaction(scene, file);
   FrozenState frozen;
   frozen.source = file.string();
   frozen.note = choice.note;

@@ -31,7 +31,7 @@ constexpr std::array kOperators = {OperatorFlag{"laplace_single", &LayerSelectio
 
 constexpr std::array kKnownEffects = {
     "bending", "inextensibility",       "electric field",     "background flow", "Poiseuille flow",
-    "gravity", "spontaneous curvature", "viscosity contrast", "contact"};
+    "gravity", "spontaneous curvature", "viscosity contrast", "contact",         "poration"};
 
 /// The model without one of its effects.
 Model without(const Model& model, const std::string& name) {
@@ -42,6 +42,7 @@ Model without(const Model& model, const std::string& name) {
   for (VesicleModel& vesicle : result.vesicles) {
     if (name == "bending") vesicle.bending.reset();
     if (name == "inextensibility") vesicle.inextensible = false;
+    if (name == "poration" || name == "electric field") vesicle.reaction.reset();
     if (name == "viscosity contrast") vesicle.viscosity_ratio = 1.0;
     erase_from(vesicle.effects);
   }

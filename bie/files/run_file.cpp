@@ -26,6 +26,8 @@ const DatasetLabel phase_label{"1", "phase of V_m against the field in degrees, 
 const DatasetLabel charge_amplitude_label{"potential/length",
                                           "magnitude of the amplitude of q in an averaged ac field"};
 const DatasetLabel charge_part_label{"potential/length", "part of the amplitude z of q, which is Re(z exp(i omega t))"};
+const DatasetLabel poration_label{"1", "state of poration: porosity X, or ln(N/N_0) of a density N of pores"};
+const DatasetLabel conductance_label{"conductance/area", "conductance G_m of a membrane that porates"};
 const DatasetLabel tension_label{"force/length", "membrane tension lambda"};
 const DatasetLabel strain_label{"1", "area strain W/W_ref - 1 of the material"};
 
@@ -153,6 +155,8 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, cons
   writer.field("Vm", transmembrane_potential(vesicle, f), potential_label);
   writer.field("q", f.charge, charge_label);
   write_amplitudes(writer, f.potential_amplitude, f.charge_amplitude);
+  writer.field("poration", vesicle.poration, poration_label);
+  writer.field("conductance", f.conductance, conductance_label);
   writer.field("tension", f.tension, tension_label);
   if (vesicle.area_strain.size() == vesicle.position.rows()) {
     writer.field("area_strain", vesicle.area_strain, strain_label);

@@ -28,15 +28,32 @@ ChargingEquation::ChargingEquation(const ElectricParameters& electric, const Mem
   conduction_ = kappa / size_;
 }
 
+ChargingEquation::ChargingEquation(const ElectricParameters& electric, const Membrane& membrane, const Vector& a)
+    : ChargingEquation(electric, membrane, a.dot(membrane.surface.quadrature) / membrane.surface.quadrature.sum()) {
+  varying_storage_ = a / size_;
+}
+
+/// Coefficients of J a V over the size.
+Vector ChargingEquation::weighted_storage(const Vector& v) const {
+  const Vector values = membrane_.fine.synthesize(v);
+  return membrane_.weighted(varying_storage_.cwiseProduct(values));
+}
+
 Vector ChargingEquation::own(const Vector& v) const {
   const SphereTransform& fine = membrane_.fine;
   Vector result = Vector::Zero(v.size());
-  if (storage_ > 0.0) {
+  const bool varies = varying_storage_.size() > 0;
+  const Vector stored = varies ? weighted_storage(v) : Vector();
+  if (varies) {
+    result += second_kind_operator(membrane_, eta_, stored);
+  } else if (storage_ > 0.0) {
     result += storage_ * second_kind_operator(membrane_, eta_, membrane_.weighted(fine.synthesize(v)));
   }
   if (conduction_ > 0.0) result -= conduction_ * fine.analyze(weighted_hypersingular(membrane_, v));
   // No net current: the mean obeys ∫(a V − b) dA = 0 alone, and is free (hence zero) without storage.
-  result[0] = storage_ > 0.0 ? storage_ * membrane_.weighted(fine.synthesize(v))(0, 0) : v[0];
+  result[0] = varies           ? stored[0]
+              : storage_ > 0.0 ? storage_ * membrane_.weighted(fine.synthesize(v))(0, 0)
+                               : v[0];
   return result;
 }
 
@@ -54,12 +71,27 @@ Vector ChargingEquation::sphere_inverse(const Vector& r) const {
 }
 
 Vector ChargingEquation::right_side(const Vector& b) const {
-  const SphereTransform& fine = membrane_.fine;
-  const Vector weighted_b = membrane_.weighted(fine.synthesize(b)) / size_;
-  Vector rhs = conduction_ * fine.analyze(weighted_field_flux(membrane_, electric_.field));
-  if (!b.isZero(0.0)) rhs += second_kind_operator(membrane_, eta_, weighted_b);
+  return right_side_of_weighted(membrane_.weighted(membrane_.fine.synthesize(b)) / size_, b.isZero(0.0));
+}
+
+Vector ChargingEquation::right_side_of_values(const Vector& b) const {
+  return right_side_of_weighted(membrane_.weighted(b) / size_, b.isZero(0.0));
+}
+
+Vector ChargingEquation::right_side_of_weighted(const Vector& weighted_b, bool is_zero) const {
+  Vector rhs = conduction_ * membrane_.fine.analyze(weighted_field_flux(membrane_, electric_.field));
+  if (!is_zero) rhs += second_kind_operator(membrane_, eta_, weighted_b);
   rhs[0] = storage_ > 0.0 ? weighted_b[0] : 0.0;
   return rhs;
+}
+
+SolveReport solve_varying_charging(const ElectricParameters& electric, const Membrane& membrane, const Vector& a,
+                                   const Vector& b, double tolerance, Vector& potential) {
+  const ChargingEquation equation(electric, membrane, a);
+  const LinearMap map = [&](const Vector& v) { return equation.own(v); };
+  const LinearMap preconditioner = [&](const Vector& r) { return equation.sphere_inverse(r); };
+  return solve_within(membrane.subspace.potentials(), map, preconditioner, equation.right_side_of_values(b), potential,
+                      {tolerance, 120});
 }
 
 SolveReport charge_membrane(const ElectricParameters& electric, const ChargingParameters& charging,

@@ -13,6 +13,8 @@ class ChargingEquation {
  public:
   /// Both must outlive it. @param a  ≥ 0: C_m/dt + G_m
   ChargingEquation(const ElectricParameters& electric, const Membrane& membrane, double a);
+  /// The same with an `a` that varies over the membrane. @param a  ≥ 0, values on the upsampled grid
+  ChargingEquation(const ElectricParameters& electric, const Membrane& membrane, const Vector& a);
 
   /// Left side without b: what V does on its own membrane. Coefficients of degree p, as all here.
   [[nodiscard]] Vector own(const Vector& potential) const;
@@ -20,14 +22,26 @@ class ChargingEquation {
   [[nodiscard]] Vector sphere_inverse(const Vector& residual) const;
   /// Of b and the field.
   [[nodiscard]] Vector right_side(const Vector& b) const;
+  /// The same. @param b  values on the upsampled grid
+  [[nodiscard]] Vector right_side_of_values(const Vector& b) const;
   /// Factor of any further flux J n·∇φ through the membrane, a length.
   [[nodiscard]] double conduction() const { return conduction_; }
 
  private:
+  [[nodiscard]] Vector right_side_of_weighted(const Vector& weighted_b, bool is_zero) const;
+  [[nodiscard]] Vector weighted_storage(const Vector& potential) const;
+
   const ElectricParameters& electric_;
   const Membrane& membrane_;
   double eta_, size_, storage_, conduction_;
+  Vector varying_storage_;  // of every point, and storage_ its mean; empty where it is the same everywhere
 };
+
+/// Solves (½ + ηS′)(a V − b) − κ D′[V] = κ E·n with an a that varies over the membrane.
+/// @param a, b       values on the upsampled grid, a > 0
+/// @param potential  where the solve starts on input, V on output
+SolveReport solve_varying_charging(const ElectricParameters& electric, const Membrane& membrane, const Vector& a,
+                                   const Vector& b, double tolerance, Vector& potential);
 
 /// V_m after one backward-Euler step of (4e)/(14), Eq. (30), in one solve at every contrast and time constant:
 /// with a = C_m/dt + G_m, b = (C_m/dt) V_m, κ = σ_i σ_e/(σ_i + σ_e), the unknown V obeys

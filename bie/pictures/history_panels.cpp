@@ -17,7 +17,15 @@ struct ColumnRow {
   const char* label;
 };
 
-enum class Shown { always, with_field, with_averaged_field, with_flow, with_linear_flow, with_tolerance };
+enum class Shown {
+  always,
+  with_field,
+  with_averaged_field,
+  with_poration,
+  with_flow,
+  with_linear_flow,
+  with_tolerance
+};
 
 constexpr const char* step_size = "dt";
 
@@ -33,7 +41,7 @@ namespace shown_quantity {
 constexpr std::string_view energy = "bending energy", tension = "tension", potential = "potential across the membrane",
                            charge = "charge density", inclination = "inclination", aspect = "aspect ratio",
                            errors = "errors", extent = "extent", gap = "gap", viscosity = "viscosity",
-                           dipole = "dipole";
+                           dipole = "dipole", poration = "poration", pores = "pores";
 }  // namespace shown_quantity
 
 const std::vector<QuantityRow>& quantity_rows() {
@@ -49,6 +57,13 @@ const std::vector<QuantityRow>& quantity_rows() {
       {shown_quantity::charge, {{"q_north", "q at the north pole"}}, Shown::with_field},
       {shown_quantity::charge, {{"q_north", "|q| at the north pole"}}, Shown::with_averaged_field},
       {"phase of the potential", {{"Vm_phase_deg", "phase of V_m (degrees)"}}, Shown::with_averaged_field},
+      {shown_quantity::poration,
+       {{"poration_load", "share of the threshold of poration"}, {"porosity_max", "largest porosity"}},
+       Shown::with_poration},
+      {shown_quantity::pores,
+       {{"pore_density_max", "largest density of pores"}, {"pore_density_mean", "its mean"}},
+       Shown::with_poration,
+       true},
       {shown_quantity::inclination, {{"inclination_deg", "inclination (degrees)"}}, Shown::with_flow},
       {shown_quantity::aspect, {{"aspect_ratio", "aspect ratio"}}},
       {shown_quantity::errors,
@@ -82,6 +97,8 @@ bool applies(Shown shown, const Scene& scene) {
       return scene.electric.has_value() && !has_averaged_field(scene);
     case Shown::with_averaged_field:
       return has_averaged_field(scene);
+    case Shown::with_poration:
+      return scene.poration.has_value();
     case Shown::with_flow:
       return scene.flow.has_value();
     case Shown::with_linear_flow:
@@ -181,6 +198,8 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
   } else {
     add({shown_quantity::potential, shown_quantity::charge});
   }
+  add({shown_quantity::poration});
+  add({shown_quantity::pores});
   add({shown_quantity::inclination, shown_quantity::aspect});
   if (drifts_matter(history)) add({shown_quantity::errors});
   // Two stand side by side.

@@ -37,7 +37,9 @@ bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
     case ShapeField::charge:
       return run.has_field(snapshot, "q");
     case ShapeField::tension:
-      return run.has_field(snapshot, "tension");
+    case ShapeField::poration:
+    case ShapeField::conductance:
+      return run.has_field(snapshot, std::string(label_of(field).dataset));
     case ShapeField::potential_amplitude:
     case ShapeField::potential_phase:
     case ShapeField::charge_amplitude:
@@ -57,6 +59,8 @@ Vector values_of(const VesicleCoefficients& read, ShapeField field, const Sphere
     case ShapeField::potential:
     case ShapeField::charge:
     case ShapeField::tension:
+    case ShapeField::poration:
+    case ShapeField::conductance:
       return transform.synthesize(read.field).col(0);
     case ShapeField::force:
     case ShapeField::potential_amplitude:
@@ -101,6 +105,10 @@ FieldLabel label_of(ShapeField field) {
       return {"phase of V_m (degrees)", "1"};
     case ShapeField::charge_amplitude:
       return {"|q|", "potential/length"};
+    case ShapeField::poration:
+      return {"X, or ln(N/N₀)", "1", "poration"};
+    case ShapeField::conductance:
+      return {"G_m", "conductance/area", "conductance"};
     case ShapeField::none:
       break;
   }

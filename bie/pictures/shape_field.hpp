@@ -20,12 +20,15 @@ enum class ShapeField {
   curvature,
   potential_amplitude,
   potential_phase,
-  charge_amplitude
+  charge_amplitude,
+  poration,
+  conductance
 };
 
 /// Their names on the command line.
-constexpr std::array<std::string_view, 9> shape_field_names = {
-    "none", "V_m", "q", "tension", "force", "curvature", "V_m_amplitude", "V_m_phase", "q_amplitude"};
+constexpr std::array<std::string_view, 11> shape_field_names = {
+    "none",          "V_m",       "q",           "tension",  "force",      "curvature",
+    "V_m_amplitude", "V_m_phase", "q_amplitude", "poration", "conductance"};
 
 /// How a field is called in pictures.
 struct FieldLabel {

@@ -44,8 +44,9 @@ SceneRun::SceneRun(const GivenScene& given, const std::optional<std::filesystem:
     parts_->in_memory.emplace(parts_->scene, Checkpoint{}, OutputUnits(parts_->scene));
     laboratory_.emplace(parts_->in_memory->problem().frame, parts_->in_memory->problem().settings);
     const bool several = parts_->in_memory->evolution().state().vesicles.size() > 1;
-    history_.emplace(parts_->in_memory->units(), several ? HistoryKind::of_all : HistoryKind::of_one);
-    if (several) vesicles_.emplace(parts_->in_memory->units(), HistoryKind::of_each);
+    const HistoryKind kind = history_kind(parts_->scene);
+    history_.emplace(parts_->in_memory->units(), kind);
+    if (several) vesicles_.emplace(parts_->in_memory->units(), of_each_like(kind));
     start();
   }
 }

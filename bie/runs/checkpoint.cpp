@@ -43,9 +43,11 @@ void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("transmembrane_potential", vesicle.transmembrane_potential);
   visit("free_charge", vesicle.free_charge);
   visit("tension", vesicle.tension);
+  visit("poration", vesicle.poration);
   visit("area_strain", vesicle.area_strain);
   visit("reference_area", vesicle.reference_area);
   visit("reference_volume", vesicle.reference_volume);
+  visit("crossing", vesicle.crossing);
   visit("tension", vesicle.recycled.tension);
   visit("flow", vesicle.recycled.flow);
   visit("unaided_iterations", vesicle.recycled.unaided_iterations);
@@ -112,6 +114,11 @@ struct WriteVisitor {
     (*this)((std::string(name) + arguments_of).c_str(), known->subspace().arguments);
     (*this)((std::string(name) + responses_of).c_str(), known->subspace().responses);
   }
+  void operator()(const char* name, const std::optional<FirstCrossing>& crossing) {
+    if (!crossing) return;
+    const Vector numbers{{crossing->time, crossing->place.x(), crossing->place.y(), crossing->place.z()}};
+    (*this)(name, numbers);
+  }
   template <typename Derived>
   void operator()(const char* name, const Eigen::PlainObjectBase<Derived>& values) {
     if (values.size() == 0) return;
@@ -148,6 +155,13 @@ struct ReadVisitor {
     } catch (const ShapeError& error) {
       file.refuse(fmt::format("{}/{}: {}", group, name, error.what()));
     }
+  }
+  void operator()(const char* name, std::optional<FirstCrossing>& crossing) {
+    Vector numbers;
+    (*this)(name, numbers);
+    if (numbers.size() == 0) return;
+    if (numbers.size() != 4) file.refuse(fmt::format("{}/{} is not that of a run", group, name));
+    crossing = FirstCrossing{numbers[0], numbers.tail<3>()};
   }
   template <typename Derived>
   void operator()(const char* name, Eigen::PlainObjectBase<Derived>& values) {
@@ -188,7 +202,8 @@ class SoundCheck {
     } catch (const ShapeError&) {
       require(false, "/state/position");
     }
-    for (const Vector* values : {&vesicle.transmembrane_potential, &vesicle.free_charge, &vesicle.tension}) {
+    for (const Vector* values :
+         {&vesicle.transmembrane_potential, &vesicle.free_charge, &vesicle.tension, &vesicle.poration}) {
       require((values->size() == 0 || values->size() == vesicle.position.rows()) && values->allFinite(), "/state");
     }
     require(vesicle.area_strain.allFinite(), "/state/area_strain");

@@ -200,11 +200,15 @@ std::string HistoryTable::time_text(double time) const {
 
 OutputUnits HistoryTable::units(std::optional<UnitsScene> scales) const {
   std::map<std::string, std::string, std::less<>> symbols;
-  for (const HistoryColumn& column : history_columns()) {
+  const auto add = [&](const HistoryColumn& column) {
     const auto found = std::ranges::find(names_, column.name);
-    if (found == names_.end()) continue;
+    if (found == names_.end()) return;
     const std::string& symbol = units_[static_cast<std::size_t>(found - names_.begin())];
     if (!symbol.empty()) symbols.emplace(column.dimension, symbol);
+  };
+  std::ranges::for_each(history_columns(), add);
+  for (std::size_t model = 0; model < n_poration_models; ++model) {
+    std::ranges::for_each(poration_columns(static_cast<PorationModel>(model)), add);
   }
   return {std::move(scales), std::move(symbols)};
 }

@@ -29,9 +29,21 @@ struct HistoryRow {
   int vesicle = 0;            ///< that the row tells of
 };
 
-/// Tables that a run keeps: history.csv of one vesicle; history.csv of all and vesicles.csv of each where there are
-/// several.
-enum class HistoryKind { of_one, of_all, of_each };
+/// What a table of a run tells of.
+struct HistoryKind {
+  /// history.csv of one vesicle; history.csv of all and vesicles.csv of each where there are several.
+  enum Rows { of_one, of_all, of_each };
+
+  HistoryKind(Rows of_whom = of_one) : rows(of_whom) {}  // NOLINT(google-explicit-constructor)
+
+  Rows rows;
+  std::optional<PorationModel> poration{};  ///< has columns of this model
+};
+
+/// Of the vesicles of a scene.
+HistoryKind history_kind(const Scene& scene);
+/// The same with rows of each vesicle.
+HistoryKind of_each_like(HistoryKind kind);
 
 /// A column of history.csv by its plain name; its header is that name, and " [unit]" behind it where the file has
 /// units.
@@ -41,8 +53,11 @@ struct HistoryColumn {
   double (*value)(const HistoryRow&);
 };
 
-/// All columns in the order of the file: new ones come last.
+/// All columns in the order of the file: new ones come last, those of an effect that a scene may lack behind all
+/// others.
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind = HistoryKind::of_one);
+/// Those of a membrane that porates alone, behind all others.
+std::vector<HistoryColumn> poration_columns(PorationModel model);
 /// How many of them a file at least has. One of an earlier vehd, which has not all, goes on with those that it has.
 std::size_t first_columns(HistoryKind kind);
 

@@ -181,6 +181,26 @@ const std::vector<HistoryColumn>& columns_of_each() {
 
 }  // namespace
 
+std::vector<HistoryColumn> poration_columns(PorationModel model) {
+  switch (model) {
+    case PorationModel::porosity:
+      return {{"conductance_max", "conductance/area", of_vesicle<&D::conductance_max>},
+              {"porosity_max", "1", of_vesicle<&D::poration_max>},
+              {"porosity_mean", "1", of_vesicle<&D::poration_mean>}};
+    case PorationModel::pores:
+      return {{"conductance_max", "conductance/area", of_vesicle<&D::conductance_max>},
+              {"pore_density_max", "1/area", of_vesicle<&D::poration_max>},
+              {"pore_density_mean", "1/area", of_vesicle<&D::poration_mean>}};
+    case PorationModel::criterion:
+      break;
+  }
+  return {{"poration_load", "1", of_vesicle<&D::poration_load>},
+          {"poration_time", "time", of_vesicle<&D::poration_time>},
+          {"poration_x", "length", of_vesicle<&D::poration_x>},
+          {"poration_y", "length", of_vesicle<&D::poration_y>},
+          {"poration_z", "length", of_vesicle<&D::poration_z>}};
+}
+
 std::size_t first_columns(HistoryKind kind) {
   // What came before the rheology.
   const auto& all = history_columns(kind);
@@ -188,15 +208,31 @@ std::size_t first_columns(HistoryKind kind) {
 }
 
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
-  switch (kind) {
-    case HistoryKind::of_one:
-      break;
-    case HistoryKind::of_all:
-      return columns_of_all();
-    case HistoryKind::of_each:
-      return columns_of_each();
-  }
-  return columns_of_one();
+  static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
+  if (!kind.poration) return *usual.at(kind.rows);
+  static const auto with_poration = [] {
+    std::array<std::array<std::vector<HistoryColumn>, 3>, n_poration_models> all;
+    for (std::size_t model = 0; model < all.size(); ++model) {
+      const std::vector<HistoryColumn> further = poration_columns(static_cast<PorationModel>(model));
+      for (std::size_t rows = 0; rows < usual.size(); ++rows) {
+        std::vector<HistoryColumn>& columns = all.at(model).at(rows) = *usual.at(rows);
+        columns.insert(columns.end(), further.begin(), further.end());
+      }
+    }
+    return all;
+  }();
+  return with_poration.at(static_cast<std::size_t>(*kind.poration)).at(kind.rows);
+}
+
+HistoryKind history_kind(const Scene& scene) {
+  HistoryKind kind(scene.vesicles.size() > 1 ? HistoryKind::of_all : HistoryKind::of_one);
+  if (scene.poration) kind.poration = scene.poration->model;
+  return kind;
+}
+
+HistoryKind of_each_like(HistoryKind kind) {
+  kind.rows = HistoryKind::of_each;
+  return kind;
 }
 
 }  // namespace vehd

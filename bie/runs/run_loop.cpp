@@ -43,7 +43,7 @@ RunOutcome advance_to_end(RecordedRun& run, Interruption& interruption) {
 RecordedRun::RecordedRun(const RunTask& task)
     : simulation_(task.scene, start_of(task), units_of(task)),
       recorder_(task.paths, settings_of_files(task, simulation_.problem().settings), simulation_.problem().frame,
-                simulation_.checkpoint(), simulation_.units()),
+                simulation_.checkpoint(), simulation_.units(), history_kind(task.scene)),
       tell_(task.tell),
       after_step_(task.after_step) {}
 

@@ -15,19 +15,15 @@ namespace {
 
 bool has_several(const Checkpoint& checkpoint) { return checkpoint.state.vesicles.size() > 1; }
 
-HistoryKind kind_of_history(const Checkpoint& start) {
-  return has_several(start) ? HistoryKind::of_all : HistoryKind::of_one;
-}
-
 /// Nothing is touched before the files of the run to continue are known to be intact. Then the checkpoint comes first:
 /// whatever a kill leaves behind can be resumed.
-Checkpoint written(const RunPaths& paths, Checkpoint start) {
+Checkpoint written(const RunPaths& paths, Checkpoint start, HistoryKind kind) {
   if (start.n_snapshots > 0) {
     start.snapshots_checksum = require_snapshots(paths.snapshots(), start.n_snapshots, start.snapshots_checksum);
   }
-  require_history(paths.history(), start.history_bytes, start.history_checksum, kind_of_history(start));
+  require_history(paths.history(), start.history_bytes, start.history_checksum, kind);
   if (has_several(start)) {
-    require_history(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, HistoryKind::of_each);
+    require_history(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, of_each_like(kind));
   }
   write_checkpoint(paths.checkpoint(), start);
   replace_file(paths.scene(), with_changes(start.scene, start.changes));
@@ -56,7 +52,8 @@ SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Ch
 /// Lists the fields of the snapshots. @param has  whether they have the field of this name
 template <typename Predicate>
 void name_fields(XdmfSeries& series, const Predicate& has) {
-  for (const char* name : {"Vm", "q", "Vm_amplitude", "Vm_phase_deg", "q_amplitude", "tension"}) {
+  for (const char* name :
+       {"Vm", "q", "Vm_amplitude", "Vm_phase_deg", "q_amplitude", "poration", "conductance", "tension"}) {
     if (has(name)) series.scalars.emplace_back(name);
   }
   for (const char* name : {"velocity", "force_bending", "force_tension", "force_electric", "force_contact"}) {
@@ -67,17 +64,17 @@ void name_fields(XdmfSeries& series, const Predicate& has) {
 }  // namespace
 
 RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame,
-                         const Checkpoint& start, const OutputUnits& units)
+                         const Checkpoint& start, const OutputUnits& units, HistoryKind kind)
     : paths_(paths),
       si_units_(si_units_of(parse_units(start.scene, "scene"))),
       output_(settings.order, make_grid(settings.order)),
       lab_frame_(frame, settings),
-      last_(written(paths, start)),
+      last_(written(paths, start, kind)),
       snapshots_(paths.snapshots(), header_writer(output_, start, si_units_),
                  kept_snapshots(paths, output_, last_, si_units_)),
-      history_(paths.history(), start.history_bytes, start.history_checksum, units, kind_of_history(start)) {
+      history_(paths.history(), start.history_bytes, start.history_checksum, units, kind) {
   if (has_several(start)) {
-    vesicles_.emplace(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, units, HistoryKind::of_each);
+    vesicles_.emplace(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, units, of_each_like(kind));
   }
   xdmf_.n_vesicles = start.state.vesicles.size();
   const SphereGrid& grid = output_.grid();

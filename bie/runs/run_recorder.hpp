@@ -26,8 +26,9 @@ class RunRecorder {
   /// @param settings  with the degree of the files, which must not be less than that of files that exist
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
   /// @param units  of the history: where it goes on, those that it began with
+  /// @param kind   of the history
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start,
-              const OutputUnits& units);
+              const OutputUnits& units, HistoryKind kind);
 
   /// Records one accepted state: moments within its step, and then the state, which has two sides where the forcing
   /// jumps. Rows say themselves whether there is a snapshot of them. A kill leaves either none or all of the rows to a

@@ -26,6 +26,8 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
   vesicle.position = matrix("x");
   vesicle.transmembrane_potential = vector("Vm");
   vesicle.area_strain = vector("area_strain");
+  vesicle.poration = vector("poration");
+  fields.conductance = vector("conductance");
   fields.velocity = matrix("velocity");
   fields.force_bending = matrix("force_bending");
   fields.force_tension = matrix("force_tension");

@@ -1,5 +1,7 @@
 #include "bie/runs/summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +21,28 @@ constexpr std::array largest_of = {"area_drift", "volume_drift", "strain_max", "
 nlohmann::json changes_in(const OutputUnit& time, std::vector<SceneChange> changes) {
   for (SceneChange& change : changes) change.time *= time.factor;
   return json_of(changes);
+}
+
+/// When and where the criterion was first met; JSON has no infinity, so null where it was not.
+nlohmann::json poration_of(const HistoryTable& history) {
+  const auto& times = history.column("poration_time");
+  const double most = history.largest_magnitude("poration_load");
+  nlohmann::json json{{"load_max", most}, {"time", nullptr}, {"place", nullptr}};
+  if (times.empty() || !std::isfinite(times.back())) {
+    json["text"] = fmt::format("not met, {:.3g} of the threshold at most", most);
+    return json;
+  }
+  const double x = history.column("poration_x").back(), y = history.column("poration_y").back(),
+               z = history.column("poration_z").back();
+  const std::string& unit = history.unit("poration_x");
+  // A top is flat, so its place is known to the root of rounding.
+  const double least = 1e-6 * std::max({std::abs(x), std::abs(y), std::abs(z)});
+  const auto shown = [&](double value) { return std::abs(value) < least ? 0.0 : value; };
+  json["time"] = times.back();
+  json["place"] = {x, y, z};
+  json["text"] = fmt::format("first met at time {} at ({:.4g}, {:.4g}, {:.4g}){}{}", history.time_text(times.back()),
+                             shown(x), shown(y), shown(z), unit.empty() ? "" : " ", unit);
+  return json;
 }
 
 double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
@@ -57,6 +81,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
     const auto& gap = history.column("smallest_gap");
     if (!gap.empty()) json["smallest_gap"] = *std::min_element(gap.begin(), gap.end());
   }
+  if (history.has("poration_time")) json["poration"] = poration_of(history);
   json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
   json["kernel_evaluations"] = totals.kernel_evaluations;
   json["version"] = program_version();

@@ -24,6 +24,15 @@ void add(VesicleDiagnostics& all, const VesicleDiagnostics& one) {
     take_larger(all.*worst, one.*worst);
   }
   all.tension_max = std::max(all.tension_max, one.tension_max);
+  all.conductance_max = std::max(all.conductance_max, one.conductance_max);
+  all.poration_max = std::max(all.poration_max, one.poration_max);
+  all.poration_load = std::max(all.poration_load, one.poration_load);
+  if (one.poration_time < all.poration_time) {
+    for (const auto of_crossing : {&VesicleDiagnostics::poration_time, &VesicleDiagnostics::poration_x,
+                                   &VesicleDiagnostics::poration_y, &VesicleDiagnostics::poration_z}) {
+      all.*of_crossing = one.*of_crossing;
+    }
+  }
   all.separation = std::min(all.separation, one.separation);
 }
 

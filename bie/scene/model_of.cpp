@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "bie/physics/gravity.hpp"
+#include "bie/physics/membrane_porosity.hpp"
 #include "bie/physics/poiseuille_flow.hpp"
+#include "bie/physics/pore_density.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/scene/vesicles.hpp"
 
@@ -65,6 +67,28 @@ void add_flow(const FlowScene& flow, Model& model) {
 namespace {
 
 /// @param scene  of this vesicle alone
+void add_poration(const Scene& scene, VesicleModel& vesicle) {
+  const PorationScene& p = *scene.poration;
+  switch (p.model) {
+    case PorationModel::criterion:
+      vesicle.criterion = PorationCriterion{p.threshold_potential, p.lysis_tension};
+      break;
+    case PorationModel::porosity:
+      vesicle.reaction = std::make_shared<MembranePorosity>(PorosityParameters{
+          p.porated_conductance, *p.threshold_potential, p.steepness, p.poration_time, p.resealing_time});
+      break;
+    case PorationModel::pores: {
+      const double conductivity = p.pore_conductivity.value_or(
+          pore_conductivity(scene.electric->conductivity_in, scene.electric->conductivity_out));
+      vesicle.reaction = std::make_shared<PoreDensity>(
+          PoreParameters{p.creation_rate, *p.threshold_potential, p.rest_density, p.exponent,
+                         pore_conductance(p.pore_radius, p.membrane_thickness, conductivity)});
+      break;
+    }
+  }
+}
+
+/// @param scene  of this vesicle alone
 VesicleModel vesicle_of(const Scene& scene) {
   VesicleModel vesicle;
   vesicle.viscosity_ratio = scene.fluid.viscosity_ratio;
@@ -85,6 +109,7 @@ VesicleModel vesicle_of(const Scene& scene) {
     vesicle.inside = {scene.electric->conductivity_in, scene.electric->permittivity_ratio};
     vesicle.charging = {scene.membrane.capacitance, scene.membrane.conductance};
   }
+  if (scene.poration) add_poration(scene, vesicle);
   return vesicle;
 }
 

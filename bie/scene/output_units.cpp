@@ -34,6 +34,9 @@ constexpr std::array<std::string_view, 10> plain_dimensions = {
     "length",           "time",         "velocity",   "potential", "dipole",
     "potential/length", "force/length", "force/area", "energy",    "power"};
 
+/// Dimensions that have their SI unit as it is.
+constexpr std::array<std::string_view, 2> unprefixed_dimensions = {"conductance/area", "1/area"};
+
 int power_of(std::string_view dimension) {
   const auto found = std::ranges::find(powers, dimension, &PowerOf::dimension);
   return found == powers.end() ? 1 : found->power;
@@ -50,6 +53,9 @@ std::string suitable_symbol(const Dimension& dimension, double magnitude) {
 
 /// What the symbol is in SI base units, as a ratio; nullopt if it is no unit of the dimension.
 std::optional<std::array<double, 2>> size_of_unit(const Dimension& dimension, std::string_view symbol) {
+  if (std::ranges::find(unprefixed_dimensions, dimension.name) != unprefixed_dimensions.end()) {
+    return symbol == dimension.si_unit() ? std::optional(std::array{1.0, 1.0}) : std::nullopt;
+  }
   for (const Prefix& prefix : prefixes) {
     if (symbol != std::string(prefix.symbol) + std::string(dimension.si_unit())) continue;
     const int power = power_of(dimension.name);
@@ -146,6 +152,9 @@ OutputUnits::OutputUnits(const Scene& scene) : scales_(scene.units) {
     const double magnitude = magnitudes.of(name);
     if (!std::isfinite(si_scale(scales_, name)) || !std::isfinite(magnitude)) continue;
     symbols_.emplace(name, suitable_symbol(*find_dimension(name), magnitude));
+  }
+  for (const std::string_view name : unprefixed_dimensions) {
+    if (std::isfinite(si_scale(scales_, name))) symbols_.emplace(name, find_dimension(name)->si_unit());
   }
   for (const PowerOf& dimension : powers) {
     const auto base = symbols_.find(dimension.base);

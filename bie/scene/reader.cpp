@@ -10,6 +10,7 @@
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/reference_scales.hpp"
+#include "bie/scene/poration_checks.hpp"
 #include "bie/scene/scene_checks.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/shape_file_check.hpp"
@@ -108,17 +109,18 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
   require_owner(description, table, file);
   description.create(scene);
   // The kind decides which of the other keys are accepted.
-  if (const KeyDescription* kind = find_key(description.name, "kind")) {
-    if (const toml::node* node = table.get("kind"))
-      read_key(scene, *kind, "kind", *node, file);
+  const KeyDescription* kind_row = kind_key(description.name);
+  if (kind_row != nullptr) {
+    if (const toml::node* node = table.get(kind_row->name))
+      read_key(scene, *kind_row, kind_row->name, *node, file);
     else {
-      throw InputError(fmt::format("{}: missing key \"kind\" in [{}]; accepted: {}", place(table, file),
-                                   description.name, fmt::join(kind->words, ", ")));
+      throw InputError(fmt::format("{}: missing key \"{}\" in [{}]; accepted: {}", place(table, file), kind_row->name,
+                                   description.name, fmt::join(kind_row->words, ", ")));
     }
   }
   const std::string kind = kind_of(scene, description.name);
   for (const auto& [name, node] : table) {
-    if (name.str() == "kind" && !kind.empty()) continue;
+    if (kind_row != nullptr && name.str() == kind_row->name) continue;
     if (is_subtable(description.name, name.str())) {
       if (node.is_table()) continue;
       throw InputError(fmt::format("{}: \"{}\" in [{}] is {}; accepted: a table [{}.{}]", place(node, file), name.str(),
@@ -196,6 +198,7 @@ Scene scene_of(const toml::table& file, const std::string& name, const std::file
 void check_one(Scene& scene, const toml::table& file, const std::string& name, const std::filesystem::path& folder,
                bool is_heavy) {
   check_scene(scene, file, name, is_heavy);
+  check_poration(scene, file, name);
   if (scene.shape.kind == ShapeKind::file) {
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
   }

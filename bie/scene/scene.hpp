@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, stomatocyte, radia
 enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient, poiseuille };
 /// Values of kind in a waveform.
 enum class WaveformKind { dc, ac, pulse, pulse_train, table };
+/// Values of model in [poration].
+enum class PorationModel { criterion, porosity, pores };
+constexpr std::size_t n_poration_models = 3;
 /// Values of initial_Vm in [electric].
 enum class InitialPotential { zero, steady, file };
 /// Values of symmetry in [numerics].
@@ -155,6 +159,24 @@ struct ElectricScene {
   bool operator==(const ElectricScene&) const = default;
 };
 
+/// Table [poration]; which members count depends on the model.
+struct PorationScene {
+  PorationModel model = PorationModel::criterion;
+  std::optional<double> threshold_potential;
+  std::optional<double> lysis_tension;
+  double porated_conductance = 0.0;
+  double steepness = 10.0;
+  double poration_time = 1.0;
+  double resealing_time = 1.0;
+  double creation_rate = 1.0;
+  double rest_density = 1.0;
+  double exponent = 2.46;
+  double pore_radius = 1.0;
+  double membrane_thickness = 1.0;
+  std::optional<double> pore_conductivity;
+  bool operator==(const PorationScene&) const = default;
+};
+
 /// Table [numerics].
 struct NumericsScene {
   std::optional<double> tolerance;  ///< absent: fixed degree and steps
@@ -204,6 +226,7 @@ struct Scene {
   std::optional<ContactScene> contact;
   std::optional<FlowScene> flow;
   std::optional<ElectricScene> electric;
+  std::optional<PorationScene> poration;
   NumericsScene numerics;
   OutputScene output;
   std::optional<SuspensionScene> suspension{};  ///< until its vesicles are placed

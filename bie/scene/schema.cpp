@@ -52,8 +52,13 @@ const KeyDescription* find_key_of_kind(std::string_view table, std::string_view 
   return nullptr;
 }
 
-std::string kind_of(const Scene& scene, std::string_view table) {
+const KeyDescription* kind_key(std::string_view table) {
   const KeyDescription* kind = find_key(table, "kind");
+  return kind != nullptr ? kind : find_key(table, "model");
+}
+
+std::string kind_of(const Scene& scene, std::string_view table) {
+  const KeyDescription* kind = kind_key(table);
   return kind == nullptr ? std::string() : std::get<std::string>(*kind->get(scene));
 }
 

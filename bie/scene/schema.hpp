@@ -88,7 +88,10 @@ const KeyDescription* find_key(std::string_view table, std::string_view name);
 /// The key of that name that counts for the kind, or nullptr.
 const KeyDescription* find_key_of_kind(std::string_view table, std::string_view name, std::string_view kind);
 
-/// Value of `kind` in a table; empty for tables without kinds.
+/// The key whose value is the kind of a table, "kind" or the "model" of an effect; nullptr for tables without kinds.
+const KeyDescription* kind_key(std::string_view table);
+
+/// Value of that key; empty for tables without kinds.
 std::string kind_of(const Scene& scene, std::string_view table);
 
 /// Whether the key counts for this scene: its table is present and of the key's kind.

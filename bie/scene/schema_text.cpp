@@ -89,7 +89,7 @@ TextTable key_table(const TableDescription& table) {
     if (key.table != table.name) continue;
     rows.push_back({key.name, key.kinds, key.symbol, key.type, key.unit, key.range, key.default_value, key.meaning});
   }
-  if (find_key(table.name, "kind") != nullptr) return rows;
+  if (kind_key(table.name) != nullptr) return rows;
   for (auto& row : rows) row.erase(row.begin() + 1);
   return rows;
 }

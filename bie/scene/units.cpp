@@ -37,6 +37,8 @@ std::vector<Dimension> make_dimensions() {
       {"permittivity", {2, -1, 1, -2}, {{"F/m"}, {"pF/m", 1, 1e12}, {"eps0", vacuum_permittivity}}},
       {"capacitance/area", {1, -1, 1, -2}, {{"F/m^2"}, {"mF/m^2", 1, 1e3}, {"uF/cm^2", 1, 1e2}}},
       {"conductance/area", {1, -2, 1, -2}, {{"S/m^2"}, {"S/cm^2", 1e4}, {"mS/cm^2", 1e1}}},
+      {"1/area", {-2, 0, 0, 0}, {{"1/m^2"}, {"1/um^2", 1e12}}},
+      {"1/(area time)", {-2, -1, 0, 0}, {{"1/(m^2 s)"}, {"1/(um^2 us)", 1e18}}},
       {"temperature", {0, 0, 0, 0}, {{"K"}}},
       // Of results alone, by the names that run.h5 has for them.
       {"volume", {3, 0, 0, 0}, {{"m^3"}}},

@@ -42,8 +42,8 @@ Climb climb(const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian, dou
 
 }  // namespace
 
-double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
-               double sign) {
+Top top_of(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
+           double sign) {
   // Beyond the distance of two nodes a parabola says nothing.
   const double reach = std::numbers::pi / static_cast<double>(grid.n_theta);
   const double scale = nodes.value.col(column).cwiseAbs().maxCoeff();
@@ -71,7 +71,7 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
       at = end;
       next = climb(sign * there.gradient(0), sign * there.hessian(0), reach);
     }
-    return value;
+    return Top{at, value};
   };
 
   Index largest = 0;
@@ -85,7 +85,7 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
     if (const Climb next = climb_from(node); next.near) promises.emplace_back(value + next.gain, node);
   }
   std::sort(promises.begin(), promises.end(), std::greater<>());
-  double top = top_above(largest);
+  Top top = top_above(largest);
   std::vector<Vector3> climbed{direction(point_of(grid, largest))};
   for (const auto& [promise, node] : promises) {
     constexpr std::size_t kHumps = 4;
@@ -95,10 +95,15 @@ double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index col
     const bool apart = std::all_of(climbed.begin(), climbed.end(),
                                    [&](const Vector3& other) { return (from - other).norm() > kApart * reach; });
     if (!apart) continue;
-    top = std::max(top, top_above(node));
+    if (const Top other = top_above(node); other.value > top.value) top = other;
     climbed.push_back(from);
   }
   return top;
+}
+
+double maximum(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
+               double sign) {
+  return top_of(grid, nodes, column, coefficients, sign).value;
 }
 
 }  // namespace vehd

@@ -4,6 +4,16 @@
 
 namespace vehd {
 
+/// Where a field is largest, and how large.
+struct Top {
+  SpherePoint point;
+  double value = 0.0;
+};
+
+/// The top of sign · f, see maximum. Of several that are equal to rounding it may be any.
+Top top_of(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
+           double sign);
+
 /// Maximum of sign · f over the sphere, by Newton's method on the field from the largest node, and from up to three
 /// others whose parabolas promise most. Never above the true maximum; at rounding where the grid sees the highest top,
 /// be it a point or a ring, and else not below the largest node.

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evaluation/operator_checks.hpp"
+#include "bie/stepping/evaluation/poration_load.hpp"
 #include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/resized.hpp"
@@ -31,17 +33,6 @@ Discretisation discretisation_of(const EvolutionSetup& setup, const State& state
     finenesses.push_back(fineness_of(order_of(vesicle.position.rows()), vesicle.quadrature_level));
   }
   return {setup.settings, setup.symmetry, finenesses};
-}
-
-void require_apart(double separation, double before) {
-  if (separation < thresholds::contact) {
-    throw ConvergenceError(fmt::format(
-        "two parts of the membrane are {:.2g} grid spacings from each other, too near for any quadrature", separation));
-  }
-  if (separation < std::min(1.0, thresholds::least_approach * before)) {
-    throw ConvergenceError(fmt::format(
-        "two parts of the membrane come within {:.2g} grid spacings of each other in one step", separation));
-  }
 }
 
 /// Of the coarsest grid, over the radius.
@@ -227,6 +218,10 @@ void Evolution::arrive(State state) {
   if (has_former && jumps_at(setup_.model, state.time)) {
     before = without_operators(evaluated(&evaluation, Limit::before));
   }
+  note_first_crossings(has_former ? &evaluation_ : nullptr, state_.time, before ? *before : evaluation, evaluation,
+                       state);
+  tell_crossings(state, state.time, evaluation);
+  if (before) tell_crossings(state, state.time, *before);
   discretisation_ = std::move(discretisation);
   replace(std::move(state), std::move(evaluation));
   gap_ = gap;
@@ -373,6 +368,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
       if (at_event) attempt.state.time = plan.event_time;
       std::vector<Moment> passed = evaluated(attempt.passed, attempt);
       arrive(attempt.state);
+      for (Moment& moment : passed) tell_crossings(state_, moment.state.time, moment.evaluation);
       passed_ = std::move(passed);
     } catch (const ConvergenceError&) {
       // What cannot be solved for after this step may be after a smaller one.

@@ -82,6 +82,7 @@ Numbers right_numbers() {
                                     of_run.charge,
                                     {},
                                     {},
+                                    {},
                                     {}};
   numbers.force = vehd::total_force(frozen, frozen.fields.vesicles.front());
   numbers.solve(frozen);

@@ -22,7 +22,9 @@ bool has_inclination(const State& state) {
 double natural_scale(const Column& column, const ShortRun& run) {
   double scale = column.least_scale;
   for (const RunRow& row : run.rows) {
-    scale = std::max(scale, std::abs(column.value(row.diagnostics)));
+    const double size = std::abs(column.value(row.diagnostics));
+    // Nothing until the criterion of poration is met.
+    if (std::isfinite(size)) scale = std::max(scale, size);
     if (column.scale != nullptr) scale = std::max(scale, column.scale(row.diagnostics));
     if (column.member == &VesicleDiagnostics::q_north)
       scale = std::max(scale, row.diagnostics.Vm_max / row.diagnostics.extent_x);
@@ -43,7 +45,9 @@ double natural_scale(const Column& column, const ShortRun& run) {
 }
 
 double difference(const Column& column, const RunRow& a, const RunRow& b, double factor) {
-  const double size = std::abs(column.value(a.diagnostics) - column.value(b.diagnostics) / factor);
+  const double here = column.value(a.diagnostics), there = column.value(b.diagnostics);
+  if (!std::isfinite(here) && !std::isfinite(there)) return 0.0;
+  const double size = std::abs(here - there / factor);
   if (column.member != &VesicleDiagnostics::inclination_deg) return size;
   // An axis is the same after half a turn.
   return has_inclination(a.state) ? std::min(size, std::abs(180.0 - size)) : 0.0;
@@ -133,6 +137,12 @@ const std::vector<Column>& columns() {
        0.0,
        [](const VesicleDiagnostics& d) { return d.rheology.power(); },
        [](const VesicleDiagnostics& d) { return largest_share(d) * d.rheology.gradient.norm(); }},
+      {"conductance_max", &VesicleDiagnostics::conductance_max, {1, -2, 1, -2}},
+      {"poration_load", &VesicleDiagnostics::poration_load},
+      {"poration_time", &VesicleDiagnostics::poration_time, {0, 1, 0, 0}},
+      {"poration_x", &VesicleDiagnostics::poration_x, {1, 0, 0, 0}, on_place},
+      {"poration_y", &VesicleDiagnostics::poration_y, {1, 0, 0, 0}, on_place},
+      {"poration_z", &VesicleDiagnostics::poration_z, {1, 0, 0, 0}, on_place},
   };
   return all;
 }

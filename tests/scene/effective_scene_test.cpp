@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(every_key_is_described) {
     BOOST_TEST((key.type != vehd::ValueType::number || !key.unit.empty()), key.name);
     BOOST_TEST((key.unit.empty() || key.unit == "1" || vehd::find_dimension(key.unit) != nullptr), key.name);
     for (const std::string_view kind : key.kinds) {
-      const auto& words = vehd::find_key(key.table, "kind")->words;
+      const auto& words = vehd::kind_key(key.table)->words;
       BOOST_TEST((std::find(words.begin(), words.end(), kind) != words.end()), key.name);
     }
   }

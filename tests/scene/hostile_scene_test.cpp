@@ -27,7 +27,7 @@ std::string scene_with(const vehd::KeyDescription& key, const std::string& value
   }
   text += "[" + table + "]\n";
   if (!key.kinds.empty()) {
-    text += "kind = '" + std::string(key.kinds.front()) + "'\n";
+    text += std::string(vehd::kind_key(table)->name) + " = '" + std::string(key.kinds.front()) + "'\n";
   } else if (table == "shape") {
     text += "kind = 'ellipsoid'\naxes = [1, 1, 2]\n";
   } else if (table == "suspension") {

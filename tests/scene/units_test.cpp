@@ -248,7 +248,11 @@ BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
                                                {"mJ/m^2", 1e-3},
                                                {"uJ/m^2", 1e-6},
                                                {"C m", 1},
-                                               {"W", 1}};
+                                               {"W", 1},
+                                               {"1/m^2", 1},
+                                               {"1/um^2", 1e12},
+                                               {"1/(m^2 s)", 1},
+                                               {"1/(um^2 us)", 1e18}};
   for (const vehd::Dimension& dimension : vehd::dimensions()) {
     for (const vehd::Unit& unit : dimension.units) {
       const auto size = sizes.find(std::string(unit.symbol));

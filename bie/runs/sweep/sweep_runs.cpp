@@ -13,12 +13,8 @@
 namespace vehd {
 namespace {
 
-HistoryKind kind_of_history(const Scene& scene) {
-  return scene.vesicles.size() > 1 ? HistoryKind::of_all : HistoryKind::of_one;
-}
-
 std::vector<std::string_view> usual_columns(const Scene& scene) {
-  if (kind_of_history(scene) == HistoryKind::of_all) return {"time", "smallest_gap"};
+  if (scene.vesicles.size() > 1) return {"time", "smallest_gap"};
   return {"time", "reduced_volume", "aspect_ratio", "inclination_deg", "bending_energy_scaled"};
 }
 
@@ -50,7 +46,7 @@ std::vector<SweepRun> runs_of(const SweepFile& sweep) {
 }
 
 std::vector<HistoryColumn> columns_of(const SweepFile& sweep) {
-  const std::vector<HistoryColumn>& known = history_columns(kind_of_history(sweep.scene));
+  const std::vector<HistoryColumn>& known = history_columns(history_kind(sweep.scene));
   std::vector<HistoryColumn> columns;
   const auto find = [&](std::string_view name) { return std::ranges::find(known, name, &HistoryColumn::name); };
   for (const SweepColumn& column : sweep.columns) {

@@ -15,6 +15,7 @@
 #include "bie/sphere/principal_axes.hpp"
 #include "bie/stepping/evaluation/field_poles.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
+#include "bie/stepping/evaluation/poration_load.hpp"
 #include "bie/stepping/evaluation/volume_moments.hpp"
 #include "bie/stepping/evaluation/wrinkling.hpp"
 #include "bie/stepping/thresholds.hpp"
@@ -126,6 +127,24 @@ void add_amplitudes(const DiagnosedModel& model, const SphereTransform& fine, co
   d.Vm_max = std::sqrt(maximum(fine.grid(), fine.synthesize_hessian(square), 0, square, 1.0));
 }
 
+/// How near it is to poration, or how far it has come.
+void add_poration(const DiagnosedModel& model, const SphereTransform& fine, const Surface& s,
+                  const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
+                  VesicleDiagnostics& d) {
+  if (model.criterion) {
+    d.load = poration_load(*model.criterion, model.charging.capacitance, fine, vesicle, solution, fields);
+    d.poration_load = d.load.load;
+  }
+  if (!model.reaction) return;
+  // Both rise with the state of the reaction, whose tops are smooth.
+  const double most = maximum(fine.grid(), fine.synthesize_hessian(vesicle.poration), 0, vesicle.poration, 1.0);
+  d.conductance_max = model.charging.conductance + model.reaction->conductance(most).value;
+  d.poration_max = model.reaction->measure(most);
+  const Vector measures =
+      Vector(fine.synthesize(vesicle.poration)).unaryExpr([&](double state) { return model.reaction->measure(state); });
+  d.poration_mean = measures.dot(s.quadrature) / d.area;
+}
+
 void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
                      const Membrane& membrane, VesicleDiagnostics& d) {
   // Truncation hides what is this close above it.
@@ -144,6 +163,9 @@ DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle) 
     if (curvature != nullptr) result.spontaneous_curvature = curvature->parameters().curvature;
   }
   if (model.electric) result.field = model.electric->field;
+  result.criterion = vesicle.criterion;
+  result.reaction = vesicle.reaction;
+  result.charging = vesicle.charging;
   return result;
 }
 
@@ -185,6 +207,7 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
     }
     d.Vm_max = std::max(maximum(fine.grid(), v, 0, potential, 1.0), maximum(fine.grid(), v, 0, potential, -1.0));
   }
+  add_poration(model, fine, s, vesicle, solution, fields, d);
   if (previous != nullptr) {
     d.quadrature_error = previous->quadrature_error;
     d.quadrature_is_coarse = previous->quadrature_is_coarse;

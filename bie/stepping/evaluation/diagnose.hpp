@@ -10,6 +10,9 @@ struct DiagnosedModel {
   FlowParameters flow{};
   double spontaneous_curvature = 0.0;  ///< c
   Vector3 field = Vector3::Zero();     ///< E_∞ where the waveform is 1
+  std::optional<PorationCriterion> criterion{};
+  std::shared_ptr<const PorationReaction> reaction{};
+  ChargingParameters charging{};
 };
 
 /// That of a vesicle of a model.

@@ -2,6 +2,7 @@
 
 #include "bie/stepping/evaluation/diagnose.hpp"
 #include "bie/stepping/evaluation/find_rheology.hpp"
+#include "bie/stepping/evaluation/poration_load.hpp"
 
 namespace vehd {
 
@@ -18,6 +19,7 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
     evaluation.diagnostics.vesicles[a].rheology = find_rheology(
         model, model.vesicles[a], state.time, limit, state.vesicles[a], solution, evaluation.fields.vesicles[a]);
   }
+  tell_crossings(state, state.time, evaluation);
   return evaluation;
 }
 

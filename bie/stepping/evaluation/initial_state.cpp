@@ -1,6 +1,8 @@
 #include "bie/stepping/evaluation/initial_state.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "bie/physics/charge_relaxation.hpp"
 #include "bie/physics/coupled_charging.hpp"
@@ -23,6 +25,10 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
   const Vector& given = start.potential.given;
   fields.transmembrane_potential = given.size() > 0 ? resize_order(given, order_of(n)) : Vector::Zero(n);
   if (relaxes_charge(model)) fields.free_charge = Vector::Zero(n);
+  if (vesicle.reaction) {
+    fields.poration = Vector::Zero(n);
+    fields.poration[0] = vesicle.reaction->start() * std::sqrt(4.0 * std::numbers::pi);
+  }
   return fields;
 }
 
@@ -73,6 +79,7 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     const Surface surface = make_surface(space.fine_transform(), position);
     start.reference_area = surface_area(surface);
     start.reference_volume = enclosed_volume(surface);
+    if (vesicle.criterion) start.crossing.emplace();
     if (model.electric && membranes[a].potential.steady && membranes.size() == 1) {
       const Membrane membrane = membrane_at(space, position, kElectricLayers, 1.0, instruments);
       require_converged(steady_potential(electric_parameters(model, vesicle), vesicle.charging, membrane,

@@ -16,7 +16,7 @@ LabFrameOutput::LabFrameOutput(const Frame& frame, const NumericalSettings& sett
 
 namespace {
 
-/// Centroid, its velocity and what the suspension feels have the components of the frame.
+/// Centroid, its velocity, the place of a crossing and what the suspension feels have the components of the frame.
 void place(const Frame& frame, VesicleDiagnostics& d) {
   const Vector3 centroid = frame.origin + frame.axes * Vector3(d.centroid_x, d.centroid_y, d.centroid_z);
   const Vector3 velocity = frame.axes * Vector3(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z);
@@ -27,6 +27,10 @@ void place(const Frame& frame, VesicleDiagnostics& d) {
   d.centroid_velocity_y = velocity.y();
   d.centroid_velocity_z = velocity.z();
   d.rheology = rotated(frame.axes, frame.origin, d.rheology);
+  const Vector3 crossing = frame.origin + frame.axes * Vector3(d.poration_x, d.poration_y, d.poration_z);
+  d.poration_x = crossing.x();
+  d.poration_y = crossing.y();
+  d.poration_z = crossing.z();
 }
 
 }  // namespace

@@ -1,11 +1,15 @@
 #include "bie/stepping/evaluation/operator_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/thresholds.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
@@ -84,6 +88,17 @@ double separation(const SphereTransform& nodes, const Matrix& position, bool one
     }
   }
   return least;
+}
+
+void require_apart(double separation, double before) {
+  if (separation < thresholds::contact) {
+    throw ConvergenceError(fmt::format(
+        "two parts of the membrane are {:.2g} grid spacings from each other, too near for any quadrature", separation));
+  }
+  if (separation < std::min(1.0, thresholds::least_approach * before)) {
+    throw ConvergenceError(fmt::format(
+        "two parts of the membrane come within {:.2g} grid spacings of each other in one step", separation));
+  }
 }
 
 }  // namespace vehd

@@ -30,4 +30,9 @@ LayerCheck check_layers(const Membrane& membrane);
 /// (tests/stepping/evaluation/operator_checks_test.cpp)
 double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices);
 
+/// A step that brings two parts of a membrane into contact, or so near in one go that they could have passed through
+/// each other, is none. @throws ConvergenceError
+/// @param before  their separation() at its start
+void require_apart(double separation, double before);
+
 }  // namespace vehd

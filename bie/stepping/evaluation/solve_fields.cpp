@@ -112,6 +112,7 @@ SolvedFields solve_fields(const Model& model, const Discretisation& discretisati
     tasks.push_back({model, model.vesicles[a], discretisation.settings(), discretisation.vesicle(a), state.vesicles[a],
                      *solved.vesicles[a].membrane, solved.fields.vesicles[a], solved.vesicles[a]});
   }
+  for (const VesicleTask& task : tasks) add_poration(task);
   if (n == 1) {
     solve(tasks.front(), state.time, limit, instruments, solved);
   } else {

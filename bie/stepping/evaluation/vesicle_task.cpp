@@ -1,6 +1,7 @@
 #include "bie/stepping/evaluation/vesicle_task.hpp"
 
 #include "bie/physics/bending.hpp"
+#include "bie/physics/porous_charging.hpp"
 #include "bie/stepping/state/composition.hpp"
 
 namespace vehd {
@@ -11,8 +12,22 @@ Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric
   const Vector& area = membrane.surface.quadrature;
   Vector current = electric.conductivity_in * traces.flux_in;
   current.array() -= current.dot(area) / area.sum();
+  if (task.vesicle.reaction) {
+    current += porous_current(*task.vesicle.reaction, charging, membrane,
+                              {task.state.transmembrane_potential, task.state.poration});
+    return membrane.fine.analyze(current) / -charging.capacitance;
+  }
   return -(membrane.fine.analyze(current) + charging.conductance * task.state.transmembrane_potential) /
          charging.capacitance;
+}
+
+void add_poration(const VesicleTask& task) {
+  if (!task.vesicle.reaction) return;
+  const PorationReaction& reaction = *task.vesicle.reaction;
+  task.solution.poration_rate =
+      reaction_rate(reaction, task.membrane, {task.state.transmembrane_potential, task.state.poration});
+  task.fields.conductance = task.membrane.fine.analyze(
+      porous_conductance(reaction, task.vesicle.charging, task.membrane, task.state.poration));
 }
 
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing) {

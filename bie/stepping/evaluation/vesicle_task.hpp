@@ -21,6 +21,9 @@ struct VesicleTask {
 /// quadrature sees only up to its error.
 Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric, const ElectricTraces& traces);
 
+/// What a membrane that porates conducts, which becomes one of the task's fields, and how fast that changes.
+void add_poration(const VesicleTask& task);
+
 /// Adds the explicit effects and the bending force, which becomes one of the task's fields.
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing);
 

@@ -23,6 +23,7 @@ std::vector<EffectDescription> implicit_effects(const Model& model, const Vesicl
   if (model.mobile && vesicle.inextensible) result.push_back(tension_description());
   if (model.mobile && vesicle.viscosity_ratio != 1.0) result.push_back(viscosity_contrast_description());
   if (model.electric) result.push_back(electric_description(electric_parameters(model, vesicle)));
+  if (vesicle.reaction) result.push_back(vesicle.reaction->description());
   return result;
 }
 

@@ -19,6 +19,7 @@ struct VesicleFields {
   Matrix force_contact;   ///< f_c, which joins the sum with plus
   Vector tension;         ///< λ
   Vector charge;          ///< q = [[∂φ/∂n]]
+  Vector conductance;     ///< G_m where it varies; empty elsewhere
   Vector potential;       ///< V_m where it is no part of the state but follows from free charges; empty elsewhere
   // Of a field of which only the mean over a period counts, in place of V_m and q; the electric force is the mean.
   Matrix potential_amplitude;  ///< of V_m, complex: the columns are real and imaginary part, [n_coefficients x 2]
@@ -33,6 +34,13 @@ inline const Vector& transmembrane_potential(const SurfaceFields& membrane, cons
 /// The fields of every membrane of a State.
 struct Fields {
   std::vector<VesicleFields> vesicles;
+};
+
+/// How near a membrane is to its criterion of poration, see poration_load().
+struct PorationLoad {
+  double load = 0.0;                                       ///< met at 1; 0 without a criterion
+  double rate = std::numeric_limits<double>::quiet_NaN();  ///< in time, where it is known
+  Vector3 place = Vector3::Zero();                         ///< where on the membrane
 };
 
 /// What history.csv tells of one membrane at one time. Of an averaged field V_m and q are magnitudes of amplitudes.
@@ -61,6 +69,14 @@ struct VesicleDiagnostics {
          Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
   double Vm_phase_deg = 0;   ///< of V_m at the former against the field, of an averaged field
   Rheology rheology{};       ///< of this vesicle by itself
+  // Of a membrane that porates.
+  double conductance_max = 0.0;                    ///< largest G_m
+  double poration_max = 0.0, poration_mean = 0.0;  ///< of the porosity or of the density of pores
+  PorationLoad load{};
+  double poration_load = 0;  ///< that of `load`
+  /// When and where the criterion of poration was first met; infinite and not numbers until then.
+  double poration_time = std::numeric_limits<double>::infinity();
+  double poration_x = std::numeric_limits<double>::quiet_NaN(), poration_y = poration_x, poration_z = poration_x;
 };
 
 /// The diagnostics of every membrane of a State.

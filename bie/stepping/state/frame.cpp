@@ -141,13 +141,19 @@ Model in_frame(const Frame& frame, const Model& of_laboratory) {
 }
 
 State in_frame(const Frame& frame, State of_laboratory) {
-  for (VesicleState& vesicle : of_laboratory.vesicles) vesicle.position.row(0) -= shift_of(frame);
+  for (VesicleState& vesicle : of_laboratory.vesicles) {
+    vesicle.position.row(0) -= shift_of(frame);
+    if (vesicle.crossing) vesicle.crossing->place -= frame.origin;
+  }
   return rotated(frame.axes.transpose(), std::move(of_laboratory));
 }
 
 State in_laboratory(const Frame& frame, State of_frame) {
   State result = rotated(frame.axes, std::move(of_frame));
-  for (VesicleState& vesicle : result.vesicles) vesicle.position.row(0) += shift_of(frame);
+  for (VesicleState& vesicle : result.vesicles) {
+    vesicle.position.row(0) += shift_of(frame);
+    if (vesicle.crossing) vesicle.crossing->place += frame.origin;
+  }
   return result;
 }
 

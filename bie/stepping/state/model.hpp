@@ -7,6 +7,8 @@
 #include "bie/physics/background_flow.hpp"
 #include "bie/physics/contact.hpp"
 #include "bie/physics/parameters.hpp"
+#include "bie/physics/poration_criterion.hpp"
+#include "bie/physics/poration_reaction.hpp"
 
 namespace vehd {
 
@@ -15,8 +17,10 @@ struct VesicleModel {
   double viscosity_ratio = 1.0;  ///< μ_i/μ_e; at 1 there is no Stokes double layer
   bool inextensible = true;
   std::optional<BendingParameters> bending;
-  InnerDielectric inside;       ///< counts with Model::electric alone, as charging does
-  ChargingParameters charging;  ///< of the membrane
+  InnerDielectric inside;                              ///< counts with Model::electric alone, as charging does
+  ChargingParameters charging;                         ///< of the membrane
+  std::optional<PorationCriterion> criterion{};        ///< of which a history tells
+  std::shared_ptr<const PorationReaction> reaction{};  ///< null: the membrane conducts as much as ever
   /// What acts on this vesicle alone: gravity, spontaneous curvature, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
 };

@@ -27,7 +27,9 @@ VesicleFields resized(VesicleFields fields, int order) {
                         &fields.force_contact, &fields.potential_amplitude, &fields.charge_amplitude}) {
     *field = resized(*field, order);
   }
-  for (Vector* field : {&fields.charge, &fields.potential, &fields.tension}) *field = resized(Matrix(*field), order);
+  for (Vector* field : {&fields.charge, &fields.potential, &fields.tension, &fields.conductance}) {
+    *field = resized(Matrix(*field), order);
+  }
   return fields;
 }
 

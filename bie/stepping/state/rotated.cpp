@@ -40,6 +40,7 @@ State rotated(const Matrix3& rotation, State state) {
   for (VesicleState& vesicle : state.vesicles) {
     vesicle.position = rotated_vectors(rotation, vesicle.position);
     for_each_scalar(vesicle, [&](Vector& scalar) { scalar = rotated_scalar(rotation, scalar); });
+    if (vesicle.crossing) vesicle.crossing->place = rotation * vesicle.crossing->place;
     // In the coefficients of other axes, with another symmetry: solves there learn anew.
     vesicle.recycled = {};
   }
@@ -55,6 +56,7 @@ Fields rotated(const Matrix3& rotation, Fields fields) {
     f.tension = rotated_scalar(rotation, f.tension);
     f.charge = rotated_scalar(rotation, f.charge);
     f.potential = rotated_scalar(rotation, f.potential);
+    f.conductance = rotated_scalar(rotation, f.conductance);
     f.potential_amplitude = rotated_scalars(rotation, f.potential_amplitude);
     f.charge_amplitude = rotated_scalars(rotation, f.charge_amplitude);
   }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "bie/stepping/state/first_crossing.hpp"
 #include "bie/stepping/state/recycled_subspaces.hpp"
 #include "bie/stepping/state/surface_fields.hpp"
 
@@ -12,6 +14,7 @@ namespace vehd {
 struct VesicleState : SurfaceFields {
   double reference_area = 0.0;  ///< area and volume that its constraint holds
   double reference_volume = 0.0;
+  std::optional<FirstCrossing> crossing{};  ///< of a membrane with a criterion of poration
   std::int64_t quadrature_level = 0;  ///< how often its quadrature has been made finer, see Evolution
   RecycledSubspaces recycled;
 };

@@ -15,7 +15,7 @@ double state_difference(const State& state, const State& reference) {
     const VesicleState& other = reference.vesicles[a];
     largest = std::max({largest, relative(one.position, other.position),
                         relative(one.transmembrane_potential, other.transmembrane_potential),
-                        relative(one.free_charge, other.free_charge)});
+                        relative(one.free_charge, other.free_charge), relative(one.poration, other.poration)});
   }
   return largest;
 }

@@ -14,12 +14,14 @@ struct SurfaceFields {
   Vector transmembrane_potential;
   Vector free_charge;  ///< of both faces over C_m; empty without displacement currents
   Vector tension;      ///< λ, also the initial guess of the next solve; empty unless inextensible
+  Vector poration{};   ///< s of the membrane's PorationReaction; empty without
 };
 
 /// The scalars among them that are there, one after the other: visit(Vector&).
 template <typename Fields, typename Visit>
 void for_each_scalar(Fields& fields, const Visit& visit) {
-  for (auto* scalar : {&fields.area_strain, &fields.transmembrane_potential, &fields.free_charge, &fields.tension}) {
+  for (auto* scalar :
+       {&fields.area_strain, &fields.transmembrane_potential, &fields.free_charge, &fields.tension, &fields.poration}) {
     if (scalar->size() > 0) visit(*scalar);
   }
 }

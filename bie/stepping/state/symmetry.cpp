@@ -77,6 +77,8 @@ SurfaceFields symmetric_part(const SymmetrySubspace& subspace, SurfaceFields fie
   if (fields.free_charge.size() > 0) {
     fields.free_charge = subspace.symmetric_potential(fields.free_charge);
   }
+  // V_m counts by its size alone.
+  if (fields.poration.size() > 0) fields.poration = subspace.symmetric_scalar(fields.poration);
   return fields;
 }
 

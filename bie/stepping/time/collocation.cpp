@@ -40,13 +40,14 @@ Residual Collocation::residual(std::size_t m) const {
     const SurfaceFields& from = start.vesicles[a];
     const SurfaceFields& to = nodes_[m].vesicles[a].material;
     Residual::OfVesicle r{from.position - to.position, from.transmembrane_potential - to.transmembrane_potential,
-                          from.free_charge - to.free_charge};
+                          from.free_charge - to.free_charge, from.poration - to.poration};
     for (std::size_t j = 0; j < rates_.size(); ++j) {
       const double weight = dt_ * weights[static_cast<Index>(j)];
       const Rate::OfVesicle& rate = rates_[j].vesicles[a];
       if (rate.velocity.size() > 0) r.position += weight * rate.velocity;
       if (rate.potential.size() > 0) r.potential += weight * rate.potential;
       if (rate.free_charge.size() > 0) r.free_charge += weight * rate.free_charge;
+      if (rate.poration.size() > 0) r.poration += weight * rate.poration;
     }
     residual.vesicles.push_back(std::move(r));
   }

@@ -41,6 +41,7 @@ Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fi
   rate.velocity = solution.is_sphere ? rigid_sphere_velocity(membrane, fields.velocity) : fields.velocity;
   rate.potential = solution.potential_rate;
   rate.free_charge = solution.free_charge_rate;
+  rate.poration = solution.poration_rate;
   rate.charge = fields.charge_amplitude.size() > 0 ? fields.charge_amplitude : Matrix(fields.charge);
   rate.potential_amplitude = fields.potential_amplitude;
   if (fields.tension.size() > 0 && !solution.is_sphere) {
@@ -94,10 +95,15 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   for (const VesicleState& vesicle : start_.vesicles) {
     charged.push_back({vesicle.transmembrane_potential, vesicle.free_charge});
   }
-  if (charges()) charge(electric_at(result.time), dt, charged);
+  const bool is_linear = charges() && !porates();
+  if (is_linear) charge(electric_at(result.time), dt, charged);
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = start_.vesicles[a];
-    if (charges()) take(std::move(charged[a]), result.time, a, fields);
+    if (is_linear) take(std::move(charged[a]), result.time, a, fields);
+    if (porates()) {
+      const PorousStep step{{fields.transmembrane_potential, fields.poration}, {}, dt};
+      porate(a, step, electric_at(result.time)[a], result.time, fields);
+    }
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
     if (model_.mobile) fields.tension = instantaneous.tension;
     const auto rigid = [&](const Membrane& sphere) { return motion_of_velocity(sphere, instantaneous.velocity, dt); };
@@ -112,7 +118,8 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
   for (const Residual::OfVesicle& of_vesicle : r.vesicles) {
     changes.push_back({of_vesicle.potential, of_vesicle.free_charge});
   }
-  if (charges()) {
+  const bool is_linear = charges() && !porates();
+  if (is_linear) {
     std::vector<ElectricParameters> homogeneous = electric_at(y.time);
     for (ElectricParameters& electric : homogeneous) electric.field.setZero();
     charge(homogeneous, dt, changes);
@@ -120,7 +127,13 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
-    if (charges()) {
+    if (porates()) {
+      const PorousStep step{{fields.transmembrane_potential, fields.poration},
+                            PorousState{r.vesicles[a].potential, r.vesicles[a].poration},
+                            dt};
+      porate(a, step, electric_at(y.time)[a], result.time, fields);
+    }
+    if (is_linear) {
       changes[a].potential += fields.transmembrane_potential;
       changes[a].free += fields.free_charge;
       take(std::move(changes[a]), result.time, a, fields);
@@ -181,6 +194,31 @@ void StepOperations::charge(const std::vector<ElectricParameters>& electric, dou
   }
   iterations_electric_ += report.iterations;
   if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
+}
+
+bool StepOperations::porates() const {
+  return std::any_of(model_.vesicles.begin(), model_.vesicles.end(),
+                     [](const VesicleModel& vesicle) { return vesicle.reaction != nullptr; });
+}
+
+/// V_m and the state of poration of one vesicle after an implicit step.
+void StepOperations::porate(std::size_t a, const PorousStep& step, const ElectricParameters& electric, double time,
+                            SurfaceFields& fields) {
+  const auto timer = instruments_.time("electric");
+  const VesicleModel& vesicle = model_.vesicles[a];
+  const Membrane& membrane = *at_start_.vesicles[a].membrane;
+  if (!charges()) {
+    // Pores close where there is no V_m any more.
+    fields.poration = react(*vesicle.reaction, membrane.fine, step, fields.transmembrane_potential);
+    return;
+  }
+  PorousState state;
+  const SolveReport report = charge_porous_membrane(electric, vesicle.charging, *vesicle.reaction, membrane, step,
+                                                    discretisation_.settings().electric_tolerance, state);
+  iterations_electric_ += report.iterations;
+  if (!report.converged()) throw ConvergenceError("charging of a membrane that porates did not converge");
+  take({std::move(state.potential), {}}, time, a, fields);
+  fields.poration = std::move(state.reaction);
 }
 
 void StepOperations::take(Charge charge, double time, std::size_t a, SurfaceFields& fields) const {
@@ -259,6 +297,12 @@ double StepOperations::potential_difference(std::size_t a, const SurfaceFields& 
   return change.cwiseAbs().maxCoeff() / potential_scale(*model_.electric, at_start_.vesicles[a].membrane->radius, size);
 }
 
+/// The state is a pure number that becomes of the order of one, or a logarithm.
+double StepOperations::poration_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+  if (y.poration.size() == 0) return 0.0;
+  return discretisation_.vesicle(a).fine_transform().synthesize(y.poration - x.poration).cwiseAbs().maxCoeff();
+}
+
 double StepOperations::difference(const NodeSolution& a, const NodeSolution& b) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
@@ -266,7 +310,8 @@ double StepOperations::difference(const NodeSolution& a, const NodeSolution& b) 
     const SurfaceFields& x = a.vesicles[i].material;
     const SurfaceFields& y = b.vesicles[i].material;
     const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff();
-    largest = std::max({largest, moved / at_start_.vesicles[i].membrane->radius, potential_difference(i, x, y)});
+    largest = std::max({largest, moved / at_start_.vesicles[i].membrane->radius, potential_difference(i, x, y),
+                        poration_difference(i, x, y)});
   }
   return largest;
 }
@@ -289,7 +334,7 @@ VisibleDifference StepOperations::visible_difference(const NodeSolution& a, cons
     const SurfaceFields& x = a.vesicles[i].material;
     const SurfaceFields& y = b.vesicles[i].material;
     largest.shape = std::max(largest.shape, normal_difference(i, x, y));
-    largest.potential = std::max(largest.potential, potential_difference(i, x, y));
+    largest.potential = std::max({largest.potential, potential_difference(i, x, y), poration_difference(i, x, y)});
   }
   return largest;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "bie/physics/porous_charging.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/solve/constrained_motion.hpp"
 #include "bie/stepping/solve/flow_systems.hpp"
@@ -24,6 +25,7 @@ struct Rate {
     Matrix velocity;
     Vector potential;
     Vector free_charge;             ///< of SurfaceFields::free_charge; empty without
+    Vector poration;                ///< of SurfaceFields::poration; empty without
     Matrix charge;                  ///< q, or its amplitude; empty without electricity
     Matrix potential_amplitude;     ///< of V_m in an averaged field, which is solved for at once; empty without
     double tension_integral = 0.0;  ///< ∫λ dA; 0 where a sphere leaves its mean open
@@ -35,7 +37,7 @@ struct Rate {
 /// How two solutions of one node differ in what can be seen, the largest of all vesicles.
 struct VisibleDifference {
   double shape = 0.0;      ///< of x along the normal, over the radius
-  double potential = 0.0;  ///< of V_m at material points, over its size
+  double potential = 0.0;  ///< of V_m at material points, over its size, and of the state of poration
 };
 
 /// How two rates of one node differ in what is solved for at once, the largest of all vesicles.
@@ -50,6 +52,7 @@ struct Residual {
     Matrix position;
     Vector potential;
     Vector free_charge;  ///< empty without displacement currents
+    Vector poration;     ///< empty without a membrane that porates
   };
   std::vector<OfVesicle> vesicles;
 };
@@ -62,7 +65,8 @@ enum class NodeEnd { material, remapped };
 ///
 /// - rate: F(y), everything solved anew at y;
 /// - implicit solve: (1 − dt L)⁻¹ with the stiff part L of F at the start, bending and tension by (27) and (28), the
-///   charging of the membranes by (30);
+///   charging of the membranes by (30), of those that porate together with what makes them conduct, which is not
+///   linear;
 /// - projection: each solve is repeated for what it leaves until area elements, areas and volumes hold;
 /// - remap: the end of the step on nodes that keep the grid good.
 ///
@@ -131,6 +135,10 @@ class StepOperations {
     Vector potential, free;
   };
   void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges);
+  [[nodiscard]] double poration_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
+  [[nodiscard]] bool porates() const;
+  void porate(std::size_t vesicle, const PorousStep& step, const ElectricParameters& electric, double time,
+              SurfaceFields& fields);
   void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end) const;

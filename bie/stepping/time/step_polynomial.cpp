@@ -72,6 +72,7 @@ void StepPolynomial::correct(NodeSolution& solution, Fit fit) const {
       fields.position += weight * (to.position - from.position);
       fields.transmembrane_potential += weight * (to.transmembrane_potential - from.transmembrane_potential);
       fields.free_charge += weight * (to.free_charge - from.free_charge);
+      fields.poration += weight * (to.poration - from.poration);
     }
     // A guess for what is solved anew.
     fields.tension = y_.node(y_.last()).vesicles[a].material.tension;

@@ -1,0 +1,79 @@
+#include "bie/physics/pore_density.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vehd {
+
+namespace {
+
+/// u with u + exp(u) = z, by Newton's method from above, which falls towards it.
+double log_of_product_log(double z) {
+  double u = z > 1.0 ? std::log(z) : z;
+  constexpr int kMost = 64;
+  for (int i = 0; i < kMost; ++i) {
+    const double power = std::exp(u);
+    const double next = u - (u + power - z) / (1.0 + power);
+    if (!(next < u)) break;
+    u = next;
+  }
+  return u;
+}
+
+}  // namespace
+
+double pore_conductance(double radius, double thickness, double conductivity) {
+  return 2.0 * std::numbers::pi * radius * radius * conductivity / (std::numbers::pi * radius + 2.0 * thickness);
+}
+
+double pore_conductivity(double inside, double outside) {
+  // (x − 1)/ln x = expm1(y)/y of y = ln x, 1 where both are the same.
+  const double y = std::log(outside / inside);
+  return y == 0.0 ? inside : inside * std::expm1(y) / y;
+}
+
+PorationReaction::Slope PoreDensity::conductance(double s) const {
+  const double conductance = p_.pore_conductance * p_.rest_density * std::exp(s);
+  return {conductance, conductance};
+}
+
+double PoreDensity::rate(double s, double potential) const {
+  const double square = std::pow(potential / p_.potential, 2);
+  return p_.creation_rate / p_.rest_density * (std::exp(square - s) - std::exp((1.0 - p_.exponent) * square));
+}
+
+PorationReaction::Slope PoreDensity::implicit_step(double known, double dt, double potential) const {
+  const double square = std::pow(potential / p_.potential, 2);
+  const double share = dt * p_.creation_rate / p_.rest_density;
+  const double lost = share * std::exp((1.0 - p_.exponent) * square);
+  // With w = share·exp(square − s), the number of pores made over those there: w + ln w = ln share + square + lost −
+  // known.
+  const double log_made = log_of_product_log(std::log(share) + square + lost - known);
+  const double made = std::exp(log_made);
+  const double by_potential = 2.0 * potential / (p_.potential * p_.potential);
+  return {known + made - lost, by_potential * (made - (1.0 - p_.exponent) * lost) / (1.0 + made)};
+}
+
+double PoreDensity::limited(double from, double to) const {
+  // Where V rises by this the creation of pores rises by the factor e.
+  const double width = 0.5 * p_.potential * p_.potential / std::max(std::abs(from), p_.potential);
+  const double change = to - from;
+  // Towards less there is nothing to run away.
+  if (std::abs(to) <= std::abs(from) || std::abs(change) <= 2.0 * width) return to;
+  return from + std::copysign(width * (1.0 + std::log(std::abs(change) / width)), change);
+}
+
+double PoreDensity::measure(double s) const { return p_.rest_density * std::exp(s); }
+
+EffectDescription PoreDensity::description() const {
+  EffectDescription d;
+  d.name = "poration";
+  d.adds =
+      "dN/dt = alpha exp((V_m/V_ep)^2) [1 - (N/N_0) exp(-q (V_m/V_ep)^2)] at material points, G_m + g_p N in place of "
+      "G_m";
+  d.unknowns = {"ln(N/N_0)"};
+  return d;
+}
+
+}  // namespace vehd
