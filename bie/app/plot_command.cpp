@@ -21,6 +21,7 @@ struct PlotOptions {
   std::string field;
   std::vector<std::string> times, columns;
   std::optional<double> border;
+  std::string curves;
   ShapesStyle style;
   bool movie = false;
   CommonOptions common;
@@ -52,7 +53,8 @@ PlotResult plot_file(const PlotOptions& options, const PlotTask& task, PictureFo
 
 /// The table of a sweep.
 ExitCode plot_table(const PlotOptions& options, const PlotTask& task) {
-  const auto pictures = plot_sweep({{options.directory}, options.columns, options.border, task.output, task.format});
+  const auto pictures =
+      plot_sweep({{options.directory}, options.columns, options.border, options.curves, task.output, task.format});
   nlohmann::json result;
   for (const auto& picture : pictures) {
     fmt::print("{}\n", picture.string());
@@ -65,8 +67,9 @@ ExitCode plot_table(const PlotOptions& options, const PlotTask& task) {
 ExitCode plot(const PlotOptions& options) {
   const PlotTask task = task_of(options);
   if (is_sweep(options.directory)) return plot_table(options, task);
-  if (!options.columns.empty() || options.border) {
-    throw InputError(fmt::format("{}: is no sweep, to whose pictures --column and --border belong", options.directory));
+  if (!options.columns.empty() || options.border || !options.curves.empty()) {
+    throw InputError(
+        fmt::format("{}: is no sweep, to whose pictures --column, --border and --curve belong", options.directory));
   }
   const auto format = format_of(options.output);
   if (options.movie && format) {
@@ -132,9 +135,16 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
       ->delimiter(',');
   command
       ->add_option("--border", options->border,
-                   "Of a sweep of two keys: the value of the column at which a line is drawn; 1 of a ratio of lengths "
+                   "Of a sweep: the value of the column at which a line is drawn; 1 of a ratio of lengths "
                    "and 0 of what has both signs if not given")
       ->type_name("VALUE");
+  command
+      ->add_option(
+          "--curve", options->curves,
+          "Of a sweep of two keys: a CSV file of both, in the units of its table, whose rows are joined to a red "
+          "line, a known border for example; an empty line begins another one")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
   command->footer("See docs/pictures.md, of sweeps docs/sweeps.md.");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] { exit_code = plot(*options); });

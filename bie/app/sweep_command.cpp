@@ -2,6 +2,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <memory>
 #include <numeric>
@@ -80,14 +81,21 @@ void show_sweep(Progress& progress, const CrewStatus& status) {
   progress.update(status.share, fmt::format("{}/{} runs  left {}", status.n_finished, status.n_runs, left));
 }
 
-nlohmann::json json_of(const SweepCount& count, const PreparedSweep& sweep) {
+/// Where the time of this call has gone, on the clock.
+struct SweepTime {
+  double runs = 0.0;  ///< set-up, steps and files of runs
+  double own = 0.0;   ///< all else: scenes, claims, results and the table
+};
+
+nlohmann::json json_of(const SweepCount& count, const PreparedSweep& sweep, const SweepTime& time) {
   return {{"runs", sweep.runs.size()}, {"completed", count.completed},
           {"stopped", count.stopped},  {"refused", count.refused},
           {"crashed", count.crashed},  {"unfinished", count.unfinished},
-          {"seconds", count.seconds},  {"table", sweep.paths.table().string()}};
+          {"seconds", count.seconds},  {"table", sweep.paths.table().string()},
+          {"run_seconds", time.runs},  {"own_seconds", time.own}};
 }
 
-void print_count(const SweepCount& count, const PreparedSweep& sweep) {
+void print_count(const SweepCount& count, const PreparedSweep& sweep, const SweepTime& time) {
   std::string text = fmt::format("{} runs: {} completed", sweep.runs.size(), count.completed);
   const auto add = [&](std::int64_t number, const char* what) {
     if (number > 0) text += fmt::format(", {} {}", number, what);
@@ -96,7 +104,9 @@ void print_count(const SweepCount& count, const PreparedSweep& sweep) {
   add(count.refused, "refused");
   add(count.crashed, "crashed");
   add(count.unfinished, "unfinished");
-  fmt::print("{}; {} of computing\ntable: {}\n", text, duration_text(count.seconds), sweep.paths.table().string());
+  text += fmt::format("; {} of computing", duration_text(count.seconds));
+  if (time.runs > 0.0) text += fmt::format(", the sweep's own work {:.2g} % of it", 100.0 * time.own / time.runs);
+  fmt::print("{}\ntable: {}\n", text, sweep.paths.table().string());
 }
 
 ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
@@ -140,9 +150,14 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
 ExitCode sweep(const SweepOptions& options) {
   // One thread until the workers are there: copies of this process are made, which have no other thread.
   const ThreadCount one(1);
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&start] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   const PreparedSweep sweep = prepared(options);
   if (!options.emit.empty()) return emit_slurm(options, sweep);
   CrewOutcome outcome;
+  SweepTime time{0.0, seconds()};
   {
     Interruption interruption;
     Progress progress(options.quiet ? Progress::Style::none : Progress::suitable_style());
@@ -157,9 +172,12 @@ ExitCode sweep(const SweepOptions& options) {
     outcome = work_as_crew(task, interruption);
     progress.finish();
   }
+  time.runs = outcome.run_seconds;
+  time.own += outcome.worker_seconds - outcome.run_seconds - seconds();
   const SweepCount count = write_sweep_table(sweep.paths, sweep.sweep, sweep.runs);
-  print_count(count, sweep);
-  write_json(options.common, json_of(count, sweep));
+  time.own += seconds();
+  print_count(count, sweep, time);
+  write_json(options.common, json_of(count, sweep, time));
   if (outcome.interrupted || !outcome.problem.empty()) {
     fmt::print(stderr, "{}; the same command goes on from here\n",
                outcome.problem.empty() ? "a signal came" : outcome.problem);

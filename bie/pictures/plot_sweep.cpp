@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/sweep_axis.hpp"
@@ -59,9 +60,31 @@ PageArea dot(const PagePoint& at, const char* colour) {
   return area;
 }
 
-void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, const SweepAxis& x, const Box& box) {
-  const SweepAxis y = axis_of_numbers(column_label(rows.columns()[column]), numbers_of_column(rows, column));
+/// Where the meaning of a column changes within its values.
+std::optional<double> border_among(const std::vector<double>& numbers, const std::string& header) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) continue;
+    least = std::min(least, number);
+    most = std::max(most, number);
+  }
+  const auto border = usual_border(header, least, most);
+  return border && least < *border && *border < most ? border : std::nullopt;
+}
+
+void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, const SweepAxis& x, const Box& box,
+                     std::optional<double> border) {
+  const std::string& header = rows.columns()[column];
+  std::vector<double> numbers = numbers_of_column(rows, column);
+  if (!border) border = border_among(numbers, header);
+  // The axis has it in its range and knows its place.
+  if (border) numbers.push_back(*border);
+  const SweepAxis y = axis_of_numbers(column_label(header), numbers);
   draw_sweep_frame(page, box, x, y, true);
+  if (border) {
+    const double height = box.bottom + y.places.back() * box.height();
+    page.lines.push_back({{{box.left, height}, {box.right, height}}, 1.0, "#000000", false});
+  }
   PageLine line{{}, 1.3, line_colour, false};
   const auto end_line = [&] {
     if (line.points.size() > 1) page.lines.push_back(line);
@@ -96,7 +119,7 @@ void draw_sweep_lines(const SweepPlotTask& task, const SweepRows& rows, const st
     const double left = lines_width * static_cast<double>(i % across);
     const double top = page.height - lines_height * static_cast<double>(i / across);
     draw_line_panel(page, rows, columns[i], x,
-                    {left + 46.0, top - lines_height + 34.0, left + lines_width - 16.0, top - 24.0});
+                    {left + 46.0, top - lines_height + 34.0, left + lines_width - 16.0, top - 24.0}, task.border);
   }
   draw_page(page, picture);
 }
@@ -112,6 +135,10 @@ std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task) {
   };
   std::vector<std::filesystem::path> pictures;
   if (rows.keys().size() == 1 || !rows.is_grid()) {
+    if (!task.curves.empty()) {
+      throw InputError(fmt::format("--curve {}: {} is of one key, curves are drawn over maps of two",
+                                   task.curves.string(), task.paths.table().string()));
+    }
     draw_sweep_lines(task, rows, columns, file("lines"));
     return {file("lines").path};
   }
@@ -119,9 +146,11 @@ std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task) {
     throw InputError(fmt::format("{}: has {} keys; pictures are drawn of one or two, other programs read the table",
                                  task.paths.table().string(), rows.keys().size()));
   }
+  std::vector<SweepCurve> curves;
+  if (!task.curves.empty()) curves = read_sweep_curves(task.curves, rows);
   for (const std::size_t column : columns) {
     const PictureFile picture = file("map_" + plain_names(rows)[column]);
-    draw_sweep_map(rows, column, task.border, picture);
+    draw_sweep_map(rows, column, task.border, curves, picture);
     pictures.push_back(picture.path);
   }
   return pictures;

@@ -53,7 +53,11 @@ std::string label_of(const std::string& key, const std::optional<KeyNumbers>& nu
 
 SweepAxis side_by_side(const std::string& label, const std::vector<std::string>& values) {
   SweepAxis axis{label, {}, {}};
-  const std::size_t every = (values.size() + most_ticks - 1) / most_ticks;
+  constexpr std::size_t long_text = 6;
+  const bool has_long_texts =
+      std::ranges::any_of(values, [](const std::string& value) { return tick_text(value).size() > long_text; });
+  const std::size_t most = has_long_texts ? most_ticks / 2 : most_ticks;
+  const std::size_t every = (values.size() + most - 1) / most;
   for (std::size_t i = 0; i < values.size(); ++i) {
     axis.places.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(values.size()));
     if (i % every == 0) axis.ticks.push_back({axis.places.back(), tick_text(values[i])});

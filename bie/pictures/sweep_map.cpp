@@ -33,13 +33,6 @@ std::string printed_column(const std::string& name) {
   return text;
 }
 
-/// Value at which a column changes its meaning.
-std::optional<double> usual_border(const std::string& header, double least, double most) {
-  if (header.starts_with("aspect_ratio_field")) return 1.0;
-  if (least < 0.0 && most > 0.0) return 0.0;
-  return std::nullopt;
-}
-
 /// One column on its grid of cells.
 class SweepCells {
  public:
@@ -143,6 +136,12 @@ void draw_pale_line(Page& page, const Box& line) {
 
 }  // namespace
 
+std::optional<double> usual_border(const std::string& header, double least, double most) {
+  if (header.starts_with("aspect_ratio_field")) return 1.0;
+  if (least < 0.0 && most > 0.0) return 0.0;
+  return std::nullopt;
+}
+
 std::string column_label(const std::string& header) {
   const std::size_t at = header.find(" [");
   if (at == std::string::npos) return printed_column(header);
@@ -176,7 +175,7 @@ void draw_sweep_frame(Page& page, const Box& box, const SweepAxis& x, const Swee
 }
 
 void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<double> border,
-                    const PictureFile& picture) {
+                    const std::vector<SweepCurve>& curves, const PictureFile& picture) {
   const Box box{50.0, 38.0, 250.0, 222.0};
   Page page{0.0, 250.0};
   const SweepCells cells(rows, column, box);
@@ -185,6 +184,13 @@ void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<dou
   draw_cells(page, cells, range, colours);
   if (!border) border = usual_border(rows.columns()[column], range.lower, range.upper);
   if (border) draw_border(page, cells, *border);
+  for (const SweepCurve& curve : curves) {
+    PageLine line{{}, 1.6, "#d62728", false};
+    for (const PagePoint& at : curve) {
+      line.points.push_back({box.left + at[0] * box.width(), box.bottom + at[1] * box.height()});
+    }
+    page.lines.push_back(std::move(line));
+  }
   draw_sweep_frame(page, box, axis_of_cells(rows.keys()[0].name, values_of_key(rows, 0)),
                    axis_of_cells(rows.keys()[1].name, values_of_key(rows, 1)), false);
   const std::string& header = rows.columns()[column];

@@ -32,6 +32,8 @@ class RunSession {
   [[nodiscard]] bool is_complete() const { return complete_; }
   /// Number of threads of the first session, where a run goes on.
   [[nodiscard]] std::optional<std::int64_t> threads_before() const { return threads_before_; }
+  /// Time that former sessions have computed.
+  [[nodiscard]] double seconds_before() const { return checkpoint_ ? checkpoint_->totals.seconds : 0.0; }
   /// What this session finds changed in the scene.
   [[nodiscard]] std::vector<SceneChange> changes() const;
 

@@ -63,6 +63,11 @@ std::string missing_program(const std::string& command) {
   return !modules.empty() && python_with(modules).empty() ? modules : "";
 }
 
+/// A sweep with few runs.
+std::string few_runs(const std::string& sweep) {
+  return std::regex_replace(sweep, std::regex("count = [0-9]+"), "count = 2");
+}
+
 /// A folder that looks like the source tree to a reader of the pages.
 struct ReaderFolder {
   TemporaryDirectory directory;
@@ -74,8 +79,8 @@ struct ReaderFolder {
       fs::create_directories(directory / folder);
       for (const auto& entry : fs::directory_iterator(fs::path(VEHD_SOURCE_DIR) / folder)) {
         const fs::path copy = fs::path(directory / folder) / entry.path().filename();
-        if (entry.path().extension() == ".toml") write_text(copy, shortened_scene(file_text(entry.path())));
-        if (entry.path().extension() == ".py") fs::copy_file(entry.path(), copy);
+        if (entry.path().extension() == ".toml") write_text(copy, few_runs(shortened_scene(file_text(entry.path()))));
+        if (entry.path().extension() == ".py" || entry.path().extension() == ".csv") fs::copy_file(entry.path(), copy);
       }
     }
     copy_some_hard_cases(directory / "");

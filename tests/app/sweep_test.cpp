@@ -188,6 +188,17 @@ BOOST_FIXTURE_TEST_CASE(pictures_show_lines_of_one_key_and_maps_of_two, SweepWor
       run_vehd({"plot", output, "--column", "aspect_ratio", "--border", "1.5", "--format", "pdf"});
   BOOST_TEST(result.exit_code == 0, result.errors);
   BOOST_TEST(result.output == output + "/plots/map_aspect_ratio.pdf\n");
+  // A curve from corner to corner, and one that is of another sweep.
+  write_text(directory / "curve.csv",
+             "numerics.dt,electric.conductivity_in\n0.25,0.5\n0.125,2.0\n\n0.2,1.0\n0.2,2.0\n");
+  BOOST_TEST(run_vehd({"plot", output, "--column", "aspect_ratio"}).exit_code == 0);
+  const std::string map = file_text(output + "/plots/map_aspect_ratio.png");
+  BOOST_TEST(run_vehd({"plot", output, "--column", "aspect_ratio", "--curve", directory / "curve.csv"}).exit_code == 0);
+  BOOST_TEST((file_text(output + "/plots/map_aspect_ratio.png") != map));
+  write_text(directory / "curve.csv", "numerics.dt,electric.conductivity_in\n0.25,1 kHz\n");
+  BOOST_TEST(run_vehd({"plot", output, "--curve", directory / "curve.csv"})
+                 .errors.find("curve.csv:2: 1 kHz of \"electric.conductivity_in\"; accepted: a number\n") !=
+             std::string::npos);
   BOOST_TEST(run_vehd({"plot", output, "--column", "aspect_ration"}).errors.find("did you mean \"aspect_ratio\"?") !=
              std::string::npos);
 }

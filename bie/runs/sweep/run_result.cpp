@@ -28,11 +28,11 @@ std::array<std::string, 2> outer_lines(const std::filesystem::path& path) {
 
 }  // namespace
 
-RunResult result_of(const RunPaths& paths, const nlohmann::json& summary) {
+RunResult result_of(const RunPaths& paths, const nlohmann::json& summary, double seconds) {
   RunResult result;
   result.verdict = summary.value("verdict", "");
   result.reason = summary.value("reason", "");
-  result.seconds = summary.value("seconds", 0.0);
+  result.seconds = seconds;
   const auto [header, last] = outer_lines(paths.history());
   const std::vector<std::string> names = csv_cells(header), values = csv_cells(last);
   for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) {

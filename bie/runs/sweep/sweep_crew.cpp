@@ -45,6 +45,10 @@ class SharedBoards {
 
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 class SweepCrew {
  public:
   SweepCrew(const CrewTask& task, Interruption& interruption)
@@ -63,17 +67,23 @@ class SweepCrew {
 
   CrewOutcome run() {
     Claims(task_.paths.runs()).tidy();
-    for (int i = 0; i < task_.n_workers; ++i) crew_.start(i);
+    for (int i = 0; i < task_.n_workers; ++i) start(i);
     while (crew_.n_working() > 0) {
       while (const auto end = crew_.next_end()) answer(*end);
       if (!outcome_.interrupted && interruption_.requested()) stop();
       tell();
       std::this_thread::sleep_for(look_interval);
     }
+    for (int i = 0; i < task_.n_workers; ++i) outcome_.run_seconds += boards_.at(i).run_seconds;
     return outcome_;
   }
 
  private:
+  void start(int number) {
+    started_[static_cast<std::size_t>(number)] = Clock::now();
+    crew_.start(number);
+  }
+
   /// In a copy of this process.
   int work(int number) {
     const ThreadCount threads(task_.n_threads);
@@ -93,6 +103,7 @@ class SweepCrew {
   void answer(const Crew::End& end) {
     WorkerBoard& board = boards_.at(end.number);
     board.share = 0.0;
+    outcome_.worker_seconds += seconds_since(started_[static_cast<std::size_t>(end.number)]);
     if (outcome_.interrupted) return;
     const bool by_itself = end.signal == 0;
     if (by_itself && end.exit_code == static_cast<int>(WorkerEnd::nothing_left)) return;
@@ -109,7 +120,7 @@ class SweepCrew {
       outcome_.problem = fmt::format("{} workers in a row were ended before one had finished a run", n_vain_starts_);
       return stop();
     }
-    crew_.start(end.number);
+    start(end.number);
   }
 
   void stop() {
@@ -133,7 +144,7 @@ class SweepCrew {
     for (int i = 0; i < task_.n_workers; ++i) in_hand += boards_.at(i).share;
     status_.n_finished = n_before_ + n_finished();
     status_.share = share_of(static_cast<double>(status_.n_finished) + in_hand);
-    status_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    status_.seconds = seconds_since(start_);
     task_.tell(status_);
   }
 
@@ -145,7 +156,8 @@ class SweepCrew {
   CrewOutcome outcome_;
   std::int64_t n_before_ = 0, n_finished_at_start_ = 0;
   int n_vain_starts_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::vector<Clock::time_point> started_ = std::vector<Clock::time_point>(static_cast<std::size_t>(task_.n_workers));
+  Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace

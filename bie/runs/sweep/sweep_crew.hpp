@@ -32,7 +32,9 @@ struct CrewTask {
 /// How a crew has ended.
 struct CrewOutcome {
   bool interrupted = false;
-  std::string problem;  ///< why workers have ended early; empty if they have not
+  std::string problem;          ///< why workers have ended early; empty if they have not
+  double worker_seconds = 0.0;  ///< on the clock, of all workers from start to end
+  double run_seconds = 0.0;     ///< of these what went into runs
 };
 
 /// Workers on this machine until nothing is left that they could claim. One that ends by a signal is replaced: by a

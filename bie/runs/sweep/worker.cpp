@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "bie/runs/session.hpp"
 #include "bie/runs/sweep/heartbeat.hpp"
@@ -16,6 +17,17 @@ namespace {
 
 /// How it went with one run.
 enum class Turn { finished, busy, interrupted, lost };
+
+/// Time on the clock since it was made.
+class TurnClock {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 class SweepWorker {
  public:
@@ -62,14 +74,19 @@ class SweepWorker {
   }
 
   Turn turn_of(const SweepRun& run, const Claim& claim) {
+    const TurnClock clock;
     try {
-      const RunResult result = result_of_turn(run, claim);
+      RunResult result = result_of_turn(run, claim);
+      // All that the run asks for: what former turns have computed, and of this one set-up, steps and files alike.
+      result.seconds += clock.seconds();
+      board_.run_seconds = board_.run_seconds + clock.seconds();
       if (heartbeat_.lost()) return Turn::lost;
       write_result(claim.directory(), result);
       claim.finish();
       ++board_.n_finished;
       return Turn::finished;
     } catch (const Interrupted&) {
+      board_.run_seconds = board_.run_seconds + clock.seconds();
       if (heartbeat_.lost()) return Turn::lost;
       claim.release();
       return Turn::interrupted;
@@ -89,7 +106,8 @@ class SweepWorker {
     require_free(RunPaths{claim.directory()});
     try {
       const RunSession session(*run.scene, {sweep_.scene_file, run.settings}, claim.directory(), true);
-      if (session.is_complete()) return result_of(session.paths(), session.last_summary());
+      const double before = session.seconds_before();
+      if (session.is_complete()) return result_of(session.paths(), session.last_summary(), before);
       const RunOutcome outcome = session.simulate(interruption_, [this](const RunStatus& status) {
         board_.share = status.end_time > 0.0 ? std::clamp(status.time / status.end_time, 0.0, 1.0) : 1.0;
       });
@@ -97,7 +115,7 @@ class SweepWorker {
         if (interruption_.requested()) throw Interrupted(outcome.reason);
         throw OutputError(outcome.reason);
       }
-      return result_of(session.paths(), session.summarise(outcome));
+      return result_of(session.paths(), session.summarise(outcome), before);
     } catch (const InputError& error) {
       return {"refused", error.what(), 0.0, {}, {}};
     } catch (const ConvergenceError& error) {

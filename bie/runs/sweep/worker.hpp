@@ -15,6 +15,7 @@ namespace vehd {
 /// What a worker tells whoever has started it, in memory that both have.
 struct WorkerBoard {
   std::atomic<std::int64_t> n_finished;  ///< runs, all that had this board together
+  std::atomic<double> run_seconds;       ///< that went into runs, on the clock; the rest is the sweep's own work
   std::atomic<double> share;             ///< of the run in hand that is done
   std::array<char, 512> problem;         ///< why it ended, where that is not plain; ends with a 0
 };

@@ -1,0 +1,119 @@
+#include <boost/test/unit_test.hpp>
+#include <fstream>
+#include <numeric>
+
+#include "bie/runs/session.hpp"
+#include "bie/runs/sweep/run_result.hpp"
+#include "bie/runs/sweep/sweep_table.hpp"
+#include "bie/runs/sweep/worker.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scenes.hpp"
+
+// What a sweep does beside its runs, counted: it must stay the same for every run, however many there are.
+BOOST_AUTO_TEST_SUITE(sweep_work)
+
+namespace {
+
+/// Reads and writes that this process has asked the system for.
+long reads_and_writes() {
+  std::ifstream file("/proc/self/io");
+  std::string name;
+  long total = 0, value = 0;
+  while (file >> name >> value) total += name == "syscr:" || name == "syscw:" ? value : 0;
+  return total;
+}
+
+template <typename Work>
+long counted(const Work& work) {
+  const long before = reads_and_writes();
+  work();
+  const long after = reads_and_writes();
+  // To look at the count is counted as well.
+  return after - before - (reads_and_writes() - after);
+}
+
+/// A sweep of n quick runs.
+struct CountedSweep {
+  TemporaryDirectory directory;
+  vehd::SweepFile sweep;
+  std::vector<vehd::SweepRun> runs;
+  vehd::SweepPaths paths{directory / "out"};
+
+  explicit CountedSweep(int n) {
+    write_text(directory / "base.toml", quick_scene("0.5"));
+    write_text(directory / "sweep.toml",
+               "scene = \"base.toml\"\n[vary]\n\"electric.conductivity_in\" = {from = 1.0, to = 2.0, count = " +
+                   std::to_string(n) + "}\n");
+    sweep = vehd::read_sweep(directory / "sweep.toml");
+    runs = vehd::runs_of(sweep);
+    std::filesystem::create_directories(paths.runs());
+  }
+
+  void leave_results() const {
+    for (const vehd::SweepRun& run : runs) {
+      std::filesystem::create_directories(paths.runs() / run.name);
+      vehd::write_result(paths.runs() / run.name, {"trustworthy", "", 1.0, {{"time", "0.5"}}, {}});
+    }
+  }
+  void work() const {
+    std::vector<std::size_t> order(runs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    vehd::Interruption interruption;
+    vehd::WorkerBoard board{};
+    BOOST_TEST(
+        (vehd::work_at_sweep(sweep, runs, order, paths.runs(), interruption, board) == vehd::WorkerEnd::nothing_left));
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_table_reads_each_result_twice_however_many_there_are) {
+  const auto accesses = [](int n) {
+    const CountedSweep sweep(n);
+    sweep.leave_results();
+    return counted([&] { BOOST_TEST(write_sweep_table(sweep.paths, sweep.sweep, sweep.runs).completed == n); });
+  };
+  const long few = accesses(20), some = accesses(40), many = accesses(80);
+  // A read of a file and one that finds its end.
+  BOOST_TEST(some - few <= 20 * 4 + 4);
+  BOOST_TEST(many - some <= 40 * 4 + 4);
+  BOOST_TEST(many > 80);
+}
+
+BOOST_AUTO_TEST_CASE(finished_runs_are_not_read_again) {
+  const CountedSweep few(2), many(50);
+  few.leave_results();
+  many.leave_results();
+  BOOST_TEST(counted([&] { many.work(); }) == counted([&] { few.work(); }));
+}
+
+BOOST_AUTO_TEST_CASE(a_worker_adds_a_result_to_what_a_run_writes_alone) {
+  const auto added_by_worker = [](int n) {
+    const CountedSweep sweep(n);
+    const long alone = counted([&] {
+      vehd::Interruption interruption;
+      for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
+        const vehd::RunSession session(*sweep.runs[i].scene, {sweep.sweep.scene_file, {}},
+                                       sweep.directory / ("alone" + std::to_string(i)), true);
+        static_cast<void>(session.summarise(session.simulate(interruption, {})));
+      }
+    });
+    BOOST_TEST(alone > 20 * n);
+    return counted([&] { sweep.work(); }) - alone;
+  };
+  // Of each run the history is read for its last row, and result.json written.
+  BOOST_TEST(added_by_worker(5) - added_by_worker(2) <= 3 * 4);
+}
+
+BOOST_AUTO_TEST_CASE(seconds_of_a_run_are_those_of_all_its_work) {
+  const CountedSweep sweep(2);
+  sweep.work();
+  const std::filesystem::path directory = sweep.paths.runs() / sweep.runs[0].name;
+  const auto summary = nlohmann::json::parse(std::ifstream(directory / "summary.json"));
+  const auto result = vehd::read_result(directory);
+  BOOST_TEST_REQUIRE(result.has_value());
+  // The steps, and around them set-up and files.
+  BOOST_TEST(result->seconds > summary["seconds"].get<double>());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
