@@ -25,7 +25,6 @@ const auto flow = [](auto& scene) -> auto& { return *scene.flow; };
 const auto electric = [](auto& scene) -> auto& { return *scene.electric; };
 const auto flow_waveform = [](auto& scene) -> auto& { return *scene.flow->waveform; };
 const auto electric_waveform = [](auto& scene) -> auto& { return *scene.electric->waveform; };
-const auto poration = [](auto& scene) -> auto& { return *scene.poration; };
 const auto numerics = [](auto& scene) -> auto& { return scene.numerics; };
 const auto output = [](auto& scene) -> auto& { return scene.output; };
 
@@ -236,59 +235,6 @@ void add_electric_keys(KeyTable& table) {
              "the shape follows the mean force of a period, and V_m is known by amplitude and phase; see "
              "docs/experiments/ac_field_averaged.md"},
             electric_waveform, &WaveformScene::average);
-}
-
-void add_poration_keys(KeyTable& table) {
-  table.begin("poration");
-  table
-      .add_word("model", {"criterion", "porosity", "pores"},
-                "criterion: when and where a threshold is passed first, which changes nothing; porosity: G_m + G_1 X "
-                "with dX/dt = max((β − X)/τ_ep, (β − X)/τ_res), β = ½[1 + tanh k(|V_m|/V_r − 1)]; pores: G_m + N g_p "
-                "with dN/dt = α exp((V_m/V_ep)²)[1 − (N/N_0) exp(−q(V_m/V_ep)²)], g_p = 2πr²σ_p/(πr + 2h); see "
-                "docs/experiments/poration.md",
-                poration, &PorationScene::model)
-      .required = true;
-  table.begin("poration", {"criterion"});
-  table.add("threshold_Vm", positive, {"V_c", "potential", "of |V_m|; this, lysis_tension or both"}, poration,
-            &PorationScene::threshold_potential);
-  table.add("lysis_tension", positive, {"λ_c", "force/length", "of λ + C_m V_m²/2; this, threshold_Vm or both"},
-            poration, &PorationScene::lysis_tension);
-  table.begin("poration", {"porosity"});
-  table
-      .add("threshold_Vm", positive, {"V_r", "potential", "where β is a half"}, poration,
-           &PorationScene::threshold_potential)
-      .required = true;
-  table
-      .add("porated_conductance", not_negative, {"G_1", "conductance/area", "beyond G_m where X is 1"}, poration,
-           &PorationScene::porated_conductance)
-      .required = true;
-  table.add("steepness", positive, {"k", "1", "of β"}, poration, &PorationScene::steepness);
-  table.add("poration_time", positive, {"τ_ep", "time", "in which X rises"}, poration, &PorationScene::poration_time)
-      .required = true;
-  table
-      .add("resealing_time", positive, {"τ_res", "time", "in which X falls, longer than poration_time"}, poration,
-           &PorationScene::resealing_time)
-      .required = true;
-  table.begin("poration", {"pores"});
-  table
-      .add("creation_rate", positive, {"α", "1/(area time)", "of pores without V_m"}, poration,
-           &PorationScene::creation_rate)
-      .required = true;
-  table
-      .add("creation_Vm", positive, {"V_ep", "potential", "creation rises by the factor e where V_m reaches it"},
-           poration, &PorationScene::threshold_potential)
-      .required = true;
-  table.add("rest_density", positive, {"N_0", "1/area", "of pores without V_m"}, poration, &PorationScene::rest_density)
-      .required = true;
-  table.add("exponent", positive, {"q", "1", "of the density in equilibrium"}, poration, &PorationScene::exponent);
-  table.add("pore_radius", positive, {"r", "length", "of all pores"}, poration, &PorationScene::pore_radius).required =
-      true;
-  table
-      .add("membrane_thickness", positive, {"h", "length", "of the membrane"}, poration,
-           &PorationScene::membrane_thickness)
-      .required = true;
-  table.add("pore_conductivity", positive, {"σ_p", "conductivity", "within pores; absent: (σ_e − σ_i)/ln(σ_e/σ_i)"},
-            poration, &PorationScene::pore_conductivity);
 }
 
 void add_numerics_keys(KeyTable& table) {

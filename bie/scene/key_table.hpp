@@ -117,4 +117,7 @@ class KeyTable {
   std::vector<KeyDescription> keys_;
 };
 
+/// Of [poration].
+void add_poration_keys(KeyTable& table);
+
 }  // namespace vehd

@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(browser_shows_the_vesicle_and_the_slider_moves_it) {
   BOOST_TEST(shown["title"] == "a <run>");
   BOOST_TEST(shown["verdict"] == json_of(run.output + "/summary.json")["verdict"]);
   BOOST_TEST(shown["fields"] == nlohmann::json::parse(R"(["V_m", "q", "tension λ", "none"])"));
-  BOOST_TEST(shown["plots"].size() == 7, shown["plots"].dump());
+  BOOST_TEST(shown["plots"].size() == 8, shown["plots"].dump());
   BOOST_TEST(shown["shapes"] == 6);
   BOOST_TEST(shown["wider_than_window"] == false);
   BOOST_TEST(shown["playing"] == "Pause");

@@ -57,6 +57,7 @@ class Vesicle:
     force_bending: Optional[np.ndarray]
     force_tension: Optional[np.ndarray]
     force_electric: Optional[np.ndarray]
+    force_contact: Optional[np.ndarray]
 
 class State:
     time: float

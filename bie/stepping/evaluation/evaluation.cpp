@@ -27,6 +27,7 @@ Evaluation without_operators(Evaluation evaluation) {
   for (VesicleSolution& vesicle : evaluation.vesicles) {
     vesicle.membrane.reset();
     vesicle.recycled = {};
+    vesicle.force_of_effects = {};
   }
   evaluation.interaction.reset();
   return evaluation;

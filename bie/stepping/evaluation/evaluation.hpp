@@ -19,6 +19,7 @@ struct VesicleSolution {
   std::shared_ptr<const Membrane> membrane;
   bool is_sphere = false;      ///< see uniform_tension_is_free
   Vector potential_rate;       ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
+  Matrix force_of_effects;     ///< of all explicit effects on the fluid, values on the upsampled grid; empty without
   Vector poration_rate;        ///< that of SurfaceFields::poration; empty without
   Vector free_charge_rate;     ///< that of SurfaceFields::free_charge; empty without displacement currents
   RecycledSubspaces recycled;  ///< those of the state with what the tension solve has learned

@@ -41,14 +41,6 @@ void add_electric(const ElectricParameters& electric, const Membrane& membrane, 
   r.electric_power = electric.conductivity_out * electric.field.dot(dipole);
 }
 
-/// What effects without a field of their own do.
-Matrix forces_of_effects(const Model& model, const VesicleModel& vesicle, const EffectInput& input) {
-  Forcing forcing{Matrix::Zero(input.membrane.surface.n_points(), 3), Matrix::Zero(input.position.rows(), 3)};
-  for (const auto& effect : model.effects) effect->add(input, forcing);
-  for (const auto& effect : vesicle.effects) effect->add(input, forcing);
-  return std::move(forcing.force);
-}
-
 /// Of one matrix the symmetric part without trace.
 Matrix3 deviator(const Matrix3& m) {
   const Matrix3 symmetric = 0.5 * (m + m.transpose());
@@ -89,11 +81,12 @@ Rheology find_rheology(const Model& model, const VesicleModel& vesicle, double t
   if (fields.force_electric.size() > 0) {
     add_force(-membrane.fine.synthesize(fields.force_electric), r.electric, &r.electric_force);
   }
-  if (!model.effects.empty() || !vesicle.effects.empty() || model.contact) {
-    Matrix others = forces_of_effects(model, vesicle, {membrane, state.position, time, limit});
-    if (fields.force_contact.size() > 0) others += membrane.fine.synthesize(fields.force_contact);
-    add_force(others, r.others, &r.other_force);
+  Matrix others = solution.force_of_effects;
+  if (fields.force_contact.size() > 0) {
+    if (others.size() == 0) others.setZero(s.n_points(), 3);
+    others += membrane.fine.synthesize(fields.force_contact);
   }
+  if (others.size() > 0) add_force(others, r.others, &r.other_force);
   if (vesicle.viscosity_ratio != 1.0) {
     const Matrix3 products = integral_of_products(s, membrane.fine.synthesize(fields.velocity), s.normal);
     r.viscosity = model.viscosity * (vesicle.viscosity_ratio - 1.0) * (products + products.transpose());

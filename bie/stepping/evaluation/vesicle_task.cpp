@@ -31,7 +31,11 @@ void add_poration(const VesicleTask& task) {
 }
 
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing) {
-  for (const auto& effect : explicit_effects(task.model, task.vesicle)) effect->add(input, forcing);
+  if (const auto effects = explicit_effects(task.model, task.vesicle); !effects.empty()) {
+    const Matrix without = forcing.force;
+    for (const auto& effect : effects) effect->add(input, forcing);
+    task.solution.force_of_effects = forcing.force - without;
+  }
   if (!task.vesicle.bending) return;
   const Matrix bending = bending_force(*task.vesicle.bending, task.membrane);
   task.fields.force_bending = task.membrane.fine.analyze(bending);
