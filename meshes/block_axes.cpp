@@ -152,10 +152,10 @@ BlockAxes best_axes(const FrozenShape& shape) {
   constexpr double kTie = 1e-3;
   constexpr double kClearGain = 0.05;
   constexpr double kFinestStep = 0.02;
-  const auto [principal, stretch] = find_principal_axes(shape.affine_part());
-  const std::array<bool, 3> free = free_components(stretch);
+  const PrincipalAxes principal = find_principal_axes(shape.affine_part());
+  const std::array<bool, 3> free = free_components(principal.stretch);
   const auto error_of = [&](const Point& r) {
-    return truncation_error(shape, rotated(principal, rotation_of(r)).in_directions);
+    return truncation_error(shape, rotated(principal.axes, rotation_of(r)).in_directions);
   };
 
   Point best = Point::Zero();
@@ -177,7 +177,7 @@ BlockAxes best_axes(const FrozenShape& shape) {
       }
     }
   }
-  return least < (1.0 - kClearGain) * unrotated ? rotated(principal, rotation_of(best)) : principal;
+  return least < (1.0 - kClearGain) * unrotated ? rotated(principal.axes, rotation_of(best)) : principal.axes;
 }
 
 }  // namespace vehd::meshes

@@ -167,17 +167,39 @@ class Canvas {
 
   /// Mean of the samples, in linear intensity.
   [[nodiscard]] Colour pixel(int row, int column, const Palette& palette) const {
+    const std::size_t first = static_cast<std::size_t>(row * oversampling) * width_ + column * oversampling;
+    const auto sample_at = [&](int i, int j) { return first + static_cast<std::size_t>(i) * width_ + j; };
+    int n_empty = 0;
+    for (int i = 0; i < oversampling; ++i) {
+      for (int j = 0; j < oversampling; ++j) n_empty += depth_[sample_at(i, j)] == kNothing ? 1 : 0;
+    }
+    if (n_empty == oversampling * oversampling) return {1.0, 1.0, 1.0};
+    const std::size_t middle = sample_at(oversampling / 2, oversampling / 2);
+    if (n_empty == 0 && is_smooth(sample_at(0, 0), sample_at(oversampling - 1, oversampling - 1)) &&
+        is_smooth(sample_at(0, oversampling - 1), sample_at(oversampling - 1, 0))) {
+      Colour one = colour(middle, palette);
+      for (double& component : one) component = std::min(1.0, component);
+      return one;
+    }
     Colour sum{};
     for (int i = 0; i < oversampling; ++i) {
       for (int j = 0; j < oversampling; ++j) {
-        const std::size_t sample =
-            static_cast<std::size_t>(row * oversampling + i) * width_ + column * oversampling + j;
-        const Colour one = colour(sample, palette);
+        const Colour one = colour(sample_at(i, j), palette);
         for (int c = 0; c < 3; ++c) sum[c] += std::min(1.0, one[c]);
       }
     }
     for (double& component : sum) component /= oversampling * oversampling;
     return sum;
+  }
+
+  /// Whether two samples are of one piece of surface that hardly bends between them, nor changes its shade: what lies
+  /// between them then has the light of their middle to a level of 255.
+  [[nodiscard]] bool is_smooth(std::size_t a, std::size_t b) const {
+    constexpr float bend = 3e-4F, change = 4e-3F;
+    const Eigen::Vector3f &n = seen_[a].normal, &m = seen_[b].normal;
+    const float product = n.dot(m);
+    return product > 0.0F && product * product > (1.0F - bend) * n.squaredNorm() * m.squaredNorm() &&
+           std::abs(seen_[a].shade - seen_[b].shade) < change;
   }
 
   int width_, height_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "bie/pictures/shown_numbers.hpp"
 #include "bie/scene/output_units.hpp"
@@ -65,12 +66,11 @@ SweepAxis side_by_side(const std::string& label, const std::vector<std::string>&
   return axis;
 }
 
-SweepAxis by_logarithm(const std::string& label, const KeyNumbers& numbers) {
-  const auto [least, most] = std::ranges::minmax(numbers.values);
-  const double lower = std::log10(least), upper = std::log10(most);
+/// @param lower, upper  powers of ten at the ends of the axis
+SweepAxis by_logarithm(const std::string& label, const std::vector<double>& values, double lower, double upper) {
   const auto place = [&](double value) { return (std::log10(value) - lower) / (upper - lower); };
   SweepAxis axis{label, {}, {}};
-  for (const double value : numbers.values) axis.places.push_back(place(value));
+  for (const double value : values) axis.places.push_back(place(value));
   constexpr double rounding = 1e-9;
   const auto first = static_cast<int>(std::ceil(lower - rounding)),
              last = static_cast<int>(std::floor(upper + rounding));
@@ -80,9 +80,9 @@ SweepAxis by_logarithm(const std::string& label, const KeyNumbers& numbers) {
       axis.ticks.push_back({place(std::pow(10.0, power)), fmt::format("10^{{{}}}", power)});
     }
   } else {
-    const std::size_t step = (numbers.values.size() + most_ticks - 1) / most_ticks;
-    for (std::size_t i = 0; i < numbers.values.size(); i += step) {
-      axis.ticks.push_back({axis.places[i], fmt::format("{:.3g}", numbers.values[i])});
+    const std::size_t step = (values.size() + most_ticks - 1) / most_ticks;
+    for (std::size_t i = 0; i < values.size(); i += step) {
+      axis.ticks.push_back({axis.places[i], fmt::format("{:.3g}", values[i])});
     }
   }
   return axis;
@@ -99,6 +99,17 @@ SweepAxis between(const std::string& label, const std::vector<double>& values, d
   return axis;
 }
 
+/// Whether values rise by even steps, to the digits that a table may have lost.
+bool are_even(const std::vector<double>& values) {
+  if (values.size() < 2) return false;
+  constexpr double lost = 0.01;
+  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    if (!(std::abs(values[i + 1] - values[i] - step) <= lost * step)) return false;
+  }
+  return step > 0.0;
+}
+
 }  // namespace
 
 SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& values, bool is_logarithmic) {
@@ -107,12 +118,31 @@ SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>&
   if (!numbers || numbers->values.empty()) return side_by_side(label, values);
   const auto [least, most] = std::ranges::minmax(numbers->values);
   if (!(most > least)) return side_by_side(label, values);
-  if (is_logarithmic && least > 0.0) return by_logarithm(label, *numbers);
+  if (is_logarithmic && least > 0.0) {
+    return by_logarithm(label, numbers->values, std::log10(least), std::log10(most));
+  }
   return between(label, numbers->values, least, most);
 }
 
 SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& values) {
-  return side_by_side(label_of(key, numbers_of(values)), values);
+  const auto numbers = numbers_of(values);
+  const std::string label = label_of(key, numbers);
+  if (!numbers || values.size() <= most_ticks) return side_by_side(label, values);
+  const std::vector<double>& even = numbers->values;
+  // From the outer edge of the first cell to that of the last one.
+  const double half = 0.5 / static_cast<double>(even.size() - 1);
+  const auto ends = [half](double first, double last) {
+    return std::pair(first - half * (last - first), last + half * (last - first));
+  };
+  if (are_even(even)) {
+    const auto [lower, upper] = ends(even.front(), even.back());
+    return between(label, even, lower, upper);
+  }
+  std::vector<double> powers;
+  for (const double value : even) powers.push_back(std::log10(value));
+  if (!are_even(powers)) return side_by_side(label, values);
+  const auto [lower, upper] = ends(powers.front(), powers.back());
+  return by_logarithm(label, even, lower, upper);
 }
 
 SweepAxis axis_of_numbers(const std::string& label, const std::vector<double>& values) {

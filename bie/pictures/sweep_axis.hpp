@@ -22,7 +22,8 @@ struct SweepAxis {
 /// by their logarithms if asked for; anything else side by side.
 SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& values, bool is_logarithmic);
 
-/// The same for cells of one size, one for each value in their order.
+/// The same for cells of one size, one for each value in their order. Many values with even steps, or even steps of
+/// their logarithms, have ticks at round numbers.
 SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& values);
 
 /// Of numbers with some room at both ends; NaN has no place.

@@ -85,8 +85,7 @@ std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolu
       result.push_back(a);
   }
   std::ranges::sort(result);
-  const auto repeated = std::ranges::unique(result);
-  result.erase(repeated.begin(), repeated.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
