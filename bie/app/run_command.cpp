@@ -43,13 +43,16 @@ void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
   const auto unit = summary["units"]["time"].get<std::string>();
   fmt::print("{} at time {:g}{}: {} steps ({} rejected) in {}\n",
              summary["completed"].get<bool>() ? "completed" : "stopped", summary["time"].get<double>(),
-             unit == "1" ? "" : " " + unit, summary["steps"].get<int>(),
-             summary["rejected_steps"].get<int>(), duration_text(summary["seconds"].get<double>()));
+             unit == "1" ? "" : " " + unit, summary["steps"].get<int>(), summary["rejected_steps"].get<int>(),
+             duration_text(summary["seconds"].get<double>()));
   fmt::print("bending energy ∫H² dA {:.6g}, area drift {:.1e}, volume drift {:.1e}, local strain {:.1e}\n",
              summary["bending_energy_scaled"].get<double>(), summary["area_drift"].get<double>(),
              summary["volume_drift"].get<double>(), summary["strain_max"].get<double>());
   if (summary.contains("poration")) {
     fmt::print("criterion of poration: {}\n", summary["poration"]["text"].get<std::string>());
+  }
+  if (summary.contains("error_bars") && summary["error_bars"].contains("text")) {
+    fmt::print("largest estimated error: {}\n", summary["error_bars"]["text"].get<std::string>());
   }
   fmt::print("verdict: {}\n", summary["verdict"].get<std::string>());
   fmt::print("files: {}\n", paths.directory.string());

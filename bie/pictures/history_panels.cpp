@@ -153,7 +153,8 @@ bool drifts_matter(const HistoryTable& history) {
 
 }  // namespace
 
-std::vector<HistoryQuantity> history_quantities(const Scene& scene, const HistoryTable& history) {
+std::vector<HistoryQuantity> history_quantities(const Scene& scene, const HistoryTable& history,
+                                                const HistoryTable* errors) {
   std::vector<HistoryQuantity> quantities;
   for (const QuantityRow& row : quantity_rows()) {
     if (!applies(row.shown, scene)) continue;
@@ -165,6 +166,10 @@ std::vector<HistoryQuantity> history_quantities(const Scene& scene, const Histor
       if (column.column == std::string_view(step_size)) values = sizes_of_steps(std::move(values));
       found.unit = history.unit(column.column);
       found.curves.push_back({column.label, row.is_logarithmic ? magnitudes(values) : values});
+      if (errors != nullptr && !row.is_logarithmic && errors->has(column.column)) {
+        found.curves.back().errors = errors->column(column.column);
+        found.curves.back().errors.resize(values.size(), std::numeric_limits<double>::quiet_NaN());
+      }
     }
     if (row.label == shown_quantity::aspect && found.curves.empty()) {
       if (auto curve = ratio_of_extents(history)) found.curves.push_back(std::move(*curve));
@@ -175,8 +180,8 @@ std::vector<HistoryQuantity> history_quantities(const Scene& scene, const Histor
   return quantities;
 }
 
-std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history) {
-  const std::vector<HistoryQuantity> all = history_quantities(scene, history);
+std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history, const HistoryTable* errors) {
+  const std::vector<HistoryQuantity> all = history_quantities(scene, history, errors);
   std::vector<HistoryPanel> panels;
   const auto add = [&](std::initializer_list<std::string_view> labels) {
     HistoryPanel panel;

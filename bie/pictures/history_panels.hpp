@@ -12,7 +12,8 @@ namespace vehd {
 /// One line against time.
 struct HistoryCurve {
   std::string label;
-  std::vector<double> values;  ///< one for each row, NaN where there is none
+  std::vector<double> values;    ///< one for each row, NaN where there is none
+  std::vector<double> errors{};  ///< estimates likewise; empty of a run without error bars
 };
 
 /// Curves that share an axis.
@@ -26,7 +27,9 @@ struct HistoryQuantity {
 /// What tells something of a run, in this order: energy; tension; V_m and charge with a field; the inclination in a
 /// flow; the aspect ratio; the errors; the extents; step and degree where a tolerance chooses them. Curves that have no
 /// two numbers are left out, and quantities without curves.
-std::vector<HistoryQuantity> history_quantities(const Scene& scene, const HistoryTable& history);
+/// @param errors  of the history, which may have fewer rows; null without error bars
+std::vector<HistoryQuantity> history_quantities(const Scene& scene, const HistoryTable& history,
+                                                const HistoryTable* errors = nullptr);
 
 /// Part of a picture: one quantity with all its curves, or two with an axis at either side and the first curve of each.
 struct HistoryPanel {
@@ -36,7 +39,9 @@ struct HistoryPanel {
 /// Those of the quantities that a picture of all has room for: energy and tension, V_m and charge, inclination and
 /// aspect ratio; the errors where a drift comes near what the verdict allows; the extents where the page has room for
 /// them.
-std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history);
+/// @param errors  see history_quantities
+std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history,
+                                    const HistoryTable* errors = nullptr);
 
 /// Rows that stand for all in a drawing: of each of so many stretches those where a curve is least and greatest, so
 /// that no peak is lost, and the first and the last row.

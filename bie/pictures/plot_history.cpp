@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/history_panels.hpp"
@@ -63,7 +64,8 @@ Axis axis_of(const std::vector<double>& values, const std::string& label, double
   return axis;
 }
 
-/// Data of a curve; a line ends where the angle of an axis comes round from one side to the other.
+/// Data of a curve and of its band of errors; a line ends where the angle of an axis comes round from one side to the
+/// other.
 std::string data_block(int number, const std::vector<double>& times, const HistoryCurve& curve, double half_turn) {
   const std::vector<double>& values = curve.values;
   std::string block = fmt::format("$curve{} << END\n", number);
@@ -71,7 +73,11 @@ std::string data_block(int number, const std::vector<double>& times, const Histo
   for (const std::size_t row : rows_to_draw({&curve, 1}, picture_stretches)) {
     if (half_turn > 0.0 && std::abs(values[row] - before) > half_turn) block += "\n";
     before = values[row];
-    block += fmt::format("{:.9g} {:.9g}\n", times[row], values[row]);
+    block += fmt::format("{:.9g} {:.9g}", times[row], values[row]);
+    if (!curve.errors.empty()) {
+      block += fmt::format(" {:.9g} {:.9g}", values[row] - curve.errors[row], values[row] + curve.errors[row]);
+    }
+    block += "\n";
   }
   return block + "END\n";
 }
@@ -84,6 +90,15 @@ struct Drawing {
   [[nodiscard]] std::string line_style(std::size_t curve) const {
     return fmt::format("with lines lw {:.3g} dashtype {} lc rgb '{}'", gnuplot_line_width(format, curve_width, pixels),
                        dashes[curve], curve_colours[curve]);
+  }
+
+  /// Behind a curve what it may be wrong by; nothing of a run without error bars.
+  [[nodiscard]] std::string band(const HistoryCurve& curve, std::size_t colour, const char* axes) const {
+    if (curve.errors.empty()) return {};
+    return fmt::format(
+        "$curve{} using 1:3:4 with filledcurves fillstyle transparent solid 0.25 noborder lc rgb '{}' "
+        "axes {} notitle, ",
+        n_curves, curve_colours[colour], axes);
   }
 
   static constexpr double pixels = 4.0;
@@ -105,7 +120,8 @@ std::string axis_script(const Axis& axis, const char* name, const char* colour) 
 constexpr const char* fresh_panel =
     "unset label; unset ytics; unset y2tics; unset logscale y; unset key; set format y '%g'\n";
 /// Above the axes.
-constexpr const char* key_above = "set key at graph 0.5,1.075 center center horizontal samplen 1.4 width -1.5 maxrows 1\n";
+constexpr const char* key_above =
+    "set key at graph 0.5,1.075 center center horizontal samplen 1.4 width -1.5 maxrows 1\n";
 
 std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
   std::string data, settings = fresh_panel, plot;
@@ -116,8 +132,10 @@ std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
     constexpr double half_turn = 90.0;
     data +=
         data_block(drawing.n_curves, drawing.times, curve, curve.label.starts_with("inclination") ? half_turn : 0.0);
-    plot += fmt::format("{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
-                        drawing.line_style(i), i == 0 ? "x1y1" : "x1y2");
+    const char* axes = i == 0 ? "x1y1" : "x1y2";
+    plot += fmt::format("{}{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.band(curve, i, axes),
+                        drawing.n_curves, drawing.line_style(i), axes);
+    ++drawing.n_curves;
   }
   return data + settings + plot + "\n";
 }
@@ -153,8 +171,9 @@ std::string panel_of_common_axis(const HistoryQuantity& quantity, Drawing& drawi
     const HistoryCurve& curve = quantity.curves[i];
     all.insert(all.end(), curve.values.begin(), curve.values.end());
     data += data_block(drawing.n_curves, drawing.times, curve, 0.0);
-    plot += fmt::format("{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.n_curves++,
-                        drawing.line_style(i), gnuplot_quoted(curve.label));
+    plot += fmt::format("{}{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.band(curve, i, "x1y1"),
+                        drawing.n_curves, drawing.line_style(i), gnuplot_quoted(curve.label));
+    ++drawing.n_curves;
   }
   const std::string label = with_unit(quantity.label, quantity.unit);
   const std::string axis = quantity.is_logarithmic ? logarithmic_axis(quantity.curves, label)
@@ -167,7 +186,9 @@ std::string panel_of_common_axis(const HistoryQuantity& quantity, Drawing& drawi
 bool plot_history(const PlotTask& task, const PictureFile& file) {
   const Scene scene = read_scene(task.paths.scene());
   const HistoryTable history(task.paths.history());
-  const std::vector<HistoryPanel> panels = panels_of(scene, history);
+  std::optional<HistoryTable> errors;
+  if (scene.numerics.error_bars) errors.emplace(task.paths.history_error());
+  const std::vector<HistoryPanel> panels = panels_of(scene, history, errors ? &*errors : nullptr);
   if (panels.empty()) return false;
   const std::vector<double>& times = history.column("time");
   const Axis time_axis = axis_of(times, with_unit("time", history.unit("time")), 0.0);

@@ -27,6 +27,9 @@ class Busy {
 
 SceneRun::SceneRun(const GivenScene& given, const std::optional<std::filesystem::path>& directory, bool resume)
     : parts_(std::make_shared<Parts>(given.scene)), directory_(directory) {
+  if (!directory_ && parts_->scene.numerics.error_bars) {
+    throw InputError("\"error_bars\" in [numerics] is true, but there is no directory for history_error.csv");
+  }
   if (directory_) {
     parts_->session.emplace(parts_->scene, given.source, *directory_, resume);
     if (parts_->session->is_complete()) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "bie/files/hdf5_reader.hpp"
 #include "bie/files/hdf5_writer.hpp"
@@ -22,9 +23,13 @@ constexpr std::int64_t schema_of_one = 7, schema_of_several = 8;
 
 std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_of_several : schema_of_one; }
 
-/// Where a checkpoint has the state of a vesicle.
-std::string group_of_vesicle(std::size_t vesicle, std::size_t n_vesicles) {
-  return n_vesicles > 1 ? fmt::format("/state/{:02d}", vesicle) : "/state";
+/// Groups of states.
+constexpr const char* state_of_run = "/state";
+constexpr const char* state_of_companion = "/companion";
+
+/// Where a state has a vesicle.
+std::string group_of_vesicle(const std::string& state, std::size_t vesicle, std::size_t n_vesicles) {
+  return n_vesicles > 1 ? fmt::format("{}/{:02d}", state, vesicle) : state;
 }
 
 /// The members of a state that all vesicles share, with the names under which they are stored.
@@ -100,9 +105,20 @@ void visit_counts(CheckpointType& checkpoint, std::size_t n_vesicles, Visitor&& 
   visit("threads", checkpoint.threads);
 }
 
+/// What a companion has beside its state.
+template <typename CompanionType, typename Visitor>
+void visit_companion(CompanionType& companion, Visitor&& visit) {
+  visit("start_order", companion.start_order);
+  visit("lost", companion.lost);
+  visit("bytes", companion.bytes);
+  visit("checksum", companion.checksum);
+  visit("node", companion.node);
+  visit("waiting", companion.waiting);
+}
+
 struct WriteVisitor {
   Hdf5Writer& file;
-  std::string group = "/state";
+  std::string group;
   void operator()(const char* name, const double& value) { file.attribute(group, name, value); }
   void operator()(const char* name, const std::int64_t& value) { file.attribute(group, name, value); }
   void operator()(const char* name, const std::shared_ptr<const RecycledScalars>& known) {
@@ -131,7 +147,7 @@ struct WriteVisitor {
 
 struct ReadVisitor {
   const Hdf5Reader& file;
-  std::string group = "/state";
+  std::string group;
   void operator()(const char* name, double& value) { value = file.number_attribute(group, name); }
   void operator()(const char* name, std::int64_t& value) { value = file.integer_attribute(group, name); }
   void operator()(const char* name, std::shared_ptr<const RecycledScalars>& known) {
@@ -185,13 +201,25 @@ class SoundCheck {
     visit_counts(checkpoint, state.vesicles.size(),
                  [&](const char* name, std::int64_t value) { require(value >= 0, name); });
     require(checkpoint.start_order >= lowest_order && checkpoint.start_order <= highest_order, "start_order");
-    for (const VesicleState& vesicle : state.vesicles) check(vesicle);
-    require(std::isfinite(state.time) && std::isfinite(state.dt_next), "/state");
+    check(state);
+    if (!checkpoint.companion) return;
+    const CompanionState& companion = *checkpoint.companion;
+    check(companion.state);
+    visit_companion(companion, [&](const char* name, const auto& value) {
+      if constexpr (std::is_same_v<decltype(value), const std::int64_t&>) require(value >= 0, name);
+    });
+    require(companion.start_order >= lowest_order && companion.start_order <= highest_order, "start_order");
+    require(companion.waiting.size() == 0 || companion.waiting.cols() == companion.node.size(), state_of_companion);
   }
 
  private:
   void require(bool holds, const char* what) const {
     if (!holds) file_.refuse(fmt::format("{} is not that of a run", what));
+  }
+
+  void check(const State& state) const {
+    for (const VesicleState& vesicle : state.vesicles) check(vesicle);
+    require(std::isfinite(state.time) && std::isfinite(state.dt_next), state_of_run);
   }
 
   void check(const VesicleState& vesicle) const {
@@ -230,9 +258,30 @@ std::size_t n_vesicles_in(const Hdf5Reader& file) {
     file.refuse(fmt::format("has schema version {}; accepted: {}, {}", version, schema_of_one, schema_of_several));
   }
   std::size_t count = 0;
-  while (file.has(group_of_vesicle(count, 2))) ++count;
+  while (file.has(group_of_vesicle(state_of_run, count, 2))) ++count;
   if (count < 2) file.refuse("lacks vesicles below /state");
   return count;
+}
+
+void write_state(Hdf5Writer& file, const std::string& place, const State& state) {
+  file.group(place);
+  visit_time(state, WriteVisitor{file, place});
+  const std::size_t n = state.vesicles.size();
+  for (std::size_t a = 0; a < n; ++a) {
+    const std::string group = group_of_vesicle(place, a, n);
+    if (n > 1) file.group(group);
+    visit_vesicle(state.vesicles[a], WriteVisitor{file, group});
+  }
+}
+
+State read_state(const Hdf5Reader& file, const std::string& place, std::size_t n_vesicles) {
+  State state;
+  state.vesicles.resize(n_vesicles);
+  visit_time(state, ReadVisitor{file, place});
+  for (std::size_t a = 0; a < n_vesicles; ++a) {
+    visit_vesicle(state.vesicles[a], ReadVisitor{file, group_of_vesicle(place, a, n_vesicles)});
+  }
+  return state;
 }
 
 }  // namespace
@@ -245,12 +294,10 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.text("/scene", checkpoint.scene);
   file.text("/changes", json_of(checkpoint.changes).dump());
   file.text("/totals", totals_text(checkpoint.totals));
-  file.group("/state");
-  visit_time(checkpoint.state, WriteVisitor{file});
-  for (std::size_t a = 0; a < n; ++a) {
-    const std::string group = group_of_vesicle(a, n);
-    if (n > 1) file.group(group);
-    visit_vesicle(checkpoint.state.vesicles[a], WriteVisitor{file, group});
+  write_state(file, state_of_run, checkpoint.state);
+  if (checkpoint.companion) {
+    write_state(file, state_of_companion, checkpoint.companion->state);
+    visit_companion(*checkpoint.companion, WriteVisitor{file, state_of_companion});
   }
   replace_file(path, sealed(file.image()));
 }
@@ -264,10 +311,10 @@ Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
   checkpoint.scene = file.text("/scene");
   checkpoint.changes = read_changes(file);
   checkpoint.totals = totals_of(file.text("/totals"), file);
-  checkpoint.state.vesicles.resize(n);
-  visit_time(checkpoint.state, ReadVisitor{file});
-  for (std::size_t a = 0; a < n; ++a) {
-    visit_vesicle(checkpoint.state.vesicles[a], ReadVisitor{file, group_of_vesicle(a, n)});
+  checkpoint.state = read_state(file, state_of_run, n);
+  if (file.has(state_of_companion)) {
+    checkpoint.companion.emplace().state = read_state(file, state_of_companion, n);
+    visit_companion(*checkpoint.companion, ReadVisitor{file, state_of_companion});
   }
   SoundCheck(file).run(checkpoint);
   return checkpoint;

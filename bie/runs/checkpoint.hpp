@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,17 @@ struct RunTotals {
   double seconds = 0.0;
   std::map<std::string, std::uint64_t> kernel_evaluations;
   std::map<std::string, double> seconds_of_parts;
+};
+
+/// What error bars need to go on, see ErrorBars. Rows have the columns of history.csv, without units.
+struct CompanionState {
+  State state;                   ///< of the companion
+  std::int64_t start_order = 0;  ///< of it, see Checkpoint
+  std::int64_t lost = 0;         ///< 1 where it cannot take a step
+  Vector node;                   ///< the last row of errors at which it was
+  Matrix waiting;                ///< rows of the history of which no error is known yet
+  std::int64_t bytes = 0;        ///< of history_error.csv
+  std::int64_t checksum = 0;     ///< of these bytes
 };
 
 /// Everything that a resumed run needs to continue bit for bit, and how far the other files had got.
@@ -34,6 +46,7 @@ struct Checkpoint {
   std::int64_t snapshots_checksum = 0;  ///< of the checksums of these snapshots
   std::int64_t threads = 1;
   RunTotals totals;
+  std::optional<CompanionState> companion;  ///< of a run with error bars
 };
 
 /// Replaces the file in one step. @throws OutputError

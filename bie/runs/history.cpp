@@ -101,10 +101,19 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_by
   bytes_ = kept_bytes;
 }
 
-void HistoryFile::append(const HistoryRow& row) {
+Vector values_of(const HistoryRow& row, HistoryKind kind) {
+  const std::vector<HistoryColumn>& columns = history_columns(kind);
+  Vector values(std::ssize(columns));
+  for (Index i = 0; i < values.size(); ++i) values[i] = columns[static_cast<std::size_t>(i)].value(row);
+  return values;
+}
+
+void HistoryFile::append(const HistoryRow& row) { append(values_of(row, kind_)); }
+
+void HistoryFile::append(const Vector& values) {
   std::vector<std::string> cells;
   for (std::size_t i = 0; i < factors_.size(); ++i) {
-    cells.push_back(fmt::format("{:.17g}", history_columns(kind_)[i].value(row) * factors_[i]));
+    cells.push_back(fmt::format("{:.17g}", values[static_cast<Index>(i)] * factors_[i]));
   }
   write(csv_line(cells));
 }
@@ -159,9 +168,8 @@ HistoryTable::HistoryTable(const OutputUnits& units, HistoryKind kind) : file_("
 }
 
 void HistoryTable::append(const HistoryRow& row) {
-  for (std::size_t i = 0; i < factors_.size(); ++i) {
-    columns_[i].push_back(history_columns(kind_)[i].value(row) * factors_[i]);
-  }
+  const Vector values = values_of(row, kind_);
+  for (std::size_t i = 0; i < factors_.size(); ++i) columns_[i].push_back(values[static_cast<Index>(i)] * factors_[i]);
   ++n_rows_;
 }
 

@@ -61,6 +61,9 @@ std::vector<HistoryColumn> poration_columns(PorationModel model);
 /// How many of them a file at least has. One of an earlier vehd, which has not all, goes on with those that it has.
 std::size_t first_columns(HistoryKind kind);
 
+/// A row of the values of all columns, without units.
+Vector values_of(const HistoryRow& row, HistoryKind kind);
+
 /// Checks the first bytes of a history.csv.
 /// @throws InputError if the file is shorter, was altered there or has other columns
 void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum,
@@ -79,6 +82,8 @@ class HistoryFile {
 
   /// A row that the disk has no room for leaves nothing of itself behind. @throws OutputError
   void append(const HistoryRow& row);
+  /// A row of the values of all columns, without units. @throws OutputError
+  void append(const Vector& values);
   /// Bytes in the file so far.
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }
   /// Checksum of these bytes.

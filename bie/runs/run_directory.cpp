@@ -31,8 +31,8 @@ DirectoryLock::~DirectoryLock() { ::close(descriptor_); }
 bool admit_run(const RunPaths& paths, bool resume) {
   const bool resumable = std::filesystem::exists(paths.checkpoint());
   if (resume && resumable) return true;
-  for (const auto& file : {paths.checkpoint(), paths.history(), paths.vesicles(), paths.snapshots(), paths.xdmf(),
-                           paths.summary(), paths.scene()}) {
+  for (const auto& file : {paths.checkpoint(), paths.history(), paths.history_error(), paths.vesicles(),
+                           paths.snapshots(), paths.xdmf(), paths.summary(), paths.scene()}) {
     if (!std::filesystem::exists(file)) continue;
     if (resume) {
       throw InputError(

@@ -9,6 +9,8 @@ struct RunPaths {
   std::filesystem::path directory;
 
   [[nodiscard]] std::filesystem::path history() const { return directory / "history.csv"; }
+  /// Estimated errors of the history.
+  [[nodiscard]] std::filesystem::path history_error() const { return directory / "history_error.csv"; }
   /// Of each of several vesicles.
   [[nodiscard]] std::filesystem::path vesicles() const { return directory / "vesicles.csv"; }
   [[nodiscard]] std::filesystem::path snapshots() const { return directory / "run.h5"; }

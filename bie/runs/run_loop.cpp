@@ -21,6 +21,16 @@ NumericalSettings settings_of_files(const RunTask& task, NumericalSettings setti
   return settings;
 }
 
+std::unique_ptr<ErrorBars> error_bars_of(const RunTask& task) {
+  if (!task.scene.numerics.error_bars) return nullptr;
+  return std::make_unique<ErrorBars>(task.scene, start_of(task).companion);
+}
+
+Checkpoint with_companion(Checkpoint start, const ErrorBars* error_bars) {
+  if (error_bars != nullptr && !start.companion) start.companion = error_bars->state();
+  return start;
+}
+
 RunOutcome advance_to_end(RecordedRun& run, Interruption& interruption) {
   try {
     run.start();
@@ -42,19 +52,28 @@ RunOutcome advance_to_end(RecordedRun& run, Interruption& interruption) {
 
 RecordedRun::RecordedRun(const RunTask& task)
     : simulation_(task.scene, start_of(task), units_of(task)),
+      error_bars_(error_bars_of(task)),
       recorder_(task.paths, settings_of_files(task, simulation_.problem().settings), simulation_.problem().frame,
-                simulation_.checkpoint(), simulation_.units(), history_kind(task.scene)),
+                with_companion(simulation_.checkpoint(), error_bars_.get()), simulation_.units(),
+                history_kind(task.scene)),
       tell_(task.tell),
       after_step_(task.after_step) {}
 
 void RecordedRun::record() {
   const Simulation& simulation = simulation_;
-  recorder_.record(simulation.evolution().state(), simulation.sides(), simulation.totals());
+  const std::vector<RecordedSide> sides = simulation.sides();
+  if (error_bars_) {
+    error_bars_->add(sides);
+    const std::vector<Vector> known = error_bars_->follow(simulation.at_end());
+    recorder_.record_errors(known, error_bars_->state());
+  }
+  recorder_.record(simulation.evolution().state(), sides, simulation.totals());
   if (tell_) tell_(simulation.status());
 }
 
 void RecordedRun::start() {
   simulation_.start();
+  if (error_bars_) error_bars_->start();
   if (recorder_.n_rows() == 0) record();
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "bie/runs/checkpoint.hpp"
+#include "bie/runs/error_bars.hpp"
 #include "bie/runs/run_directory.hpp"
 #include "bie/runs/run_recorder.hpp"
 #include "bie/runs/run_status.hpp"
@@ -54,6 +56,7 @@ class RecordedRun {
   void record();
 
   Simulation simulation_;
+  std::unique_ptr<ErrorBars> error_bars_;  ///< where they are asked for
   RunRecorder recorder_;
   TellStatus tell_;
   std::function<void()> after_step_;

@@ -25,6 +25,9 @@ Checkpoint written(const RunPaths& paths, Checkpoint start, HistoryKind kind) {
   if (has_several(start)) {
     require_history(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, of_each_like(kind));
   }
+  if (start.companion) {
+    require_history(paths.history_error(), start.companion->bytes, start.companion->checksum, kind);
+  }
   write_checkpoint(paths.checkpoint(), start);
   replace_file(paths.scene(), with_changes(start.scene, start.changes));
   return start;
@@ -76,6 +79,9 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
   if (has_several(start)) {
     vesicles_.emplace(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, units, of_each_like(kind));
   }
+  if (start.companion) {
+    errors_.emplace(paths.history_error(), start.companion->bytes, start.companion->checksum, units, kind);
+  }
   xdmf_.n_vesicles = start.state.vesicles.size();
   const SphereGrid& grid = output_.grid();
   xdmf_.n_points = grid.n_points() + 2;
@@ -110,6 +116,13 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
     last_.vesicles_checksum = vesicles_->checksum();
   }
   save(totals);
+}
+
+void RunRecorder::record_errors(const std::vector<Vector>& rows, CompanionState companion) {
+  for (const Vector& row : rows) errors_->append(row);
+  companion.bytes = errors_->bytes();
+  companion.checksum = errors_->checksum();
+  last_.companion = std::move(companion);
 }
 
 void RunRecorder::keep_last_state(const Fields& fields) {

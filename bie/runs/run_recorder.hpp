@@ -22,7 +22,8 @@ namespace vehd {
 /// as a whole, and the next session lists what the last one could not.
 class RunRecorder {
  public:
-  /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one
+  /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one, and
+  ///               it has a companion where there are error bars
   /// @param settings  with the degree of the files, which must not be less than that of files that exist
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
   /// @param units  of the history: where it goes on, those that it began with
@@ -35,6 +36,9 @@ class RunRecorder {
   /// resumed run.
   /// @param state  with which a run goes on
   void record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals);
+
+  /// Rows of history_error.csv and what error bars go on with; before the rows of the step with which they came.
+  void record_errors(const std::vector<Vector>& rows, CompanionState companion);
 
   /// Adds a snapshot of the state recorded last unless it has one: that of a run which cannot go on.
   void keep_last_state(const Fields& fields);
@@ -59,6 +63,7 @@ class RunRecorder {
   SnapshotStore snapshots_;
   HistoryFile history_;
   std::optional<HistoryFile> vesicles_;  ///< of each, where there are several
+  std::optional<HistoryFile> errors_;    ///< of the history, where they are asked for
   XdmfSeries xdmf_;
   std::optional<std::chrono::steady_clock::time_point> xdmf_written_;
 };

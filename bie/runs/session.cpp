@@ -6,6 +6,7 @@
 #include "bie/runs/history.hpp"
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/summary.hpp"
+#include "bie/runs/worst_error.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -46,8 +47,11 @@ RunOutcome RunSession::simulate(Interruption& interruption, TellStatus tell) con
 }
 
 nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {
-  const nlohmann::json summary =
-      summary_of(HistoryTable(paths_.history()), scene_, read_checkpoint(paths_.checkpoint()), outcome);
+  const HistoryTable history(paths_.history());
+  nlohmann::json summary = summary_of(history, scene_, read_checkpoint(paths_.checkpoint()), outcome);
+  if (scene_.numerics.error_bars) {
+    summary["error_bars"] = worst_error(history, HistoryTable(paths_.history_error()));
+  }
   replace_file(paths_.summary(), summary.dump(2) + "\n");
   return summary;
 }

@@ -66,8 +66,8 @@ void Simulation::start() {
   last_ = attempt_of(evolution_.evaluation(), true);
 }
 
-void Simulation::step() {
-  last_ = evolution_.step(events_);
+void Simulation::step(const EventTimes& events) {
+  last_ = evolution_.step(events);
   // Rows tell of numbers alone.
   last_.state = {};
   last_.passed.clear();

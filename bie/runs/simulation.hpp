@@ -60,7 +60,9 @@ class Simulation {
   /// Whether the end of the scene is reached.
   [[nodiscard]] bool at_end() const { return evolution_.state().time >= scene_.numerics.end_time; }
   /// One accepted step. @throws ConvergenceError where none is acceptable; everything stays as it is
-  void step();
+  void step() { step(events_); }
+  /// The same towards other times than those of the scene. @throws ConvergenceError
+  void step(const EventTimes& events);
 
   /// The rows that the history gets of the start or of the last step, those of moments within it first.
   [[nodiscard]] std::vector<RecordedSide> sides() const;

@@ -266,6 +266,9 @@ void add_numerics_keys(KeyTable& table) {
   table.add_word("symmetry", {"auto", "off", "axisymmetric"},
                  "use what is found; use none; refuse a scene that is not axisymmetric about any axis", numerics,
                  &NumericsScene::symmetry);
+  table.add("error_bars", any_number,
+            {"", "", "history_error.csv: the estimated error of every number of history.csv, for a third more time"},
+            numerics, &NumericsScene::error_bars);
 }
 
 void add_output_keys(KeyTable& table) {

@@ -185,6 +185,7 @@ struct NumericsScene {
   int time_order = 1;
   double end_time = 0.0;
   SymmetryUse symmetry = SymmetryUse::automatic;
+  bool error_bars = false;
   bool operator==(const NumericsScene&) const = default;
 };
 

@@ -124,4 +124,22 @@ BOOST_AUTO_TEST_CASE(thinned_curves_keep_their_peaks_and_ends) {
   BOOST_TEST(rows_to_draw(few, 100).size() == 3);
 }
 
+BOOST_AUTO_TEST_CASE(curves_have_the_errors_of_their_columns) {
+  const auto table = [](const std::string& rows) {
+    std::istringstream stream(header + rows);
+    return HistoryTable(stream, "history.csv");
+  };
+  const HistoryTable history = table("0,0,15,1,nan,nan,2,2,4,0,0,0,0\n1,1,14,1,nan,nan,2,2,3,5,1e-12,0,1e-9\n");
+  // The errors of a run that was interrupted end earlier.
+  const HistoryTable errors = table("0,0,0.5,0,nan,nan,0.1,0.2,0.3,0,0,0,0\n");
+  const auto quantities = history_quantities(Scene(), history, &errors);
+  const auto extents = std::ranges::find(quantities, "extent", &HistoryQuantity::label);
+  BOOST_TEST_REQUIRE((extents != quantities.end()));
+  const HistoryCurve& along_y = extents->curves.at(1);
+  BOOST_TEST_REQUIRE(along_y.errors.size() == 2U);
+  BOOST_TEST(along_y.errors[0] == 0.2);
+  BOOST_TEST(std::isnan(along_y.errors[1]));
+  BOOST_TEST(history_quantities(Scene(), history).front().curves.front().errors.empty());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,218 @@
+#include "bie/runs/error_bars.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bie/runs/vesicle_rows.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// Columns that tell how the run computes: they have no error.
+constexpr std::array of_the_method = {"dt",
+                                      "iterations_flow",
+                                      "iterations_electric",
+                                      "rejected",
+                                      "order",
+                                      "truncation",
+                                      "error_estimate",
+                                      "quadrature_error",
+                                      "raw_area",
+                                      "spectrum_tail",
+                                      "wrinkle_degree",
+                                      "separation",
+                                      "gap_vesicle_a",
+                                      "gap_vesicle_b",
+                                      "gap_degree"};
+/// Columns that are errors.
+constexpr std::array of_errors = {"area_drift", "volume_drift", "strain_max"};
+
+/// How much larger the tolerance of the companion is: enough to save most of its work.
+constexpr double companion_looseness = 20.0;
+/// What that, and an order less, makes of the differences: so many errors of the run. Measured (docs/run_files.md).
+constexpr double companion_difference = 8.0;
+/// The order that a tolerance needs at least.
+constexpr int lowest_order_of_tolerance = 2;
+/// Fixed steps that are one of the companion.
+constexpr int companion_steps = 3;
+
+template <typename Names>
+bool contains(const Names& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// Moments that differ by rounding are one.
+bool is_same_time(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+
+Scene scene_of_companion(Scene scene) {
+  NumericsScene& numerics = scene.numerics;
+  if (numerics.tolerance) {
+    *numerics.tolerance *= companion_looseness;
+    // Where both happen to take the same steps, those of the same order would be the same to the last bit.
+    numerics.time_order = std::max(lowest_order_of_tolerance, numerics.time_order - 1);
+  } else {
+    *numerics.dt *= companion_steps;
+  }
+  scene.output.every.reset();
+  scene.output.times.clear();
+  scene.output.windows.clear();
+  return scene;
+}
+
+Checkpoint start_of(const std::optional<CompanionState>& from) {
+  Checkpoint start;
+  if (!from) return start;
+  start.state = from->state;
+  start.start_order = from->start_order;
+  return start;
+}
+
+/// Error of the run over its difference to the companion. That of fixed steps is Δt^k, so the companion has 3^k of it.
+double share_of_difference(const NumericsScene& numerics) {
+  if (numerics.tolerance) return 1.0 / companion_difference;
+  return 1.0 / (std::pow(companion_steps, static_cast<double>(numerics.time_order)) - 1.0);
+}
+
+/// Errors of one row, beside its time.
+Vector errors_of(const Vector& run, const Vector& companion, double share, HistoryKind kind) {
+  const std::vector<HistoryColumn>& columns = history_columns(kind);
+  Vector errors = Vector::Zero(run.size());
+  errors[0] = run[0];
+  for (Index i = 1; i < run.size(); ++i) {
+    const std::string_view name = columns[static_cast<std::size_t>(i)].name;
+    if (contains(of_the_method, name)) continue;
+    if (contains(of_errors, name)) {
+      errors[i] = std::abs(run[i]);
+      continue;
+    }
+    // What neither has is no difference.
+    const bool are_equal = run[i] == companion[i] || (std::isnan(run[i]) && std::isnan(companion[i]));
+    if (are_equal) continue;
+    double difference = std::abs(run[i] - companion[i]);
+    if (name == "inclination_deg") difference = std::min(difference, 180.0 - difference);
+    errors[i] = share * difference;
+  }
+  return errors;
+}
+
+/// Errors of a row between two others.
+Vector between(const Vector& first, const Vector& last, const Vector& run, HistoryKind kind) {
+  const double share = (run[0] - first[0]) / (last[0] - first[0]);
+  Vector errors = (1.0 - share) * first + share * last;
+  errors[0] = run[0];
+  const std::vector<HistoryColumn>& columns = history_columns(kind);
+  for (Index i = 1; i < run.size(); ++i) {
+    if (contains(of_errors, columns[static_cast<std::size_t>(i)].name)) errors[i] = std::abs(run[i]);
+  }
+  return errors;
+}
+
+}  // namespace
+
+ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& from)
+    : scene_(scene_of_companion(scene)),
+      kind_(history_kind(scene)),
+      share_(share_of_difference(scene.numerics)),
+      start_order_(from ? from->start_order : scene.numerics.order),
+      companion_(scene_, start_of(from), OutputUnits(scene_)),
+      laboratory_(companion_.problem().frame, companion_.problem().settings) {
+  if (!from) return;
+  node_ = from->node;
+  lost_ = from->lost != 0;
+  for (Index i = 0; i < from->waiting.rows(); ++i) waiting_.emplace_back(from->waiting.row(i).transpose());
+}
+
+void ErrorBars::start() {
+  try {
+    if (!lost_) companion_.start();
+  } catch (const ConvergenceError&) {
+    lost_ = true;
+  }
+}
+
+Vector ErrorBars::values_of(const RecordedSide& side) const {
+  const HistoryRow shown = row_in_laboratory(laboratory_, scene_.numerics.order, side);
+  return vehd::values_of(kind_.rows == HistoryKind::of_all ? row_of_all(shown) : shown, kind_);
+}
+
+void ErrorBars::add(const std::vector<RecordedSide>& sides) {
+  for (const RecordedSide& side : sides) waiting_.push_back(values_of(side));
+}
+
+std::vector<Vector> ErrorBars::follow(bool to_end) {
+  std::vector<Vector> known;
+  try {
+    if (!lost_ && node_.size() == 0) compare(known);
+    while (!lost_) {
+      const std::optional<double> end = next_end(to_end);
+      if (!end) break;
+      while (now() < *end && !is_same_time(now(), *end)) companion_.step({{}, *end});
+      compare(known);
+    }
+  } catch (const ConvergenceError&) {
+    lost_ = true;
+  }
+  if (lost_) give_up(known);
+  return known;
+}
+
+/// The row at which the companion is to end its next step: none if the run has not gone far enough.
+std::optional<double> ErrorBars::next_end(bool to_end) const {
+  if (waiting_.empty()) return std::nullopt;
+  const bool adapts = scene_.numerics.tolerance.has_value();
+  // Rounding of what has been added up.
+  constexpr double rounding = 1e-9;
+  const double reach = now() + companion_.evolution().state().dt_next * (1.0 + rounding);
+  double end = waiting_.front()[0];
+  int n_steps = 0;
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const double time = waiting_[i][0];
+    if (adapts && time > reach) return end;
+    end = time;
+    // Rows within a step have no size.
+    if (waiting_[i][1] > 0.0 && ++n_steps == companion_steps && !adapts) return end;
+    // Nothing is continued beyond a jump.
+    if (i + 1 < waiting_.size() && waiting_[i + 1][0] == time) return end;
+  }
+  return to_end ? std::optional(end) : std::nullopt;
+}
+
+/// The companion has come to a row, or two where the forcing jumps.
+void ErrorBars::compare(std::vector<Vector>& known) {
+  const std::vector<RecordedSide> sides = companion_.sides();
+  const auto is_here = [this](const Vector& row) { return is_same_time(row[0], now()); };
+  const auto here = std::ranges::find_if(waiting_, is_here);
+  const Vector arrival = errors_of(*here, values_of(sides.front()), share_, kind_);
+  for (; !is_here(waiting_.front()); waiting_.pop_front()) {
+    known.push_back(between(node_, arrival, waiting_.front(), kind_));
+  }
+  for (auto side = sides.begin(); side != sides.end() && !waiting_.empty() && is_here(waiting_.front()); ++side) {
+    node_ = errors_of(waiting_.front(), values_of(*side), share_, kind_);
+    known.push_back(node_);
+    waiting_.pop_front();
+  }
+}
+
+/// Nothing is known of the rows that wait.
+void ErrorBars::give_up(std::vector<Vector>& known) {
+  for (; !waiting_.empty(); waiting_.pop_front()) {
+    Vector& errors =
+        known.emplace_back(Vector::Constant(waiting_.front().size(), std::numeric_limits<double>::quiet_NaN()));
+    errors[0] = waiting_.front()[0];
+  }
+}
+
+CompanionState ErrorBars::state() const {
+  CompanionState state{companion_.evolution().state(), start_order_, lost_ ? 1 : 0, node_, {}};
+  state.waiting.resize(std::ssize(waiting_), node_.size());
+  for (Index i = 0; i < state.waiting.rows(); ++i) {
+    state.waiting.row(i) = waiting_[static_cast<std::size_t>(i)].transpose();
+  }
+  return state;
+}
+
+}  // namespace vehd

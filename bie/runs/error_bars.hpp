@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "bie/runs/checkpoint.hpp"
+#include "bie/runs/history.hpp"
+#include "bie/runs/simulation.hpp"
+
+namespace vehd {
+
+/// Estimated errors of a history from a second run of the scene that is less exact, the companion.
+///
+/// With a tolerance the companion has a larger one and an order less, and chooses degree and steps for itself; with
+/// fixed steps it makes one of three. It lags behind the run by one of its steps at most and ends each on a row of the
+/// history. What the motion has done to errors since is in those of both: if those of the companion are ρ times as
+/// large, then the difference over ρ − 1 is the error of the run. Between two steps of the companion it is linear.
+///
+/// Accuracy: see docs/run_files.md
+/// Source: of this project
+class ErrorBars {
+ public:
+  /// @param scene  of the run
+  /// @param from   of a run that goes on; absent: a new one
+  /// @throws ConvergenceError
+  ErrorBars(const Scene& scene, const std::optional<CompanionState>& from);
+
+  /// Solves everything at the start.
+  void start();
+  /// New rows of the history, those of the start and of every step.
+  void add(const std::vector<RecordedSide>& sides);
+  /// Lets the companion follow.
+  /// @param to_end  no further rows will come
+  /// @return  rows of history_error.csv that are known now, in the order and with the columns of the history: the time,
+  ///          then errors. Not numbers once the companion cannot take a step
+  std::vector<Vector> follow(bool to_end);
+  /// With which a resumed run goes on.
+  [[nodiscard]] CompanionState state() const;
+
+ private:
+  [[nodiscard]] double now() const { return companion_.evolution().state().time; }
+  [[nodiscard]] Vector values_of(const RecordedSide& side) const;
+  [[nodiscard]] std::optional<double> next_end(bool to_end) const;
+  void compare(std::vector<Vector>& known);
+  void give_up(std::vector<Vector>& known);
+
+  Scene scene_;  ///< of the companion
+  HistoryKind kind_;
+  double share_;              ///< of a difference that is the error
+  std::int64_t start_order_;  ///< of the companion
+  Simulation companion_;
+  LabFrameOutput laboratory_;
+  std::deque<Vector> waiting_;  ///< rows of the history without an error yet
+  Vector node_;                 ///< the last row of errors at which the companion was
+  bool lost_ = false;           ///< it cannot take a step
+};
+
+}  // namespace vehd

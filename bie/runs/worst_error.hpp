@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "bie/runs/history.hpp"
+
+namespace vehd {
+
+/// The largest of the estimated errors, each over the largest value of its column; of angles over a radian. Counts
+/// shape, energy, tension and potentials, but for what vanishes by symmetry.
+/// @param errors  history_error.csv, which may have fewer rows than the history
+/// @return  rows that have errors; where there are any also worst, column, time and a text of them
+nlohmann::json worst_error(const HistoryTable& history, const HistoryTable& errors);
+
+}  // namespace vehd

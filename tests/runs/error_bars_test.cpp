@@ -1,0 +1,134 @@
+#include "bie/runs/error_bars.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "bie/runs/resumption.hpp"
+#include "bie/runs/run_loop.hpp"
+#include "bie/runs/worst_error.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/support/errors.hpp"
+#include "tests/support/files.hpp"
+
+BOOST_AUTO_TEST_SUITE(error_bars)
+
+namespace {
+
+/// An ellipsoid that relaxes, as it is charged by a pulse.
+vehd::Scene pulsed(const std::string& numerics) {
+  return vehd::parse_scene(
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\ncapacitance = 1.0\n"
+      "[electric]\nfield = [0, 0, 2]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+      "[electric.waveform]\nkind = \"pulse\"\nduration = 0.23\n"
+      "[numerics]\nend_time = 0.4\nerror_bars = true\n" +
+          numerics,
+      "scene.toml", ".");
+}
+
+/// A run in a directory of its own.
+struct Files {
+  TemporaryDirectory directory;
+  vehd::RunPaths paths{directory / "run"};
+
+  Files() { vehd::make_directory(paths.directory); }
+
+  /// Goes on for so many steps, or to the end, and leaves the files as a kill would.
+  void go_on(const vehd::Scene& scene, int n_steps = -1) const {
+    std::optional<vehd::Checkpoint> checkpoint;
+    if (std::filesystem::exists(paths.checkpoint())) checkpoint = vehd::read_checkpoint(paths.checkpoint());
+    vehd::RecordedRun run({scene, paths, checkpoint});
+    run.start();
+    for (; n_steps != 0 && !run.simulation().at_end(); --n_steps) run.step();
+  }
+  [[nodiscard]] vehd::HistoryTable history() const { return vehd::HistoryTable(paths.history()); }
+  [[nodiscard]] vehd::HistoryTable errors() const { return vehd::HistoryTable(paths.history_error()); }
+};
+
+/// Share of the rows in which the estimate is within a factor of five of what is true.
+double share_of_good(const Files& run, const Files& exact, const std::string& column) {
+  const vehd::HistoryTable values = run.history(), errors = run.errors(), reference = exact.history();
+  BOOST_TEST_REQUIRE(errors.n_rows() == values.n_rows());
+  BOOST_TEST_REQUIRE(reference.n_rows() == values.n_rows());
+  int good = 0;
+  for (std::size_t i = 1; i < values.n_rows(); ++i) {
+    const double error = std::abs(values.column(column)[i] - reference.column(column)[i]);
+    const double ratio = errors.column(column)[i] / error;
+    if (ratio > 0.2 && ratio < 5.0) ++good;
+  }
+  return good / static_cast<double>(values.n_rows() - 1);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(steps_of_fixed_size_know_their_error) {
+  for (const std::string order : {"1", "2"}) {
+    const Files run, exact;
+    run.go_on(pulsed("degree = 6\ndt = 0.01\ntime_order = " + order));
+    exact.go_on(pulsed("degree = 6\ndt = 0.01\ntime_order = 4"));
+    for (const char* column : {"extent_z", "bending_energy_scaled", "Vm_north"}) {
+      BOOST_TEST(share_of_good(run, exact, column) >= 0.9, column << " at order " << order);
+    }
+    const vehd::HistoryTable errors = run.errors(), history = run.history();
+    BOOST_TEST(errors.column("time") == history.column("time"), boost::test_tools::per_element());
+    BOOST_TEST(errors.largest_magnitude("dt") == 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_tolerance_has_errors_at_every_row) {
+  const Files run;
+  run.go_on(pulsed("tolerance = 1e-2\n[output]\nevery = 0.05"));
+  const vehd::HistoryTable errors = run.errors(), history = run.history();
+  BOOST_TEST_REQUIRE(errors.n_rows() == history.n_rows());
+  for (std::size_t i = 1; i < errors.n_rows(); ++i) {
+    BOOST_TEST(errors.column("time")[i] == history.column("time")[i]);
+    const double error = errors.column("extent_z")[i] / history.column("extent_z")[i];
+    BOOST_TEST((error > 0.0 && error < 1e-2), error);
+  }
+  // The tension jumps with the field, and its error with it; neither is taken for the other.
+  const nlohmann::json worst = vehd::worst_error(history, errors);
+  BOOST_TEST(worst.at("worst").get<double>() < 0.05, worst.dump());
+}
+
+BOOST_AUTO_TEST_CASE(a_resumed_run_has_the_same_errors_bit_for_bit) {
+  for (const std::string numerics : {"degree = 6\ndt = 0.01", "tolerance = 1e-2\n[output]\nevery = 0.05"}) {
+    const vehd::Scene scene = pulsed(numerics);
+    const Files whole, parts;
+    whole.go_on(scene);
+    for (int part = 0; part < 4; ++part) parts.go_on(scene, 3);
+    parts.go_on(scene);
+    BOOST_TEST((file_text(parts.paths.history()) == file_text(whole.paths.history())));
+    BOOST_TEST((file_text(parts.paths.history_error()) == file_text(whole.paths.history_error())));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_numerics_of_both_stay_what_they_were) {
+  const vehd::Scene before = pulsed("degree = 6\ndt = 0.01"), after = pulsed("degree = 6\ndt = 0.005");
+  const Files run;
+  run.go_on(before, 3);
+  const vehd::SceneSource source{"scene.toml", {}, ""};
+  const auto names_the_key = [](const vehd::InputError& error) {
+    return std::string(error.what()).find("\"numerics.dt\" is 0.005") != std::string::npos &&
+           std::string(error.what()).find("error_bars compare two runs from the start") != std::string::npos;
+  };
+  const vehd::Checkpoint checkpoint = vehd::read_checkpoint(run.paths.checkpoint());
+  BOOST_CHECK_EXCEPTION(vehd::require_same_physics(after, source, checkpoint, run.paths), vehd::InputError,
+                        names_the_key);
+}
+
+BOOST_AUTO_TEST_CASE(the_worst_error_is_that_over_the_size_of_its_column) {
+  const auto table = [](const std::string& rows) {
+    std::istringstream stream("time,extent_x,Vm_north,Vm_max,inclination_deg,dipole_x\n" + rows);
+    return vehd::HistoryTable(stream, "history.csv");
+  };
+  // What vanishes by symmetry has errors of its own size, and the angle is measured by a radian.
+  const vehd::HistoryTable history = table("0,2,1e-18,1,0,0\n1,4,1e-18,1,0.1,0\n2,4,0,1,0,0\n");
+  const vehd::HistoryTable errors = table("0,0,1e-18,0,0,1\n1,0.1,1e-18,0.02,0.05,1\n");
+  const nlohmann::json worst = vehd::worst_error(history, errors);
+  BOOST_TEST(worst.at("rows") == 2);
+  BOOST_TEST(worst.at("column") == "extent_x");
+  BOOST_TEST(worst.at("worst").get<double>() == 0.025);
+  BOOST_TEST(worst.at("text") == "2.5e-02 of extent_x at time 1");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
