@@ -43,6 +43,14 @@ void require_no_reaction(const Scene& scene, const std::filesystem::path& file) 
                   file.string()));
 }
 
+/// Nor a membrane that is not the same everywhere.
+void require_no_places(const Scene& scene, const std::filesystem::path& file) {
+  if (!has_places(scene)) return;
+  throw InputError(fmt::format(
+      "{}: has a membrane that differs from place to place; vehd check accepts [membrane] without further tables",
+      file.string()));
+}
+
 void require_start(const std::filesystem::path& file, const std::optional<std::string>& time) {
   // Of a time that is not 0 the unit does not matter.
   UnitsScene any;
@@ -70,6 +78,7 @@ FrozenState start_of_scene(const SceneSource& source) {
   require_instant(scene, source.file);
   require_no_relaxing_charge(scene, source.file);
   require_no_reaction(scene, source.file);
+  require_no_places(scene, source.file);
   FrozenState frozen;
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
@@ -94,6 +103,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   require_instant(scene, file);
   require_no_relaxing_charge(scene, file);
   require_no_reaction(scene, file);
+  require_no_places(scene, file);
   FrozenState frozen;
   frozen.source = file.string();
   frozen.note = choice.note;

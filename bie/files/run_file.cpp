@@ -27,7 +27,11 @@ const DatasetLabel charge_amplitude_label{"potential/length",
                                           "magnitude of the amplitude of q in an averaged ac field"};
 const DatasetLabel charge_part_label{"potential/length", "part of the amplitude z of q, which is Re(z exp(i omega t))"};
 const DatasetLabel poration_label{"1", "state of poration: porosity X, or ln(N/N_0) of a density N of pores"};
-const DatasetLabel conductance_label{"conductance/area", "conductance G_m of a membrane that porates"};
+const DatasetLabel conductance_label{"conductance/area", "conductance G_m where it varies"};
+const DatasetLabel capacitance_label{"capacitance/area", "capacitance C_m where it varies"};
+const DatasetLabel pump_label{"current/area", "pump current J_p, outwards, where its waveform is 1"};
+const DatasetLabel modulus_label{"energy", "bending modulus kappa_B where it or c varies"};
+const DatasetLabel curvature_label{"1/length", "spontaneous curvature c where it or kappa_B varies"};
 const DatasetLabel tension_label{"force/length", "membrane tension lambda"};
 const DatasetLabel strain_label{"1", "area strain W/W_ref - 1 of the material"};
 
@@ -156,7 +160,8 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, cons
   writer.field("q", f.charge, charge_label);
   write_amplitudes(writer, f.potential_amplitude, f.charge_amplitude);
   writer.field("poration", vesicle.poration, poration_label);
-  writer.field("conductance", f.conductance, conductance_label);
+  const MembraneMaterial& material = vesicle.material;
+  writer.field("conductance", f.conductance.size() > 0 ? f.conductance : material.conductance, conductance_label);
   writer.field("tension", f.tension, tension_label);
   if (vesicle.area_strain.size() == vesicle.position.rows()) {
     writer.field("area_strain", vesicle.area_strain, strain_label);
@@ -165,6 +170,10 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, cons
   }
   writer.grid_field("area_element", make_surface(transform, vesicle.position).area_element,
                     {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
+  writer.field("capacitance", material.capacitance, capacitance_label);
+  writer.field("pump_current", material.pump_current, pump_label);
+  writer.field("bending_modulus", material.bending_modulus, modulus_label);
+  writer.field("spontaneous_curvature", material.spontaneous_curvature, curvature_label);
 }
 
 }  // namespace

@@ -17,10 +17,30 @@ constexpr std::int64_t run_schema_version = 1;
 
 /// Datasets that a snapshot may have, in the order in which its checksum takes them; each on the grid, in coefficients/
 /// and in surface/.
-constexpr std::array<std::string_view, 20> snapshot_fields = {
-    "x",           "velocity",     "force_bending", "force_tension", "force_electric", "force_contact", "Vm",
-    "q",           "Vm_amplitude", "Vm_phase_deg",  "Vm_real",       "Vm_imaginary",   "q_amplitude",   "q_real",
-    "q_imaginary", "poration",     "conductance",   "tension",       "area_strain",    "area_element"};
+constexpr std::array<std::string_view, 24> snapshot_fields = {"x",
+                                                              "velocity",
+                                                              "force_bending",
+                                                              "force_tension",
+                                                              "force_electric",
+                                                              "force_contact",
+                                                              "Vm",
+                                                              "q",
+                                                              "Vm_amplitude",
+                                                              "Vm_phase_deg",
+                                                              "Vm_real",
+                                                              "Vm_imaginary",
+                                                              "q_amplitude",
+                                                              "q_real",
+                                                              "q_imaginary",
+                                                              "poration",
+                                                              "conductance",
+                                                              "tension",
+                                                              "area_strain",
+                                                              "area_element",
+                                                              "capacitance",
+                                                              "pump_current",
+                                                              "bending_modulus",
+                                                              "spontaneous_curvature"};
 /// Where a snapshot has each of them.
 constexpr std::array<std::string_view, 3> snapshot_parts = {"", "coefficients/", "surface/"};
 

@@ -1,5 +1,7 @@
 #include "bie/physics/bending.hpp"
 
+#include "bie/physics/elasticity_by_place.hpp"
+
 namespace vehd {
 
 namespace {
@@ -32,6 +34,11 @@ Vector curvature_increment(const Membrane& membrane, const SphereDerivatives& di
 }
 
 Matrix linearised_bending_force(const BendingParameters& bending, const Membrane& membrane, const Vector& increment) {
+  if (bends_by_place(membrane)) {
+    const Vector& modulus = membrane.material.bending_modulus;
+    const Vector moment = modulus.cwiseProduct(Vector(membrane.fine.synthesize(increment)));
+    return force_of_curvature({1.0}, membrane.surface, membrane.fine.synthesize_hessian(membrane.fine.analyze(moment)));
+  }
   return force_of_curvature(bending, membrane.surface, membrane.fine.synthesize_hessian(increment));
 }
 

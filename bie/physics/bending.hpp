@@ -26,6 +26,7 @@ double bending_energy_scaled(const Surface& surface);
 Vector curvature_increment(const Membrane& membrane, const SphereDerivatives& displacement);
 
 /// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), for coefficients h of degree p; values on the upsampled grid.
+/// Where κ_B differs from place to place it stands within the Laplacian.
 /// @return  force per area, [n_points x 3]; linear in h, the force itself for the present H
 ///     (tests/physics/bending_test.cpp)
 /// Source: paper Eq. (28a)

@@ -1,5 +1,7 @@
 #include "bie/physics/coupled_charging.hpp"
 
+#include <limits>
+
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
 #include "bie/physics/membrane_charging.hpp"
@@ -10,29 +12,47 @@ namespace vehd {
 
 namespace {
 
+/// a V − b of one membrane.
+struct Storage {
+  double a = 0.0;     ///< C_m/dt + G_m, or its largest value
+  Vector b;           ///< coefficients; empty where both vary
+  ChargingStep vary;  ///< a and b that differ from place to place; empty where they do not
+  [[nodiscard]] bool varies() const { return vary.a.size() > 0; }
+};
+
 /// The equations of all membranes.
 class CoupledEquation {
  public:
-  /// @param a  C_m/dt + G_m of each
   CoupledEquation(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
-                  const std::vector<double>& a)
-      : membranes_(membranes), interaction_(interaction) {
+                  const std::vector<Storage>& storages)
+      : membranes_(membranes), interaction_(interaction), storages_(storages) {
     for (std::size_t b = 0; b < membranes.size(); ++b) {
       const ElectricParameters& electric = membranes[b].electric;
-      own_.emplace_back(electric, membranes[b].membrane, a[b]);
+      const double a = storages[b].a;
+      if (storages[b].varies()) {
+        own_.emplace_back(electric, membranes[b].membrane, storages[b].vary.a);
+      } else {
+        own_.emplace_back(electric, membranes[b].membrane, a);
+      }
       const double eta = conductivity_contrast(electric);
       const double kappa = series_conductivity(electric);
-      if (kappa == 0.0 && a[b] > 0.0) {
+      if (kappa == 0.0 && a > 0.0) {
         throw InputError("several membranes charge between fluids that both conduct; one conductivity is zero");
       }
       // η g over V; without a there is no g.
-      charge_.push_back(a[b] > 0.0 ? eta / kappa * a[b] : 0.0);
-      charge_of_b_.push_back(a[b] > 0.0 ? eta / kappa : 0.0);
+      charge_.push_back(a > 0.0 ? eta / kappa * a : 0.0);
+      charge_of_b_.push_back(a > 0.0 ? eta / kappa : 0.0);
     }
   }
 
   [[nodiscard]] std::vector<Vector> left_side(const std::vector<Vector>& potentials) const {
-    std::vector<Vector> result = interaction_.weighted_single_flux(charges(potentials, charge_));
+    std::vector<Vector> charges;
+    for (std::size_t b = 0; b < potentials.size(); ++b) {
+      charges.push_back(storages_[b].varies()
+                            ? of_values(b, storages_[b].vary.a.cwiseProduct(values_of(b, potentials[b])))
+                            : of_coefficients(b, charge_[b], potentials[b]));
+    }
+    std::vector<Vector> result = interaction_.weighted_single_flux(charges);
     const std::vector<Vector> of_potentials = interaction_.weighted_double_flux(potentials);
     for (std::size_t a = 0; a < own_.size(); ++a) {
       result[a] = own_[a].conduction() * (result[a] - of_potentials[a]) + own_[a].own(potentials[a]);
@@ -40,10 +60,18 @@ class CoupledEquation {
     return result;
   }
 
-  [[nodiscard]] std::vector<Vector> right_side(const std::vector<Vector>& b) const {
-    std::vector<Vector> result = interaction_.weighted_single_flux(charges(b, charge_of_b_));
+  [[nodiscard]] std::vector<Vector> right_side() const {
+    std::vector<Vector> charges;
+    for (std::size_t b = 0; b < storages_.size(); ++b) {
+      const Storage& storage = storages_[b];
+      charges.push_back(storage.varies() ? of_values(b, storage.vary.b)
+                                         : of_coefficients(b, charge_of_b_[b], storage.b));
+    }
+    std::vector<Vector> result = interaction_.weighted_single_flux(charges);
     for (std::size_t a = 0; a < own_.size(); ++a) {
-      result[a] = own_[a].conduction() * result[a] + own_[a].right_side(b[a]);
+      const Storage& storage = storages_[a];
+      result[a] = own_[a].conduction() * result[a] +
+                  (storage.varies() ? own_[a].right_side_of_values(storage.vary.b) : own_[a].right_side(storage.b));
     }
     return result;
   }
@@ -53,27 +81,33 @@ class CoupledEquation {
   }
 
  private:
-  /// J times multiples of the fields; empty where there is nothing.
-  [[nodiscard]] std::vector<Vector> charges(const std::vector<Vector>& fields,
-                                            const std::vector<double>& factors) const {
-    std::vector<Vector> result;
-    for (std::size_t b = 0; b < fields.size(); ++b) {
-      const Membrane& membrane = membranes_[b].membrane;
-      const bool none = factors[b] == 0.0 || fields[b].isZero(0.0);
-      result.push_back(none ? Vector() : Vector(factors[b] * membrane.weighted(membrane.fine.synthesize(fields[b]))));
-    }
-    return result;
+  [[nodiscard]] Vector values_of(std::size_t b, const Vector& coefficients) const {
+    return membranes_[b].membrane.fine.synthesize(coefficients);
+  }
+
+  /// J times a multiple of a field; empty where there is nothing.
+  [[nodiscard]] Vector of_coefficients(std::size_t b, double factor, const Vector& field) const {
+    const Membrane& membrane = membranes_[b].membrane;
+    const bool none = factor == 0.0 || field.isZero(0.0);
+    return none ? Vector() : Vector(factor * membrane.weighted(membrane.fine.synthesize(field)));
+  }
+
+  /// J η/κ times values.
+  [[nodiscard]] Vector of_values(std::size_t b, const Vector& values) const {
+    const bool none = charge_of_b_[b] == 0.0 || values.isZero(0.0);
+    return none ? Vector() : Vector(charge_of_b_[b] * membranes_[b].membrane.weighted(values));
   }
 
   const std::vector<ElectricMembrane>& membranes_;
   const Interaction& interaction_;
+  const std::vector<Storage>& storages_;
   std::vector<ChargingEquation> own_;
   std::vector<double> charge_, charge_of_b_;
 };
 
 /// The unknowns are V/R: what a field of one size makes of membranes of any size.
 SolveReport solve_charging(const std::vector<ElectricMembrane>& membranes, const CoupledEquation& equation,
-                           const std::vector<Vector>& b, double tolerance, std::vector<Vector>& potentials) {
+                           double tolerance, std::vector<Vector>& potentials) {
   std::vector<Index> sizes;
   std::vector<std::vector<Index>> entries;
   std::vector<double> radii;
@@ -94,9 +128,20 @@ SolveReport solve_charging(const std::vector<ElectricMembrane>& membranes, const
   };
   RecycledGcr solver(map, preconditioner, stacked.size());
   const Vector start = stacked.stack(potentials).cwiseQuotient(scale);
-  const RecycledGcr::Solution solution = solver.solve(stacked.stack(equation.right_side(b)), start, {tolerance, 60});
+  const RecycledGcr::Solution solution = solver.solve(stacked.stack(equation.right_side()), start, {tolerance, 60});
   potentials = stacked.parts(solution.x.cwiseProduct(scale));
   return solution.report;
+}
+
+}  // namespace
+
+namespace {
+
+/// Where something differs from place to place.
+Storage varying(const ElectricMembrane& one, const ChargingParameters& charging, double dt, const Vector& potential) {
+  Storage storage{0.0, {}, charging_step(one.electric, charging, one.membrane, dt, potential)};
+  storage.a = storage.vary.a.maxCoeff();
+  return storage;
 }
 
 }  // namespace
@@ -104,31 +149,40 @@ SolveReport solve_charging(const std::vector<ElectricMembrane>& membranes, const
 SolveReport charge_membranes(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                              const std::vector<ChargingParameters>& charging, double dt, double tolerance,
                              std::vector<Vector>& potentials) {
-  std::vector<double> a;
-  std::vector<Vector> b;
+  std::vector<Storage> storages;
   for (std::size_t i = 0; i < membranes.size(); ++i) {
     const double capacitive = charging[i].capacitance / dt;
-    a.push_back(capacitive + charging[i].conductance);
-    b.emplace_back(capacitive * potentials[i]);
+    storages.push_back(charges_by_place(membranes[i].membrane)
+                           ? varying(membranes[i], charging[i], dt, potentials[i])
+                           : Storage{capacitive + charging[i].conductance, capacitive * potentials[i], {}});
   }
-  return solve_charging(membranes, {membranes, interaction, a}, b, tolerance, potentials);
+  return solve_charging(membranes, {membranes, interaction, storages}, tolerance, potentials);
 }
 
 SolveReport steady_potentials(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                               const std::vector<ChargingParameters>& charging, double tolerance,
                               std::vector<Vector>& potentials) {
-  std::vector<double> a;
-  std::vector<Vector> b;
+  std::vector<Storage> storages;
   for (std::size_t i = 0; i < membranes.size(); ++i) {
     if (charging[i].conductance == 0.0 && series_conductivity(membranes[i].electric) == 0.0) {
       throw InputError(
           "a steady V_m is not determined: the membrane conductance and a bulk conductivity are both zero");
     }
-    a.push_back(charging[i].conductance);
-    b.emplace_back(Vector::Zero(n_coefficients(membranes[i].membrane.fine.order())));
-    if (potentials[i].size() == 0) potentials[i] = b.back();
+    const Vector none = Vector::Zero(n_coefficients(membranes[i].membrane.fine.order()));
+    if (potentials[i].size() == 0) potentials[i] = none;
+    const Storage uniform{charging[i].conductance, none, {}};
+    const bool by_place = charges_by_place(membranes[i].membrane);
+    storages.push_back(by_place
+                           ? varying(membranes[i], charging[i], std::numeric_limits<double>::infinity(), potentials[i])
+                           : uniform);
+    if (by_place && storages.back().a == 0.0) {
+      if (membranes[i].membrane.material.pump_current.size() > 0) {
+        throw InputError("a steady V_m is not determined: a pump works on a membrane that does not conduct");
+      }
+      storages.back() = uniform;
+    }
   }
-  return solve_charging(membranes, {membranes, interaction, a}, b, tolerance, potentials);
+  return solve_charging(membranes, {membranes, interaction, storages}, tolerance, potentials);
 }
 
 }  // namespace vehd

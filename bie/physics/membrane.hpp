@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bie/geometry/surface.hpp"
+#include "bie/physics/membrane_material.hpp"
 #include "bie/physics/viscosity_contrast.hpp"
 #include "bie/potentials/layer_operators.hpp"
 #include "bie/sphere/symmetry.hpp"
@@ -19,6 +20,7 @@ struct Membrane {
   double radius;                                ///< √(area/4π), of the sphere behind the preconditioners
   SymmetrySubspace subspace;                    ///< of the fields on it
   std::optional<ViscosityContrast> contrast{};  ///< empty where both fluids have the same viscosity
+  MembraneMaterial material{};                  ///< what differs from place to place, on the upsampled grid
 
   /// Coefficients of J f from values on the upsampled grid.
   /// @param values  [n_points x n_fields] @return [n_coefficients x n_fields]

@@ -1,5 +1,7 @@
 #include "bie/physics/membrane_charging.hpp"
 
+#include <limits>
+
 #include "bie/linear/subspace_solve.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
@@ -51,9 +53,7 @@ Vector ChargingEquation::own(const Vector& v) const {
   }
   if (conduction_ > 0.0) result -= conduction_ * fine.analyze(weighted_hypersingular(membrane_, v));
   // No net current: the mean obeys ∫(a V − b) dA = 0 alone, and is free (hence zero) without storage.
-  result[0] = varies           ? stored[0]
-              : storage_ > 0.0 ? storage_ * membrane_.weighted(fine.synthesize(v))(0, 0)
-                               : v[0];
+  result[0] = varies ? stored[0] : storage_ > 0.0 ? storage_ * membrane_.weighted(fine.synthesize(v))(0, 0) : v[0];
   return result;
 }
 
@@ -94,8 +94,37 @@ SolveReport solve_varying_charging(const ElectricParameters& electric, const Mem
                       {tolerance, 120});
 }
 
+Vector capacitance_of(const ChargingParameters& charging, const Membrane& membrane) {
+  const Vector& varies = membrane.material.capacitance;
+  return varies.size() > 0 ? varies : Vector(Vector::Constant(membrane.surface.n_points(), charging.capacitance));
+}
+
+Vector conductance_of(const ChargingParameters& charging, const Membrane& membrane) {
+  const Vector& varies = membrane.material.conductance;
+  return varies.size() > 0 ? varies : Vector(Vector::Constant(membrane.surface.n_points(), charging.conductance));
+}
+
+bool charges_by_place(const Membrane& membrane) {
+  const MembraneMaterial& material = membrane.material;
+  return material.capacitance.size() > 0 || material.conductance.size() > 0 || material.pump_current.size() > 0;
+}
+
+ChargingStep charging_step(const ElectricParameters& electric, const ChargingParameters& charging,
+                           const Membrane& membrane, double dt, const Vector& potential) {
+  const Vector storage = capacitance_of(charging, membrane) / dt;
+  ChargingStep step{storage + conductance_of(charging, membrane),
+                    storage.cwiseProduct(Vector(membrane.fine.synthesize(potential)))};
+  const Vector& pump = membrane.material.pump_current;
+  if (pump.size() > 0) step.b -= electric.pump * pump;
+  return step;
+}
+
 SolveReport charge_membrane(const ElectricParameters& electric, const ChargingParameters& charging,
                             const Membrane& membrane, double dt, double tolerance, Vector& potential) {
+  if (charges_by_place(membrane)) {
+    const ChargingStep step = charging_step(electric, charging, membrane, dt, potential);
+    return solve_varying_charging(electric, membrane, step.a, step.b, tolerance, potential);
+  }
   const double capacitive = charging.capacitance / dt;
   const Vector b = capacitive * potential;
   return solve_charging(electric, membrane, capacitive + charging.conductance, b, tolerance, potential);
@@ -108,6 +137,16 @@ SolveReport steady_potential(const ElectricParameters& electric, const ChargingP
   }
   const Vector b = Vector::Zero(n_coefficients(membrane.fine.order()));
   if (potential.size() == 0) potential = b;
+  if (charges_by_place(membrane)) {
+    const ChargingStep step =
+        charging_step(electric, charging, membrane, std::numeric_limits<double>::infinity(), potential);
+    if (step.a.maxCoeff() > 0.0) {
+      return solve_varying_charging(electric, membrane, step.a, step.b, tolerance, potential);
+    }
+    if (membrane.material.pump_current.size() > 0) {
+      throw InputError("a steady V_m is not determined: a pump works on a membrane that does not conduct");
+    }
+  }
   return solve_charging(electric, membrane, charging.conductance, b, tolerance, potential);
 }
 

@@ -43,9 +43,27 @@ class ChargingEquation {
 SolveReport solve_varying_charging(const ElectricParameters& electric, const Membrane& membrane, const Vector& a,
                                    const Vector& b, double tolerance, Vector& potential);
 
+/// C_m on the upsampled grid.
+Vector capacitance_of(const ChargingParameters& charging, const Membrane& membrane);
+/// G_m on the upsampled grid.
+Vector conductance_of(const ChargingParameters& charging, const Membrane& membrane);
+
+/// Do C_m or G_m differ from place to place, or is there a pump? Then C_m V̇ + G_m V + J_p = −σ_i ∂φ_i/∂n.
+bool charges_by_place(const Membrane& membrane);
+
+/// What an implicit step of charging asks for: a = C_m/dt + G_m and b = (C_m/dt) V − J_p, values on the upsampled grid.
+struct ChargingStep {
+  Vector a, b;
+};
+/// @param dt         > 0; infinite for the steady state
+/// @param potential  V_m before the step, coefficients
+ChargingStep charging_step(const ElectricParameters& electric, const ChargingParameters& charging,
+                           const Membrane& membrane, double dt, const Vector& potential);
+
 /// V_m after one backward-Euler step of (4e)/(14), Eq. (30), in one solve at every contrast and time constant:
 /// with a = C_m/dt + G_m, b = (C_m/dt) V_m, κ = σ_i σ_e/(σ_i + σ_e), the unknown V obeys
 ///   (½ + ηS′)(a V − b) − κ D′[V] = κ E·n.
+/// Where C_m and G_m differ from place to place or a pump works, a and b are those of charging_step.
 /// @param potential  V_m before the step on input, after it on output
 /// @param dt         > 0
 /// @param tolerance  of the preconditioned residual, relative
@@ -56,7 +74,8 @@ SolveReport charge_membrane(const ElectricParameters& electric, const ChargingPa
                             const Membrane& membrane, double dt, double tolerance, Vector& potential);
 
 /// Steady V_m: C_m/dt → 0 in charge_membrane.
-/// @throws InputError if nothing determines it (a membrane and a fluid that both insulate)
+/// @throws InputError if nothing determines it (a membrane and a fluid that both insulate, or an insulating membrane
+///     with a pump)
 /// @param potential  a first guess on input, the steady V_m on output
 /// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/charging_test.cpp), on an insulating 2:1 prolate to 1e-10
 /// (tests/physics/electric_prolate_test.cpp)

@@ -51,12 +51,16 @@ struct ElectricParameters {
   Waveform waveform{};                         ///< of the field
   bool displacement_current = false;           ///< in both fluids
   std::optional<double> averaged_frequency{};  ///< see AppliedField
+  double pump = 0.0;                           ///< factor of the pump current where its waveform is 1; 0 without a pump
+  Waveform pump_waveform{};
 
-  /// The same problem with the field of one time and no waveform.
+  /// The same problem with the field and the pump of one time and no waveforms.
   [[nodiscard]] ElectricParameters at(double time, Limit limit) const {
     ElectricParameters now = *this;
     now.field *= waveform.at(time, limit);
     now.waveform = {};
+    now.pump *= pump_waveform.at(time, limit);
+    now.pump_waveform = {};
     return now;
   }
 };

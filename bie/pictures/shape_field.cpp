@@ -39,6 +39,10 @@ bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
     case ShapeField::tension:
     case ShapeField::poration:
     case ShapeField::conductance:
+    case ShapeField::capacitance:
+    case ShapeField::pump_current:
+    case ShapeField::bending_modulus:
+    case ShapeField::spontaneous_curvature:
       return run.has_field(snapshot, std::string(label_of(field).dataset));
     case ShapeField::potential_amplitude:
     case ShapeField::potential_phase:
@@ -61,6 +65,10 @@ Vector values_of(const VesicleCoefficients& read, ShapeField field, const Sphere
     case ShapeField::tension:
     case ShapeField::poration:
     case ShapeField::conductance:
+    case ShapeField::capacitance:
+    case ShapeField::pump_current:
+    case ShapeField::bending_modulus:
+    case ShapeField::spontaneous_curvature:
       return transform.synthesize(read.field).col(0);
     case ShapeField::force:
     case ShapeField::potential_amplitude:
@@ -109,6 +117,14 @@ FieldLabel label_of(ShapeField field) {
       return {"X, or ln(N/N₀)", "1", "poration"};
     case ShapeField::conductance:
       return {"G_m", "conductance/area", "conductance"};
+    case ShapeField::capacitance:
+      return {"C_m", "capacitance/area", "capacitance"};
+    case ShapeField::pump_current:
+      return {"J_p", "current/area", "pump_current"};
+    case ShapeField::bending_modulus:
+      return {"κ_B", "energy", "bending_modulus"};
+    case ShapeField::spontaneous_curvature:
+      return {"c", "1/length", "spontaneous_curvature"};
     case ShapeField::none:
       break;
   }

@@ -22,13 +22,29 @@ enum class ShapeField {
   potential_phase,
   charge_amplitude,
   poration,
-  conductance
+  conductance,
+  capacitance,
+  pump_current,
+  bending_modulus,
+  spontaneous_curvature
 };
 
 /// Their names on the command line.
-constexpr std::array<std::string_view, 11> shape_field_names = {
-    "none",          "V_m",       "q",           "tension",  "force",      "curvature",
-    "V_m_amplitude", "V_m_phase", "q_amplitude", "poration", "conductance"};
+constexpr std::array<std::string_view, 15> shape_field_names = {"none",
+                                                                "V_m",
+                                                                "q",
+                                                                "tension",
+                                                                "force",
+                                                                "curvature",
+                                                                "V_m_amplitude",
+                                                                "V_m_phase",
+                                                                "q_amplitude",
+                                                                "poration",
+                                                                "conductance",
+                                                                "capacitance",
+                                                                "pump_current",
+                                                                "bending_modulus",
+                                                                "spontaneous_curvature"};
 
 /// How a field is called in pictures.
 struct FieldLabel {

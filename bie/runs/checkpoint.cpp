@@ -49,6 +49,11 @@ void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("free_charge", vesicle.free_charge);
   visit("tension", vesicle.tension);
   visit("poration", vesicle.poration);
+  visit("capacitance", vesicle.material.capacitance);
+  visit("conductance", vesicle.material.conductance);
+  visit("pump_current", vesicle.material.pump_current);
+  visit("bending_modulus", vesicle.material.bending_modulus);
+  visit("spontaneous_curvature", vesicle.material.spontaneous_curvature);
   visit("area_strain", vesicle.area_strain);
   visit("reference_area", vesicle.reference_area);
   visit("reference_volume", vesicle.reference_volume);
@@ -230,10 +235,15 @@ class SoundCheck {
     } catch (const ShapeError&) {
       require(false, "/state/position");
     }
+    const auto check_scalar = [&](const Vector& values) {
+      require((values.size() == 0 || values.size() == vesicle.position.rows()) && values.allFinite(), "/state");
+    };
     for (const Vector* values :
          {&vesicle.transmembrane_potential, &vesicle.free_charge, &vesicle.tension, &vesicle.poration}) {
-      require((values->size() == 0 || values->size() == vesicle.position.rows()) && values->allFinite(), "/state");
+      check_scalar(*values);
     }
+    for_each_property(vesicle.material, check_scalar);
+    require(vesicle.material.bending_modulus.size() == vesicle.material.spontaneous_curvature.size(), "/state");
     require(vesicle.area_strain.allFinite(), "/state/area_strain");
     for (const auto& known : {vesicle.recycled.tension, vesicle.recycled.flow}) {
       if (!known) continue;

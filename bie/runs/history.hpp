@@ -38,6 +38,7 @@ struct HistoryKind {
 
   Rows rows;
   std::optional<PorationModel> poration{};  ///< has columns of this model
+  bool by_place = false;                    ///< has columns of a membrane that differs from place to place
 };
 
 /// Of the vesicles of a scene.

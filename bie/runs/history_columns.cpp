@@ -209,6 +209,21 @@ std::size_t first_columns(HistoryKind kind) {
 
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
   static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
+  if (kind.by_place) {
+    // No scene has both.
+    static const auto of_places = [] {
+      std::array<std::vector<HistoryColumn>, 3> all;
+      for (std::size_t rows = 0; rows < usual.size(); ++rows) {
+        all.at(rows) = *usual.at(rows);
+        all.at(rows).insert(all.at(rows).end(), {{"elastic_energy", "energy", of_vesicle<&D::elastic_energy>},
+                                                 {"net_force_x", "force", of_vesicle<&D::net_force_x>},
+                                                 {"net_force_y", "force", of_vesicle<&D::net_force_y>},
+                                                 {"net_force_z", "force", of_vesicle<&D::net_force_z>}});
+      }
+      return all;
+    }();
+    return of_places.at(kind.rows);
+  }
   if (!kind.poration) return *usual.at(kind.rows);
   static const auto with_poration = [] {
     std::array<std::array<std::vector<HistoryColumn>, 3>, n_poration_models> all;
@@ -227,6 +242,7 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
 HistoryKind history_kind(const Scene& scene) {
   HistoryKind kind(scene.vesicles.size() > 1 ? HistoryKind::of_all : HistoryKind::of_one);
   if (scene.poration) kind.poration = scene.poration->model;
+  kind.by_place = has_places(scene);
   return kind;
 }
 

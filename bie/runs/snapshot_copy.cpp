@@ -27,7 +27,12 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
   vesicle.transmembrane_potential = vector("Vm");
   vesicle.area_strain = vector("area_strain");
   vesicle.poration = vector("poration");
-  fields.conductance = vector("conductance");
+  // Of pores, or of the place.
+  (vesicle.poration.size() > 0 ? fields.conductance : vesicle.material.conductance) = vector("conductance");
+  vesicle.material.capacitance = vector("capacitance");
+  vesicle.material.pump_current = vector("pump_current");
+  vesicle.material.bending_modulus = vector("bending_modulus");
+  vesicle.material.spontaneous_curvature = vector("spontaneous_curvature");
   fields.velocity = matrix("velocity");
   fields.force_bending = matrix("force_bending");
   fields.force_tension = matrix("force_tension");

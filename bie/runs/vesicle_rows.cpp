@@ -13,8 +13,10 @@ void take_larger(double& value, double other) {
 }
 
 void add(VesicleDiagnostics& all, const VesicleDiagnostics& one) {
-  for (const auto sum : {&VesicleDiagnostics::bending_energy_scaled, &VesicleDiagnostics::elastic_energy_scaled,
-                         &VesicleDiagnostics::tension_integral}) {
+  for (const auto sum :
+       {&VesicleDiagnostics::bending_energy_scaled, &VesicleDiagnostics::elastic_energy_scaled,
+        &VesicleDiagnostics::tension_integral, &VesicleDiagnostics::elastic_energy, &VesicleDiagnostics::net_force_x,
+        &VesicleDiagnostics::net_force_y, &VesicleDiagnostics::net_force_z}) {
     all.*sum += one.*sum;
   }
   for (const auto worst :

@@ -38,7 +38,8 @@ std::string effective_scene(const Scene& scene) {
   const bool several = !scene.vesicles.empty();
   std::string text;
   for (const TableDescription& table : scene_tables()) {
-    if (!table.present(scene) || (several && table.name == "shape")) continue;
+    const bool of_each = table.name == "shape" || table.name.starts_with("membrane.");
+    if (!table.present(scene) || (several && of_each)) continue;
     text += fmt::format("{}[{}]  # {}\n", text.empty() ? "" : "\n", table.name, table.description);
     text += keys_of(scene, table.name, [&](const KeyDescription& key) { return !several || !is_of_vesicle(key); });
   }

@@ -17,6 +17,7 @@ constexpr Range size_range{1e-30, 1e30, false};
 const auto units = [](auto& scene) -> auto& { return *scene.units; };
 const auto shape = [](auto& scene) -> auto& { return scene.shape; };
 const auto membrane = [](auto& scene) -> auto& { return scene.membrane; };
+const auto pump_waveform = [](auto& scene) -> auto& { return *scene.membrane.pump->waveform; };
 const auto fluid = [](auto& scene) -> auto& { return scene.fluid; };
 const auto gravity = [](auto& scene) -> auto& { return *scene.gravity; };
 const auto contact = [](auto& scene) -> auto& { return *scene.contact; };
@@ -339,7 +340,7 @@ void add_suspension_keys(KeyTable& table) {
 }  // namespace
 
 std::vector<TableDescription> table_rows() {
-  return {
+  std::vector<TableDescription> rows = {
       optional_table("units", "what 1 means; absent: values are dimensionless", &Scene::units),
       always_present("shape", "initial shape", true),
       always_present("membrane", "mechanical and electric properties of the membrane"),
@@ -355,6 +356,10 @@ std::vector<TableDescription> table_rows() {
       always_present("output", "what is written"),
       optional_table("suspension", "copies of the vesicle at random places; absent: none", &Scene::suspension),
   };
+  const auto fluid_row = std::ranges::find(rows, "fluid", &TableDescription::name);
+  std::vector<TableDescription> of_places = place_tables();
+  rows.insert(fluid_row, of_places.begin(), of_places.end());
+  return rows;
 }
 
 std::vector<KeyDescription> key_rows() {
@@ -362,6 +367,8 @@ std::vector<KeyDescription> key_rows() {
   add_units_keys(table);
   add_shape_keys(table);
   add_membrane_keys(table);
+  add_place_keys(table);
+  add_waveform_keys(table, "membrane.pump.waveform", pump_waveform);
   add_fluid_keys(table);
   add_gravity_keys(table);
   add_contact_keys(table);

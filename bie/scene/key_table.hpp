@@ -119,5 +119,9 @@ class KeyTable {
 
 /// Of [poration].
 void add_poration_keys(KeyTable& table);
+/// Of properties by place and of the pump, but for its waveform.
+void add_place_keys(KeyTable& table);
+/// Their tables.
+std::vector<TableDescription> place_tables();
 
 }  // namespace vehd

@@ -96,7 +96,8 @@ VesicleModel vesicle_of(const Scene& scene) {
   if (scene.membrane.bending_modulus.value_or(0.0) > 0.0) {
     const double modulus = *scene.membrane.bending_modulus;
     vesicle.bending = BendingParameters{modulus};
-    if (const double curvature = scene.membrane.spontaneous_curvature; curvature != 0.0) {
+    const bool by_place = scene.membrane.bending_by_place || scene.membrane.curvature_by_place;
+    if (const double curvature = scene.membrane.spontaneous_curvature; curvature != 0.0 && !by_place) {
       vesicle.effects.push_back(
           std::make_shared<SpontaneousCurvatureEffect>(SpontaneousCurvatureParameters{modulus, curvature}));
     }
@@ -108,7 +109,10 @@ VesicleModel vesicle_of(const Scene& scene) {
   if (scene.electric) {
     vesicle.inside = {scene.electric->conductivity_in, scene.electric->permittivity_ratio};
     vesicle.charging = {scene.membrane.capacitance, scene.membrane.conductance};
+    if (scene.membrane.pump) vesicle.pump = waveform_of(scene.membrane.pump->waveform);
   }
+  const MembraneScene& m = scene.membrane;
+  vesicle.by_place = m.capacitance_by_place || m.conductance_by_place || m.bending_by_place || m.curvature_by_place;
   if (scene.poration) add_poration(scene, vesicle);
   return vesicle;
 }
@@ -144,6 +148,9 @@ double eighth_of_period(const Scene& scene) {
     if (waveform && waveform->kind == WaveformKind::ac) result = std::min(result, 1.0 / (8.0 * waveform->frequency));
   };
   if (scene.flow) add(scene.flow->waveform);
+  for (const Scene& one : each_alone(scene)) {
+    if (one.membrane.pump) add(one.membrane.pump->waveform);
+  }
   if (scene.electric && !has_averaged_field(scene)) add(scene.electric->waveform);
   return result;
 }

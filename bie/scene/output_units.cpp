@@ -30,12 +30,13 @@ struct PowerOf {
 constexpr std::array powers = {PowerOf{"area", "length", 2}, PowerOf{"length^2", "length", 2},
                                PowerOf{"volume", "length", 3}};
 /// The other dimensions that results have.
-constexpr std::array<std::string_view, 10> plain_dimensions = {
-    "length",           "time",         "velocity",   "potential", "dipole",
-    "potential/length", "force/length", "force/area", "energy",    "power"};
+constexpr std::array<std::string_view, 11> plain_dimensions = {
+    "length",       "time",       "velocity", "potential", "dipole", "potential/length",
+    "force/length", "force/area", "energy",   "power",     "force"};
 
 /// Dimensions that have their SI unit as it is.
-constexpr std::array<std::string_view, 2> unprefixed_dimensions = {"conductance/area", "1/area"};
+constexpr std::array<std::string_view, 4> unprefixed_dimensions = {"conductance/area", "capacitance/area",
+                                                                   "current/area", "1/area"};
 
 int power_of(std::string_view dimension) {
   const auto found = std::ranges::find(powers, dimension, &PowerOf::dimension);
@@ -79,6 +80,7 @@ class Magnitudes {
     if (dimension == "potential/length") return field() > 0.0 ? field() : si(1.0, "field");
     if (dimension == "force/length") return tension();
     if (dimension == "force/area") return tension() / radius();
+    if (dimension == "force") return tension() * radius();
     if (dimension == "energy") return tension() * radius() * radius();
     if (dimension == "power") return tension() * radius() * radius() / duration();
     if (dimension == "dipole") return dipole();

@@ -1,5 +1,6 @@
 #include "bie/scene/problem.hpp"
 
+#include "bie/scene/initial_material.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/vesicles.hpp"
@@ -36,6 +37,7 @@ Problem problem_of(const Scene& scene, const Model& model) {
     vesicle.position = std::move(membrane.position);
     vesicle.transmembrane_potential = std::move(membrane.potential);
     vesicle.area_strain = Vector::Zero(vesicle.position.rows());
+    if (has_places(one)) vesicle.material = initial_material(one);
   }
   Problem problem;
   problem.names = vesicle_names(scene);
@@ -49,7 +51,9 @@ Problem problem_of(const Scene& scene, const Model& model) {
   problem.settings.longitude_fold = found.fold;
   if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = found;
   for (VesicleState& found_at : start.vesicles) {
-    problem.start.push_back({std::move(found_at.position), {steady, std::move(found_at.transmembrane_potential)}});
+    problem.start.push_back({std::move(found_at.position),
+                             {steady, std::move(found_at.transmembrane_potential)},
+                             std::move(found_at.material)});
   }
   return problem;
 }

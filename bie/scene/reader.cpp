@@ -8,9 +8,11 @@
 #include <cmath>
 
 #include "bie/scene/accuracy.hpp"
+#include "bie/scene/initial_material.hpp"
 #include "bie/scene/nearest_name.hpp"
-#include "bie/scene/reference_scales.hpp"
+#include "bie/scene/place_checks.hpp"
 #include "bie/scene/poration_checks.hpp"
+#include "bie/scene/reference_scales.hpp"
 #include "bie/scene/scene_checks.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/shape_file_check.hpp"
@@ -96,6 +98,7 @@ bool is_subtable(std::string_view owner, std::string_view name) {
 
 /// [electric.waveform] alone makes TOML create [electric] as well.
 void require_owner(const TableDescription& description, const toml::table& table, const std::string& file) {
+  if (description.present(Scene{})) return;
   for (const auto& [name, node] : table) {
     if (!is_subtable(description.name, name.str())) return;
   }
@@ -188,6 +191,15 @@ Scene scene_of(const toml::table& file, const std::string& name, const std::file
       throw InputError(fmt::format("{}:1: missing table [{}] ({})", name, description.name, description.description));
     }
   }
+  MembraneScene& membrane = scene.membrane;
+  for (auto* places : {&membrane.capacitance_by_place, &membrane.conductance_by_place, &membrane.bending_by_place,
+                       &membrane.curvature_by_place}) {
+    if (*places) read_place_file(**places, folder);
+  }
+  if (membrane.pump) {
+    read_place_file(*membrane.pump, folder);
+    if (membrane.pump->waveform) read_waveform_table(*membrane.pump->waveform, folder);
+  }
   if (scene.flow && scene.flow->waveform) read_waveform_table(*scene.flow->waveform, folder);
   if (scene.electric && scene.electric->waveform) read_waveform_table(*scene.electric->waveform, folder);
   apply_tolerance(scene.numerics, file);
@@ -199,6 +211,7 @@ void check_one(Scene& scene, const toml::table& file, const std::string& name, c
                bool is_heavy) {
   check_scene(scene, file, name, is_heavy);
   check_poration(scene, file, name);
+  check_places(scene, file, name);
   if (scene.shape.kind == ShapeKind::file) {
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -71,6 +72,44 @@ struct ShapeScene {
   bool operator==(const ShapeScene&) const = default;
 };
 
+/// Factor of a field or flow in the course of time; which members count depends on the kind.
+struct WaveformScene {
+  WaveformKind kind = WaveformKind::dc;
+  double frequency = 1.0;
+  double phase = 0.0;
+  double start = 0.0;
+  double duration = 1.0;
+  double period = 1.0;
+  bool average = false;             ///< of an ac field: only the mean of its force over a period counts
+  std::optional<std::string> path;  ///< of a table that is still to be read
+  std::vector<double> times, values;
+  bool operator==(const WaveformScene&) const = default;
+};
+
+/// Values of kind in a table of a property by place.
+enum class PlaceKind { harmonics, cap, file };
+
+/// Factor of a property of the membrane over its parameter sphere; which members count depends on the kind.
+struct PlaceScene {
+  PlaceKind kind = PlaceKind::harmonics;
+  double base = 1.0;
+  std::vector<HarmonicMode> modes;
+  std::optional<std::string> path;  ///< of modes that are still to be read
+  Triple axis{0.0, 0.0, 1.0};
+  double angle_deg = 30.0;
+  double width_deg = 15.0;
+  double inside = 1.0;
+  double outside = 1.0;
+  bool operator==(const PlaceScene&) const = default;
+};
+
+/// Table [membrane.pump].
+struct PumpScene : PlaceScene {
+  double current = 0.0;
+  std::optional<WaveformScene> waveform;  ///< absent: constant
+  bool operator==(const PumpScene&) const = default;
+};
+
 /// Table [membrane], in units of the scene; see docs/scene_keys.md.
 struct MembraneScene {
   std::optional<double> bending_modulus;
@@ -79,6 +118,8 @@ struct MembraneScene {
   double capacitance = 1.0;
   double conductance = 0.0;
   bool mobile = true;
+  std::optional<PlaceScene> capacitance_by_place{}, conductance_by_place{}, bending_by_place{}, curvature_by_place{};
+  std::optional<PumpScene> pump{};
   bool operator==(const MembraneScene&) const = default;
 };
 
@@ -119,20 +160,6 @@ struct SuspensionScene {
   SuspensionOrientation orientation = SuspensionOrientation::random;
   double gap = 0.1;
   bool operator==(const SuspensionScene&) const = default;
-};
-
-/// Factor of a field or flow in the course of time; which members count depends on the kind.
-struct WaveformScene {
-  WaveformKind kind = WaveformKind::dc;
-  double frequency = 1.0;
-  double phase = 0.0;
-  double start = 0.0;
-  double duration = 1.0;
-  double period = 1.0;
-  bool average = false;             ///< of an ac field: only the mean of its force over a period counts
-  std::optional<std::string> path;  ///< of a table that is still to be read
-  std::vector<double> times, values;
-  bool operator==(const WaveformScene&) const = default;
 };
 
 /// Table [flow]; which members count depends on the kind.
@@ -245,6 +272,18 @@ inline bool has_averaged_field(const Scene& scene) {
 /// Does free charge relax in time beside V_m?
 inline bool has_relaxing_charge(const Scene& scene) {
   return scene.electric && scene.electric->displacement_current && !has_averaged_field(scene);
+}
+
+/// Does a membrane differ from place to place, or have a pump?
+inline bool has_places(const MembraneScene& membrane) {
+  return membrane.capacitance_by_place || membrane.conductance_by_place || membrane.bending_by_place ||
+         membrane.curvature_by_place || membrane.pump;
+}
+
+/// Does that of any vesicle?
+inline bool has_places(const Scene& scene) {
+  return has_places(scene.membrane) ||
+         std::ranges::any_of(scene.vesicles, [](const VesicleScene& vesicle) { return has_places(vesicle.membrane); });
 }
 
 }  // namespace vehd

@@ -43,6 +43,9 @@ class Checks {
     if (scene_.electric && scene_.electric->waveform) {
       check_waveform("electric", *scene_.electric->waveform, scene_.electric->field == Triple{});
     }
+    if (const auto& pump = scene_.membrane.pump; pump && pump->waveform) {
+      check_waveform("membrane.pump", *pump->waveform, pump->current == 0.0);
+    }
     check_windows();
     check_counts();
     check_output();

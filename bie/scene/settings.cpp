@@ -36,6 +36,11 @@ std::vector<std::string> full_names(std::string_view key) {
   return names;
 }
 
+bool is_table(std::string_view name) {
+  const auto is_it = [&](const TableDescription& table) { return table.name == name; };
+  return std::any_of(scene_tables().begin(), scene_tables().end(), is_it);
+}
+
 /// Name and value of a setting.
 struct Assignment {
   std::string key;
@@ -56,7 +61,8 @@ Assignment assignment_of(const std::string& setting) {
     }
     start = end + 1;
   }
-  if (n_parts > 3) throw InputError(fmt::format("{}: \"{}\" is no key; {}", place, key, form));
+  if (n_parts > 3 && !is_table(key.substr(0, key.rfind('.'))))
+    throw InputError(fmt::format("{}: \"{}\" is no key; {}", place, key, form));
   if (n_parts == 1) {
     const auto names = full_names(key);
     throw InputError(fmt::format("{}: \"{}\" has no table; {}", place, key,

@@ -37,6 +37,9 @@ std::vector<Dimension> make_dimensions() {
       {"permittivity", {2, -1, 1, -2}, {{"F/m"}, {"pF/m", 1, 1e12}, {"eps0", vacuum_permittivity}}},
       {"capacitance/area", {1, -1, 1, -2}, {{"F/m^2"}, {"mF/m^2", 1, 1e3}, {"uF/cm^2", 1, 1e2}}},
       {"conductance/area", {1, -2, 1, -2}, {{"S/m^2"}, {"S/cm^2", 1e4}, {"mS/cm^2", 1e1}}},
+      {"current/area",
+       {1, -2, 1, -1},
+       {{"A/m^2"}, {"mA/m^2", 1, 1e3}, {"mA/cm^2", 1e1}, {"uA/cm^2", 1, 1e2}, {"nA/cm^2", 1, 1e5}}},
       {"1/area", {-2, 0, 0, 0}, {{"1/m^2"}, {"1/um^2", 1e12}}},
       {"1/(area time)", {-2, -1, 0, 0}, {{"1/(m^2 s)"}, {"1/(um^2 us)", 1e18}}},
       {"temperature", {0, 0, 0, 0}, {{"K"}}},
@@ -48,6 +51,7 @@ std::vector<Dimension> make_dimensions() {
       {"potential/length", {-1, 0, 0, 1}, {{"V/m"}}},
       {"dipole", {4, -1, 1, -1}, {{"C m"}}},
       {"power", {3, -2, 1, 0}, {{"W"}}},
+      {"force", {2, -1, 1, 0}, {{"N"}}},
   };
 }
 

@@ -54,6 +54,7 @@ void require_one_vesicle(const Scene& scene, const std::filesystem::path& file, 
 bool is_of_vesicle(std::string_view table, std::string_view key) {
   if (table == "shape") return true;
   if (table == "membrane") return key != "mobile";
+  if (table.starts_with("membrane.")) return true;
   if (table == "fluid") return key == "viscosity_ratio" || key == "density_difference";
   constexpr std::array inside{"conductivity_in", "permittivity_ratio", "initial_Vm"};
   return table == "electric" && std::find(inside.begin(), inside.end(), key) != inside.end();

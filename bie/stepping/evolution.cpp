@@ -140,6 +140,10 @@ std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& st
     const Vector& potential = membrane.potential.given;
     VesicleState shape;
     shape.position = position;
+    shape.material = membrane.material;
+    for_each_property(shape.material, [&](Vector& property) {
+      property = resize_order(Matrix(property), order_of(position.rows())).col(0);
+    });
     if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
     // Exact for a sphere, and only a scale.
     shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();

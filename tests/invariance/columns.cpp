@@ -139,6 +139,7 @@ const std::vector<Column>& columns() {
        [](const VesicleDiagnostics& d) { return largest_share(d) * d.rheology.gradient.norm(); }},
       {"conductance_max", &VesicleDiagnostics::conductance_max, {1, -2, 1, -2}},
       {"poration_load", &VesicleDiagnostics::poration_load},
+      {"elastic_energy", &VesicleDiagnostics::elastic_energy, {3, -1, 1, 0}},
       {"poration_time", &VesicleDiagnostics::poration_time, {0, 1, 0, 0}},
       {"poration_x", &VesicleDiagnostics::poration_x, {1, 0, 0, 0}, on_place},
       {"poration_y", &VesicleDiagnostics::poration_y, {1, 0, 0, 0}, on_place},

@@ -24,7 +24,7 @@ std::vector<NamedScene> all_scenes() {
   result.push_back({"two_vesicles", read_scene(source / "tests/invariance/two_vesicles.toml")});
   result.push_back({"contact", read_scene(source / "tests/invariance/contact.toml")});
   result.push_back({"averaged", read_scene(source / "tests/invariance/averaged.toml")});
-  for (const char* name : {"poration_criterion", "porosity", "pores"}) {
+  for (const char* name : {"poration_criterion", "porosity", "pores", "by_place"}) {
     result.push_back({name, read_scene(source / "tests/invariance" / (std::string(name) + ".toml"))});
   }
   for (const auto& path : files_ending(source / "tests/hard/scenes", ".toml")) {

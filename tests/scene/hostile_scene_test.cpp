@@ -22,6 +22,7 @@ std::string scene_with(const vehd::KeyDescription& key, const std::string& value
   add_unless_own("shape", "kind = 'ellipsoid'\naxes = [1, 1, 2]\n");
   add_unless_own("numerics", "dt = 1\nend_time = 1\n");
   if (table == "flow.waveform") add_unless_own("flow", "kind = 'shear'\nrate = 1\n");
+  if (table == "membrane.pump.waveform") add_unless_own("membrane.pump", "kind = 'harmonics'\ncurrent = 1\n");
   if (table == "electric.waveform") {
     add_unless_own("electric", "field = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 1\n");
   }

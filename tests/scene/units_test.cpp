@@ -252,7 +252,13 @@ BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
                                                {"1/m^2", 1},
                                                {"1/um^2", 1e12},
                                                {"1/(m^2 s)", 1},
-                                               {"1/(um^2 us)", 1e18}};
+                                               {"1/(um^2 us)", 1e18},
+                                               {"A/m^2", 1},
+                                               {"mA/m^2", 1e-3},
+                                               {"mA/cm^2", 1e1},
+                                               {"uA/cm^2", 1e-2},
+                                               {"nA/cm^2", 1e-5},
+                                               {"N", 1}};
   for (const vehd::Dimension& dimension : vehd::dimensions()) {
     for (const vehd::Unit& unit : dimension.units) {
       const auto size = sizes.find(std::string(unit.symbol));

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "bie/physics/bending.hpp"
+#include "bie/physics/elasticity_by_place.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/sphere/axis_crossing.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -47,7 +48,11 @@ double inclination(const Surface& s, const Frame& frame) {
 }
 
 /// ∫(H − c)² dA.
-double elastic_energy_scaled(const Surface& s, double c) {
+double elastic_energy_scaled(const Membrane& membrane, double c) {
+  const Surface& s = membrane.surface;
+  if (bends_by_place(membrane)) {
+    return (s.mean_curvature - membrane.material.spontaneous_curvature).cwiseAbs2().dot(s.quadrature);
+  }
   return (s.mean_curvature.array() - c).square().matrix().dot(s.quadrature);
 }
 
@@ -145,6 +150,27 @@ void add_poration(const DiagnosedModel& model, const SphereTransform& fine, cons
   d.poration_mean = measures.dot(s.quadrature) / d.area;
 }
 
+/// The elastic energy and what all forces add up to.
+void add_by_place(const DiagnosedModel& model, const Membrane& membrane, const VesicleSolution& solution,
+                  const VesicleFields& fields, VesicleDiagnostics& d) {
+  if (!model.by_place) return;
+  const Surface& s = membrane.surface;
+  if (model.flow.bending) {
+    d.elastic_energy =
+        bends_by_place(membrane) ? elastic_energy(membrane) : model.flow.bending->modulus * d.elastic_energy_scaled;
+  }
+  Vector3 sum = Vector3::Zero();
+  const auto add = [&](const Matrix& field, double sign) {
+    if (field.size() > 0) sum += sign * membrane.fine.synthesize(field).transpose() * s.quadrature;
+  };
+  add(fields.force_bending, 1.0);
+  add(fields.force_tension, 1.0);
+  add(fields.force_electric, -1.0);
+  add(fields.force_contact, 1.0);
+  if (solution.force_of_effects.size() > 0) sum += solution.force_of_effects.transpose() * s.quadrature;
+  std::tie(d.net_force_x, d.net_force_y, d.net_force_z) = components(sum);
+}
+
 void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
                      const Membrane& membrane, VesicleDiagnostics& d) {
   // Truncation hides what is this close above it.
@@ -166,6 +192,7 @@ DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle) 
   result.criterion = vesicle.criterion;
   result.reaction = vesicle.reaction;
   result.charging = vesicle.charging;
+  result.by_place = vesicle.by_place || vesicle.pump.has_value();
   return result;
 }
 
@@ -180,7 +207,7 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
   d.volume = enclosed_volume(s);
   d.reduced_volume = 6.0 * std::sqrt(std::numbers::pi) * d.volume / (d.area * std::sqrt(d.area));
   d.bending_energy_scaled = bending_energy_scaled(s);
-  d.elastic_energy_scaled = elastic_energy_scaled(s, model.spontaneous_curvature);
+  d.elastic_energy_scaled = elastic_energy_scaled(membrane, model.spontaneous_curvature);
   d.area_drift = d.area / vesicle.reference_area - 1.0;
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
@@ -208,6 +235,7 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
     d.Vm_max = std::max(maximum(fine.grid(), v, 0, potential, 1.0), maximum(fine.grid(), v, 0, potential, -1.0));
   }
   add_poration(model, fine, s, vesicle, solution, fields, d);
+  add_by_place(model, membrane, solution, fields, d);
   if (previous != nullptr) {
     d.quadrature_error = previous->quadrature_error;
     d.quadrature_is_coarse = previous->quadrature_is_coarse;

@@ -21,6 +21,9 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
   const Index n = start.position.rows();
   SurfaceFields fields{start.position, Vector::Zero(n), {}, {}, {}};
   if (vesicle.inextensible) fields.tension = Vector::Zero(n);
+  fields.material = start.material;
+  for_each_property(fields.material,
+                    [&](Vector& property) { property = resize_order(Matrix(property), order_of(n)).col(0); });
   if (!model.electric || is_averaged(model)) return fields;
   const Vector& given = start.potential.given;
   fields.transmembrane_potential = given.size() > 0 ? resize_order(given, order_of(n)) : Vector::Zero(n);
@@ -45,6 +48,7 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     const Matrix& position = state.vesicles[a].position;
     electric.push_back(electric_parameters(model, model.vesicles[a]));
     frozen.push_back(membrane_at(space, position, kElectricLayers, 1.0, instruments));
+    frozen.back().material = material_at(space, state.vesicles[a].material);
     interacting.push_back({position, space.targets(), electric_pair_selection(electric.back())});
   }
   const Interaction interaction(interacting, {}, instruments);
@@ -81,7 +85,8 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     start.reference_volume = enclosed_volume(surface);
     if (vesicle.criterion) start.crossing.emplace();
     if (model.electric && membranes[a].potential.steady && membranes.size() == 1) {
-      const Membrane membrane = membrane_at(space, position, kElectricLayers, 1.0, instruments);
+      Membrane membrane = membrane_at(space, position, kElectricLayers, 1.0, instruments);
+      membrane.material = material_at(space, start.material);
       require_converged(steady_potential(electric_parameters(model, vesicle), vesicle.charging, membrane,
                                          discretisation.settings().electric_tolerance, start.transmembrane_potential),
                         "steady membrane potential");

@@ -16,6 +16,7 @@ struct StartPotential {
 struct StartMembrane {
   Matrix position;  ///< coefficients of x
   StartPotential potential{};
+  MembraneMaterial material{};  ///< coefficients of any degree
 };
 
 /// State at time 0, every membrane in the degree of its position, with its own area, volume and area element as

@@ -31,6 +31,10 @@ void place(const Frame& frame, VesicleDiagnostics& d) {
   d.poration_x = crossing.x();
   d.poration_y = crossing.y();
   d.poration_z = crossing.z();
+  const Vector3 force = frame.axes * Vector3(d.net_force_x, d.net_force_y, d.net_force_z);
+  d.net_force_x = force.x();
+  d.net_force_y = force.y();
+  d.net_force_z = force.z();
 }
 
 }  // namespace

@@ -84,10 +84,12 @@ void solve(const VesicleTask& task, double time, Limit limit, Instruments& instr
 }
 
 std::shared_ptr<const Membrane> assembled(const Model& model, const VesicleModel& vesicle, const MembraneSpace& space,
-                                          const Matrix& position, bool electric_active, Instruments& instruments) {
+                                          const SurfaceFields& fields, bool electric_active, Instruments& instruments) {
   const auto timer = instruments.time("operator assembly");
   const LayerSelection layers = needed_layers(model, vesicle, electric_active);
-  return std::make_shared<const Membrane>(membrane_at(space, position, layers, vesicle.viscosity_ratio, instruments));
+  Membrane membrane = membrane_at(space, fields.position, layers, vesicle.viscosity_ratio, instruments);
+  membrane.material = material_at(space, fields.material);
+  return std::make_shared<const Membrane>(std::move(membrane));
 }
 
 }  // namespace
@@ -104,8 +106,8 @@ SolvedFields solve_fields(const Model& model, const Discretisation& discretisati
     VesicleSolution& solution = solved.vesicles[a];
     solution.recycled = state.vesicles[a].recycled;
     solution.membrane = reuse ? previous->vesicles[a].membrane
-                              : assembled(model, model.vesicles[a], discretisation.vesicle(a),
-                                          state.vesicles[a].position, !solved.electric_inactive, instruments);
+                              : assembled(model, model.vesicles[a], discretisation.vesicle(a), state.vesicles[a],
+                                          !solved.electric_inactive, instruments);
   }
   std::vector<VesicleTask> tasks;
   for (std::size_t a = 0; a < n; ++a) {

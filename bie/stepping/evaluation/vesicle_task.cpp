@@ -1,6 +1,8 @@
 #include "bie/stepping/evaluation/vesicle_task.hpp"
 
 #include "bie/physics/bending.hpp"
+#include "bie/physics/elasticity_by_place.hpp"
+#include "bie/physics/membrane_charging.hpp"
 #include "bie/physics/porous_charging.hpp"
 #include "bie/stepping/state/composition.hpp"
 
@@ -16,6 +18,13 @@ Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric
     current += porous_current(*task.vesicle.reaction, charging, membrane,
                               {task.state.transmembrane_potential, task.state.poration});
     return membrane.fine.analyze(current) / -charging.capacitance;
+  }
+  if (charges_by_place(membrane)) {
+    current += conductance_of(charging, membrane)
+                   .cwiseProduct(Vector(membrane.fine.synthesize(task.state.transmembrane_potential)));
+    const Vector& pump = membrane.material.pump_current;
+    if (pump.size() > 0) current += electric.pump * pump;
+    return -membrane.fine.analyze(current.cwiseQuotient(capacitance_of(charging, membrane)));
   }
   return -(membrane.fine.analyze(current) + charging.conductance * task.state.transmembrane_potential) /
          charging.capacitance;
@@ -37,7 +46,8 @@ void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forc
     task.solution.force_of_effects = forcing.force - without;
   }
   if (!task.vesicle.bending) return;
-  const Matrix bending = bending_force(*task.vesicle.bending, task.membrane);
+  const Matrix bending = bends_by_place(task.membrane) ? elastic_force(task.membrane)
+                                                       : bending_force(*task.vesicle.bending, task.membrane);
   task.fields.force_bending = task.membrane.fine.analyze(bending);
   forcing.force += bending;
 }

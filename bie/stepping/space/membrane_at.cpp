@@ -21,4 +21,10 @@ Membrane membrane_at(const MembraneSpace& space, const Matrix& position, const L
   return {space.fine_transform(), std::move(surface), std::move(layers), radius, subspace, std::move(contrast)};
 }
 
+MembraneMaterial material_at(const MembraneSpace& space, const MembraneMaterial& coefficients) {
+  MembraneMaterial values = coefficients;
+  for_each_property(values, [&](Vector& property) { property = Vector(space.fine_transform().synthesize(property)); });
+  return values;
+}
+
 }  // namespace vehd

@@ -11,4 +11,8 @@ namespace vehd {
 Membrane membrane_at(const MembraneSpace& space, const Matrix& position, const LayerSelection& selection,
                      double viscosity_ratio, Instruments& instruments);
 
+/// What differs from place to place, as a Membrane has it.
+/// @param coefficients  of the degree of the space
+MembraneMaterial material_at(const MembraneSpace& space, const MembraneMaterial& coefficients);
+
 }  // namespace vehd

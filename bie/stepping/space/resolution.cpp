@@ -45,6 +45,10 @@ Resolution::Resolution(const Model& model, const VesicleState& vesicle, const Ma
   const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
   shape_ = degree_bounds(vesicle.position) / radius;
   shape_[0] = 0.0;  // where the vesicle is
+  for_each_property(vesicle.material, [&](const Vector& property) {
+    const Vector bounds = degree_bounds(property);
+    if (const double size = bounds.maxCoeff(); size > 0.0) shape_ = shape_.cwiseMax(bounds / size);
+  });
   if (!model.electric || potential.size() == 0) return;
   potential_ = degree_bounds(potential);
   least_scale_ = least_potential_scale(*model.electric, radius);

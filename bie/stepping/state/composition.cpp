@@ -24,6 +24,12 @@ std::vector<EffectDescription> implicit_effects(const Model& model, const Vesicl
   if (model.mobile && vesicle.viscosity_ratio != 1.0) result.push_back(viscosity_contrast_description());
   if (model.electric) result.push_back(electric_description(electric_parameters(model, vesicle)));
   if (vesicle.reaction) result.push_back(vesicle.reaction->description());
+  if (vesicle.by_place) {
+    result.push_back({"membrane by place", "C_m, G_m, kappa_B or c as functions of the material point", {}, {}});
+  }
+  if (model.electric && vesicle.pump) {
+    result.push_back({"pump", "J_p in C_m dV_m/dt + G_m V_m + J_p = -sigma_i dphi_i/dn", {}, {}});
+  }
   return result;
 }
 
@@ -61,6 +67,9 @@ std::vector<EffectDescription> effects_of(const Model& model) {
 bool electric_inactive(const Model& model, const State& state, Limit limit) {
   if (!model.electric) return false;
   const Waveform& waveform = model.electric->waveform;
+  // A pump charges a membrane that has no V_m yet.
+  const auto pumps = [](const VesicleModel& vesicle) { return vesicle.pump.has_value(); };
+  if (std::any_of(model.vesicles.begin(), model.vesicles.end(), pumps)) return false;
   const bool quiet =
       limit == Limit::after ? waveform.is_quiet(state.time) : waveform.at(state.time, Limit::before) == 0.0;
   return quiet && std::all_of(state.vesicles.begin(), state.vesicles.end(), [](const VesicleState& vesicle) {
@@ -87,12 +96,17 @@ std::optional<double> next_discontinuity(const Model& model, double time) {
     if (discontinuity) result = std::min(*discontinuity, result.value_or(*discontinuity));
   };
   if (model.electric) add(model.electric->waveform.next_discontinuity(time));
+  for (const VesicleModel& vesicle : model.vesicles) {
+    if (vesicle.pump) add(vesicle.pump->next_discontinuity(time));
+  }
   for (const auto& effect : explicit_effects(model)) add(effect->next_discontinuity(time));
   return result;
 }
 
 bool jumps_at(const Model& model, double time) {
   if (model.electric && model.electric->waveform.jumps_at(time)) return true;
+  const auto pump_jumps = [&](const VesicleModel& vesicle) { return vesicle.pump && vesicle.pump->jumps_at(time); };
+  if (std::any_of(model.vesicles.begin(), model.vesicles.end(), pump_jumps)) return true;
   const auto effects = explicit_effects(model);
   return std::any_of(effects.begin(), effects.end(), [&](const auto& effect) { return effect->jumps_at(time); });
 }

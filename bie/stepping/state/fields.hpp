@@ -74,6 +74,9 @@ struct VesicleDiagnostics {
   double poration_max = 0.0, poration_mean = 0.0;  ///< of the porosity or of the density of pores
   PorationLoad load{};
   double poration_load = 0;  ///< that of `load`
+  // Of a membrane that differs from place to place.
+  double elastic_energy = 0.0;                                     ///< ∫κ_B (H − c)² dA
+  double net_force_x = 0.0, net_force_y = 0.0, net_force_z = 0.0;  ///< of the membrane on the fluid
   /// When and where the criterion of poration was first met; infinite and not numbers until then.
   double poration_time = std::numeric_limits<double>::infinity();
   double poration_x = std::numeric_limits<double>::quiet_NaN(), poration_y = poration_x, poration_z = poration_x;

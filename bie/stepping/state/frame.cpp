@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/principal_axes.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/rotated.hpp"
@@ -38,6 +39,12 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
     const Matrix shape = vesicle.position.bottomRows(vesicle.position.rows() - 1);
     const Matrix3 axes = principal_axes(shape.transpose() * shape).directions;
     for (int i = 0; i < 3; ++i) add(axes.col(i));
+    // A cap, and whatever else has a side, points along its harmonics of degree 1.
+    for_each_property(vesicle.material, [&](const Vector& property) {
+      const Vector3 side(property[coefficient_index(1, 1)], property[coefficient_index(1, -1)],
+                         property[coefficient_index(1, 0)]);
+      if (side.norm() > kSamePlace * property.norm()) add(side);
+    });
   }
   return result;
 }

@@ -21,7 +21,9 @@ ElectricParameters electric_parameters(const Model& model, const VesicleModel& v
           vesicle.inside.permittivity_ratio,
           applied.waveform,
           applied.displacement_current,
-          applied.averaged_frequency};
+          applied.averaged_frequency,
+          vesicle.pump ? 1.0 : 0.0,
+          vesicle.pump.value_or(Waveform{})};
 }
 
 }  // namespace vehd

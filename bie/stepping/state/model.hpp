@@ -21,6 +21,8 @@ struct VesicleModel {
   ChargingParameters charging;                         ///< of the membrane
   std::optional<PorationCriterion> criterion{};        ///< of which a history tells
   std::shared_ptr<const PorationReaction> reaction{};  ///< null: the membrane conducts as much as ever
+  bool by_place = false;           ///< some properties differ from place to place, see SurfaceFields::material
+  std::optional<Waveform> pump{};  ///< of the pump current; empty without a pump
   /// What acts on this vesicle alone: gravity, spontaneous curvature, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bie/physics/membrane_material.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -12,9 +13,10 @@ struct SurfaceFields {
   /// V_m, interior minus exterior; empty without electricity. With displacement currents the charge of the inner face
   /// over C_m, which is continuous where the field jumps, see FaceCharges.
   Vector transmembrane_potential;
-  Vector free_charge;  ///< of both faces over C_m; empty without displacement currents
-  Vector tension;      ///< λ, also the initial guess of the next solve; empty unless inextensible
-  Vector poration{};   ///< s of the membrane's PorationReaction; empty without
+  Vector free_charge;           ///< of both faces over C_m; empty without displacement currents
+  Vector tension;               ///< λ, also the initial guess of the next solve; empty unless inextensible
+  Vector poration{};            ///< s of the membrane's PorationReaction; empty without
+  MembraneMaterial material{};  ///< what differs from place to place
 };
 
 /// The scalars among them that are there, one after the other: visit(Vector&).
@@ -24,6 +26,7 @@ void for_each_scalar(Fields& fields, const Visit& visit) {
        {&fields.area_strain, &fields.transmembrane_potential, &fields.free_charge, &fields.tension, &fields.poration}) {
     if (scalar->size() > 0) visit(*scalar);
   }
+  for_each_property(fields.material, visit);
 }
 
 }  // namespace vehd

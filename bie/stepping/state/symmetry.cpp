@@ -19,6 +19,18 @@ bool is_small(const Eigen::MatrixBase<Difference>& difference, const Eigen::Matr
   return difference.cwiseAbs().maxCoeff() <= kRounding * field.cwiseAbs().maxCoeff();
 }
 
+bool is_same(const MembraneMaterial& part, const MembraneMaterial& whole) {
+  std::vector<const Vector*> parts;
+  for_each_property(part, [&](const Vector& property) { parts.push_back(&property); });
+  bool same = true;
+  std::size_t i = 0;
+  for_each_property(whole, [&](const Vector& property) {
+    same = same && is_small(*parts[i] - property, property);
+    ++i;
+  });
+  return same;
+}
+
 /// Does the membrane equal its symmetric part?
 bool has(const Symmetry& symmetry, const SurfaceFields& fields) {
   const SurfaceFields part = symmetric_part(SymmetrySubspace(symmetry, order_of(fields.position.rows())), fields);
@@ -26,7 +38,8 @@ bool has(const Symmetry& symmetry, const SurfaceFields& fields) {
   if (!is_small(part.position - fields.position, shape)) return false;
   if ((part.area_strain - fields.area_strain).cwiseAbs().maxCoeff() > kRounding) return false;
   const Vector& potential = fields.transmembrane_potential;
-  return potential.size() == 0 || is_small(part.transmembrane_potential - potential, potential);
+  if (potential.size() > 0 && !is_small(part.transmembrane_potential - potential, potential)) return false;
+  return is_same(part.material, fields.material);
 }
 
 bool has(const Symmetry& symmetry, const State& state) {
@@ -79,6 +92,12 @@ SurfaceFields symmetric_part(const SymmetrySubspace& subspace, SurfaceFields fie
   }
   // V_m counts by its size alone.
   if (fields.poration.size() > 0) fields.poration = subspace.symmetric_scalar(fields.poration);
+  // The pump drives V_m, and changes its sign with it.
+  Vector pump = std::move(fields.material.pump_current);
+  fields.material.pump_current = Vector();
+  for_each_property(fields.material, [&](Vector& property) { property = subspace.symmetric_scalar(property); });
+  if (pump.size() > 0) pump = subspace.symmetric_potential(pump);
+  fields.material.pump_current = std::move(pump);
   return fields;
 }
 

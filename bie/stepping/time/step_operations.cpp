@@ -121,7 +121,10 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
   const bool is_linear = charges() && !porates();
   if (is_linear) {
     std::vector<ElectricParameters> homogeneous = electric_at(y.time);
-    for (ElectricParameters& electric : homogeneous) electric.field.setZero();
+    for (ElectricParameters& electric : homogeneous) {
+      electric.field.setZero();
+      electric.pump = 0.0;
+    }
     charge(homogeneous, dt, changes);
   }
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
@@ -230,6 +233,7 @@ void StepOperations::take(Charge charge, double time, std::size_t a, SurfaceFiel
 
 /// A potential this small does nothing any more, and without it the electric part becomes inactive.
 void StepOperations::forget_decayed(double time, std::size_t a, Vector& potential) const {
+  if (model_.vesicles[a].pump) return;
   const double scale = model_.electric->field.norm() * at_start_.vesicles[a].membrane->radius;
   if (model_.electric->waveform.is_quiet(time) && potential.norm() < thresholds::decayed_potential * scale)
     potential.setZero();
