@@ -2,7 +2,8 @@
 
 #include <numbers>
 
-/// Pointwise Laplace kernels, r = x − y (target minus source). No quadrature, no area element.
+/// Pointwise Laplace kernels, r = x − y (target minus source). No quadrature, no area element. Real is a number or an
+/// array of those for several nodes.
 namespace vehd {
 
 /// Prefactor of G = 1/(4π|r|) and of its derivatives.
@@ -19,7 +20,8 @@ inline double laplace_single_kernel(double inverse_r) { return inverse_r; }
 /// @param r_dot_source_normal  r·n(y), or r·J n(y) where the area element is to be in the kernel; its units come out
 /// Accuracy: rounding
 /// Source: paper Eq. (9)
-inline double laplace_double_kernel(double r_dot_source_normal, double inverse_r) {
+template <class Real>
+Real laplace_double_kernel(const Real& r_dot_source_normal, const Real& inverse_r) {
   return r_dot_source_normal * inverse_r * inverse_r * inverse_r;
 }
 
@@ -27,7 +29,8 @@ inline double laplace_double_kernel(double r_dot_source_normal, double inverse_r
 /// @param r_dot_target_normal  r·n(x), or r·J n(x)
 /// Accuracy: rounding
 /// Source: paper Eq. (10), first part
-inline double laplace_adjoint_kernel(double r_dot_target_normal, double inverse_r) {
+template <class Real>
+Real laplace_adjoint_kernel(const Real& r_dot_target_normal, const Real& inverse_r) {
   return -r_dot_target_normal * inverse_r * inverse_r * inverse_r;
 }
 

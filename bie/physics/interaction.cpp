@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+#include <optional>
+
+#include "bie/potentials/far_expansions.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -22,43 +27,99 @@ TargetNodes target_nodes(const InteractingMembrane& membrane) {
   return result;
 }
 
-/// Of rows for all pairs.
-double bytes_of_rows(const std::vector<InteractingMembrane>& membranes, const std::vector<TargetNodes>& nodes,
-                     Index n_all) {
-  double bytes = 0.0;
-  for (std::size_t b = 0; b < membranes.size(); ++b) {
-    bytes += 8.0 * static_cast<double>(n_all - nodes[b].points.rows()) *
-             static_cast<double>(membranes[b].position.rows()) * PairColumns(membranes[b].selection).count;
-  }
-  return bytes;
-}
+/// With fewer membranes a sum over the nodes of each other one takes less time than moments of all.
+constexpr std::size_t kFewMembranes = 8;
 
 }  // namespace
 
+struct Interaction::Parts {
+  std::vector<SphereTransform> targets;        ///< of each membrane
+  std::vector<std::vector<std::size_t>> near;  ///< of each membrane the others that its layers serve
+  std::vector<PairLayers> layers;              ///< of each membrane at the nodes of these, one after the other
+  std::optional<FarExpansions> expansions;     ///< for all others, where there are any
+
+  [[nodiscard]] std::size_t n() const { return targets.size(); }
+  /// Over threads: membranes if there are many, else what is done for each.
+  template <class Body>
+  void for_each_membrane(const Body& body) const {
+    std::vector<std::exception_ptr> exceptions(n());
+    for_each_index(static_cast<Index>(n()), n() > kFewMembranes, [&](Index i) {
+      const auto a = static_cast<std::size_t>(i);
+      try {
+        body(a);
+      } catch (...) {
+        exceptions[a] = std::current_exception();
+      }
+    });
+    for (const std::exception_ptr& exception : exceptions) {
+      if (exception) std::rethrow_exception(exception);
+    }
+  }
+
+  /// @param layer     of one membrane at the nodes of those that are near to it
+  /// @param expanded  of all at those that are far
+  template <class Field, class Layer, class Expanded>
+  [[nodiscard]] std::vector<Field> sums(const std::vector<Field>& densities, Index components, const Layer& layer,
+                                        const Expanded& expanded) const {
+    require_size("densities of membranes", static_cast<long>(densities.size()), static_cast<long>(n()));
+    std::vector<Matrix> values;
+    if (expansions) {
+      values = expanded(*expansions, densities);
+    } else {
+      for (const SphereTransform& nodes : targets) {
+        values.emplace_back(Matrix::Zero(nodes.grid().n_points(), components));
+      }
+    }
+    std::vector<Matrix> from(n());
+    for_each_membrane([&](std::size_t b) {
+      if (densities[b].size() > 0 && !near[b].empty()) from[b] = layer(layers[b], densities[b]);
+    });
+    for (std::size_t b = 0; b < n(); ++b) {
+      if (from[b].size() == 0) continue;
+      Index first = 0;
+      for (const std::size_t a : near[b]) {
+        values[a] += from[b].middleRows(first, values[a].rows());
+        first += values[a].rows();
+      }
+    }
+    std::vector<Field> result(n());
+    for_each_membrane([&](std::size_t a) { result[a] = targets[a].analyze(values[a]); });
+    return result;
+  }
+
+  template <class Layer, class Expanded>
+  [[nodiscard]] std::vector<Vector> fluxes(const std::vector<Vector>& densities, const Layer& layer,
+                                           const Expanded& expanded) const {
+    std::vector<Vector> result = sums(densities, 1, layer, expanded);
+    for (Vector& flux : result) flux[0] = 0.0;
+    return result;
+  }
+};
+
 Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
                          Instruments& instruments) {
+  auto parts = std::make_unique<Parts>();
+  SharedTransforms transforms;
   PairSettings of_one = settings;
   of_one.row_bytes /= static_cast<double>(membranes.size());
   std::vector<TargetNodes> nodes;
-  Index n_all = 0;
   for (const InteractingMembrane& membrane : membranes) {
-    targets_.push_back(membrane.nodes);
+    parts->targets.push_back(membrane.nodes);
     nodes.push_back(target_nodes(membrane));
-    n_all += nodes.back().points.rows();
   }
-  if (bytes_of_rows(membranes, nodes, n_all) > settings.row_bytes) {
+  if (membranes.size() > kFewMembranes) {
     const auto timer = instruments.time("pair layers");
     std::vector<ExpandedMembrane> expanded;
     for (std::size_t a = 0; a < membranes.size(); ++a) {
       expanded.push_back({membranes[a].position, nodes[a].points, nodes[a].area_vectors});
     }
-    expansions_.emplace(expanded, settings.tolerance);
+    parts->expansions.emplace(expanded, settings.tolerance, transforms);
   }
   for (std::size_t b = 0; b < membranes.size(); ++b) {
-    std::vector<std::size_t>& near = near_.emplace_back();
+    std::vector<std::size_t>& near = parts->near.emplace_back();
     Index n_near = 0;
     for (std::size_t a = 0; a < membranes.size(); ++a) {
-      if (a == b || (expansions_ && expansions_->is_far(a, b))) continue;
+      if (a == b || (parts->expansions && parts->expansions->is_far(a, b))) continue;
       near.push_back(a);
       n_near += nodes[a].points.rows();
     }
@@ -70,92 +131,65 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
       first += nodes[a].points.rows();
     }
     try {
-      layers_.emplace_back(membranes[b].position, others.points, others.area_vectors, membranes[b].selection, of_one,
-                           instruments);
+      parts->layers.emplace_back(membranes[b].position, others.points, others.area_vectors, membranes[b].selection,
+                                 of_one, transforms, instruments);
     } catch (const ConvergenceError& error) {
       throw ConvergenceError(
           fmt::format("membrane {} of {} and another one: {}", b + 1, membranes.size(), error.what()));
     }
   }
+  parts_ = std::move(parts);
 }
 
-template <class Field, class Layer, class Expanded>
-std::vector<Field> Interaction::sums(const std::vector<Field>& densities, Index components, const Layer& layer,
-                                     const Expanded& expanded) const {
-  require_size("densities of membranes", static_cast<long>(densities.size()), static_cast<long>(n_membranes()));
-  std::vector<Matrix> values;
-  if (expansions_) {
-    values = expanded(*expansions_, densities);
-  } else {
-    for (const SphereTransform& nodes : targets_) {
-      values.emplace_back(Matrix::Zero(nodes.grid().n_points(), components));
-    }
-  }
-  for (std::size_t b = 0; b < n_membranes(); ++b) {
-    if (densities[b].size() == 0) continue;
-    const Matrix from_b = layer(layers_[b], densities[b]);
-    Index first = 0;
-    for (const std::size_t a : near_[b]) {
-      values[a] += from_b.middleRows(first, values[a].rows());
-      first += values[a].rows();
-    }
-  }
-  std::vector<Field> result;
-  for (std::size_t a = 0; a < n_membranes(); ++a) result.emplace_back(targets_[a].analyze(values[a]));
-  return result;
-}
+Interaction::~Interaction() = default;
+Interaction::Interaction(Interaction&&) noexcept = default;
 
-template <class Layer, class Expanded>
-std::vector<Vector> Interaction::fluxes(const std::vector<Vector>& densities, const Layer& layer,
-                                        const Expanded& expanded) const {
-  std::vector<Vector> result = sums(densities, 1, layer, expanded);
-  for (Vector& flux : result) flux[0] = 0.0;
-  return result;
-}
+std::size_t Interaction::n_membranes() const { return parts_->n(); }
 
 std::vector<Vector> Interaction::weighted_single_flux(const std::vector<Vector>& weighted) const {
-  return fluxes(
+  return parts_->fluxes(
       weighted, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single_normal(f); },
       [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_single_normal(f); });
 }
 
 std::vector<Vector> Interaction::weighted_double_flux(const std::vector<Vector>& densities) const {
-  return fluxes(
+  return parts_->fluxes(
       densities, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double_normal(f); },
       [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_double_normal(f); });
 }
 
 std::vector<Vector> Interaction::single_potential(const std::vector<Vector>& weighted) const {
-  return sums(
+  return parts_->sums(
       weighted, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single(f); },
       [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_single(f); });
 }
 
 std::vector<Vector> Interaction::double_potential(const std::vector<Vector>& densities) const {
-  return sums(
+  return parts_->sums(
       densities, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double(f); },
       [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_double(f); });
 }
 
 std::vector<Matrix> Interaction::stokes_single(const std::vector<Matrix>& weighted) const {
-  return sums(
+  return parts_->sums(
       weighted, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_single(f); },
       [](const FarExpansions& far, const std::vector<Matrix>& f) { return far.stokes_single(f); });
 }
 
 std::vector<Matrix> Interaction::stokes_double(const std::vector<Matrix>& velocities) const {
-  return sums(
+  return parts_->sums(
       velocities, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_double(f); },
       [](const FarExpansions& far, const std::vector<Matrix>& f) { return far.stokes_double(f); });
 }
 
 PairCounts Interaction::counts() const {
   PairCounts all;
-  for (const PairLayers& layers : layers_) {
+  for (const PairLayers& layers : parts_->layers) {
     all.far += layers.counts().far;
     all.near += layers.counts().near;
     all.far_nodes += layers.counts().far_nodes;
   }
+  if (parts_->expansions) all.expanded = parts_->expansions->n_targets();
   return all;
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "bie/potentials/far_expansions.hpp"
 #include "bie/potentials/pair_layers.hpp"
 #include "bie/sphere/transform.hpp"
 
@@ -17,10 +16,11 @@ struct InteractingMembrane {
 };
 
 /// Layers of every membrane on all others, as maps from the densities of all to coefficients on each: for membrane a
-/// the sum over all b ≠ a. Where rows for all pairs would take more memory than they may, distant pairs are served by
-/// multipole expansions. Made once for frozen shapes, applied many times; an empty density counts as zero. All
-/// membranes are outside one another. Accuracy: that of PairLayers at the nodes, and what the degree of the target
-/// leaves out of the sums; Green's identity between two shapes without symmetry (tests/physics/interaction_test.cpp)
+/// the sum over all b ≠ a. With more than a few membranes distant pairs are served by multipole expansions. Made once
+/// for frozen shapes, applied many times; an empty density counts as zero. All membranes are outside one another.
+/// Accuracy: that of PairLayers at the nodes, and what the degree of the target leaves out of the sums; Green's
+/// identity between two shapes without symmetry, nine membranes as the sums of their pairs to 1e-9
+/// (tests/physics/interaction_test.cpp)
 /// Source: paper Eqs. (6), (8), (9) with source and target on different membranes
 class Interaction {
  public:
@@ -29,7 +29,10 @@ class Interaction {
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
               Instruments& instruments);
 
-  [[nodiscard]] std::size_t n_membranes() const { return targets_.size(); }
+  ~Interaction();
+  Interaction(Interaction&&) noexcept;
+
+  [[nodiscard]] std::size_t n_membranes() const;
 
   // Each throws std::logic_error for a layer that was not selected.
 
@@ -50,19 +53,8 @@ class Interaction {
   [[nodiscard]] PairCounts counts() const;
 
  private:
-  /// @param layer     of one membrane at the nodes of those that are near to it
-  /// @param expanded  of all at those that are far
-  template <class Field, class Layer, class Expanded>
-  [[nodiscard]] std::vector<Field> sums(const std::vector<Field>& densities, Index components, const Layer& layer,
-                                        const Expanded& expanded) const;
-  template <class Layer, class Expanded>
-  [[nodiscard]] std::vector<Vector> fluxes(const std::vector<Vector>& densities, const Layer& layer,
-                                           const Expanded& expanded) const;
-
-  std::vector<SphereTransform> targets_;        ///< of each membrane
-  std::vector<std::vector<std::size_t>> near_;  ///< of each membrane the others that its layers serve
-  std::vector<PairLayers> layers_;              ///< of each membrane at the nodes of these, one after the other
-  std::optional<FarExpansions> expansions_;     ///< for all others, where there are any
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
 };
 
 }  // namespace vehd

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -12,14 +13,23 @@ namespace vehd {
 namespace {
 
 /// Pairs that need more are near: rows over the coefficients cost as much then.
-constexpr int kHighestDegree = 16;
+constexpr int kHighestDegree = 24;
 /// Slopes, and densities without a mean, lose so many degrees against potentials of a charge.
 constexpr int kMoreDegrees = 2;
 constexpr double kPi = std::numbers::pi;
 
+/// Aᵀ B for B of few columns, each column of A read once: a product that rearranges A takes three times as long.
+Matrix few_columns(const Matrix& a, const Matrix& b) {
+  RowMatrix result(a.cols(), b.cols());
+  result = a.transpose().lazyProduct(b);
+  return result;
+}
+
 }  // namespace
 
-FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance) : tolerance_(tolerance) {
+FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance,
+                             SharedTransforms& transforms)
+    : tolerance_(tolerance), translation_(kHighestDegree), far_from_(membranes.size()) {
   std::vector<Vector3> centres;
   double largest = 0.0;
   for (const ExpandedMembrane& membrane : membranes) {
@@ -28,34 +38,30 @@ FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, dou
   }
   scale_ = largest;
   for (int axis = 0; axis < 3; ++axis) derivative_.push_back(regular_derivative(axis, kHighestDegree));
-  parity_.resize(n_solid(kHighestDegree));
-  for (int l = 0; l <= kHighestDegree; ++l) {
-    parity_.segment(Index{l} * l, 2 * l + 1).setConstant(l % 2 == 0 ? 1.0 : -1.0);
+  std::vector<SphereTransform> nodes;
+  for (const ExpandedMembrane& membrane : membranes) {
+    const int order = order_of(membrane.position.rows());
+    // Exact for the moments of a sphere.
+    nodes.push_back(transforms.of(order, order + kHighestDegree / 2));
   }
-  for (std::size_t a = 0; a < membranes.size(); ++a) places_.push_back(place_of(membranes[a], centres[a]));
-  pairs_of_.resize(membranes.size());
-  for (std::size_t b = 0; b < membranes.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      const int degree = degree_of(places_[a], places_[b]);
-      if (degree > kHighestDegree) continue;
-      pairs_of_[a].push_back(static_cast<Index>(pairs_.size()));
-      pairs_of_[b].push_back(static_cast<Index>(pairs_.size()));
-      pairs_.push_back({a, b, n_solid(degree), {}});
+  std::vector<std::optional<Place>> places(membranes.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t a = 0; a < membranes.size(); ++a) {
+    places[a] = place_of(membranes[a], centres[a], nodes[a]);
+  }
+  for (std::optional<Place>& place : places) places_.push_back(*std::move(place));
+  for (std::size_t a = 0; a < membranes.size(); ++a) {
+    for (std::size_t b = 0; b < membranes.size(); ++b) {
+      if (a == b) continue;
+      const int degree = degree_of(places_[std::min(a, b)], places_[std::max(a, b)]);
+      if (degree <= kHighestDegree) far_from_[a].push_back({b, degree});
     }
-  }
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    Pair& pair = pairs_[i];
-    const int degree = static_cast<int>(std::lround(std::sqrt(static_cast<double>(pair.n)))) - 1;
-    pair.to_second = moments_to_local(places_[pair.second].centre - places_[pair.first].centre, degree);
+    std::ranges::stable_sort(far_from_[a], {}, &FarSource::degree);
   }
 }
 
-FarExpansions::Place FarExpansions::place_of(const ExpandedMembrane& membrane, const Vector3& centre) const {
-  const int order = order_of(membrane.position.rows());
-  // Exact for the moments of a sphere.
-  const int grid_order = order + kHighestDegree / 2;
-  SphereTransform nodes(order, make_grid(grid_order, fast_longitudes(2 * grid_order + 2)));
+FarExpansions::Place FarExpansions::place_of(const ExpandedMembrane& membrane, const Vector3& centre,
+                                             const SphereTransform& nodes) const {
   const SmoothGrid grid = make_smooth_grid(make_layer_fields(membrane.position, {}), nodes);
   const auto about_centre = [&](const Matrix& points) -> Matrix {
     return (points.rowwise() - centre.transpose()) / scale_;
@@ -64,11 +70,16 @@ FarExpansions::Place FarExpansions::place_of(const ExpandedMembrane& membrane, c
   const double radius = std::max(from_centre.rowwise().norm().maxCoeff(), targets.rowwise().norm().maxCoeff());
   Matrix regular = regular_harmonics(from_centre, kHighestDegree);
   Matrix target_regular = regular_harmonics(targets, kHighestDegree);
-  return {centre / scale_,        radius,
-          std::move(nodes),       grid.weight,
-          std::move(from_centre), grid.area_vectors,
-          std::move(regular),     std::move(targets),
-          membrane.normals,       std::move(target_regular)};
+  return {centre / scale_,
+          radius,
+          nodes,
+          grid.weight,
+          std::move(from_centre),
+          grid.area_vectors,
+          std::move(regular),
+          std::move(targets),
+          membrane.normals,
+          std::move(target_regular)};
 }
 
 /// Terms of degree l of either expansion fall like the l-th power of the radius over the distance to the other surface.
@@ -83,6 +94,14 @@ int FarExpansions::degree_of(const Place& a, const Place& b) const {
 bool FarExpansions::is_far(std::size_t target, std::size_t source) const {
   return target != source &&
          degree_of(places_[std::min(target, source)], places_[std::max(target, source)]) <= kHighestDegree;
+}
+
+Index FarExpansions::n_targets() const {
+  Index n = 0;
+  for (std::size_t a = 0; a < places_.size(); ++a) {
+    n += places_[a].target_regular.rows() * static_cast<Index>(far_from_[a].size());
+  }
+  return n;
 }
 
 Matrix FarExpansions::dipole_moments(const Place& place, const std::vector<Matrix>& components) const {
@@ -100,7 +119,7 @@ std::vector<Matrix> FarExpansions::single_moments(const std::vector<Vector>& wei
     if (weighted[b].size() == 0) continue;
     const Place& place = places_[b];
     const Vector charges = place.weight.cwiseProduct(place.nodes.synthesize(weighted[b]).col(0));
-    result[b] = moments(place.regular.transpose() * charges);
+    result[b] = moments(few_columns(place.regular, charges));
   }
   return result;
 }
@@ -120,28 +139,19 @@ std::vector<Matrix> FarExpansions::double_moments(const std::vector<Vector>& den
 }
 
 std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, bool is_stokes) const {
-  const Index columns = is_stokes ? 4 : 1;
+  std::vector<RowMatrix> turnable(places_.size());
+  for (std::size_t b = 0; b < places_.size(); ++b) {
+    if (moments[b].size() > 0) turnable[b] = translation_.turnable(moments[b]);
+  }
   std::vector<Matrix> result(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < places_.size(); ++a) {
-    Matrix straight = Matrix::Zero(n_solid(kHighestDegree), columns), mirrored = straight;
-    for (const Index i : pairs_of_[a]) {
-      const Pair& pair = pairs_[static_cast<std::size_t>(i)];
-      const bool forward = pair.second == a;
-      const std::size_t b = forward ? pair.first : pair.second;
-      if (moments[b].size() == 0) continue;
-      Matrix source = moments[b].topRows(pair.n);
-      // (x − c_b)·A = (x − c_a)·A + (c_a − c_b)·A.
-      if (is_stokes) source.col(3) -= source.leftCols(3) * (places_[a].centre - places_[b].centre);
-      if (forward) {
-        straight.topRows(pair.n).noalias() += pair.to_second * source;
-      } else {
-        // Seen from the other side all odd degrees change their sign.
-        source = parity_.head(pair.n).asDiagonal() * source;
-        mirrored.topRows(pair.n).noalias() += pair.to_second * source;
-      }
+    std::vector<DistantMoments> sources;
+    for (const FarSource& far : far_from_[a]) {
+      if (turnable[far.membrane].size() == 0) continue;
+      sources.push_back({&turnable[far.membrane], places_[a].centre - places_[far.membrane].centre, far.degree});
     }
-    result[a] = straight + parity_.asDiagonal() * mirrored;
+    result[a] = translation_.local(sources, is_stokes ? 4 : 1);
   }
   return result;
 }
@@ -171,10 +181,17 @@ std::vector<Matrix> FarExpansions::stokes_values(const std::vector<Matrix>& mome
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < places_.size(); ++a) {
     const Place& place = places_[a];
-    Matrix u = place.target_regular * values[a].leftCols(3);
+    // u_i = A_i + ∂_i B − x_j ∂_i A_j
+    Matrix coefficients(values[a].rows(), 12);
     for (int i = 0; i < 3; ++i) {
-      const Matrix slope = place.target_regular * Matrix(derivative_[static_cast<std::size_t>(i)] * values[a]);
-      u.col(i) += slope.col(3) - place.target_from_centre.cwiseProduct(slope.leftCols(3)).rowwise().sum();
+      const Matrix slope = derivative_[static_cast<std::size_t>(i)] * values[a];
+      coefficients.col(i) = values[a].col(i) + slope.col(3);
+      coefficients.middleCols(3 + 3 * i, 3) = slope.leftCols(3);
+    }
+    const Matrix at_targets = place.target_regular * coefficients;
+    Matrix u = at_targets.leftCols(3);
+    for (int i = 0; i < 3; ++i) {
+      u.col(i) -= place.target_from_centre.cwiseProduct(at_targets.middleCols(3 + 3 * i, 3)).rowwise().sum();
     }
     values[a] = factor * u;
   }
@@ -207,7 +224,7 @@ std::vector<Matrix> FarExpansions::stokes_single(const std::vector<Matrix>& weig
     Matrix charges(place.weight.size(), 4);
     charges.leftCols(3) = place.weight.asDiagonal() * place.nodes.synthesize(weighted[b]);
     charges.col(3) = place.from_centre.cwiseProduct(charges.leftCols(3)).rowwise().sum();
-    all[b] = moments(place.regular.transpose() * charges);
+    all[b] = moments(few_columns(place.regular, charges));
   }
   return stokes_values(all, 1.0 / (8.0 * kPi * scale_));
 }

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "bie/potentials/solid_harmonics.hpp"
-#include "bie/sphere/transform.hpp"
+#include "bie/potentials/axis_translation.hpp"
+#include "bie/potentials/shared_transforms.hpp"
 
 namespace vehd {
 
@@ -23,10 +23,12 @@ struct ExpandedMembrane {
 class FarExpansions {
  public:
   /// @param tolerance  relative, below 1
-  FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance);
+  FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance, SharedTransforms& transforms);
 
   /// Whether the layers of the second at the first are among the sums.
   [[nodiscard]] bool is_far(std::size_t target, std::size_t source) const;
+  /// How many targets of all pairs are.
+  [[nodiscard]] Index n_targets() const;
 
   // For each membrane the sum over all that are far from it, at its points. Empty densities count as zero.
 
@@ -54,14 +56,13 @@ class FarExpansions {
     Matrix regular;                    ///< at the nodes, [n_nodes x n_solid]
     Matrix target_from_centre, target_normals, target_regular;
   };
-  /// From the membrane of the smaller number to that of the larger one.
-  struct Pair {
-    std::size_t first, second;
-    Index n;  ///< entries of its degree
-    Matrix to_second;
+  struct FarSource {
+    std::size_t membrane;
+    int degree;
   };
 
-  [[nodiscard]] Place place_of(const ExpandedMembrane& membrane, const Vector3& centre) const;
+  [[nodiscard]] Place place_of(const ExpandedMembrane& membrane, const Vector3& centre,
+                               const SphereTransform& nodes) const;
   [[nodiscard]] int degree_of(const Place& a, const Place& b) const;
   [[nodiscard]] Matrix dipole_moments(const Place& place, const std::vector<Matrix>& components) const;
   /// @param moments     of each membrane, [n_solid x columns] or empty
@@ -74,11 +75,10 @@ class FarExpansions {
   [[nodiscard]] std::vector<Matrix> double_moments(const std::vector<Vector>& densities) const;
 
   double tolerance_, scale_ = 1.0;
+  AxisTranslation translation_;
   std::vector<Eigen::SparseMatrix<double>> derivative_;
-  Vector parity_;  ///< (−1)^l
   std::vector<Place> places_;
-  std::vector<Pair> pairs_;
-  std::vector<std::vector<Index>> pairs_of_;  ///< of each membrane
+  std::vector<std::vector<FarSource>> far_from_;  ///< of each membrane the others, by degree
 };
 
 }  // namespace vehd

@@ -10,151 +10,169 @@ namespace vehd {
 
 namespace {
 
-/// Columns of positions and area vectors J n.
-struct Nodes {
-  const double *x, *y, *z, *nx, *ny, *nz;
-  Index count;
+/// Nodes that are looked at together: one instruction each of what compilers would else do one by one.
+constexpr Index kTogether = 4;
+using Few = Eigen::Array<double, kTogether, 1>;
 
-  explicit Nodes(const SmoothGrid& grid)
-      : x(grid.nodes.col(0).data()),
-        y(grid.nodes.col(1).data()),
-        z(grid.nodes.col(2).data()),
-        nx(grid.area_vectors.col(0).data()),
-        ny(grid.area_vectors.col(1).data()),
-        nz(grid.area_vectors.col(2).data()),
-        count(grid.n_nodes()) {}
-};
+Few few(const double* at) { return Eigen::Map<const Few>(at); }
 
-/// r = x − y at one node, y the source, and its products with J n there.
+/// r = x − y at some nodes, y the source, and its products with J n there.
 struct NodeSeparation {
-  double x, y, z, inverse;  ///< r and 1/|r|
-  double source;            ///< r·J n(y)
+  Few x, y, z, inverse;  ///< r and 1/|r|
+  Few nx, ny, nz;        ///< J n(y)
 
-  NodeSeparation(const Nodes& at, Index i, const Vector3& target)
-      : x(target[0] - at.x[i]),
-        y(target[1] - at.y[i]),
-        z(target[2] - at.z[i]),
-        inverse(1.0 / std::sqrt(x * x + y * y + z * z)),
-        source(x * at.nx[i] + y * at.ny[i] + z * at.nz[i]) {}
-  [[nodiscard]] double dot(const Vector3& v) const { return x * v[0] + y * v[1] + z * v[2]; }
+  // In registers: called, it would go through memory.
+  [[gnu::always_inline]] NodeSeparation(const Matrix& at, Index i, const Vector3& target)
+      : x(target[0] - few(at.col(0).data() + i)),
+        y(target[1] - few(at.col(1).data() + i)),
+        z(target[2] - few(at.col(2).data() + i)),
+        inverse(1.0 / (x * x + y * y + z * z).sqrt()),
+        nx(few(at.col(3).data() + i)),
+        ny(few(at.col(4).data() + i)),
+        nz(few(at.col(5).data() + i)) {}
+  [[nodiscard]] Few source() const { return x * nx + y * ny + z * nz; }
+  [[nodiscard]] Few dot(const Vector3& v) const { return x * v[0] + y * v[1] + z * v[2]; }
 };
 
-constexpr auto kSingle = [](const NodeSeparation& r, Index) { return laplace_single_kernel(r.inverse); };
-constexpr auto kDouble = [](const NodeSeparation& r, Index) { return laplace_double_kernel(r.source, r.inverse); };
-constexpr auto kStokesSingle = [](const NodeSeparation& r) { return stokeslet(r.x, r.y, r.z, r.inverse); };
-constexpr auto kStokesDouble = [](const NodeSeparation& r) {
-  return stokes_double_kernel(r.x, r.y, r.z, r.source, r.inverse);
-};
+constexpr auto kSingle = [](const NodeSeparation& r) -> Few { return r.inverse; };
+constexpr auto kDouble = [](const NodeSeparation& r) -> Few { return laplace_double_kernel(r.source(), r.inverse); };
 
 struct SingleNormal {
   const Vector3& normal;
-  double operator()(const NodeSeparation& r, Index) const { return laplace_adjoint_kernel(r.dot(normal), r.inverse); }
+  Few operator()(const NodeSeparation& r) const { return laplace_adjoint_kernel(r.dot(normal), r.inverse); }
 };
 
 struct DoubleNormal {
-  const Nodes& at;
   const Vector3& normal;
-  double operator()(const NodeSeparation& r, Index i) const {
-    const double inverse2 = r.inverse * r.inverse;
-    const double both = at.nx[i] * normal[0] + at.ny[i] * normal[1] + at.nz[i] * normal[2];
-    return inverse2 * r.inverse * (both - 3.0 * r.source * r.dot(normal) * inverse2);
+  Few operator()(const NodeSeparation& r) const {
+    const Few inverse2 = r.inverse * r.inverse;
+    const Few both = r.nx * normal[0] + r.ny * normal[1] + r.nz * normal[2];
+    return inverse2 * r.inverse * (both - 3.0 * r.source() * r.dot(normal) * inverse2);
   }
 };
 
-/// Σ kernel(r, node) f over the nodes.
+/// Σ kernel(r) f over the nodes.
 template <class Kernel>
-double scalar_sum(const Nodes& at, const Vector3& target, const double* f, const Kernel& kernel) {
-  double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-  for (Index i = 0; i < at.count; ++i) sum += f[i] * kernel(NodeSeparation(at, i, target), i);
-  return sum;
+double scalar_sum(const Matrix& at, const Vector3& target, const double* f, const Kernel& kernel) {
+  Few sum = Few::Zero();
+  for (Index i = 0; i < at.rows(); i += kTogether) sum += few(f + i) * kernel(NodeSeparation(at, i, target));
+  return sum.sum();
 }
 
-/// Σ kernel(r) f over the nodes, the kernel given as xx, xy, xz, yy, yz, zz. @param charges  [n_nodes x 3]
-template <class Kernel>
-Vector3 tensor_sum(const Nodes& at, const Vector3& target, const Matrix& charges, const Kernel& kernel) {
+constexpr auto kStokesSingle = [](const NodeSeparation& r, const Few& fx, const Few& fy, const Few& fz) {
+  return stokeslet_flow(r.x, r.y, r.z, r.inverse, fx, fy, fz);
+};
+constexpr auto kStokesDouble = [](const NodeSeparation& r, const Few& vx, const Few& vy, const Few& vz) {
+  return stokes_double_flow(r.x, r.y, r.z, r.source(), r.inverse, vx, vy, vz);
+};
+
+/// Σ flow(r, f) over the nodes. @param charges  f, [n_nodes x 3]
+template <class Flow>
+Vector3 flow_sum(const Matrix& at, const Vector3& target, const Matrix& charges, const Flow& flow) {
   const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
-  double sx = 0.0, sy = 0.0, sz = 0.0;
-#pragma omp simd reduction(+ : sx, sy, sz)
-  for (Index i = 0; i < at.count; ++i) {
-    const auto g = kernel(NodeSeparation(at, i, target));
-    sx += g[0] * fx[i] + g[1] * fy[i] + g[2] * fz[i];
-    sy += g[1] * fx[i] + g[3] * fy[i] + g[4] * fz[i];
-    sz += g[2] * fx[i] + g[4] * fy[i] + g[5] * fz[i];
+  Few sx = Few::Zero(), sy = Few::Zero(), sz = Few::Zero();
+  for (Index i = 0; i < at.rows(); i += kTogether) {
+    const std::array<Few, 3> u = flow(NodeSeparation(at, i, target), few(fx + i), few(fy + i), few(fz + i));
+    sx += u[0];
+    sy += u[1];
+    sz += u[2];
   }
-  return {sx, sy, sz};
+  return {sx.sum(), sy.sum(), sz.sum()};
 }
 
-/// Every kernel of the columns at the nodes, prefactors included, [n_nodes] behind one another.
-void node_kernels(const Nodes& at, const Vector3& target, const Vector3& normal, const PairColumns& columns,
-                  double* kernels) {
-  const auto fill = [&](int column, const auto& kernel) {
-    double* out = kernels + column * at.count;
-#pragma omp simd
-    for (Index i = 0; i < at.count; ++i) out[i] = kLaplacePrefactor * kernel(NodeSeparation(at, i, target), i);
-  };
-  const auto fill_tensor = [&](int first, double prefactor, const auto& kernel) {
-    double* out = kernels + first * at.count;
-#pragma omp simd
-    for (Index i = 0; i < at.count; ++i) {
-      const auto g = kernel(NodeSeparation(at, i, target));
-      for (int k = 0; k < 6; ++k) out[k * at.count + i] = prefactor * g[k];
-    }
-  };
-  if (columns.single >= 0) fill(columns.single, kSingle);
-  if (columns.single_normal >= 0) fill(columns.single_normal, SingleNormal{normal});
-  if (columns.double_layer >= 0) fill(columns.double_layer, kDouble);
-  if (columns.double_normal >= 0) fill(columns.double_normal, DoubleNormal{at, normal});
-  if (columns.stokes >= 0) fill_tensor(columns.stokes, stokes_single_layer_prefactor(1.0), kStokesSingle);
-  if (columns.stokes_double >= 0) fill_tensor(columns.stokes_double, kStokesDoubleLayerPrefactor, kStokesDouble);
+/// A kernel at the nodes, prefactor included.
+template <class Kernel>
+void scalar_kernels(const Matrix& at, const Vector3& target, const Kernel& kernel, double* kernels) {
+  for (Index i = 0; i < at.rows(); i += kTogether) {
+    Eigen::Map<Few>(kernels + i) = kLaplacePrefactor * kernel(NodeSeparation(at, i, target));
+  }
+}
+
+/// That of a Stokes double layer: xx, xy, xz, yy, yz, zz behind one another.
+void stokes_double_kernels(const Matrix& at, const Vector3& target, double* kernels) {
+  for (Index i = 0; i < at.rows(); i += kTogether) {
+    const NodeSeparation r(at, i, target);
+    const Few inverse2 = r.inverse * r.inverse;
+    const Few factor = kStokesDoubleLayerPrefactor * r.source() * inverse2 * inverse2 * r.inverse;
+    const Few products[] = {r.x * r.x, r.x * r.y, r.x * r.z, r.y * r.y, r.y * r.z, r.z * r.z};
+    for (int k = 0; k < 6; ++k) Eigen::Map<Few>(kernels + k * at.rows() + i) = factor * products[k];
+  }
 }
 
 }  // namespace
 
+FarRule::FarRule(const Matrix& position, const SphereTransform& nodes) : transform_(nodes) {
+  const SmoothGrid grid = make_smooth_grid(make_layer_fields(position, {}), nodes);
+  n_nodes_ = grid.n_nodes();
+  // Those that fill up the last ones have no weight.
+  const Index n = kTogether * ((n_nodes_ + kTogether - 1) / kTogether);
+  nodes_.resize(n, 6);
+  nodes_.topRows(n_nodes_) << grid.nodes.leftCols(3), grid.area_vectors;
+  nodes_.bottomRows(n - n_nodes_).rowwise() = nodes_.row(n_nodes_ - 1);
+  weight_ = Vector::Zero(n);
+  weight_.head(n_nodes_) = grid.weight;
+}
+
 FarRule::FarRule(const Matrix& position, int grid_order)
-    : transform_(order_of(position.rows()), make_grid(grid_order, fast_longitudes(2 * grid_order + 2))),
-      grid_(make_smooth_grid(make_layer_fields(position, {}), transform_)) {}
+    : FarRule(position,
+              SphereTransform(order_of(position.rows()), make_grid(grid_order, fast_longitudes(2 * grid_order + 2)))) {}
 
 Matrix FarRule::charges(const Matrix& density) const {
-  return grid_.weight.asDiagonal() * transform_.synthesize(density);
+  Matrix result = Matrix::Zero(weight_.size(), density.cols());
+  result.topRows(n_nodes_) = weight_.head(n_nodes_).asDiagonal() * transform_.synthesize(density);
+  return result;
 }
 
 double FarRule::laplace_single(const Vector3& x, const Matrix& charges) const {
-  return kLaplacePrefactor * scalar_sum(Nodes(grid_), x, charges.data(), kSingle);
+  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), kSingle);
 }
 
 double FarRule::laplace_single_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const {
-  return kLaplacePrefactor * scalar_sum(Nodes(grid_), x, charges.data(), SingleNormal{normal});
+  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), SingleNormal{normal});
 }
 
 double FarRule::laplace_double(const Vector3& x, const Matrix& charges) const {
-  return kLaplacePrefactor * scalar_sum(Nodes(grid_), x, charges.data(), kDouble);
+  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), kDouble);
 }
 
 double FarRule::laplace_double_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const {
-  const Nodes at(grid_);
-  return kLaplacePrefactor * scalar_sum(at, x, charges.data(), DoubleNormal{at, normal});
+  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), DoubleNormal{normal});
 }
 
 Vector3 FarRule::stokes_single(const Vector3& x, const Matrix& charges) const {
-  return stokes_single_layer_prefactor(1.0) * tensor_sum(Nodes(grid_), x, charges, kStokesSingle);
+  return stokes_single_layer_prefactor(1.0) * flow_sum(nodes_, x, charges, kStokesSingle);
 }
 
 Vector3 FarRule::stokes_double(const Vector3& x, const Matrix& charges) const {
-  return kStokesDoubleLayerPrefactor * tensor_sum(Nodes(grid_), x, charges, kStokesDouble);
+  return kStokesDoubleLayerPrefactor * flow_sum(nodes_, x, charges, kStokesDouble);
 }
 
-Matrix FarRule::rows(const Matrix& points, const Matrix& normals, const PairColumns& columns) const {
-  const Nodes at(grid_);
-  Matrix kernels(at.count, points.rows() * columns.count);
+template <class Kernel>
+Matrix FarRule::normal_rows(const Matrix& points, const Matrix& normals) const {
+  Matrix kernels(nodes_.rows(), points.rows());
   for (Index i = 0; i < points.rows(); ++i) {
-    node_kernels(at, points.row(i).transpose(), normals.row(i).transpose(), columns,
-                 kernels.col(i * columns.count).data());
+    const Vector3 normal = normals.row(i).transpose();
+    scalar_kernels(nodes_, points.row(i).transpose(), Kernel{normal}, kernels.col(i).data());
   }
-  // Quadrature and the adjoint of the synthesis in one.
-  return transform_.analyze(kernels);
+  return transform_.analyze(kernels.topRows(n_nodes_));
 }
 
-double FarRule::enclosure(const Vector3& x) const { return laplace_double(x, grid_.weight); }
+Matrix FarRule::single_normal_rows(const Matrix& points, const Matrix& normals) const {
+  return normal_rows<SingleNormal>(points, normals);
+}
+
+Matrix FarRule::double_normal_rows(const Matrix& points, const Matrix& normals) const {
+  return normal_rows<DoubleNormal>(points, normals);
+}
+
+Matrix FarRule::stokes_double_rows(const Matrix& points) const {
+  Matrix kernels(nodes_.rows(), 6 * points.rows());
+  for (Index i = 0; i < points.rows(); ++i) {
+    stokes_double_kernels(nodes_, points.row(i).transpose(), kernels.col(6 * i).data());
+  }
+  return transform_.analyze(kernels.topRows(n_nodes_));
+}
+
+double FarRule::enclosure(const Vector3& x) const { return laplace_double(x, weight_); }
 
 }  // namespace vehd

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "bie/potentials/near_rows.hpp"
-#include "bie/potentials/smooth_grid.hpp"
 #include "bie/sphere/transform.hpp"
 
 namespace vehd {
@@ -14,34 +12,43 @@ namespace vehd {
 class FarRule {
  public:
   /// @param position    coefficients of the membrane, [n_coefficients x 3]
-  /// @param grid_order  of the grid, not below that of the membrane
+  /// @param nodes       from that degree to the grid
+  FarRule(const Matrix& position, const SphereTransform& nodes);
+  /// The same on a grid of its own. @param grid_order  not below the degree of the membrane
   FarRule(const Matrix& position, int grid_order);
 
-  /// A density at the nodes times their weights. @param density  [n_coefficients x fields] @return [n_nodes x fields]
+  /// A density at the nodes times their weights. @param density  [n_coefficients x fields] @return [n x fields]
   [[nodiscard]] Matrix charges(const Matrix& density) const;
 
   /// Sums over the nodes for a target x with normal N there, prefactors included: S, N·∇S of J f; D, N·∇D of f.
-  /// @param charges  [n_nodes], of J f or f
+  /// @param charges  of J f or f
   [[nodiscard]] double laplace_single(const Vector3& x, const Matrix& charges) const;
   [[nodiscard]] double laplace_single_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const;
   [[nodiscard]] double laplace_double(const Vector3& x, const Matrix& charges) const;
   [[nodiscard]] double laplace_double_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const;
-  /// Stokes single layer at μ = 1 of J f and double layer of v. @param charges  [n_nodes x 3]
+  /// Stokes single layer at μ = 1 of J f and double layer of v. @param charges  [n x 3]
   [[nodiscard]] Vector3 stokes_single(const Vector3& x, const Matrix& charges) const;
   [[nodiscard]] Vector3 stokes_double(const Vector3& x, const Matrix& charges) const;
 
-  /// The same sums for several targets as rows over the coefficients of the densities, see NearRows.
-  /// @param points, normals  [n_targets x 3]
-  /// @return                 [n_coefficients x PairColumns::count], of one target behind the other
-  [[nodiscard]] Matrix rows(const Matrix& points, const Matrix& normals, const PairColumns& columns) const;
+  /// Layers at several targets as rows over the coefficients of their densities: quadrature and the adjoint of the
+  /// synthesis in one. N·∇S and N·∇D. @param points, normals  [n_targets x 3] @return [n_coefficients x n_targets]
+  [[nodiscard]] Matrix single_normal_rows(const Matrix& points, const Matrix& normals) const;
+  [[nodiscard]] Matrix double_normal_rows(const Matrix& points, const Matrix& normals) const;
+  /// The Stokes double layer. @return [n_coefficients x 6] of xx, xy, xz, yy, yz, zz, of one target behind the other
+  [[nodiscard]] Matrix stokes_double_rows(const Matrix& points) const;
 
   /// D[1]: 0 outside, −1 inside, up to the error of the rule.
   [[nodiscard]] double enclosure(const Vector3& x) const;
-  [[nodiscard]] Index n_nodes() const { return grid_.n_nodes(); }
+  [[nodiscard]] Index n_nodes() const { return n_nodes_; }
 
  private:
+  template <class Kernel>
+  [[nodiscard]] Matrix normal_rows(const Matrix& points, const Matrix& normals) const;
+
   SphereTransform transform_;
-  SmoothGrid grid_;
+  Index n_nodes_;
+  Matrix nodes_;   ///< y and J n, filled up to whole instructions, [n x 6]
+  Vector weight_;  ///< zero for those
 };
 
 }  // namespace vehd

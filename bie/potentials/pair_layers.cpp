@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "bie/potentials/far_rule.hpp"
 #include "bie/potentials/near_targets.hpp"
@@ -35,18 +36,16 @@ struct RowTargets {
   [[nodiscard]] auto row(Index k, int column) const { return rows.col(k * columns.count + column); }
 };
 
-/// Single or double layers at far targets: some by rows, the others summed at every application.
+/// A kind of layers at far targets: some by rows, the others summed at every application.
 struct FarLayers {
+  bool selected;
   RowTargets by_rows;
   std::vector<FarGroup> groups;
 };
 
-PairSelection single_layers(const PairSelection& all) {
-  return {all.laplace_single, all.laplace_single_normal, false, false, all.stokes_single, false};
-}
-
-PairSelection double_layers(const PairSelection& all) {
-  return {false, false, all.laplace_double, all.laplace_double_normal, false, all.stokes_double};
+/// @param rows  those layers that rows serve as far as there is room
+FarLayers far_layers(bool selected, const PairSelection& rows = {}) {
+  return {selected, {PairColumns(rows), {}, {}}, {}};
 }
 
 int next_multiple(double order) { return kOrderStep * static_cast<int>(std::ceil(order / kOrderStep)); }
@@ -54,18 +53,41 @@ int next_multiple(double order) { return kOrderStep * static_cast<int>(std::ceil
 /// Of far grids; beyond it rows of near targets take less time over some ten applications.
 int highest_grid_order(int order) { return next_multiple(2 * order + 8); }
 
+double nodes_of_grid(int order) { return 2.0 * (order + 1.0) * (order + 1.0); }
+
+/// Gives targets of a grid to the next finer one where those are too few to bring a density to a grid of their own,
+/// which takes as long as the sums over its nodes for some forty targets.
+std::map<int, std::vector<Index>> merged(const std::map<int, std::vector<Index>>& targets_of_order) {
+  constexpr double kTargetsOfSynthesis = 40.0;
+  std::map<int, std::vector<Index>> result;
+  std::vector<Index> waiting;
+  for (auto it = targets_of_order.begin(); it != targets_of_order.end(); ++it) {
+    waiting.insert(waiting.end(), it->second.begin(), it->second.end());
+    const auto next = std::next(it);
+    if (next != targets_of_order.end()) {
+      const double more = nodes_of_grid(next->first) / nodes_of_grid(it->first) - 1.0;
+      if (static_cast<double>(waiting.size()) * more < kTargetsOfSynthesis) continue;
+    }
+    result[it->first] = std::exchange(waiting, {});
+  }
+  return result;
+}
+
 /// Rules of one membrane, each made once.
 class FarRules {
  public:
-  explicit FarRules(const Matrix& position) : position_(position) {}
+  FarRules(const Matrix& position, SharedTransforms& transforms)
+      : position_(position), order_(order_of(position.rows())), transforms_(transforms) {}
   std::shared_ptr<const FarRule> of_order(int grid_order) {
     std::shared_ptr<const FarRule>& rule = rules_[grid_order];
-    if (!rule) rule = std::make_shared<const FarRule>(position_, grid_order);
+    if (!rule) rule = std::make_shared<const FarRule>(position_, transforms_.of(order_, grid_order));
     return rule;
   }
 
  private:
   const Matrix& position_;
+  int order_;
+  SharedTransforms& transforms_;
   std::map<int, std::shared_ptr<const FarRule>> rules_;
 };
 
@@ -79,22 +101,25 @@ struct PairLayers::Data {
   int area_degree;        ///< beyond which nothing is left of J n, which double layers multiply their densities by
   RowTargets near;
   FarLayers single, double_layer;
+  /// Applied most often for what rows cost.
+  FarLayers single_normal, double_normal, stokes_double_layer;
   PairCounts counts;
 
   Data(const Matrix& x, const Matrix& targets, const Matrix& normals, const PairSelection& selection,
-       const PairSettings& options)
+       const PairSettings& options, SharedTransforms& transforms)
       : settings(options),
         order(order_of(x.rows())),
         at{x, targets, normals, make_layer_fields(x, {}), {}},
         near{PairColumns(selection), {}, {}},
-        single{{PairColumns(single_layers(selection)), {}, {}}, {}},
-        double_layer{{PairColumns(double_layers(selection)), {}, {}}, {}} {
+        single(far_layers(selection.laplace_single || selection.stokes_single)),
+        double_layer(far_layers(selection.laplace_double)),
+        single_normal(far_layers(selection.laplace_single_normal, {.laplace_single_normal = true})),
+        double_normal(far_layers(selection.laplace_double_normal, {.laplace_double_normal = true})),
+        stokes_double_layer(far_layers(selection.stokes_double, {.stokes_double = true})) {
     const int highest = highest_grid_order(order);
-    const SphereGrid nodes = make_grid(highest, fast_longitudes(2 * highest + 2));
-    at.grid = make_smooth_grid(at.fields, SphereTransform(order, nodes));
+    at.grid = make_smooth_grid(at.fields, transforms.of(order, highest));
     inverse_reach2 = (at.grid.spacing * (highest / std::numbers::pi)).cwiseAbs2().cwiseInverse();
-    const SphereTransform transform(2 * order, nodes);
-    const Vector sizes = transform.analyze(at.grid.area_vectors).rowwise().norm();
+    const Vector sizes = transforms.of(2 * order, highest).analyze(at.grid.area_vectors).rowwise().norm();
     area_degree = 2 * order;
     const auto left = [&sizes](int n) { return sizes.tail(sizes.size() - Index{n} * n).norm(); };
     while (area_degree > 0 && left(area_degree) <= settings.tolerance * sizes.norm()) --area_degree;
@@ -119,22 +144,30 @@ struct PairLayers::Data {
   std::map<int, std::vector<Index>> sort_targets(FarRules& rules) {
     const int highest = highest_grid_order(order);
     std::map<int, std::vector<Index>> by_order, sorted;
-    for (Index i = 0; i < at.points.rows(); ++i) {
-      const int wanted = grid_order(at.point(i));
-      (wanted > highest ? near.targets : by_order[wanted]).push_back(i);
+    std::vector<int> wanted(static_cast<std::size_t>(at.points.rows()));
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = grid_order(at.point(static_cast<Index>(i)));
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      (wanted[i] > highest ? near.targets : by_order[wanted[i]]).push_back(static_cast<Index>(i));
     }
     // A rule whose D[1] is not that of the outside is too coarse for its target.
     for (int q = order; q <= highest; ++q) {
       const auto found = by_order.find(q);
       if (found == by_order.end()) continue;
+      const std::vector<Index>& targets = found->second;
       const FarRule& rule = *rules.of_order(q);
-      for (const Index i : found->second) {
-        if (std::abs(rule.enclosure(at.point(i))) <= settings.tolerance) {
-          sorted[q].push_back(i);
+      std::vector<char> settled(targets.size());
+#pragma omp parallel for schedule(static)
+      for (std::size_t k = 0; k < targets.size(); ++k) {
+        settled[k] = std::abs(rule.enclosure(at.point(targets[k]))) <= settings.tolerance;
+      }
+      for (std::size_t k = 0; k < targets.size(); ++k) {
+        if (settled[k]) {
+          sorted[q].push_back(targets[k]);
         } else if (q + kOrderStep <= highest) {
-          by_order[q + kOrderStep].push_back(i);
+          by_order[q + kOrderStep].push_back(targets[k]);
         } else {
-          near.targets.push_back(i);
+          near.targets.push_back(targets[k]);
         }
       }
     }
@@ -142,8 +175,8 @@ struct PairLayers::Data {
     return sorted;
   }
 
-  void make() {
-    FarRules rules(at.source);
+  void make(SharedTransforms& transforms) {
+    FarRules rules(at.source, transforms);
     const std::map<int, std::vector<Index>> far = sort_targets(rules);
     counts.near = static_cast<Index>(near.targets.size());
     near.rows = rows_of_near_targets(at, near.targets, near.columns, {settings.tolerance, settings.max_rules});
@@ -154,20 +187,23 @@ struct PairLayers::Data {
       std::vector<Index>& all = of_single[single_grid_order(q)];
       all.insert(all.end(), targets.begin(), targets.end());
     }
-    // Iterations apply single layers most.
-    make_far(of_single, rules, single, room);
-    make_far(far, rules, double_layer, room);
+    make_far(merged(of_single), rules, single, room);
+    make_far(merged(far), rules, double_layer, room);
+    make_far(of_single, rules, single_normal, room);
+    make_far(far, rules, double_normal, room);
+    make_far(far, rules, stokes_double_layer, room);
   }
 
   /// Rows of far targets as long as there is room, the finest grids first: theirs gain most.
   void make_far(const std::map<int, std::vector<Index>>& targets_of_order, FarRules& rules, FarLayers& layers,
                 double& room) {
-    const Index n_columns = layers.by_rows.columns.count;
-    if (n_columns == 0) return;
+    if (!layers.selected) return;
     for (const auto& [q, targets] : targets_of_order) {
       layers.groups.push_back({rules.of_order(q), targets});
       counts.far_nodes += static_cast<Index>(targets.size()) * layers.groups.back().rule->n_nodes();
     }
+    const Index n_columns = layers.by_rows.columns.count;
+    if (n_columns == 0) return;
     const double bytes_of_one = 8.0 * static_cast<double>(n_columns) * static_cast<double>(at.source.rows());
     std::vector<FarGroup> chosen;
     std::vector<Index>& by_rows = layers.by_rows.targets;
@@ -195,8 +231,12 @@ struct PairLayers::Data {
     for (Index start = 0; start < n; start += kBatch) {
       const Index size = std::min(kBatch, n - start);
       const std::vector<Index> batch(group.targets.begin() + start, group.targets.begin() + start + size);
+      const Matrix points = at.points(batch, Eigen::all);
+      const Matrix normals = at.normals(batch, Eigen::all);
       all.rows.middleCols((first + start) * n_columns, size * n_columns) =
-          group.rule->rows(at.points(batch, Eigen::all), at.normals(batch, Eigen::all), all.columns);
+          all.columns.single_normal >= 0   ? group.rule->single_normal_rows(points, normals)
+          : all.columns.double_normal >= 0 ? group.rule->double_normal_rows(points, normals)
+                                           : group.rule->stokes_double_rows(points);
     }
   }
 
@@ -269,12 +309,13 @@ struct PairLayers::Data {
 };
 
 PairLayers::PairLayers(const Matrix& source, const Matrix& points, const Matrix& normals,
-                       const PairSelection& selection, const PairSettings& settings, Instruments& instruments) {
+                       const PairSelection& selection, const PairSettings& settings, SharedTransforms& transforms,
+                       Instruments& instruments) {
   require_size("points (Cartesian components)", points.cols(), 3);
   require_size("normals", normals.rows(), points.rows());
   const auto timer = instruments.time("pair layers");
-  auto data = std::make_unique<Data>(source, points, normals, selection, settings);
-  data->make();
+  auto data = std::make_unique<Data>(source, points, normals, selection, settings, transforms);
+  data->make(transforms);
   data_ = std::move(data);
 }
 
@@ -292,7 +333,7 @@ Vector PairLayers::laplace_single(const Vector& weighted) const {
 }
 
 Vector PairLayers::laplace_single_normal(const Vector& weighted) const {
-  return data_->scalar(data_->single, &PairColumns::single_normal, weighted,
+  return data_->scalar(data_->single_normal, &PairColumns::single_normal, weighted,
                        [this](const FarRule& rule, Index i, const Matrix& charges) {
                          return rule.laplace_single_normal(data_->at.point(i), data_->at.normal(i), charges);
                        });
@@ -306,7 +347,7 @@ Vector PairLayers::laplace_double(const Vector& density) const {
 }
 
 Vector PairLayers::laplace_double_normal(const Vector& density) const {
-  return data_->scalar(data_->double_layer, &PairColumns::double_normal, density,
+  return data_->scalar(data_->double_normal, &PairColumns::double_normal, density,
                        [this](const FarRule& rule, Index i, const Matrix& charges) {
                          return rule.laplace_double_normal(data_->at.point(i), data_->at.normal(i), charges);
                        });
@@ -320,7 +361,7 @@ Matrix PairLayers::stokes_single(const Matrix& weighted) const {
 }
 
 Matrix PairLayers::stokes_double(const Matrix& velocity) const {
-  return data_->stokes(data_->double_layer, &PairColumns::stokes_double, velocity,
+  return data_->stokes(data_->stokes_double_layer, &PairColumns::stokes_double, velocity,
                        [this](const FarRule& rule, Index i, const Matrix& charges) {
                          return rule.stokes_double(data_->at.point(i), charges);
                        });

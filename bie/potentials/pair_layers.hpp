@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bie/potentials/near_rows.hpp"
+#include "bie/potentials/shared_transforms.hpp"
 #include "bie/support/instruments.hpp"
 
 namespace vehd {
@@ -14,8 +15,10 @@ struct PairSettings {
   double tolerance = 1e-10;
   /// Rules of near targets at most, each with a quarter more nodes in either direction.
   int max_rules = 9;
-  /// Memory that rows of far targets may take. Rows cost as much as some ten sums over the nodes and are applied in a
-  /// fiftieth of one; targets beyond the limit are summed at every application.
+  /// Memory that rows of far targets may take. Rows of a Stokes layer cost as much as some twenty sums over the nodes,
+  /// of a scalar one as some five, and are applied in a fraction of one, which pays where a layer is applied often: for
+  /// N·∇S, N·∇D and the Stokes double layer. Targets beyond the limit, and all those of the other layers, are summed at
+  /// every application.
   double row_bytes = 1e9;
 };
 
@@ -24,11 +27,12 @@ struct PairCounts {
   Index far = 0;        ///< by the smooth rule
   Index near = 0;       ///< by rows of coefficients
   Index far_nodes = 0;  ///< of all far targets together
+  Index expanded = 0;   ///< by multipole expansions
 };
 
 /// Layers of one membrane at points of another, all outside the first, as linear maps that are made once and applied
 /// many times. Far targets take the smooth rule of a grid as coarse as their distance allows, near ones the rule about
-/// the nearest point (near_rows); either becomes a row over the coefficients of the density, by the adjoint of the
+/// the nearest point (near_rows), which becomes a row over the coefficients of the density, by the adjoint of the
 /// rule. Applications are sums in fixed order: the same bits for any count of threads. Accuracy: the tolerance, times
 /// the density, at every gap; layers of given densities on two shapes without symmetry at gaps from 1e-3 to 10 to 1e-9
 /// (tests/potentials/pair_layers_test.cpp) Source: paper Eqs. (6), (8), (9) with source and target on different
@@ -38,11 +42,12 @@ class PairLayers {
   /// @param source   coefficients of the source membrane, [n_coefficients x 3]
   /// @param points   targets, [n_targets x 3]
   /// @param normals  N at the targets, [n_targets x 3]
+  /// @param transforms  those that it needs are made where they are missing
   /// @throws ConvergenceError if the nearest point of a target is not found, if a target is not outside the source, or
   /// if
   ///     the rules do not settle
   PairLayers(const Matrix& source, const Matrix& points, const Matrix& normals, const PairSelection& selection,
-             const PairSettings& settings, Instruments& instruments);
+             const PairSettings& settings, SharedTransforms& transforms, Instruments& instruments);
   ~PairLayers();
   PairLayers(PairLayers&&) noexcept;
   PairLayers& operator=(PairLayers&&) noexcept;

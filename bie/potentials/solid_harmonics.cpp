@@ -9,20 +9,6 @@ namespace {
 Index real_part(int l, int m) { return Index{l} * l + (m == 0 ? 0 : 2 * m - 1); }
 Index imaginary_part(int l, int m) { return Index{l} * l + 2 * m; }
 
-/// One entry; the imaginary part of order 0 is zero.
-struct Complex {
-  double re = 0.0, im = 0.0;
-};
-
-/// Of any order, by I_{l,−m} = (−1)^m conj(I_lm).
-Complex at(const Vector& harmonics, int l, int m) {
-  if (m < 0) {
-    const Complex z = at(harmonics, l, -m);
-    return m % 2 == 0 ? Complex{z.re, -z.im} : Complex{-z.re, z.im};
-  }
-  return {harmonics[real_part(l, m)], m == 0 ? 0.0 : harmonics[imaginary_part(l, m)]};
-}
-
 }  // namespace
 
 Matrix regular_harmonics(const Matrix& points, int degree) {
@@ -44,33 +30,6 @@ Matrix regular_harmonics(const Matrix& points, int degree) {
         result.col(index(l, m)) =
             ((2.0 * l - 1.0) * z * result.col(index(l - 1, m)).array() - r2 * result.col(index(l - 2, m)).array()) /
             (static_cast<double>(l + m) * (l - m));
-      }
-    };
-    climb(re, real_part);
-    if (m > 0) climb(im, imaginary_part);
-  }
-  return result;
-}
-
-Vector irregular_harmonics(const Vector3& point, int degree) {
-  Vector result(n_solid(degree));
-  const double inverse2 = 1.0 / point.squaredNorm();
-  double re = std::sqrt(inverse2), im = 0.0;
-  for (int m = 0; m <= degree; ++m) {
-    if (m > 0) {
-      const double former = re, factor = -(2.0 * m - 1.0) * inverse2;
-      re = factor * (point.x() * former - point.y() * im);
-      im = factor * (point.x() * im + point.y() * former);
-    }
-    const auto climb = [&](double lowest, auto index) {
-      double before = 0.0, last = lowest;
-      result[index(m, m)] = lowest;
-      for (int l = m + 1; l <= degree; ++l) {
-        const double next =
-            ((2.0 * l - 1.0) * point.z() * last - (static_cast<double>(l - 1) * (l - 1) - m * m) * before) * inverse2;
-        before = last;
-        last = next;
-        result[index(l, m)] = next;
       }
     };
     climb(re, real_part);
@@ -110,32 +69,6 @@ Eigen::SparseMatrix<double> regular_derivative(int axis, int degree) {
   }
   Eigen::SparseMatrix<double> result(n_solid(degree), n_solid(degree));
   result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
-
-Matrix moments_to_local(const Vector3& offset, int degree) {
-  const Vector harmonics = irregular_harmonics(offset, 2 * degree);
-  Matrix result(n_solid(degree), n_solid(degree));
-  for (int l = 0; l <= degree; ++l) {
-    for (int k = 0; k <= l; ++k) {
-      for (int n = 0; n <= degree; ++n) {
-        const double sign = n % 2 == 0 ? 1.0 : -1.0;
-        for (int m = 0; m <= n; ++m) {
-          // Orders m of R and −m are conjugates: φ = Re of the sum with twice the weight.
-          const double weight = m == 0 ? sign : 2.0 * sign;
-          const Complex plus = at(harmonics, l + n, m + k), minus = at(harmonics, l + n, m - k);
-          const double parity = k % 2 == 0 ? 1.0 : -1.0;
-          // M_lk I_{m+k} + M_{l,−k} I_{m−k} of M_lk = 1 and of M_lk = i.
-          const Complex of_real = k == 0 ? plus : Complex{plus.re + parity * minus.re, plus.im + parity * minus.im};
-          const Complex of_imaginary{-plus.im + parity * minus.im, plus.re - parity * minus.re};
-          result(real_part(n, m), real_part(l, k)) = weight * of_real.re;
-          if (m > 0) result(imaginary_part(n, m), real_part(l, k)) = weight * of_real.im;
-          if (k > 0) result(real_part(n, m), imaginary_part(l, k)) = weight * of_imaginary.re;
-          if (m > 0 && k > 0) result(imaginary_part(n, m), imaginary_part(l, k)) = weight * of_imaginary.im;
-        }
-      }
-    }
-  }
   return result;
 }
 

@@ -15,17 +15,8 @@ constexpr Index n_solid(int degree) { return Index{degree + 1} * (degree + 1); }
 /// R at points, [n_points x n_solid].
 Matrix regular_harmonics(const Matrix& points, int degree);
 
-/// I at a point, [n_solid].
-Vector irregular_harmonics(const Vector3& point, int degree);
-
 /// Δ with ∂R/∂x_axis = R Δ, R one row of regular harmonics.
 Eigen::SparseMatrix<double> regular_derivative(int axis, int degree);
-
-/// The matrix that makes of the moments M of sources about a point, φ = Σ M_lm I_lm(x) over all orders, the
-/// coefficients about another, φ = R(x) L.
-/// @param offset  of the second point from the first
-/// Source: addition theorem of the solid harmonics, Epton and Dembart 1995
-Matrix moments_to_local(const Vector3& offset, int degree);
 
 /// Moments of unit sources: Σ conj(R), from one row or from a sum of rows of regular harmonics.
 Matrix moments(const Matrix& regular_sums);

@@ -1,6 +1,7 @@
 #include "bie/physics/interaction.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <list>
 
 #include "bie/support/errors.hpp"
 #include "tests/support/point_potential.hpp"
@@ -51,6 +52,60 @@ BOOST_AUTO_TEST_CASE(potential_and_flux_of_sources_within_others_follow_from_the
       BOOST_TEST(relative_difference(jump_flux[a] - single_flux[a], exact_fluxes[a]) < most_of_flux, "gap " << gap);
     }
   }
+}
+
+// Nine on a lattice, some of them too near for expansions; two alone have none.
+BOOST_AUTO_TEST_CASE(many_membranes_are_the_sums_of_their_pairs) {
+  constexpr int kOrder = 6;
+  constexpr std::size_t kCount = 9;
+  const SphereTransform nodes(kOrder, make_grid(kOrder));
+  const Matrix shape = asymmetric_shape(kOrder);
+  std::vector<Matrix> positions, vectors;
+  std::vector<Vector> scalars;
+  for (unsigned i = 0; i < kCount; ++i) {
+    positions.push_back(translated((0.8 + 0.02 * i) * shape, {3.2 * (i % 3), 3.3 * (i / 3), 0.2 * i}));
+    vectors.push_back(smooth_coefficients(kOrder, 5, 3, 70 + i));
+    scalars.emplace_back(vectors.back().col(1));
+  }
+  const auto interaction_of = [&](const std::vector<std::size_t>& chosen) {
+    std::vector<InteractingMembrane> all;
+    for (const std::size_t i : chosen) all.push_back({positions[i], nodes, {true, true, true, true, true, true}});
+    Instruments instruments;
+    return Interaction(all, {}, instruments);
+  };
+  const Interaction many = interaction_of({0, 1, 2, 3, 4, 5, 6, 7, 8});
+  const PairCounts counts = many.counts();
+  BOOST_TEST(counts.expanded > 0);
+  BOOST_TEST(counts.near + counts.far > 0);
+  BOOST_TEST(counts.near + counts.far + counts.expanded == Index(kCount * (kCount - 1)) * nodes.grid().n_points());
+  struct Pair {
+    std::size_t a, b;
+    Interaction interaction;
+  };
+  std::list<Pair> pairs;
+  for (std::size_t a = 0; a < kCount; ++a) {
+    for (std::size_t b = 0; b < a; ++b) pairs.push_back({a, b, interaction_of({a, b})});
+  }
+  const auto check = [&](double most, const auto& densities, const auto& layer) {
+    const auto found = layer(many, densities);
+    auto exact = found;
+    for (auto& sum : exact) sum.setZero();
+    for (const Pair& pair : pairs) {
+      const auto of_pair = layer(pair.interaction, {densities[pair.a], densities[pair.b]});
+      exact[pair.a] += of_pair[0];
+      exact[pair.b] += of_pair[1];
+    }
+    for (std::size_t a = 0; a < kCount; ++a) BOOST_TEST(relative_difference(found[a], exact[a]) < most);
+  };
+  // The rules are exact beside the densities; the fluxes that these make on others are a tenth of them.
+  using Scalars = std::vector<Vector>;
+  using Vectors = std::vector<Matrix>;
+  check(1e-9, scalars, [](const Interaction& i, const Scalars& f) { return i.single_potential(f); });
+  check(1e-8, scalars, [](const Interaction& i, const Scalars& f) { return i.weighted_single_flux(f); });
+  check(1e-9, scalars, [](const Interaction& i, const Scalars& f) { return i.double_potential(f); });
+  check(1e-8, scalars, [](const Interaction& i, const Scalars& f) { return i.weighted_double_flux(f); });
+  check(1e-9, vectors, [](const Interaction& i, const Vectors& f) { return i.stokes_single(f); });
+  check(1e-9, vectors, [](const Interaction& i, const Vectors& f) { return i.stokes_double(f); });
 }
 
 BOOST_AUTO_TEST_CASE(membranes_that_intersect_are_refused) {

@@ -15,11 +15,12 @@ namespace {
 
 constexpr int kOrder = 8;
 
-/// Four shapes without symmetry, of different sizes, the last one near to the first.
+/// Shapes without symmetry, of different sizes; the fourth is near to the first, the last one as near as may be.
 std::vector<Matrix> shapes() {
   const Matrix shape = asymmetric_shape(kOrder);
   return {shape, translated(0.6 * shape * general_rotation().transpose(), {6.0, -5.0, 4.0}),
-          translated(shape * general_rotation(), {-9.0, 1.0, 6.0}), translated(shape, {3.1, 0.4, 0.2})};
+          translated(shape * general_rotation(), {-9.0, 1.0, 6.0}), translated(shape, {3.1, 0.4, 0.2}),
+          translated(shape, {-2.3, 5.3, -1.2})};
 }
 
 std::vector<ExpandedMembrane> expanded(const std::vector<Matrix>& positions, double length = 1.0) {
@@ -40,8 +41,9 @@ std::vector<Matrix> direct(const std::vector<ExpandedMembrane>& all, const FarEx
     for (std::size_t b = 0; b < all.size(); ++b) {
       if (a == b || !far.is_far(a, b)) continue;
       Instruments instruments;
+      SharedTransforms transforms;
       const PairLayers pair(all[b].position, all[a].points, all[a].normals, {true, true, true, true, true, true},
-                            {.tolerance = 1e-12}, instruments);
+                            {.tolerance = 1e-12}, transforms, instruments);
       const Matrix one = layer(pair, b);
       values[a] = values[a].size() > 0 ? Matrix(values[a] + one) : one;
     }
@@ -61,14 +63,16 @@ BOOST_AUTO_TEST_CASE(give_what_direct_sums_do) {
   const std::vector<ExpandedMembrane> all = expanded(shapes());
   std::vector<Vector> scalars;
   std::vector<Matrix> vectors;
-  for (unsigned b = 0; b < 4; ++b) {
+  for (unsigned b = 0; b < all.size(); ++b) {
     vectors.push_back(smooth_coefficients(kOrder, 5, 3, 40 + b));
     scalars.emplace_back(vectors.back().col(0));
   }
   for (const double tolerance : {1e-5, 1e-9}) {
-    const FarExpansions far(all, tolerance);
+    SharedTransforms transforms;
+    const FarExpansions far(all, tolerance, transforms);
     BOOST_TEST(!far.is_far(0, 3));
     BOOST_TEST(far.is_far(1, 2));
+    BOOST_TEST(far.is_far(0, 4));
     const auto check = [&](const std::vector<Matrix>& found, auto layer) {
       const double error = largest_error(found, direct(all, far, layer));
       BOOST_TEST(error < tolerance, error);
@@ -88,11 +92,13 @@ BOOST_AUTO_TEST_CASE(give_what_direct_sums_do) {
 BOOST_AUTO_TEST_CASE(do_not_know_the_unit_of_length) {
   const std::vector<Matrix> positions = shapes();
   constexpr double kLength = 0x1p-20;
-  const FarExpansions far(expanded(positions), 1e-7), small(expanded(positions, kLength), 1e-7);
+  SharedTransforms transforms;
+  const FarExpansions far(expanded(positions), 1e-7, transforms);
+  const FarExpansions small(expanded(positions, kLength), 1e-7, transforms);
   std::vector<Matrix> vectors;
-  for (unsigned b = 0; b < 4; ++b) vectors.push_back(smooth_coefficients(kOrder, 5, 3, 40 + b));
+  for (unsigned b = 0; b < positions.size(); ++b) vectors.push_back(smooth_coefficients(kOrder, 5, 3, 40 + b));
   const std::vector<Matrix> one = far.stokes_single(vectors), other = small.stokes_single(vectors);
-  for (std::size_t a = 0; a < 4; ++a) BOOST_TEST((one[a] / kLength - other[a]).norm() == 0.0);
+  for (std::size_t a = 0; a < positions.size(); ++a) BOOST_TEST((one[a] / kLength - other[a]).norm() == 0.0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

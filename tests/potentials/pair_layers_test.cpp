@@ -32,7 +32,8 @@ Matrix any_normals(Index n) {
 
 PairLayers pair_layers(const Matrix& source, const Matrix& points, const Matrix& normals) {
   Instruments instruments;
-  return {source, points, normals, kEveryLayer, {}, instruments};
+  SharedTransforms transforms;
+  return {source, points, normals, kEveryLayer, {}, transforms, instruments};
 }
 
 /// Points at every gap from the membrane, and a gap of each.
@@ -148,7 +149,8 @@ BOOST_AUTO_TEST_CASE(rows_of_far_targets_are_the_sums_of_their_rule) {
   // Room for none, for some grids, for all.
   for (const double bytes : {0.0, 3e5, 1e9}) {
     Instruments instruments;
-    const PairLayers sums(position, points, normals, kEveryLayer, {.row_bytes = bytes}, instruments);
+    SharedTransforms transforms;
+    const PairLayers sums(position, points, normals, kEveryLayer, {.row_bytes = bytes}, transforms, instruments);
     BOOST_TEST(max_difference(rows.laplace_single(density), sums.laplace_single(density)) < 1e-13);
     BOOST_TEST(max_difference(rows.laplace_single_normal(density), sums.laplace_single_normal(density)) < 1e-13);
     BOOST_TEST(max_difference(rows.laplace_double(density), sums.laplace_double(density)) < 1e-13);
@@ -182,8 +184,10 @@ BOOST_AUTO_TEST_CASE(targets_inside_are_refused) {
 
 BOOST_AUTO_TEST_CASE(layers_that_were_not_selected_are_refused) {
   Instruments instruments;
+  SharedTransforms transforms;
   const Matrix points = points_at_all_gaps(sphere(6), 2);
-  const PairLayers layers(sphere(6), points, any_normals(points.rows()), {.laplace_single = true}, {}, instruments);
+  const PairLayers layers(sphere(6), points, any_normals(points.rows()), {.laplace_single = true}, {}, transforms,
+                          instruments);
   BOOST_CHECK_THROW((void)layers.laplace_double(harmonic(6, 1, 0)), std::logic_error);
   BOOST_CHECK_THROW((void)layers.stokes_single(Matrix::Zero(49, 3)), std::logic_error);
 }
