@@ -92,6 +92,8 @@ Vector membrane_voltage(const PotentialData& data, const SurfacePoints& points) 
   return data.space->trace->evaluate(sheet_difference(*data.space, data.nodal), points) + data.background(points);
 }
 
+}  // namespace
+
 /// The equations of one problem; lengths in units of the space, conductivities over that of the outside.
 class PotentialEquations {
  public:
@@ -104,10 +106,15 @@ class PotentialEquations {
         multigrid_(space_, fixed_nodes(data.problem),
                    {data.problem.conductivity_in / data.problem.conductivity_out, 1.0,
                     membrane_ * space_.length / data.problem.conductivity_out,
-                    data.problem.outer.kind == OuterCondition::Kind::radiation ? 2.0 : 0.0}),
-        current_data_(-data.problem.conductivity_out * (trace_.rule().normal.transpose() * data.problem.field)) {
-    if (data.problem.current_jump) current_data_ += data.problem.current_jump(trace_.rule());
+                    data.problem.outer.kind == OuterCondition::Kind::radiation ? 2.0 : 0.0}) {
+    take_field();
     multigrid_.finest().initialize(unknowns_);
+  }
+
+  /// That of the problem, which may be another one than before.
+  void take_field() {
+    current_data_ = -data_.problem.conductivity_out * (trace_.rule().normal.transpose() * data_.problem.field);
+    if (data_.problem.current_jump) current_data_ += data_.problem.current_jump(trace_.rule());
   }
 
   /// @param memory  added to the current −g V_m of the membrane law, at the rule's points
@@ -224,13 +231,23 @@ class PotentialEquations {
   Distributed unknowns_;
 };
 
+namespace {
+
+std::shared_ptr<PotentialData> data_of(const Discretisation& discretisation, const PotentialProblem& problem) {
+  require_valid(problem);
+  auto data = std::make_shared<PotentialData>();
+  data->space = discretisation.space();
+  data->problem = problem;
+  data->cost.n_cells = discretisation.n_cells();
+  data->cost.n_unknowns = discretisation.n_nodes();
+  data->cost.seconds_setup = data->space->seconds_setup;
+  return data;
+}
+
 }  // namespace
 
 PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem) {
-  require_valid(problem);
-  const auto data = std::make_shared<PotentialData>();
-  data->space = discretisation.space();
-  data->problem = problem;
+  const auto data = data_of(discretisation, problem);
   const Space& space = *data->space;
   const MembraneTrace& trace = *space.trace;
   const SurfacePoints& rule = trace.rule();
@@ -256,9 +273,6 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
   data->voltage = trace.project(trace.integrate(membrane_voltage(*data, rule)));
   data->current = equations.current();
 
-  cost.n_cells = discretisation.n_cells();
-  cost.n_unknowns = discretisation.n_nodes();
-  cost.seconds_setup = space.seconds_setup;
   cost.seconds_solve = watch.lap();
   cost.peak_memory_bytes = peak_memory_bytes();
   return PotentialSolution(data);
@@ -327,5 +341,46 @@ Vector PotentialSolution::potential(const VolumePoints& points) const {
 }
 
 const Cost& PotentialSolution::cost() const { return data_->cost; }
+
+struct ChargingSteps::Implementation {
+  std::shared_ptr<PotentialData> data;
+  PotentialEquations equations;
+};
+
+ChargingSteps::ChargingSteps(const Discretisation& discretisation, const PotentialProblem& problem) {
+  PotentialProblem complete = problem;
+  auto& charging = std::get<ChargingMembrane>(complete.membrane);
+  charging.initial = [](const SurfacePoints& points) { return Vector(Vector::Zero(points.size())); };
+  charging.steps = 1;
+  Stopwatch watch;
+  const std::shared_ptr<PotentialData> data = data_of(discretisation, complete);
+  implementation_.reset(new Implementation{data, PotentialEquations(*data)});
+  data->cost.seconds_assembly = watch.lap();
+}
+
+ChargingSteps::~ChargingSteps() = default;
+ChargingSteps::ChargingSteps(ChargingSteps&&) noexcept = default;
+ChargingSteps& ChargingSteps::operator=(ChargingSteps&&) noexcept = default;
+
+Vector ChargingSteps::step(const Vector& from, const Vector3& field) {
+  PotentialData& data = *implementation_->data;
+  const auto& charging = std::get<ChargingMembrane>(data.problem.membrane);
+  Stopwatch watch;
+  data.problem.field = field;
+  implementation_->equations.take_field();
+  implementation_->equations.solve(charging.capacitance / charging.time_step * from);
+  data.cost.seconds_solve += watch.lap();
+  data.cost.peak_memory_bytes = peak_memory_bytes();
+  return membrane_voltage(data, rule());
+}
+
+const SurfacePoints& ChargingSteps::rule() const { return implementation_->data->space->trace->rule(); }
+
+Vector ChargingSteps::at(const SurfacePoints& points, const Vector& values) const {
+  const MembraneTrace& trace = *implementation_->data->space->trace;
+  return trace.evaluate(trace.project(trace.integrate(values)), points);
+}
+
+const Cost& ChargingSteps::cost() const { return implementation_->data->cost; }
 
 }  // namespace vehd::fem_check

@@ -87,4 +87,31 @@ class PotentialSolution {
 /// Source: paper Eqs. (4), (30); weak form in docs/weak_forms.md
 PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem);
 
+/// Implicit steps of one size of a membrane that charges, for any rule that is made of such steps; the operators are
+/// set up once. V_m is its values at rule().
+class ChargingSteps {
+ public:
+  /// @param problem  its membrane is a ChargingMembrane, of which the initial V_m and the number of steps do not count
+  /// @throws std::invalid_argument as solve_potential
+  ChargingSteps(const Discretisation& discretisation, const PotentialProblem& problem);
+  ~ChargingSteps();
+  ChargingSteps(ChargingSteps&&) noexcept;
+  ChargingSteps& operator=(ChargingSteps&&) noexcept;
+
+  /// V_m with C_m (V_m − from)/τ + G_m V_m = −σ_i ∂φ_i/∂n, τ the time step of the problem.
+  /// @param field  E_∞ at the end of the step
+  /// @throws SolveError
+  Vector step(const Vector& from, const Vector3& field);
+  /// Gauss points of γ.
+  [[nodiscard]] const SurfacePoints& rule() const;
+  /// Of values at the rule, as a trace function at other points of γ.
+  [[nodiscard]] Vector at(const SurfacePoints& points, const Vector& values) const;
+  /// What the steps so far took.
+  [[nodiscard]] const Cost& cost() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
 }  // namespace vehd::fem_check

@@ -145,6 +145,11 @@ double truncation_error(const FrozenShape& shape, const Matrix3& in_directions) 
   return std::sqrt(squares / area);
 }
 
+BlockAxes axes_along(const FrozenShape& shape, const Matrix3& in_directions) {
+  const PrincipalAxes found = find_principal_axes(shape.affine_part());
+  return {in_directions, found.axes.in_space * found.axes.in_directions.transpose() * in_directions};
+}
+
 BlockAxes principal_axes(const FrozenShape& shape) { return find_principal_axes(shape.affine_part()).axes; }
 
 BlockAxes best_axes(const FrozenShape& shape) {

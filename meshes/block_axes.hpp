@@ -26,6 +26,10 @@ BlockAxes principal_axes(const FrozenShape& shape);
 /// an axisymmetric shape, all turns are equal.
 BlockAxes best_axes(const FrozenShape& shape);
 
+/// With these axes V, and U = R V with the rotation R that is nearest to the affine part: the same directions for
+/// several shapes.
+BlockAxes axes_along(const FrozenShape& shape, const Matrix3& in_directions);
+
 /// What polynomials of degree 5 cannot follow of x(θ, φ) on the faces of a mesh with 3 cells per edge of the cube: root
 /// mean square over these faces of the part of x of degree 6 in a face coordinate.
 double truncation_error(const FrozenShape& shape, const Matrix3& in_directions);

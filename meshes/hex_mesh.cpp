@@ -5,6 +5,7 @@
 
 #include "meshes/block_map.hpp"
 #include "meshes/mesh_quality.hpp"
+#include "meshes/oriented_mesh.hpp"
 #include "meshes/volume_mesh.hpp"
 
 namespace vehd::meshes {
@@ -80,8 +81,12 @@ Point HexMesh::direction(int cell_index, const Point& unit) const {
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options) {
   require_options(options);
-  const auto map =
-      std::make_shared<const BlockMap>(shape, best_axes(shape), options.outer_radius, options.core_fraction);
+  return make_block_mesh(shape, options, best_axes(shape));
+}
+
+HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options, const BlockAxes& axes) {
+  require_options(options);
+  const auto map = std::make_shared<const BlockMap>(shape, axes, options.outer_radius, options.core_fraction);
   const double growth = options.shell_growth > 0.0
                             ? options.shell_growth
                             : std::pow(options.outer_radius / shape.radius(), 1.0 / options.shell_layers);

@@ -21,7 +21,7 @@ int default_ranks() { return std::clamp(static_cast<int>(std::thread::hardware_c
 
 struct CheckOptions {
   SceneChoice scene;  ///< or a run.h5
-  std::optional<std::string> time;
+  std::optional<std::string> time, from;
   std::string directory;
   bool quick = false;
   std::optional<double> required;
@@ -60,6 +60,7 @@ ExitCode check(const CheckOptions& options) {
                  .required = options.required,
                  .n_ranks = options.ranks};
   if (!task.frozen.note.empty()) fmt::print(stderr, "{}\n", task.frozen.note);
+  if (options.from) task.span = read_time_span(options.scene.source.file, *options.from, task.frozen);
   task.tell = [first = true](const CheckFields& fields) mutable { print_solved(fields, std::exchange(first, false)); };
   std::filesystem::remove(differences_file(task.directory));
   const FemProgram::Result result = compare_methods(fem, task);
@@ -77,6 +78,11 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
       ->required();
   add_settings(*command, options->scene);
   add_snapshot_time(*command, options->time);
+  command
+      ->add_option("--from", options->from,
+                   "Also let the finite elements advance V_m from the snapshot of this time to the one that is checked")
+      ->type_name("T")
+      ->check(time_text());
   command
       ->add_option("-o,--output", options->directory,
                    "Directory for the results; \"check\" beside a run.h5, out/NAME_check for NAME.toml")

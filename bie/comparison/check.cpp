@@ -62,11 +62,16 @@ FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task)
     if (task.tell) task.tell(fields);
     return fields;
   };
-  const int order = order_of(frozen.state.vesicles.front().position.rows());
-  CheckFields at_order = solved_at(order), for_error = solved_at(estimate_order(order, task.quick));
+  const int order = order_of(frozen.state.vesicles.front().position.rows()), other = estimate_order(order, task.quick);
+  CheckFields at_order = solved_at(order), for_error = solved_at(other);
   keep_known(samples, at_order, for_error);
   const std::filesystem::path input = task.directory / "check_input.h5";
-  write_check_input(input, {frozen, contents, force, samples, at_order, for_error});
+  std::optional<InTime> in_time;
+  if (task.span) {
+    in_time = InTime{*task.span, potential_in_time(frozen, *task.span, order, false),
+                     potential_in_time(frozen, *task.span, other, true)};
+  }
+  write_check_input(input, {frozen, contents, force, samples, at_order, for_error, in_time ? &*in_time : nullptr});
 
   std::vector<std::string> arguments{"check", input.string(), "-o", task.directory.string()};
   if (task.quick) arguments.emplace_back("--quick");

@@ -7,6 +7,7 @@
 #include "bie/comparison/check_fields.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/comparison/frozen_state.hpp"
+#include "bie/comparison/time_span.hpp"
 
 namespace vehd {
 
@@ -14,6 +15,7 @@ namespace vehd {
 struct CheckTask {
   FrozenState frozen;
   std::filesystem::path directory;   ///< for the files of both sides; created if missing
+  std::optional<TimeSpan> span{};    ///< on which V_m is advanced to the frozen time
   bool quick = false;                ///< coarse elements, and boundary integrals that are not finer than they need
   std::optional<double> required{};  ///< share of a field that errors may reach; absent: the finite elements' own
   int n_ranks = 1;                   ///< processes of the finite elements

@@ -27,18 +27,6 @@ namespace {
 const VesicleState& membrane_of(const FrozenState& frozen) { return frozen.state.vesicles.front(); }
 const VesicleModel& vesicle_of(const FrozenState& frozen) { return frozen.model.vesicles.front(); }
 
-/// At another degree than that of the run only an error is estimated: its solvers must add none of their own.
-NumericalSettings settings_at(const FrozenState& frozen, int order) {
-  NumericalSettings settings = frozen.settings;
-  if (order != order_of(membrane_of(frozen).position.rows())) {
-    const NumericalSettings defaults;
-    settings.flow_tolerance = std::min(settings.flow_tolerance, defaults.flow_tolerance);
-    settings.electric_tolerance = std::min(settings.electric_tolerance, defaults.electric_tolerance);
-  }
-  settings.order = order;
-  return settings;
-}
-
 /// The parts of the model that are compared.
 Model compared_model(const FrozenState& frozen, const CheckContents& contents) {
   Model model = frozen.model;
@@ -191,6 +179,17 @@ class FrozenSolver {
 };
 
 }  // namespace
+
+NumericalSettings settings_at(const FrozenState& frozen, int order) {
+  NumericalSettings settings = frozen.settings;
+  if (order != order_of(membrane_of(frozen).position.rows())) {
+    const NumericalSettings defaults;
+    settings.flow_tolerance = std::min(settings.flow_tolerance, defaults.flow_tolerance);
+    settings.electric_tolerance = std::min(settings.electric_tolerance, defaults.electric_tolerance);
+  }
+  settings.order = order;
+  return settings;
+}
 
 CheckContents check_contents(const FrozenState& frozen) {
   const Model& model = frozen.model;

@@ -47,6 +47,9 @@ struct CheckFields {
 /// @throws InputError for a background flow that the finite-element side does not know
 Matrix total_force(const FrozenState& frozen, const VesicleFields& fields);
 
+/// Those of the run at its degree. At another one only an error is estimated: its solvers must add none of their own.
+NumericalSettings settings_at(const FrozenState& frozen, int order);
+
 /// E_∞ at the frozen time.
 Vector3 applied_field(const FrozenState& frozen);
 /// ∂v_i/∂x_j of the background flow at the frozen time.

@@ -132,6 +132,33 @@ void write_samples(Hdf5Writer& file, const CheckInput& input) {
                 {"1", "1 inside, 0 outside"});
 }
 
+void write_numbers(Hdf5Writer& file, const std::string& path, const std::vector<double>& values,
+                   const DatasetLabel& label) {
+  file.numbers(path, values, {values.size()}, label);
+}
+
+void write_in_time(Hdf5Writer& file, const InTime& in_time) {
+  const TimeSpan& span = in_time.span;
+  file.group("/in_time");
+  file.attribute("/in_time", "begin", span.begin);
+  file.attribute("/in_time", "intervals", span.intervals);
+  write(file, "/in_time/Vm", span.potential, {"potential", "V_m of the snapshot at the begin"});
+  write_numbers(file, "/in_time/field_times", span.field_times,
+                {"time", "evenly spaced between two discontinuities of the field, which are there twice"});
+  write(file, "/in_time/field", span.field, {"potential/length", "E_inf at these times"});
+  write_numbers(file, "/in_time/shape_times", span.shape_times, {"time", "of the snapshots in /in_time/shapes"});
+  file.group("/in_time/shapes");
+  for (std::size_t i = 0; i < span.positions.size(); ++i) {
+    const std::string group = "/in_time/shapes/" + std::to_string(i);
+    file.group(group);
+    write(file, group + "/x", span.positions[i], {"length", "coefficients of the membrane position"});
+    if (!span.velocities.empty()) write(file, group + "/velocity", span.velocities[i], {"velocity", "dx/dt"});
+  }
+  write(file, "/in_time/Vm_end", in_time.at_order, {"potential", "V_m at the end, shape held still, degree of /bie"});
+  write(file, "/in_time/Vm_end_high", in_time.for_error,
+        {"potential", "the same with finer steps, degree of /bie_high"});
+}
+
 }  // namespace
 
 void write_check_input(const std::filesystem::path& path, const CheckInput& input) {
@@ -145,6 +172,7 @@ void write_check_input(const std::filesystem::path& path, const CheckInput& inpu
   write_fields(file, "/bie", input.at_order);
   write_fields(file, "/bie_high", input.for_error);
   write_samples(file, input);
+  if (input.in_time != nullptr) write_in_time(file, *input.in_time);
   file.close();
 }
 

@@ -4,6 +4,7 @@
 
 #include "bie/comparison/check_fields.hpp"
 #include "bie/comparison/check_samples.hpp"
+#include "bie/comparison/time_span.hpp"
 #include "bie/physics/point_sources.hpp"
 
 /// The file through which the boundary-integral side talks to the finite-element side: docs/check.md has its layout.
@@ -12,6 +13,13 @@ namespace vehd {
 /// Version of the layout, which both sides must agree in.
 constexpr std::int64_t check_schema_version = 2;
 
+/// What is asked about V_m in time.
+struct InTime {
+  TimeSpan span;
+  Vector at_order;   ///< V_m at its end by potential_in_time(), with the steps of the run
+  Vector for_error;  ///< at estimate_order() with finer ones
+};
+
 /// All that the file holds.
 struct CheckInput {
   const FrozenState& frozen;
@@ -19,7 +27,8 @@ struct CheckInput {
   const Matrix& force;  ///< total_force of the stored fields
   const CheckSamples& samples;
   const CheckFields& at_order;
-  const CheckFields& for_error;  ///< at estimate_order()
+  const CheckFields& for_error;     ///< at estimate_order()
+  const InTime* in_time = nullptr;  ///< null: not asked for
 };
 
 /// @throws OutputError

@@ -70,6 +70,7 @@ SolvedState solve_state(const CheckInput& input, const Meshes& meshes, const Dis
   solved.outer_radius = meshes.outer_radius();
   solved.far_outer_radius = meshes.far_outer_radius();
   if (input.electric()) solved.potential = solve_potential_levels(input, meshes, refinement, report);
+  if (input.in_time) solved.charging = solve_charging_levels(input, meshes, refinement, report);
   if (!input.flow()) return solved;
   solved.flow = solve_flow_levels(input, meshes, refinement, report);
   if (solved.potential) add_own_force(input, meshes, refinement, *solved.potential, solved.flow->sequence, report);
@@ -93,6 +94,12 @@ CheckResult judge(const CheckInput& input, const SolvedState& solved, double req
     result.levels = sequence.levels;
     add(result, electric_questions(input, places, sequence), sequence, required);
     add(result, stored_electric_questions(input, places), sequence, required);
+  }
+  if (solved.charging && input.in_time) {
+    const ChargingLevels& charging = *solved.charging;
+    result.levels.insert(result.levels.end(), charging.sequence.levels.begin(), charging.sequence.levels.end());
+    add(result, {in_time_question(input, places, charging)}, charging.sequence, required);
+    result.in_time = {input.in_time->begin, charging.steps, charging.order_in_time, input.in_time->moves()};
   }
   if (solved.flow) {
     const LevelSequence& sequence = solved.flow->sequence;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "fem_check/app/charging_levels.hpp"
 #include "fem_check/app/flow_levels.hpp"
 #include "fem_check/app/potential_levels.hpp"
 #include "fem_check/app/progress.hpp"
@@ -28,6 +29,7 @@ struct SolvedState {
   std::optional<PotentialLevels> potential;
   std::optional<FlowLevels> flow;
   std::optional<LevelSequence> shape_flow;
+  std::optional<ChargingLevels> charging;
   double outer_radius = 0.0, far_outer_radius = 0.0;
 };
 

@@ -140,6 +140,33 @@ void read_samples(const Hdf5Input& file, CheckInput& input) {
   }
 }
 
+InTime read_in_time(const Hdf5Input& file, const CheckInput& input) {
+  InTime result;
+  const std::string group = "/in_time";
+  const auto of_order = [&](const std::string& name, int order) {
+    return matrix_of_size(file, group + "/" + name, n_coefficients(order), 1);
+  };
+  result.begin = file.number(group, "begin");
+  result.intervals = static_cast<int>(file.number(group, "intervals"));
+  result.field_times = file.matrix(group + "/field_times").col(0);
+  const Eigen::Index n_times = result.field_times.size();
+  result.field = matrix_of_size(file, group + "/field", n_times, 3).transpose();
+  if (result.intervals < 1 || n_times == 0 || n_times % (result.intervals + 1) != 0) {
+    file.refuse(fmt::format("has {} times of the field for pieces of {} intervals", n_times, result.intervals));
+  }
+  result.shape_times = file.matrix(group + "/shape_times").col(0);
+  const Eigen::MatrixXd start = file.matrix(group + "/Vm");
+  result.potential = matrix_of_size(file, group + "/Vm", start.rows(), 1);
+  for (Eigen::Index i = 0; i < result.shape_times.size(); ++i) {
+    const std::string shape = group + "/shapes/" + std::to_string(i);
+    result.positions.push_back(file.matrix(shape + "/x"));
+    if (result.shape_times.size() > 1) result.velocities.push_back(file.matrix(shape + "/velocity"));
+  }
+  result.bie = of_order("Vm_end", input.bie.order);
+  result.bie_high = of_order("Vm_end_high", input.bie_high.order);
+  return result;
+}
+
 }  // namespace
 
 CheckInput read_check_input(const std::filesystem::path& path) {
@@ -158,6 +185,7 @@ CheckInput read_check_input(const std::filesystem::path& path) {
   input.bie = read_fields(file, "/bie", input);
   input.bie_high = read_fields(file, "/bie_high", input);
   read_samples(file, input);
+  if (file.has("/in_time")) input.in_time = read_in_time(file, input);
   return input;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "fem_check/types.hpp"
 
@@ -50,6 +52,23 @@ struct Samples {
   std::vector<bool> near;  ///< within one grid spacing of γ
 };
 
+/// V_m of an earlier snapshot, and what acts on it from there to the time of the file.
+struct InTime {
+  double begin = 0.0;
+  Eigen::MatrixXd potential;  ///< V_m there
+  /// Evenly spaced between two discontinuities of the field, `intervals` of them; a discontinuity is there twice.
+  Vector field_times;
+  Vectors field;  ///< E_∞ at each of them
+  int intervals = 0;
+  /// Of snapshots on the way, or the last one alone if the shape stands still.
+  Vector shape_times;
+  std::vector<Eigen::MatrixXd> positions;
+  std::vector<Eigen::MatrixXd> velocities;  ///< of the membrane's material; empty if the shape stands still
+  Eigen::MatrixXd bie, bie_high;            ///< V_m at the time of the file, by boundary integrals with two step sizes
+
+  [[nodiscard]] bool moves() const { return positions.size() > 1; }
+};
+
 /// All that the file holds.
 struct CheckInput {
   std::string source;
@@ -62,6 +81,7 @@ struct CheckInput {
   BieFields bie;       ///< in the order of the state: what is compared
   BieFields bie_high;  ///< in another one: what estimates the error of the first
   Samples samples;
+  std::optional<InTime> in_time;
 
   [[nodiscard]] bool electric() const { return potential.size() > 0; }
   [[nodiscard]] bool steady() const { return bie.steady_potential.size() > 0; }

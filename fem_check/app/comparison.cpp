@@ -129,6 +129,7 @@ FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequ
   }
   result.bie_change = measure(question.bie - question.bie_high);
   if (question.further_error.size() > 0) result.bie_further = measure(question.further_error).l2;
+  if (question.time_error.size() > 0) result.time = measure(question.time_error).l2;
   result.verdict = verdict_of(result, required);
   return result;
 }

@@ -29,7 +29,8 @@ const char* name_of(Verdict verdict);
 enum class RowGroup {
   fields,      ///< shape, V_m and force given
   from_shape,  ///< shape, V_m and the physics given
-  stored       ///< the number judged is one of the snapshot
+  stored,      ///< the number judged is one of the snapshot
+  in_time      ///< advanced from an earlier snapshot
 };
 
 /// One field by both methods: the finest level against the boundary integrals in the order of the state.
@@ -41,13 +42,14 @@ struct FieldComparison {
   Norms levels_change;           ///< last level against the one before
   Norms truncation;              ///< of the outer sphere, from one further out
   double solver = 0.0;           ///< what the linear solvers leave, from coarser ones
+  double time = 0.0;             ///< of the steps in time; FieldQuestion::time_error
   Norms bie_change;              ///< order p against the other order
   double bie_further = 0.0;      ///< FieldQuestion::further_error
   std::optional<double> order;   ///< observed, in the mesh size N^(−1/3), N unknowns
   std::vector<Norms> of_levels;  ///< difference of every level that has the field
   Verdict verdict = Verdict::undecided;
 
-  [[nodiscard]] double fem_error() const { return levels_change.l2 + truncation.l2 + solver; }
+  [[nodiscard]] double fem_error() const { return levels_change.l2 + truncation.l2 + solver + time; }
   [[nodiscard]] double bie_error() const { return bie_change.l2 + bie_further; }
 };
 
@@ -59,6 +61,7 @@ struct FieldQuestion {
   Eigen::MatrixXd judged;         ///< the number under judgement
   Eigen::MatrixXd bie, bie_high;  ///< boundary integrals at both orders, whose change is the error of the judged number
   Eigen::MatrixXd further_error;  ///< what else that number may be off by; empty: nothing
+  Eigen::MatrixXd time_error;     ///< of what the levels have, by their steps in time; empty: none
   /// Name in the levels of what it is judged by; empty: by `bie`, no finite elements.
   std::string values;
   /// From what the levels have to what is judged; empty: the same.

@@ -19,21 +19,29 @@ Refinement Refinement::quick() {
   return refinement;
 }
 
-Meshes::Meshes(const meshes::FrozenShape& shape, const Refinement& refinement) {
+meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double radius, bool far) {
   meshes::BlockMeshOptions options;
   options.cells_per_edge = refinement.cells_per_edge;
   options.blend_layers = refinement.blend_layers;
   options.shell_layers = refinement.shell_layers;
   options.shell_growth = refinement.shell_growth;
-  options.outer_radius = refinement.outer_radius * shape.radius();
-  near_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options));
+  options.outer_radius = refinement.outer_radius * radius;
+  if (!far) return options;
   // Layers grow by a constant factor, so that the inner ones stay where they are.
   const auto thickness = [&](int layers) { return std::pow(refinement.shell_growth, layers) - 1.0; };
-  options.outer_radius =
-      shape.radius() * (1.0 + (refinement.outer_radius - 1.0) * thickness(refinement.shell_layers + 1) /
-                                  thickness(refinement.shell_layers));
+  options.outer_radius = radius * (1.0 + (refinement.outer_radius - 1.0) * thickness(refinement.shell_layers + 1) /
+                                             thickness(refinement.shell_layers));
   options.shell_layers += 1;
-  far_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options));
+  return options;
+}
+
+Meshes::Meshes(const meshes::FrozenShape& shape, const Refinement& refinement) {
+  const auto mesh = [&](bool far) {
+    return std::make_shared<meshes::HexMesh>(
+        meshes::make_block_mesh(shape, block_mesh_options(refinement, shape.radius(), far)));
+  };
+  near_ = mesh(false);
+  far_ = mesh(true);
 }
 
 }  // namespace vehd::fem_check

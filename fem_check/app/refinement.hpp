@@ -4,6 +4,7 @@
 
 #include "fem_check/discretisation.hpp"
 #include "meshes/frozen_shape.hpp"
+#include "meshes/volume_mesh.hpp"
 
 namespace vehd::fem_check {
 
@@ -22,6 +23,7 @@ struct Refinement {
   int flow_first = 4, flow_last = 8;
   double potential_target = 1e-5;  ///< relative change at which degrees stop rising before the last
   double flow_target = 1e-4;
+  double charging_target = 1e-3;       ///< the same of V_m that is advanced in time, of its steps too
   double potential_tolerance = 1e-11;  ///< of the linear solvers
   double flow_tolerance = 1e-7;
 
@@ -36,6 +38,10 @@ struct DegreeRange {
   int last;
 };
 
+/// Of a shape with this radius.
+/// @param far  with one more layer of cells, outside the others
+meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double radius, bool far);
+
 /// Meshes of one shape at both radii of the outer sphere.
 class Meshes {
  public:
@@ -44,6 +50,7 @@ class Meshes {
 
   [[nodiscard]] Discretisation discretise(int degree) const { return {near_, degree}; }
   [[nodiscard]] double outer_radius() const { return near_->outer_radius(); }
+  [[nodiscard]] int n_cells() const { return near_->n_cells(); }
   /// With one more layer of cells, outside the others.
   [[nodiscard]] Discretisation discretise_far(int degree) const { return {far_, degree}; }
   [[nodiscard]] double far_outer_radius() const { return far_->outer_radius(); }

@@ -16,6 +16,7 @@ nlohmann::json json_of(const FieldComparison& field) {
           {"fem_levels_change", json_of(field.levels_change)},
           {"fem_truncation", json_of(field.truncation)},
           {"fem_solver", field.solver},
+          {"fem_time", field.time},
           {"bie_error", field.bie_error()},
           {"bie_change", json_of(field.bie_change)},
           {"bie_further", field.bie_further},
@@ -25,8 +26,10 @@ nlohmann::json json_of(const FieldComparison& field) {
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
 nlohmann::json level_fields(const CheckResult& result, const Level& level, std::size_t index, std::size_t n_levels) {
   nlohmann::json json = nlohmann::json::object();
-  // Both flows have a velocity.
-  const RowGroup group = level.problem == shape_flow_problem ? RowGroup::from_shape : RowGroup::fields;
+  // Both flows have a velocity, and V_m is advanced in time as well.
+  const RowGroup group = level.problem == shape_flow_problem ? RowGroup::from_shape
+                         : level.problem == charging_problem ? RowGroup::in_time
+                                                             : RowGroup::fields;
   for (const FieldComparison& field : result.fields) {
     const bool of_problem = level.surface.contains(field.name) && field.group == group;
     if (of_problem && field.of_levels.size() == n_levels) json[field.name] = json_of(field.of_levels[index]);
@@ -55,6 +58,7 @@ nlohmann::json levels_json(const CheckResult& result) {
 
 std::string label_of(const FieldComparison& field) {
   if (field.group == RowGroup::stored) return "stored " + field.label;
+  if (field.group == RowGroup::in_time) return field.label + " in time";
   return field.group == RowGroup::from_shape ? field.label + " from shape" : field.label;
 }
 
@@ -91,6 +95,12 @@ std::string table_of(const CheckResult& result) {
   text += fmt::format("{:<18} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
                       "order", "BIE error", "verdict");
   for (const FieldComparison& field : result.fields) text += row_of(field);
+  if (result.in_time) {
+    text +=
+        fmt::format("V_m in time: from time {:g} in {} steps{}{}\n", result.in_time->begin, result.in_time->steps,
+                    result.in_time->order ? fmt::format(", order {:.1f} in their size", *result.in_time->order) : "",
+                    result.in_time->moves ? ", on the moving shape" : "");
+  }
   if (result.divergence) {
     text += fmt::format(
         "surface divergence of v as the elements see it: {:.1e} of the strain rate (levels differ by {:.1e})\n",
@@ -100,13 +110,16 @@ std::string table_of(const CheckResult& result) {
 }
 
 nlohmann::json json_of(const CheckResult& result) {
-  nlohmann::json fields = nlohmann::json::object(), from_shape = fields, stored = fields, orders = fields;
+  nlohmann::json fields = nlohmann::json::object(), from_shape = fields, stored = fields, in_time = fields,
+                 orders = fields;
   for (const FieldComparison& field : result.fields) {
     nlohmann::json& group = field.group == RowGroup::stored       ? stored
                             : field.group == RowGroup::from_shape ? from_shape
+                            : field.group == RowGroup::in_time    ? in_time
                                                                   : fields;
     group[field.name] = json_of(field);
-    if (field.order && field.group == RowGroup::from_shape) group[field.name]["order_observed"] = *field.order;
+    const bool own_group = field.group == RowGroup::from_shape || field.group == RowGroup::in_time;
+    if (field.order && own_group) group[field.name]["order_observed"] = *field.order;
     if (field.order && field.group == RowGroup::fields) orders[field.name] = *field.order;
   }
   nlohmann::json json{{"source", result.source},
@@ -123,6 +136,13 @@ nlohmann::json json_of(const CheckResult& result) {
                       {"truncation_radius", result.outer_radius},
                       {"truncation_radius_second", result.far_outer_radius},
                       {"seconds", result.seconds}};
+  if (result.in_time) {
+    in_time["begin"] = result.in_time->begin;
+    in_time["steps"] = result.in_time->steps;
+    in_time["moves"] = result.in_time->moves;
+    if (result.in_time->order) in_time["order_in_time"] = *result.in_time->order;
+    json["in_time"] = in_time;
+  }
   if (result.divergence) {
     json["surface_divergence"] = json_of(result.divergence->size);
     json["surface_divergence"]["fem_error"] = result.divergence->levels_change.l2;

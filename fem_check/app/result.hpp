@@ -15,6 +15,14 @@ struct SurfaceDivergence {
   Norms levels_change;
 };
 
+/// How V_m came from an earlier snapshot.
+struct InTimeResult {
+  double begin;
+  int steps;                    ///< between two discontinuities of the field
+  std::optional<double> order;  ///< observed, in the size of the steps
+  bool moves;                   ///< the shape does
+};
+
 /// Share of a field that the error of either method may reach for both to agree, unless asked for another.
 constexpr double default_requirement = 0.02;
 
@@ -27,6 +35,7 @@ struct CheckResult {
   std::vector<FieldComparison> fields;
   std::vector<Level> levels;
   std::optional<SurfaceDivergence> divergence;
+  std::optional<InTimeResult> in_time;
   std::optional<double> stored_velocity;  ///< relative L2 of the snapshot's dx/dt against v of its truncated forces
   double outer_radius = 0.0, far_outer_radius = 0.0;
   double seconds = 0.0;

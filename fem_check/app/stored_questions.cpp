@@ -62,6 +62,18 @@ std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, co
           charging_question(input, places, sizes, maker)};
 }
 
+FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& places,
+                               const ChargingLevels& charging) {
+  const InTime& in_time = *input.in_time;
+  FieldQuestion question = QuestionMaker(places).on_surface("Vm", "V_m", "Vm", input.potential, in_time.bie,
+                                                            in_time.bie_high, natural_sizes(input, places).potential);
+  question.group = RowGroup::in_time;
+  question.time_error = charging.time_error;
+  // Steps of first order leave a third more than a quarter of their size changes: twice the change is counted.
+  question.further_error = (question.bie - question.bie_high).cwiseAbs();
+  return question;
+}
+
 std::vector<FieldQuestion> stored_flow_questions(const CheckInput& input, const ComparisonPlaces& places) {
   const NaturalSizes sizes = natural_sizes(input, places);
   const QuestionMaker maker(places);

@@ -1,0 +1,152 @@
+#include "bie/comparison/time_span.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bie/comparison/check_fields.hpp"
+#include "bie/files/run_reader.hpp"
+#include "bie/files/snapshot_choice.hpp"
+#include "bie/runs/given_times.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/state/resized.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+const VesicleModel& vesicle_of_span(const FrozenState& end) { return end.model.vesicles.front(); }
+
+/// Ends of the pieces on which the field is smooth.
+std::vector<double> smooth_pieces(const Waveform& waveform, double begin, double end, const std::string& file) {
+  // Rounding of a discontinuity that the run has a snapshot at.
+  constexpr double same_time = 1e-9;
+  constexpr std::size_t most_pieces = 32;
+  std::vector<double> ends{begin};
+  const double last = end - same_time * (end - begin);
+  for (std::optional<double> next = waveform.next_discontinuity(begin); next && *next < last;
+       next = waveform.next_discontinuity(*next)) {
+    ends.push_back(*next);
+    if (ends.size() <= most_pieces) continue;
+    throw InputError(
+        fmt::format("{}: the field jumps more than {} times between --from and --time; accepted: times "
+                    "that are closer to each other",
+                    file, most_pieces - 1));
+  }
+  ends.push_back(end);
+  return ends;
+}
+
+void take_field(const FrozenState& end, const std::string& file, TimeSpan& span) {
+  const ElectricParameters electric = electric_parameters(end.model, vesicle_of_span(end));
+  const std::vector<double> ends = smooth_pieces(electric.waveform, span.begin, span.end, file);
+  span.intervals = span_intervals;
+  const auto n_pieces = static_cast<Index>(ends.size()) - 1;
+  span.field.resize(n_pieces * (span_intervals + 1), 3);
+  for (Index piece = 0; piece < n_pieces; ++piece) {
+    const double first = ends[static_cast<std::size_t>(piece)], last = ends[static_cast<std::size_t>(piece) + 1];
+    for (std::int64_t i = 0; i <= span_intervals; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(span_intervals);
+      const double time = i == span_intervals ? last : first + share * (last - first);
+      const Limit limit = i == span_intervals ? Limit::before : Limit::after;
+      span.field.row(static_cast<Index>(span.field_times.size())) = electric.at(time, limit).field.transpose();
+      span.field_times.push_back(time);
+    }
+  }
+}
+
+double radius_of(const Matrix& position) {
+  // √(Σ|x_nm|²/4π) over the degrees from 1 on: mean distance from the mean position.
+  return std::sqrt(position.bottomRows(position.rows() - 1).squaredNorm() / (4.0 * std::numbers::pi));
+}
+
+/// Bound of how far a point lies from where it lies in another series: Σ √((2n+1)/4π) |x_n| over the degrees n.
+double largest_displacement(const Matrix& a, const Matrix& b) {
+  const Matrix difference = a - b;
+  double bound = 0.0;
+  for (int n = 0; n <= order_of(difference.rows()); ++n) {
+    const Index first = Index{n} * n, size = 2 * Index{n} + 1;
+    bound +=
+        std::sqrt(static_cast<double>(size) / (4.0 * std::numbers::pi)) * difference.middleRows(first, size).norm();
+  }
+  return bound;
+}
+
+void take_shapes(const RunReader& run, std::size_t first, std::size_t last, TimeSpan& span) {
+  int order = 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    run.require_sealed(i);
+    span.shape_times.push_back(run.times()[i]);
+    span.positions.push_back(run.coefficients(i, "x", 3));
+    if (run.has_field(i, "velocity")) span.velocities.push_back(run.coefficients(i, "velocity", 3));
+    order = std::max(order, order_of(span.positions.back().rows()));
+  }
+  for (std::vector<Matrix>* fields : {&span.positions, &span.velocities}) {
+    for (Matrix& field : *fields) field = resize_order(field, order);
+  }
+  const Matrix end = span.positions.back();
+  const double bound = still_motion * radius_of(end);
+  if (std::ranges::any_of(span.positions, [&](const Matrix& x) { return largest_displacement(x, end) > bound; }))
+    return;
+  span.shape_times = {span.end};
+  span.positions = {end};
+  span.velocities.clear();
+}
+
+}  // namespace
+
+TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, const FrozenState& end) {
+  if (file.extension() == ".toml") {
+    throw InputError(fmt::format("{}: --from goes with a run; run the scene and give its run.h5", file.string()));
+  }
+  if (!end.model.electric) {
+    throw InputError(
+        fmt::format("{}: without [electric] there is no V_m; --from accepts runs in a field", file.string()));
+  }
+  const RunReader run(file);
+  const GivenTimes times(run, file);
+  const SnapshotChoice choice = choose_snapshot(run, file, times.number_of(from), times.shown());
+  TimeSpan span;
+  span.begin = run.times()[choice.snapshot];
+  span.end = end.state.time;
+  if (!(span.begin < span.end)) {
+    throw InputError(
+        fmt::format("{}: --from {} is not before the snapshot that is checked, at {:g}; accepted: the time "
+                    "of an earlier snapshot",
+                    file.string(), from, span.end));
+  }
+  span.potential = run.coefficients(choice.snapshot, "Vm", 1);
+  span.control = step_control_of(parse_scene(run.scene(), file.string() + " (scene)", file.parent_path()));
+  take_shapes(run, choice.snapshot, run.nearest(span.end), span);
+  take_field(end, file.string(), span);
+  return span;
+}
+
+Vector potential_in_time(const FrozenState& end, const TimeSpan& span, int order, bool finer) {
+  EvolutionSetup setup{end.model, settings_at(end, order), end.symmetry, span.control};
+  setup.model.mobile = false;
+  constexpr double smaller_step = 0.25, smaller_tolerance = 0.1;
+  if (finer && setup.control.tolerance > 0.0) {
+    setup.control.tolerance *= smaller_tolerance;
+  } else if (finer) {
+    setup.control = fixed_steps(smaller_step * setup.control.largest);
+  }
+  const StartMembrane start{resize_order(end.state.vesicles.front().position, order),
+                            {.steady = false, .given = span.potential}};
+  Instruments instruments;
+  State state = initial_state(setup.model, Discretisation(setup.settings, setup.symmetry), {start},
+                              setup.control.tolerance > 0.0 ? 0.0 : setup.control.largest, instruments);
+  state.time = span.begin;
+  Evolution evolution(std::move(setup), std::move(state), instruments);
+  evolution.evaluate_start();
+  const EventTimes events{{}, span.end};
+  while (evolution.state().time < span.end) evolution.step(events);
+  return resize_order(evolution.state().vesicles.front().transmembrane_potential, order);
+}
+
+}  // namespace vehd

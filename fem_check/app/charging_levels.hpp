@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "fem_check/app/check_input.hpp"
+#include "fem_check/app/level.hpp"
+#include "fem_check/app/progress.hpp"
+#include "fem_check/app/refinement.hpp"
+
+namespace vehd::fem_check {
+
+/// V_m that the finite elements have advanced from an earlier snapshot, in all levels with the finest steps. Surface
+/// field: Vm.
+struct ChargingLevels {
+  LevelSequence sequence;
+  Eigen::MatrixXd time_error;           ///< of V_m by its steps, at the points of the comparison
+  std::optional<double> order_in_time;  ///< observed from the last three numbers of steps
+  int steps = 0;                        ///< the largest number, between two discontinuities of the field
+};
+
+/// Advances V_m by backward differentiation of order 2. How many steps are enough is found with elements of the lowest
+/// degree; those of higher degrees take few steps, and what more of them change is added.
+/// @param input  with in_time
+/// @throws SolveError, meshes::MeshError
+ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                                     const Report& report);
+
+}  // namespace vehd::fem_check

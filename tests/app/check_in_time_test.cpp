@@ -1,0 +1,135 @@
+#include <boost/test/unit_test.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "bie/comparison/check.hpp"
+#include "bie/comparison/check_input.hpp"
+#include "tests/app/finite_elements.hpp"
+#include "tests/app/reference_run.hpp"
+
+BOOST_AUTO_TEST_SUITE(check_in_time, *boost::unit_test::precondition(finite_elements_are_built) *
+                                         boost::unit_test::label("slow") * boost::unit_test::label("once"))
+
+namespace {
+
+using vehd::FrozenState;
+using vehd::InTime;
+
+const std::filesystem::path fem_folder = std::filesystem::path(VEHD_PROGRAM).parent_path();
+
+/// A shape without symmetry that stands still while it charges; the field jumps on the way.
+const std::string charging_scene =
+    "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
+    "[membrane]\nmobile = false\ncapacitance = 1.0\nconductance = 0.5\n"
+    "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+    "[electric.waveform]\nkind = 'pulse'\nduration = 0.6\n"
+    "[numerics]\norder = 8\ntime_order = 3\ndt = 0.1\nend_time = 1.0\n[output]\nevery = 0.2\n";
+
+/// What the boundary-integral side hands over about one span.
+struct Numbers {
+  FrozenState end;
+  InTime in_time;
+
+  void advance(const FrozenState& state) {
+    in_time.at_order = vehd::potential_in_time(state, in_time.span, 8, false);
+    in_time.for_error = vehd::potential_in_time(state, in_time.span, 12, true);
+  }
+};
+
+Numbers numbers_of(const std::string& file) {
+  Numbers numbers;
+  numbers.end = vehd::read_frozen_state({file, {}}, "1.0");
+  numbers.in_time.span = vehd::read_time_span(file, "0.4", numbers.end);
+  numbers.advance(numbers.end);
+  return numbers;
+}
+
+void write_numbers_of(const std::string& path, const Numbers& numbers) {
+  const vehd::CheckContents contents = vehd::check_contents(numbers.end);
+  const vehd::CheckSamples samples{vehd::Matrix(0, 3), vehd::Vector(0), 0.0};
+  const auto fields = [&](int order) { return vehd::check_fields(numbers.end, contents, {}, order, samples.points); };
+  vehd::write_check_input(path, {numbers.end, contents, {}, samples, fields(8), fields(12), &numbers.in_time});
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(potential_of_a_run_is_advanced_and_a_percent_is_noticed) {
+  const FinishedRun run(charging_scene);
+  const std::string file = run.output + "/run.h5";
+  const Numbers right = numbers_of(file);
+  BOOST_TEST(right.in_time.span.positions.size() == 1U);
+  BOOST_TEST(right.in_time.span.field_times.size() == 2U * (vehd::span_intervals + 1));
+  // The steps of the run, from the snapshot on, end where the run did.
+  const vehd::Vector& stored = right.end.state.vesicles.front().transmembrane_potential;
+  BOOST_TEST((right.in_time.at_order - stored).norm() < 1e-3 * stored.norm());
+
+  std::vector<std::function<void(Numbers&)>> damages;
+  for (const double factor : {1.01, -1.0, 0.5}) {
+    damages.emplace_back([=](Numbers& n) { n.end.state.vesicles.front().transmembrane_potential *= factor; });
+  }
+  // A run that charged with another capacitance or conductance, and one whose pulse never ended.
+  const auto charged_with = [&](const std::function<void(FrozenState&)>& change) {
+    damages.emplace_back([=](Numbers& n) {
+      FrozenState wrong = n.end;
+      change(wrong);
+      n.advance(wrong);
+      n.end.state.vesicles.front().transmembrane_potential = n.in_time.at_order;
+    });
+  };
+  charged_with([](FrozenState& s) { s.model.vesicles.front().charging.capacitance *= 1.01; });
+  charged_with([](FrozenState& s) { s.model.vesicles.front().charging.conductance *= 1.02; });
+  charged_with([](FrozenState& s) { s.model.electric->waveform = {}; });
+
+  std::vector<std::string> command{(fem_folder / "vehd_fem").string(),
+                                   "check",
+                                   run.directory / "right.h5",
+                                   "--quick",
+                                   "-o",
+                                   run.directory / "fem",
+                                   "--json",
+                                   run.directory / "result.json"};
+  write_numbers_of(run.directory / "right.h5", right);
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    Numbers wrong = right;
+    damages[i](wrong);
+    write_numbers_of(run.directory / ("wrong" + std::to_string(i) + ".h5"), wrong);
+    command.insert(command.end(), {"--further", run.directory / ("wrong" + std::to_string(i) + ".h5")});
+  }
+  const ProgramResult program = run_command(command);
+  BOOST_TEST(program.exit_code == 0, program.output + program.errors);
+  BOOST_TEST(program.output.find("V_m in time: from time 0.4 in ") != std::string::npos, program.output);
+  const nlohmann::json json = json_of(run.directory / "result.json");
+  BOOST_TEST(json["in_time"]["Vm"]["verdict"].get<std::string>() == "agree", json["in_time"].dump(1));
+  BOOST_TEST(json["in_time"]["begin"].get<double>() == 0.4);
+  BOOST_TEST(!json["in_time"]["moves"].get<bool>());
+  const double order = json["in_time"]["order_in_time"];
+  // Few steps.
+  BOOST_TEST(order > 1.5);
+  BOOST_TEST(order < 2.4);
+  BOOST_TEST_REQUIRE(json["further"].size() == damages.size());
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    const nlohmann::json& row = json["further"][i]["in_time"]["Vm"];
+    BOOST_TEST(row["verdict"].get<std::string>() == "does not", i << " " << row.dump(1));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(span_that_is_none_is_refused) {
+  const FinishedRun run(charging_scene);
+  const std::string file = run.output + "/run.h5";
+  const auto refusal = [&](const std::string& checked, const std::string& from, const std::string& time) {
+    std::vector<std::string> command{"check", checked, "--from", from, "--quick"};
+    if (!time.empty()) command.insert(command.end(), {"--time", time});
+    const ProgramResult result = run_vehd(command);
+    BOOST_TEST(result.exit_code == 1);
+    return result.errors;
+  };
+  BOOST_TEST(refusal(file, "0.6", "0.6") ==
+             file +
+                 ": --from 0.6 is not before the snapshot that is checked, at 0.6; accepted: the time of an earlier "
+                 "snapshot\n");
+  BOOST_TEST(refusal(file, "7", "0.6").find("no snapshot near time 7") != std::string::npos);
+  BOOST_TEST(refusal(run.scene, "0", "") ==
+             run.scene + ": --from goes with a run; run the scene and give its run.h5\n");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
