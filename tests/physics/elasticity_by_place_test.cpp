@@ -7,13 +7,14 @@
 #include "tests/support/membrane.hpp"
 #include "tests/support/shapes.hpp"
 
+BOOST_AUTO_TEST_SUITE(elasticity_by_place)
+
 using namespace vehd;
 using namespace vehd::testing;
 
 namespace {
 
 constexpr int kElasticDegree = 32;
-const double kUnit = std::sqrt(4.0 * std::numbers::pi);
 
 /// κ_B between 0.4 and 1, c between −1 and −0.2.
 MembraneMaterial elastic_material(const SphereTransform& fine) {
@@ -47,8 +48,6 @@ struct ElasticMembrane {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(elasticity_by_place)
 
 BOOST_AUTO_TEST_CASE(the_force_is_minus_the_gradient_of_the_energy) {
   for (const ElasticMembrane& one :
