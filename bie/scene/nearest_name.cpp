@@ -42,4 +42,9 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
   return fmt::format("accepted: {}", fmt::join(candidates, ", "));
 }
 
+bool is_one_letter_off(std::string_view name, const std::vector<std::string_view>& candidates) {
+  const std::string_view word = name.substr(0, longest_word);
+  return std::ranges::any_of(candidates, [&](std::string_view other) { return edit_distance(word, other) == 1; });
+}
+
 }  // namespace vehd

@@ -12,4 +12,7 @@ int edit_distance(std::string_view a, std::string_view b);
 /// What to tell someone who wrote `name`: `did you mean "x"?` when a candidate is close, the whole list otherwise.
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
 
+/// Whether one letter makes the name one of these: another, one more or less, or two that change places.
+bool is_one_letter_off(std::string_view name, const std::vector<std::string_view>& candidates);
+
 }  // namespace vehd

@@ -49,12 +49,15 @@ std::vector<std::string_view> key_names(std::string_view table) {
 
 std::string unknown_key_text(std::string_view table, std::string_view name) {
   const std::string start = fmt::format("unknown key \"{}\" in [{}]", name, table);
+  // A slip of the finger is likelier than a key in a wrong table.
+  const std::vector<std::string_view> own = key_names(table);
+  if (is_one_letter_off(name, own)) return fmt::format("{}; {}", start, suggestion(name, own));
   std::vector<std::string> owners;
   for (const TableDescription& other : scene_tables()) {
     if (find_key(other.name, name) != nullptr) owners.push_back(fmt::format("[{}]", other.name));
   }
   if (!owners.empty()) return fmt::format("{}; it belongs to {}", start, fmt::join(owners, " or "));
-  return fmt::format("{}; {}", start, suggestion(name, key_names(table)));
+  return fmt::format("{}; {}", start, suggestion(name, own));
 }
 
 /// "kind "shear"", or "kinds "shear", "gradient"": all for which a key of that name exists.
