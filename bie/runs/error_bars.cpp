@@ -1,7 +1,6 @@
 #include "bie/runs/error_bars.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,25 +11,6 @@
 namespace vehd {
 namespace {
 
-/// Columns that tell how the run computes: they have no error.
-constexpr std::array of_the_method = {"dt",
-                                      "iterations_flow",
-                                      "iterations_electric",
-                                      "rejected",
-                                      "order",
-                                      "truncation",
-                                      "error_estimate",
-                                      "quadrature_error",
-                                      "raw_area",
-                                      "spectrum_tail",
-                                      "wrinkle_degree",
-                                      "separation",
-                                      "gap_vesicle_a",
-                                      "gap_vesicle_b",
-                                      "gap_degree"};
-/// Columns that are errors.
-constexpr std::array of_errors = {"area_drift", "volume_drift", "strain_max"};
-
 /// How much larger the tolerance of the companion is: enough to save most of its work.
 constexpr double companion_looseness = 20.0;
 /// What that, and an order less, makes of the differences: so many errors of the run. Measured (docs/run_files.md).
@@ -39,11 +19,6 @@ constexpr double companion_difference = 8.0;
 constexpr int lowest_order_of_tolerance = 2;
 /// Fixed steps that are one of the companion.
 constexpr int companion_steps = 3;
-
-template <typename Names>
-bool contains(const Names& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
 
 /// Moments that differ by rounding are one.
 bool is_same_time(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
@@ -83,9 +58,9 @@ Vector errors_of(const Vector& run, const Vector& companion, double share, Histo
   Vector errors = Vector::Zero(run.size());
   errors[0] = run[0];
   for (Index i = 1; i < run.size(); ++i) {
-    const std::string_view name = columns[static_cast<std::size_t>(i)].name;
-    if (contains(of_the_method, name)) continue;
-    if (contains(of_errors, name)) {
+    const HistoryColumn& column = columns[static_cast<std::size_t>(i)];
+    if (column.meaning == ColumnMeaning::method) continue;
+    if (column.meaning == ColumnMeaning::error) {
       errors[i] = std::abs(run[i]);
       continue;
     }
@@ -93,7 +68,7 @@ Vector errors_of(const Vector& run, const Vector& companion, double share, Histo
     const bool are_equal = run[i] == companion[i] || (std::isnan(run[i]) && std::isnan(companion[i]));
     if (are_equal) continue;
     double difference = std::abs(run[i] - companion[i]);
-    if (name == "inclination_deg") difference = std::min(difference, 180.0 - difference);
+    if (column.name == "inclination_deg") difference = std::min(difference, 180.0 - difference);
     errors[i] = share * difference;
   }
   return errors;
@@ -106,7 +81,7 @@ Vector between(const Vector& first, const Vector& last, const Vector& run, Histo
   errors[0] = run[0];
   const std::vector<HistoryColumn>& columns = history_columns(kind);
   for (Index i = 1; i < run.size(); ++i) {
-    if (contains(of_errors, columns[static_cast<std::size_t>(i)].name)) errors[i] = std::abs(run[i]);
+    if (columns[static_cast<std::size_t>(i)].meaning == ColumnMeaning::error) errors[i] = std::abs(run[i]);
   }
   return errors;
 }
@@ -119,7 +94,7 @@ ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& fr
       share_(share_of_difference(scene.numerics)),
       start_order_(from ? from->start_order : scene.numerics.order),
       companion_(scene_, start_of(from), OutputUnits(scene_)),
-      laboratory_(companion_.problem().frame, companion_.problem().settings) {
+      lab_frame_output_(companion_.problem().frame, companion_.problem().settings) {
   if (!from) return;
   node_ = from->node;
   lost_ = from->lost != 0;
@@ -135,7 +110,7 @@ void ErrorBars::start() {
 }
 
 Vector ErrorBars::values_of(const RecordedSide& side) const {
-  const HistoryRow shown = row_in_laboratory(laboratory_, scene_.numerics.order, side);
+  const HistoryRow shown = row_in_laboratory(lab_frame_output_, scene_.numerics.order, side);
   return vehd::values_of(kind_.rows == HistoryKind::of_all ? row_of_all(shown) : shown, kind_);
 }
 

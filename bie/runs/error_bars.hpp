@@ -51,7 +51,7 @@ class ErrorBars {
   double share_;              ///< of a difference that is the error
   std::int64_t start_order_;  ///< of the companion
   Simulation companion_;
-  LabFrameOutput laboratory_;
+  LabFrameOutput lab_frame_output_;
   std::deque<Vector> waiting_;  ///< rows of the history without an error yet
   Vector node_;                 ///< the last row of errors at which the companion was
   bool lost_ = false;           ///< it cannot take a step

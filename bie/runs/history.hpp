@@ -46,12 +46,20 @@ HistoryKind history_kind(const Scene& scene);
 /// The same with rows of each vesicle.
 HistoryKind of_each_like(HistoryKind kind);
 
+/// What a column tells of.
+enum class ColumnMeaning {
+  quantity,
+  method,  ///< how the run computes
+  error    ///< itself an error
+};
+
 /// A column of history.csv by its plain name; its header is that name, and " [unit]" behind it where the file has
 /// units.
 struct HistoryColumn {
   std::string_view name;
   std::string_view dimension;  ///< see units.hpp; "1" of a pure number
   double (*value)(const HistoryRow&);
+  ColumnMeaning meaning = ColumnMeaning::quantity;
 };
 
 /// All columns in the order of the file: new ones come last, those of an effect that a scene may lack behind all

@@ -76,7 +76,7 @@ const std::vector<HistoryColumn>& columns_of_one() {
   static const std::vector<HistoryColumn> all = [] {
     std::vector<HistoryColumn> columns = {
         {"time", "time", of_row<&HistoryRow::time>},
-        {"dt", "time", of_step<&StepAttempt::dt>},
+        {"dt", "time", of_step<&StepAttempt::dt>, ColumnMeaning::method},
         {"area", "area", of_vesicle<&D::area>},
         {"volume", "volume", of_vesicle<&D::volume>},
         {"reduced_volume", "1", of_vesicle<&D::reduced_volume>},
@@ -89,20 +89,20 @@ const std::vector<HistoryColumn>& columns_of_one() {
         {"extent_y", "length", of_vesicle<&D::extent_y>},
         {"extent_z", "length", of_vesicle<&D::extent_z>},
         {"inclination_deg", "1", of_vesicle<&D::inclination_deg>},
-        {"area_drift", "1", of_vesicle<&D::area_drift>},
-        {"volume_drift", "1", of_vesicle<&D::volume_drift>},
-        {"strain_max", "1", of_vesicle<&D::strain_max>},
-        {"spectrum_tail", "1", of_vesicle<&D::spectrum_tail>},
-        {"iterations_flow", "1", of_step<&StepAttempt::iterations_flow>},
-        {"iterations_electric", "1", of_step<&StepAttempt::iterations_electric>},
-        {"rejected", "1", of_step<&StepAttempt::rejected>},
-        {"order", "1", of_row<&HistoryRow::order>},
-        {"truncation", "1", of_row<&HistoryRow::truncation>},
-        {"error_estimate", "1", of_step<&StepAttempt::error_estimate>},
-        {"quadrature_error", "1", of_vesicle<&D::quadrature_error>},
-        {"separation", "1", of_vesicle<&D::separation>},
-        {"raw_area", "1", of_step<&StepAttempt::raw_area>},
-        {"wrinkle_degree", "1", of_vesicle<&D::wrinkle_degree>},
+        {"area_drift", "1", of_vesicle<&D::area_drift>, ColumnMeaning::error},
+        {"volume_drift", "1", of_vesicle<&D::volume_drift>, ColumnMeaning::error},
+        {"strain_max", "1", of_vesicle<&D::strain_max>, ColumnMeaning::error},
+        {"spectrum_tail", "1", of_vesicle<&D::spectrum_tail>, ColumnMeaning::method},
+        {"iterations_flow", "1", of_step<&StepAttempt::iterations_flow>, ColumnMeaning::method},
+        {"iterations_electric", "1", of_step<&StepAttempt::iterations_electric>, ColumnMeaning::method},
+        {"rejected", "1", of_step<&StepAttempt::rejected>, ColumnMeaning::method},
+        {"order", "1", of_row<&HistoryRow::order>, ColumnMeaning::method},
+        {"truncation", "1", of_row<&HistoryRow::truncation>, ColumnMeaning::method},
+        {"error_estimate", "1", of_step<&StepAttempt::error_estimate>, ColumnMeaning::method},
+        {"quadrature_error", "1", of_vesicle<&D::quadrature_error>, ColumnMeaning::method},
+        {"separation", "1", of_vesicle<&D::separation>, ColumnMeaning::method},
+        {"raw_area", "1", of_step<&StepAttempt::raw_area>, ColumnMeaning::method},
+        {"wrinkle_degree", "1", of_vesicle<&D::wrinkle_degree>, ColumnMeaning::method},
         {"centroid_x", "length", of_vesicle<&D::centroid_x>},
         {"centroid_y", "length", of_vesicle<&D::centroid_y>},
         {"centroid_z", "length", of_vesicle<&D::centroid_z>},
@@ -155,10 +155,12 @@ const std::vector<HistoryColumn>& columns_of_all() {
                                   "tension_max",
                                   "elastic_energy_scaled"});
     columns.push_back({"smallest_gap", "length", [](const HistoryRow& row) { return row.gap.distance; }});
-    columns.push_back({"gap_vesicle_a", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.first); }});
+    columns.push_back({"gap_vesicle_a", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.first); },
+                       ColumnMeaning::method});
+    columns.push_back({"gap_vesicle_b", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.second); },
+                       ColumnMeaning::method});
     columns.push_back(
-        {"gap_vesicle_b", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.second); }});
-    columns.push_back({"gap_degree", "1", [](const HistoryRow& row) { return row.gap.degree(); }});
+        {"gap_degree", "1", [](const HistoryRow& row) { return row.gap.degree(); }, ColumnMeaning::method});
     add_rheology(columns);
     return columns;
   }();
