@@ -34,9 +34,7 @@ class PorationChecks {
 
  private:
   [[noreturn]] void refuse(std::string_view key, const std::string& problem) const {
-    const auto owner = table_["poration"];
-    const auto node = owner[key];
-    throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *owner.node(), file_), problem));
+    refuse_key(table_, "poration", key, file_, problem);
   }
 
   void check_criterion() const {

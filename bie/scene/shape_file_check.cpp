@@ -51,9 +51,7 @@ class ShapeFileCheck {
   };
 
   [[noreturn]] void refuse(std::string_view table, std::string_view key, const std::string& problem) const {
-    const auto owner = table_[table];
-    const auto node = owner[key];
-    throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *owner.node(), file_), problem));
+    refuse_key(table_, table, key, file_, problem);
   }
 
   void require_file() const {

@@ -117,9 +117,7 @@ class Placement {
 
  private:
   [[noreturn]] void refuse(std::string_view key, const std::string& problem) const {
-    const auto owner = file_["suspension"];
-    const auto node = owner[key];
-    throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *owner.node(), name_), problem));
+    refuse_key(file_, "suspension", key, name_, problem);
   }
 
   [[nodiscard]] bool is_box() const { return wanted_.kind == SuspensionKind::box; }

@@ -203,6 +203,13 @@ std::string place(const toml::node& node, const std::string& file) {
   return fmt::format("{}:{}", file, node.source().begin.line);
 }
 
+void refuse_key(const toml::table& scene, std::string_view table, std::string_view key, const std::string& file,
+                const std::string& problem) {
+  const auto owner = scene.at_path(table);
+  const auto node = owner[key];
+  throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *owner.node(), file), problem));
+}
+
 std::optional<double> number_of(const toml::node& node) {
   if (const auto* value = node.as_floating_point()) return value->get();
   // value<double>() of the library refuses what lies beyond 2^53.

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "bie/scene/schema.hpp"
 
@@ -12,6 +13,11 @@ namespace vehd {
 
 /// "file:line" of a node, or the option --set that gave it.
 std::string place(const toml::node& node, const std::string& file);
+
+/// @throws InputError with the problem at the key of a table, or at the table that lacks it
+/// @param table  of the scene, "electric.waveform" included; it exists
+[[noreturn]] void refuse_key(const toml::table& scene, std::string_view table, std::string_view key,
+                             const std::string& file, const std::string& problem);
 
 /// A number of any notation: an integer is the double nearest to it, as if it were written with a point.
 /// @return nullopt if the node is no number
