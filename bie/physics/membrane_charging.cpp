@@ -11,13 +11,18 @@ namespace vehd {
 namespace {
 
 /// Solves (½ + ηS′)(a V − b) − κ D′[V] = κ E·n; the whole equation is divided by a + κ/R, which may be of any size.
-SolveReport solve_charging(const ElectricParameters& electric, const Membrane& membrane, double a, const Vector& b,
-                           double tolerance, Vector& potential) {
-  const ChargingEquation equation(electric, membrane, a);
+SolveReport solve_charging(const ChargingEquation& equation, const Membrane& membrane, const Vector& right_side,
+                           const SolveOptions& options, Vector& potential) {
   const LinearMap map = [&](const Vector& v) { return equation.own(v); };
   const LinearMap preconditioner = [&](const Vector& r) { return equation.sphere_inverse(r); };
-  return solve_within(membrane.subspace.potentials(), map, preconditioner, equation.right_side(b), potential,
-                      {tolerance, 60});
+  return solve_within(membrane.subspace.potentials(), map, preconditioner, right_side, potential, options);
+}
+
+/// The same a everywhere. @param b  coefficients
+SolveReport solve_uniform_charging(const ElectricParameters& electric, const Membrane& membrane, double a,
+                                   const Vector& b, double tolerance, Vector& potential) {
+  const ChargingEquation equation(electric, membrane, a);
+  return solve_charging(equation, membrane, equation.right_side(b), {tolerance, 60}, potential);
 }
 
 }  // namespace
@@ -43,17 +48,18 @@ Vector ChargingEquation::weighted_storage(const Vector& v) const {
 
 Vector ChargingEquation::own(const Vector& v) const {
   const SphereTransform& fine = membrane_.fine;
-  Vector result = Vector::Zero(v.size());
   const bool varies = varying_storage_.size() > 0;
-  const Vector stored = varies ? weighted_storage(v) : Vector();
-  if (varies) {
-    result += second_kind_operator(membrane_, eta_, stored);
-  } else if (storage_ > 0.0) {
-    result += storage_ * second_kind_operator(membrane_, eta_, membrane_.weighted(fine.synthesize(v)));
+  Vector result = Vector::Zero(v.size());
+  // No net current: the mean obeys ∫(a V − b) dA = 0 alone, and is free (hence zero) without storage.
+  double mean = v[0];
+  if (varies || storage_ > 0.0) {
+    const Vector stored = varies ? weighted_storage(v) : Vector(membrane_.weighted(fine.synthesize(v)));
+    const double uniform = varies ? 1.0 : storage_;
+    result += uniform * second_kind_operator(membrane_, eta_, stored);
+    mean = uniform * stored[0];
   }
   if (conduction_ > 0.0) result -= conduction_ * fine.analyze(weighted_hypersingular(membrane_, v));
-  // No net current: the mean obeys ∫(a V − b) dA = 0 alone, and is free (hence zero) without storage.
-  result[0] = varies ? stored[0] : storage_ > 0.0 ? storage_ * membrane_.weighted(fine.synthesize(v))(0, 0) : v[0];
+  result[0] = mean;
   return result;
 }
 
@@ -88,10 +94,7 @@ Vector ChargingEquation::right_side_of_weighted(const Vector& weighted_b, bool i
 SolveReport solve_varying_charging(const ElectricParameters& electric, const Membrane& membrane, const Vector& a,
                                    const Vector& b, double tolerance, Vector& potential) {
   const ChargingEquation equation(electric, membrane, a);
-  const LinearMap map = [&](const Vector& v) { return equation.own(v); };
-  const LinearMap preconditioner = [&](const Vector& r) { return equation.sphere_inverse(r); };
-  return solve_within(membrane.subspace.potentials(), map, preconditioner, equation.right_side_of_values(b), potential,
-                      {tolerance, 120});
+  return solve_charging(equation, membrane, equation.right_side_of_values(b), {tolerance, 120}, potential);
 }
 
 Vector capacitance_of(const ChargingParameters& charging, const Membrane& membrane) {
@@ -127,7 +130,7 @@ SolveReport charge_membrane(const ElectricParameters& electric, const ChargingPa
   }
   const double capacitive = charging.capacitance / dt;
   const Vector b = capacitive * potential;
-  return solve_charging(electric, membrane, capacitive + charging.conductance, b, tolerance, potential);
+  return solve_uniform_charging(electric, membrane, capacitive + charging.conductance, b, tolerance, potential);
 }
 
 SolveReport steady_potential(const ElectricParameters& electric, const ChargingParameters& charging,
@@ -147,7 +150,7 @@ SolveReport steady_potential(const ElectricParameters& electric, const ChargingP
       throw InputError("a steady V_m is not determined: a pump works on a membrane that does not conduct");
     }
   }
-  return solve_charging(electric, membrane, charging.conductance, b, tolerance, potential);
+  return solve_uniform_charging(electric, membrane, charging.conductance, b, tolerance, potential);
 }
 
 }  // namespace vehd
