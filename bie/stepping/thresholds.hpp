@@ -108,7 +108,7 @@ constexpr double slowest_decay = 0.97;
 constexpr double truncation_share = 0.3;
 /// The same of the charge at the start, whose degrees nearly cancel: a remainder of three tolerances is an error of
 /// half of one. Measured on the prolate.
-constexpr double charge_share = 3.0;
+constexpr double charge_share = 1.0;
 /// Share of the target of x and V_m below which a lower degree is idle: far enough that the degree does not rise again
 /// at once.
 constexpr double idle_truncation = 0.1;

@@ -151,18 +151,6 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
   return result;
 }
 
-NodeSolution StepOperations::held(const NodeSolution& y, double dt, NodeEnd end) {
-  NodeSolution result{y.time, {}};
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
-    SurfaceFields fields = y.vesicles[a].material;
-    fields.area_strain = start_.vesicles[a].area_strain;
-    const Matrix displacement = fields.position - start_.vesicles[a].position;
-    const auto rigid = [&](const Membrane& sphere) { return motion_of_displacement(sphere, displacement); };
-    result.vesicles.push_back(motion(a, {std::move(fields), Matrix::Zero(displacement.rows(), 3)}, rigid, dt, end));
-  }
-  return result;
-}
-
 std::vector<ElectricParameters> StepOperations::electric_at(double time) const {
   std::vector<ElectricParameters> result;
   for (const VesicleModel& vesicle : model_.vesicles) {

@@ -97,8 +97,6 @@ class StepOperations {
   NodeSolution first_order_step(double dt, NodeEnd end);
   /// y + (1 − dt L)⁻¹ r.
   NodeSolution implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end);
-  /// y with areas and volumes projected back to what they have to be.
-  NodeSolution held(const NodeSolution& y, double dt, NodeEnd end);
 
   /// The state at the end of the step, from a node that is remapped.
   [[nodiscard]] State end_state(const NodeSolution& node) const;
