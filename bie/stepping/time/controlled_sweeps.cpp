@@ -48,7 +48,8 @@ class SweepErrors {
   /// sweep, whose changes have all degrees.
   [[nodiscard]] double magnification() const {
     const double visible = std::max(shape_.first(), potential_.first());
-    return visible > 0.0 ? std::max(1.0, std::max(tension_.first(), charge_.first()) / visible) : 1.0;
+    if (visible <= 0.0) return 1.0;
+    return std::clamp(std::max(tension_.first(), charge_.first()) / visible, 1.0, thresholds::most_magnification);
   }
 
  private:

@@ -338,14 +338,6 @@ double StepOperations::least_tension(std::size_t a) const {
   return bending ? thresholds::least_tension_share * 4.0 * std::numbers::pi * bending->modulus : 0.0;
 }
 
-/// A charge that the field of the scene makes much more of.
-double StepOperations::least_charge(std::size_t a) const {
-  const ElectricParameters electric = electric_parameters(model_, model_.vesicles[a]);
-  const double contrast = electric.averaged_frequency ? std::abs(complex_conductivities(electric).contrast())
-                                                      : std::abs(conductivity_contrast(electric));
-  return thresholds::least_charge_share * contrast * electric.field.norm();
-}
-
 InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, const Rate& b) const {
   const auto share = [](double change, double size) { return size > 0.0 ? change / size : 0.0; };
   InstantaneousDifference largest;
@@ -358,7 +350,7 @@ InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, 
     const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
     const double charge = fine.synthesize(y.charge - x.charge).cwiseAbs().maxCoeff();
     const double size = fine.synthesize(y.charge).cwiseAbs().maxCoeff();
-    largest.charge = std::max(largest.charge, share(charge, std::max(size, least_charge(i))));
+    largest.charge = std::max(largest.charge, charge / charge_scale(model_, i, size));
     if (y.potential_amplitude.size() == 0) continue;
     const double potential = fine.synthesize(y.potential_amplitude - x.potential_amplitude).cwiseAbs().maxCoeff();
     const double most = fine.synthesize(y.potential_amplitude).cwiseAbs().maxCoeff();

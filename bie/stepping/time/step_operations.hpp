@@ -124,7 +124,6 @@ class StepOperations {
   }
   [[nodiscard]] State state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const;
   [[nodiscard]] double least_tension(std::size_t vesicle) const;
-  [[nodiscard]] double least_charge(std::size_t vesicle) const;
   [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
