@@ -40,6 +40,7 @@ std::vector<Dimension> make_dimensions() {
       {"current/area",
        {1, -2, 1, -1},
        {{"A/m^2"}, {"mA/m^2", 1, 1e3}, {"mA/cm^2", 1e1}, {"uA/cm^2", 1, 1e2}, {"nA/cm^2", 1, 1e5}}},
+      {"charge/area", {1, -1, 1, -1}, {{"C/m^2"}}},
       {"1/area", {-2, 0, 0, 0}, {{"1/m^2"}, {"1/um^2", 1e12}}},
       {"1/(area time)", {-2, -1, 0, 0}, {{"1/(m^2 s)"}, {"1/(um^2 us)", 1e18}}},
       {"temperature", {0, 0, 0, 0}, {{"K"}}},

@@ -6,7 +6,7 @@
 #include "bie/physics/sphere_in_ac_field.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/complex_columns.hpp"
-#include "tests/support/runs.hpp"
+#include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
 BOOST_AUTO_TEST_SUITE(charge_relaxation_steps)
@@ -135,6 +135,75 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_d
   const auto [rate_of_inner, rate_of_sum] = charges(1);
   BOOST_TEST(max_difference(now.solution.potential_rate, -omega * rate_of_inner) < 5e-3);
   BOOST_TEST(max_difference(now.solution.free_charge_rate, -omega * rate_of_sum) < 5e-3);
+}
+
+BOOST_AUTO_TEST_CASE(two_vesicles_keep_the_order_in_time) {
+  Model model = with_vesicles(relaxing_model(), 2);
+  model.vesicles[1].inside = {2.0, 1.5};
+  const Matrix shape = ellipsoid(8, {1.0, 1.0, 1.2});
+  const std::vector<Matrix> shapes{translated(shape, {0.0, 0.0, -1.6}), translated(0.9 * shape, {0.0, 0.0, 1.6})};
+  const auto observed = [&](int time_order, int n_steps) {
+    NumericalSettings settings = solved_to_rounding(8);
+    settings.time_order = time_order;
+    const Discretisation discretisation = discretisation_of(shapes, settings, find_symmetry(model, at_rest(shapes)));
+    const double dt = 0.4 / n_steps;
+    const State end = run(model, discretisation, start(model, discretisation, shapes, dt), dt, n_steps);
+    Instruments instruments;
+    const Evaluation evaluation = evaluate(model, discretisation, end, instruments);
+    const VesicleDiagnostics &a = evaluation.diagnostics.vesicles[0], &b = evaluation.diagnostics.vesicles[1];
+    return Vector{{a.extent_z, b.extent_z, b.centroid_z - a.centroid_z, a.Vm_max, b.Vm_max, a.q_north, b.q_north}};
+  };
+  const Vector exact = observed(highest_time_order, 8);
+  const auto error = [&](int order, int n_steps) {
+    return (observed(order, n_steps) - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff();
+  };
+  for (const int order : {1, 2, 3}) {
+    const double coarse = error(order, 2), fine = error(order, 4);
+    BOOST_TEST(std::log2(coarse / fine) > order - 0.5, order << ": " << coarse << ", " << fine);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(copies_far_apart_move_as_one_vesicle) {
+  const Model model = relaxing_model();
+  const Matrix shape = asymmetric_shape(8);
+  const std::vector<Matrix> shapes{shape, translated(shape, {0.0, 2e4, 1e4}), translated(shape, {3e4, 0.0, 0.0})};
+  const Model of_all = with_vesicles(model, 3);
+  NumericalSettings settings = solved_to_rounding(8);
+  settings.time_order = 2;
+  const double dt = 0.05;
+  const Discretisation together = discretisation_of(shapes, settings), alone = discretisation_of({shape}, settings);
+  const State all = run(of_all, together, start(of_all, together, shapes, dt), dt, 2);
+  const VesicleState one = run(model, alone, start(model, alone, shape, dt), dt, 2).vesicles[0];
+  for (std::size_t a = 0; a < 3; ++a) {
+    const VesicleState& vesicle = all.vesicles[a];
+    // Of coordinates of 1e4 rounding leaves 1e-12.
+    const Matrix moved = vesicle.position - (shapes[a] - shape);
+    BOOST_TEST(max_difference(moved, one.position) < 1e-8);
+    BOOST_TEST(max_difference(vesicle.transmembrane_potential, one.transmembrane_potential) < 1e-8);
+    BOOST_TEST(max_difference(vesicle.free_charge, one.free_charge) < 1e-8);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(steady_charges_of_two_vesicles_do_not_change) {
+  Model model = with_vesicles(relaxing_model(), 2);
+  model.vesicles[1].inside = {2.0, 1.5};
+  model.vesicles[1].charging = {0.7, 0.5};
+  const std::vector<Matrix> shapes{ellipsoid(10, {1.0, 1.0, 1.1}),
+                                   translated(ellipsoid(10, {0.9, 0.8, 0.9}), {0.4, 0.0, 2.8})};
+  const Discretisation discretisation = discretisation_of(shapes, solved_to_rounding(10));
+  const SolvedFields found = solved(model, discretisation, start(model, discretisation, shapes, 0.1, true));
+  for (std::size_t a = 0; a < 2; ++a) {
+    const VesicleFields& fields = found.fields.vesicles[a];
+    BOOST_TEST(fields.potential.norm() > 0.5);
+    BOOST_TEST(found.vesicles[a].potential_rate.norm() < 1e-4 * fields.potential.norm());
+    BOOST_TEST(found.vesicles[a].free_charge_rate.norm() < 1e-4 * fields.potential.norm());
+    // K_k E_k = G_m V of both faces.
+    const double conductance = model.vesicles[a].charging.conductance;
+    BOOST_TEST(max_difference(
+                   fields.free_charge_out + fields.free_charge_in,
+                   (0.3 - 0.3 * model.vesicles[a].inside.permittivity_ratio / model.vesicles[a].inside.conductivity) *
+                       conductance * fields.potential) < 1e-4);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
