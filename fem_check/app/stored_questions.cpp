@@ -33,7 +33,7 @@ FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces&
 FieldQuestion free_current_question(const CheckInput& input, const NaturalSizes& sizes, const QuestionMaker& maker) {
   const double capacitance = input.physics.capacitance;
   const Eigen::MatrixXd rate = capacitance * input.bie.free_charge_rate;
-  FieldQuestion question = stored(maker.on_surface("free_current", "d(q_i+q_e)/dt", "free_current", rate, rate,
+  FieldQuestion question = stored(maker.on_surface("free_current", "dQ_f/dt", "free_current", rate, rate,
                                                    capacitance * input.bie_high.free_charge_rate, sizes.current));
   question.is_remainder = true;
   return question;

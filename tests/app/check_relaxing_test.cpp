@@ -22,7 +22,7 @@ const std::string scene_text =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
     "[membrane]\nmobile = false\ncapacitance = 1.0\nconductance = 0.5\n"
     "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\npermittivity = 0.3\n"
-    "permittivity_ratio = 0.5\ndisplacement_current = true\n"
+    "permittivity_ratio = 0.8\ndisplacement_current = true\n"
     "[electric.waveform]\nkind = 'pulse'\nduration = 0.6\n"
     "[numerics]\norder = 10\ntime_order = 2\ndt = 0.1\nend_time = 0.4\n[output]\nevery = 0.2\n";
 
@@ -68,7 +68,7 @@ Damage state_with(const std::string& name, const std::function<void(FrozenState&
 }
 
 std::vector<Damage> all_damages() {
-  constexpr double larger = 1.01;
+  const double larger = 1.01;
   return {
       field_by("V_m", &CheckFields::potential_of_charges, "fields", "Vm_of_charges"),
       field_by("q", &CheckFields::charge, "fields", "q"),
@@ -79,18 +79,18 @@ std::vector<Damage> all_damages() {
       {"stored V_m", [](Numbers& n) { n.frozen.fields.vesicles[0].potential *= 1.002; }, "stored", "Vm_of_charges"},
       {"stored q", [](Numbers& n) { n.frozen.fields.vesicles[0].charge *= 1.002; }, "stored", "q"},
       state_with(
-          "epsilon_i", [](FrozenState& s) { s.model.vesicles[0].inside.permittivity_ratio *= larger; }, "fields", "q"),
+          "epsilon_i", [=](FrozenState& s) { s.model.vesicles[0].inside.permittivity_ratio *= larger; }, "fields", "q"),
       state_with(
-          "epsilon", [](FrozenState& s) { s.model.electric->permittivity *= larger; }, "fields", "q"),
+          "epsilon", [=](FrozenState& s) { s.model.electric->permittivity *= larger; }, "fields", "q"),
       state_with(
-          "sigma_i", [](FrozenState& s) { s.model.vesicles[0].inside.conductivity *= larger; }, "stored",
+          "sigma_i", [=](FrozenState& s) { s.model.vesicles[0].inside.conductivity *= larger; }, "stored",
           "charging_current"),
       state_with(
-          "sigma_e", [](FrozenState& s) { s.model.electric->conductivity *= larger; }, "stored", "free_current"),
+          "sigma_e", [=](FrozenState& s) { s.model.electric->conductivity *= larger; }, "stored", "free_current"),
       state_with(
-          "q_i", [](FrozenState& s) { s.state.vesicles[0].transmembrane_potential *= larger; }, "fields", "q"),
+          "q_i", [=](FrozenState& s) { s.state.vesicles[0].transmembrane_potential *= larger; }, "fields", "q"),
       state_with(
-          "q_e", [](FrozenState& s) { s.state.vesicles[0].free_charge *= larger; }, "fields", "Vm_of_charges"),
+          "q_e", [=](FrozenState& s) { s.state.vesicles[0].free_charge *= larger; }, "fields", "Vm_of_charges"),
   };
 }
 
