@@ -72,11 +72,6 @@ class VesicleChecks {
   }
 
   void check_electric() const {
-    if (has_relaxing_charge(scene_)) {
-      refuse(0,
-             "\"displacement_current\" in [electric] is true with several vesicles; accepted: of one vesicle, or with "
-             "\"average\" in [electric.waveform]");
-    }
     const auto is_steady = [](const VesicleScene& vesicle) {
       return vesicle.electric->initial_potential == InitialPotential::steady;
     };

@@ -4,6 +4,7 @@
 
 #include "bie/physics/coupled_electric.hpp"
 #include "bie/stepping/evaluation/averaged_forces.hpp"
+#include "bie/stepping/evaluation/relaxing_charge.hpp"
 #include "bie/stepping/solve/coupled_tension.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/state/composition.hpp"
@@ -14,8 +15,8 @@ namespace vehd {
 namespace {
 
 /// f_E of each with q and dV_m/dt as by-products. @returns values on the upsampled grids
-std::vector<Matrix> solve_fields_of_charges(const std::vector<VesicleTask>& tasks, double time, Limit limit,
-                                            SolvedFields& solved) {
+std::vector<Matrix> forces_of_densities(const std::vector<VesicleTask>& tasks, double time, Limit limit,
+                                        SolvedFields& solved) {
   std::vector<ElectricMembrane> membranes;
   std::vector<Vector> potentials;
   for (const VesicleTask& task : tasks) {
@@ -126,12 +127,14 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
       task.fields.charge = Vector::Zero(n);
       task.solution.potential_rate = Vector::Zero(n);
       task.fields.force_electric = Matrix::Zero(n, 3);
+      if (relaxes_charge(task.model)) without_charges(task);
     }
   } else if (tasks.front().model.electric) {
     const auto timer = instruments.time("electric");
-    const std::vector<Matrix> forces = is_averaged(tasks.front().model)
-                                           ? averaged_forces(tasks, solved)
-                                           : solve_fields_of_charges(tasks, time, limit, solved);
+    const Model& model = tasks.front().model;
+    const std::vector<Matrix> forces = is_averaged(model)      ? averaged_forces(tasks, solved)
+                                       : relaxes_charge(model) ? forces_of_charges(tasks, time, limit, solved)
+                                                               : forces_of_densities(tasks, time, limit, solved);
     for (std::size_t a = 0; a < tasks.size(); ++a) forcing[a].force -= forces[a];
   }
   if (!tasks.front().model.mobile) return;

@@ -6,10 +6,7 @@
 #include <optional>
 
 #include "bie/physics/averaged_field.hpp"
-#include "bie/physics/charge_relaxation.hpp"
-#include "bie/physics/coupled_charging.hpp"
 #include "bie/physics/electric.hpp"
-#include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/symmetry.hpp"
@@ -161,28 +158,8 @@ std::vector<ElectricParameters> StepOperations::electric_at(double time) const {
 
 void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges) {
   const auto timer = instruments_.time("electric");
-  const double tolerance = discretisation_.settings().electric_tolerance;
-  SolveReport report;
-  if (relaxes_charge(model_)) {
-    FaceCharges faces{std::move(charges.front().potential), std::move(charges.front().free)};
-    report = relax_charges(electric.front(), model_.vesicles.front().charging, *at_start_.vesicles.front().membrane, dt,
-                           tolerance, faces);
-    charges.front() = {std::move(faces.inner), std::move(faces.sum)};
-  } else if (charges.size() == 1) {
-    report = charge_membrane(electric.front(), model_.vesicles.front().charging, *at_start_.vesicles.front().membrane,
-                             dt, tolerance, charges.front().potential);
-  } else {
-    std::vector<Vector> potentials;
-    std::vector<ElectricMembrane> membranes;
-    std::vector<ChargingParameters> charging;
-    for (std::size_t a = 0; a < charges.size(); ++a) {
-      membranes.push_back({electric[a], *at_start_.vesicles[a].membrane});
-      charging.push_back(model_.vesicles[a].charging);
-      potentials.push_back(std::move(charges[a].potential));
-    }
-    report = charge_membranes(membranes, *at_start_.interaction, charging, dt, tolerance, potentials);
-    for (std::size_t a = 0; a < charges.size(); ++a) charges[a].potential = std::move(potentials[a]);
-  }
+  const SolveReport report =
+      charge_step(model_, at_start_, electric, dt, discretisation_.settings().electric_tolerance, charges);
   iterations_electric_ += report.iterations;
   if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
 }

@@ -8,6 +8,7 @@
 #include "bie/stepping/solve/constrained_motion.hpp"
 #include "bie/stepping/solve/flow_systems.hpp"
 #include "bie/stepping/solve/rigid_sphere.hpp"
+#include "bie/stepping/time/charge_step.hpp"
 
 namespace vehd {
 
@@ -127,10 +128,6 @@ class StepOperations {
   [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
-  /// V_m of a membrane, or the charges of its faces.
-  struct Charge {
-    Vector potential, free;
-  };
   void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges);
   [[nodiscard]] double poration_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] bool porates() const;
