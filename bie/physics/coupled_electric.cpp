@@ -3,6 +3,7 @@
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -37,12 +38,13 @@ PairSelection electric_pair_selection(const ElectricParameters& electric) {
 std::vector<Vector> weighted_fluxes(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                                     const std::vector<Vector>& potentials) {
   const std::vector<Vector> of_others = interaction.weighted_double_flux(potentials);
-  std::vector<Vector> fluxes;
-  for (std::size_t a = 0; a < membranes.size(); ++a) {
+  std::vector<Vector> fluxes(membranes.size());
+  for_each_member(static_cast<Index>(membranes.size()), [&](Index i) {
+    const auto a = static_cast<std::size_t>(i);
     const Membrane& membrane = membranes[a].membrane;
-    fluxes.emplace_back(weighted_field_flux(membrane, membranes[a].electric.field) +
-                        weighted_hypersingular(membrane, potentials[a]) + membrane.fine.synthesize(of_others[a]));
-  }
+    fluxes[a] = weighted_field_flux(membrane, membranes[a].electric.field) +
+                weighted_hypersingular(membrane, potentials[a]) + membrane.fine.synthesize(of_others[a]);
+  });
   return fluxes;
 }
 
@@ -67,9 +69,10 @@ CoupledDensities solve_second_kind(const std::vector<ElectricMembrane>& membrane
   const LinearMap map = [&](const Vector& unknowns) {
     const std::vector<Vector> weighted = densities_of(unknowns);
     std::vector<Vector> result = fluxes_of_others(membranes, interaction, weighted);
-    for (std::size_t a = 0; a < n; ++a) {
+    for_each_member(static_cast<Index>(n), [&](Index i) {
+      const auto a = static_cast<std::size_t>(i);
       result[a] += second_kind_operator(membranes[a].membrane, etas[a], weighted[a]);
-    }
+    });
     return stacked.stack(result);
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {

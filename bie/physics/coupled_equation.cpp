@@ -4,6 +4,7 @@
 #include "bie/linear/stacked_entries.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -42,9 +43,10 @@ std::vector<Vector> CoupledEquation::left_side(const std::vector<Vector>& potent
   }
   std::vector<Vector> result = interaction_.weighted_single_flux(charges);
   const std::vector<Vector> of_potentials = interaction_.weighted_double_flux(potentials);
-  for (std::size_t a = 0; a < own_.size(); ++a) {
+  for_each_member(static_cast<Index>(own_.size()), [&](Index i) {
+    const auto a = static_cast<std::size_t>(i);
     result[a] = own_[a].conduction() * (result[a] - of_potentials[a]) + own_[a].own(potentials[a]);
-  }
+  });
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -49,9 +50,10 @@ CoupledFlow::CoupledFlow(const std::vector<FlowMembrane>& membranes, const Inter
       jumps[b] = ratio == 1.0 ? Matrix() : Matrix((1.0 - ratio) * jumps[b]);
     }
     std::vector<Matrix> of_others = interaction.stokes_double(jumps);
-    for (std::size_t a = 0; a < of_others.size(); ++a) {
+    for_each_member(static_cast<Index>(of_others.size()), [&](Index i) {
+      const auto a = static_cast<std::size_t>(i);
       of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a]));
-    }
+    });
     return v - stacked.stack(columns(of_others));
   };
   solver_ = std::make_unique<RecycledGcr>(
@@ -64,14 +66,15 @@ CoupledFlow::CoupledFlow(CoupledFlow&&) noexcept = default;
 std::vector<Matrix> CoupledFlow::velocities(const std::vector<Matrix>& weighted,
                                             const std::vector<Matrix>& background) {
   std::vector<Matrix> result = interaction_.stokes_single(weighted);
-  for (std::size_t a = 0; a < result.size(); ++a) {
+  for_each_member(static_cast<Index>(result.size()), [&](Index i) {
+    const auto a = static_cast<std::size_t>(i);
     const Membrane& membrane = membranes_[a].membrane;
     if (weighted[a].size() > 0 && !membrane.layers.stokes_single.empty())
       result[a] += membrane.layers.stokes_single.apply(weighted[a]);
     result[a] /= membranes_[a].parameters.viscosity;
     if (!background.empty()) result[a] += background[a];
     result[a] = membrane.velocity(std::move(result[a]));
-  }
+  });
   if (!contrast_) return result;
   const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(columns(result)), {}, kWithinSolve);
   require_converged(solution.report, "velocities of membranes with a viscosity contrast");

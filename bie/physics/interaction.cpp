@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <optional>
 
 #include "bie/potentials/far_expansions.hpp"
@@ -39,21 +38,9 @@ struct Interaction::Parts {
   std::optional<FarExpansions> expansions;     ///< for all others, where there are any
 
   [[nodiscard]] std::size_t n() const { return targets.size(); }
-  /// Over threads: membranes if there are many, else what is done for each.
   template <class Body>
   void for_each_membrane(const Body& body) const {
-    std::vector<std::exception_ptr> exceptions(n());
-    for_each_index(static_cast<Index>(n()), n() > kFewMembranes, [&](Index i) {
-      const auto a = static_cast<std::size_t>(i);
-      try {
-        body(a);
-      } catch (...) {
-        exceptions[a] = std::current_exception();
-      }
-    });
-    for (const std::exception_ptr& exception : exceptions) {
-      if (exception) std::rethrow_exception(exception);
-    }
+    for_each_member(static_cast<Index>(n()), [&](Index i) { body(static_cast<std::size_t>(i)); });
   }
 
   /// @param layer     of one membrane at the nodes of those that are near to it
@@ -139,6 +126,10 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     }
   }
   parts_ = std::move(parts);
+  const PairCounts all = counts();
+  instruments.count_pair_targets("near", static_cast<std::uint64_t>(all.near));
+  instruments.count_pair_targets("far", static_cast<std::uint64_t>(all.far));
+  instruments.count_pair_targets("expanded", static_cast<std::uint64_t>(all.expanded));
 }
 
 Interaction::~Interaction() = default;

@@ -24,7 +24,8 @@ struct InteractingMembrane {
 /// Source: paper Eqs. (6), (8), (9) with source and target on different membranes
 class Interaction {
  public:
-  /// @param settings  memory for rows is that of all
+  /// @param settings     memory for rows is that of all
+  /// @param instruments  targets of all pairs are counted there
   /// @throws ConvergenceError if two membranes intersect or are too near for any rule
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
               Instruments& instruments);

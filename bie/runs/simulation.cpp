@@ -37,6 +37,7 @@ RunTotals WorkMeter::totals() const {
   RunTotals totals = before_;
   totals.seconds += seconds();
   for (const auto& [name, count] : instruments_.kernel_evaluations()) totals.kernel_evaluations[name] += count;
+  for (const auto& [way, count] : instruments_.pair_targets()) totals.pair_targets[way] += count;
   for (const auto& [name, seconds] : instruments_.seconds()) totals.seconds_of_parts[name] += seconds;
   return totals;
 }

@@ -136,7 +136,8 @@ class VesicleChecks {
     const double gap = nearest_points(positions[a], positions[b]).gap;
     const Matrix& first = positions[a];
     // Far from that, whatever the radius is exactly.
-    if (gap > first.bottomRows(first.rows() - 1).norm()) return;
+    constexpr double kFar = 0.01;
+    if (gap > kFar * first.bottomRows(first.rows() - 1).norm()) return;
     const double area = std::min(vehd::size_of(positions[a]).area, vehd::size_of(positions[b]).area);
     const double relative = gap / std::sqrt(area / (4.0 * std::numbers::pi));
     if (relative >= thresholds::smallest_gap) return;

@@ -3,22 +3,25 @@
 #include "bie/stepping/evaluation/diagnose.hpp"
 #include "bie/stepping/evaluation/find_rheology.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
                     Instruments& instruments, const Evaluation* previous, Limit limit) {
   Evaluation evaluation{solve_fields(model, discretisation, state, instruments, previous, limit), {}};
-  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+  evaluation.diagnostics.vesicles.resize(state.vesicles.size());
+  for_each_member(static_cast<Index>(state.vesicles.size()), [&](Index i) {
+    const auto a = static_cast<std::size_t>(i);
     const VesicleSolution& solution = evaluation.vesicles[a];
     const bool same = previous != nullptr && previous->vesicles[a].membrane == solution.membrane;
-    evaluation.diagnostics.vesicles.push_back(
+    evaluation.diagnostics.vesicles[a] =
         diagnose(diagnosed_model(model, model.vesicles[a]), discretisation.vesicle(a),
                  discretisation.settings().quadrature_tolerance, state.vesicles[a], solution,
-                 evaluation.fields.vesicles[a], same ? &previous->diagnostics.vesicles[a] : nullptr));
+                 evaluation.fields.vesicles[a], same ? &previous->diagnostics.vesicles[a] : nullptr);
     evaluation.diagnostics.vesicles[a].rheology = find_rheology(
         model, model.vesicles[a], state.time, limit, state.vesicles[a], solution, evaluation.fields.vesicles[a]);
-  }
+  });
   tell_crossings(state, state.time, evaluation);
   return evaluation;
 }

@@ -9,6 +9,7 @@
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -30,17 +31,18 @@ std::vector<Matrix> forces_of_densities(const std::vector<VesicleTask>& tasks, d
   require_converged(densities.report, "charge densities, Eq. (12)");
   solved.iterations_electric += densities.report.iterations;
   const std::vector<Vector> of_others = potentials_of_others(membranes, interaction, potentials, densities.membranes);
-  std::vector<Matrix> forces;
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  std::vector<Matrix> forces(tasks.size());
+  for_each_member(static_cast<Index>(tasks.size()), [&](Index i) {
+    const auto a = static_cast<std::size_t>(i);
     const VesicleTask& task = tasks[a];
     const ElectricParameters& electric = membranes[a].electric;
     const ElectricTraces traces =
         electric_traces(electric, task.membrane, potentials[a], densities.membranes[a], of_others[a]);
     task.fields.charge = task.membrane.fine.analyze(traces.charge);
     task.solution.potential_rate = charging_rate(task, electric, traces);
-    forces.push_back(electric_force(electric.permittivity, task.membrane, traces, electric.permittivity_ratio));
-    task.fields.force_electric = task.membrane.fine.analyze(forces.back());
-  }
+    forces[a] = electric_force(electric.permittivity, task.membrane, traces, electric.permittivity_ratio);
+    task.fields.force_electric = task.membrane.fine.analyze(forces[a]);
+  });
   return forces;
 }
 
@@ -68,6 +70,7 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
   std::vector<Matrix> weighted, background;
   std::vector<bool> is_sphere;
   std::vector<Vector> start;
+  std::vector<RecycledSubspace> known;
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     const VesicleTask& task = tasks[a];
     membranes.push_back({flow_parameters(task.model, task.vesicle), task.membrane});
@@ -76,23 +79,33 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
     task.solution.is_sphere = uniform_tension_is_free(membranes[a].parameters, task.membrane);
     is_sphere.push_back(task.solution.is_sphere);
     start.push_back(task.state.tension);
+    const auto& recycled = task.state.recycled.tension;
+    known.push_back(recycled ? recycled->in(task.space.subspace().scalars(), 1) : RecycledSubspace{});
   }
   CoupledFlow flow(membranes, *solved.interaction);
   std::vector<Matrix> velocities = flow.velocities(weighted, background);
   const CoupledTension tensions =
-      solve_tensions(membranes, is_sphere, flow, velocities, start, tasks.front().settings.flow_tolerance);
+      solve_tensions(membranes, is_sphere, flow, velocities, start, known, tasks.front().settings.flow_tolerance);
   require_converged(tensions.report, "tensions, Eq. (27b)");
   solved.iterations_flow += tensions.report.iterations;
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  for_each_member(static_cast<Index>(tasks.size()), [&](Index i) {
+    const auto a = static_cast<std::size_t>(i);
     const VesicleTask& task = tasks[a];
     task.fields.velocity = symmetric(task.membrane, velocities[a] + tensions.velocities[a]);
-    if (!task.vesicle.inextensible) continue;
+    if (!task.vesicle.inextensible) return;
+    task.solution.recycled.tension = recycled_scalars(task.space.subspace().scalars(), tensions.learned[a]);
     task.fields.tension = tensions.tension[a];
     task.fields.force_tension = task.membrane.fine.analyze(tensions.force[a]);
-  }
+  });
 }
 
 }  // namespace
+
+PairSettings pair_settings(const NumericalSettings& settings) {
+  PairSettings result;
+  result.tolerance = std::max(result.tolerance, thresholds::pair_share * settings.quadrature_tolerance);
+  return result;
+}
 
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
                                                   Instruments& instruments) {
@@ -109,10 +122,7 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
     }
     membranes.push_back({task.state.position, task.space.targets(), selection});
   }
-  PairSettings settings;
-  settings.tolerance =
-      std::max(settings.tolerance, thresholds::pair_share * tasks.front().settings.quadrature_tolerance);
-  return std::make_shared<const Interaction>(membranes, settings, instruments);
+  return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments);
 }
 
 void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,
@@ -143,9 +153,10 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     add_contact(*tasks.front().model.contact, tasks, forcing);
   }
   const auto timer = instruments.time("tension solve");
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  for_each_member(static_cast<Index>(tasks.size()), [&](Index i) {
+    const auto a = static_cast<std::size_t>(i);
     add_forces(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, forcing[a]);
-  }
+  });
   solve_velocities(tasks, forcing, solved);
 }
 

@@ -11,6 +11,7 @@
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -102,13 +103,14 @@ SolvedFields solve_fields(const Model& model, const Discretisation& discretisati
   solved.fields.vesicles.resize(n);
   solved.vesicles.resize(n);
   const bool reuse = !model.mobile && previous != nullptr && (solved.electric_inactive || !previous->electric_inactive);
-  for (std::size_t a = 0; a < n; ++a) {
+  for_each_member(static_cast<Index>(n), instruments, [&](Index i, Instruments& of_one) {
+    const auto a = static_cast<std::size_t>(i);
     VesicleSolution& solution = solved.vesicles[a];
     solution.recycled = state.vesicles[a].recycled;
     solution.membrane = reuse ? previous->vesicles[a].membrane
                               : assembled(model, model.vesicles[a], discretisation.vesicle(a), state.vesicles[a],
-                                          !solved.electric_inactive, instruments);
-  }
+                                          !solved.electric_inactive, of_one);
+  });
   std::vector<VesicleTask> tasks;
   for (std::size_t a = 0; a < n; ++a) {
     tasks.push_back({model, model.vesicles[a], discretisation.settings(), discretisation.vesicle(a), state.vesicles[a],

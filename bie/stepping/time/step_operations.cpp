@@ -7,7 +7,6 @@
 
 #include "bie/physics/averaged_field.hpp"
 #include "bie/physics/electric.hpp"
-#include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
@@ -57,12 +56,6 @@ Rate rate_of(const SolvedFields& solved) {
   return rate;
 }
 
-void require_finite(const Motion& motion) {
-  bool finite = motion.arrived.position.allFinite();
-  for_each_scalar(motion.arrived, [&](const Vector& scalar) { finite = finite && scalar.allFinite(); });
-  if (!finite) throw ConvergenceError("the new state is not finite");
-}
-
 }  // namespace
 
 StepOperations::StepOperations(const Model& model, const Discretisation& discretisation, const State& start,
@@ -94,6 +87,7 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   }
   const bool is_linear = charges() && !porates();
   if (is_linear) charge(electric_at(result.time), dt, charged);
+  std::vector<MotionStart> starts;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = start_.vesicles[a];
     if (is_linear) take(std::move(charged[a]), result.time, a, fields);
@@ -103,9 +97,12 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
     }
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
     if (model_.mobile) fields.tension = instantaneous.tension;
-    const auto rigid = [&](const Membrane& sphere) { return motion_of_velocity(sphere, instantaneous.velocity, dt); };
-    result.vesicles.push_back(motion(a, {std::move(fields), instantaneous.velocity}, rigid, dt, end));
+    starts.push_back({std::move(fields), instantaneous.velocity});
   }
+  const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
+    return motion_of_velocity(sphere, at_start_.fields.vesicles[a].velocity, dt);
+  };
+  result.vesicles = motions(starts, rigid, dt, end);
   return result;
 }
 
@@ -124,6 +121,7 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
     }
     charge(homogeneous, dt, changes);
   }
+  std::vector<MotionStart> starts;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
@@ -138,13 +136,14 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
       changes[a].free += fields.free_charge;
       take(std::move(changes[a]), result.time, a, fields);
     }
-    const Matrix& lacks = r.vesicles[a].position;
-    // A rigid motion has no stiffness, so nothing of it is implicit.
-    const auto rigid = [&](const Membrane& sphere) {
-      return motion_of_displacement(sphere, y.vesicles[a].material.position + lacks - start_.vesicles[a].position);
-    };
-    result.vesicles.push_back(motion(a, {std::move(fields), lacks / dt}, rigid, dt, end));
+    starts.push_back({std::move(fields), r.vesicles[a].position / dt});
   }
+  // A rigid motion has no stiffness, so nothing of it is implicit.
+  const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
+    return motion_of_displacement(
+        sphere, y.vesicles[a].material.position + r.vesicles[a].position - start_.vesicles[a].position);
+  };
+  result.vesicles = motions(starts, rigid, dt, end);
   return result;
 }
 
@@ -202,34 +201,6 @@ void StepOperations::forget_decayed(double time, std::size_t a, Vector& potentia
   const double scale = model_.electric->field.norm() * at_start_.vesicles[a].membrane->radius;
   if (model_.electric->waveform.is_quiet(time) && potential.norm() < thresholds::decayed_potential * scale)
     potential.setZero();
-}
-
-Motion StepOperations::motion(std::size_t a, const MotionStart& start, const RigidMotion& rigid, double dt,
-                              NodeEnd end) {
-  const VesicleSolution& solution = at_start_.vesicles[a];
-  Motion result;
-  if (!model_.mobile) {
-    result.material = result.arrived = start.fields;
-  } else {
-    const auto timer = instruments_.time("velocity solve");
-    const Arrival there = arrival(a, end);
-    const FlowParameters parameters = flow_parameters(model_, model_.vesicles[a]);
-    result = solution.is_sphere
-                 ? rigid_sphere_motion(start.fields, *solution.membrane, rigid(*solution.membrane), there)
-                 : constrained_motion({parameters, discretisation_.settings(), start_.vesicles[a], *solution.membrane},
-                                      start, dt, flow_[a].of(dt), there, iterations_flow_);
-  }
-  require_finite(result);
-  return result;
-}
-
-Arrival StepOperations::arrival(std::size_t a, NodeEnd end) const {
-  if (end == NodeEnd::material) return [](const SurfaceFields& material) { return material; };
-  return [this, a](const SurfaceFields& material) {
-    const auto timer = instruments_.time("remap");
-    return remap(discretisation_.vesicle(a).fine_transform(), material.position - start_.vesicles[a].position,
-                 material);
-  };
 }
 
 State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const {

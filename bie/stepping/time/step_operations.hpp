@@ -135,11 +135,14 @@ class StepOperations {
               SurfaceFields& fields);
   void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
-  [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end) const;
-  using RigidMotion = std::function<SphereMotion(const Membrane& sphere)>;
-  /// Solves and projects; V_m of the start is that of the end.
+  [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end, Instruments& instruments) const;
+  using RigidMotion = std::function<SphereMotion(std::size_t vesicle, const Membrane& sphere)>;
+  /// Solves and projects all vesicles; V_m of the start is that of the end.
   /// @param rigid  the motion of a sphere, which takes the place of the start's velocity there
-  Motion motion(std::size_t vesicle, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end);
+  std::vector<Motion> motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt, NodeEnd end);
+  /// The same of one. Others may be moved at the same time.
+  Motion motion(std::size_t vesicle, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end,
+                Instruments& instruments, int& iterations);
 
   const Model& model_;
   const Discretisation& discretisation_;
