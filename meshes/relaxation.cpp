@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <memory>
 
 namespace vehd::meshes {
 namespace {

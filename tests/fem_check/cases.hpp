@@ -33,16 +33,6 @@ inline Discretisation discretise(const meshes::FrozenShape& shape, const OneMesh
   return {std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options)), level.degree, ranks};
 }
 
-/// As coarse as `vehd check --quick` takes it.
-inline std::shared_ptr<const meshes::HexMesh> quick_mesh(const meshes::FrozenShape& shape) {
-  meshes::BlockMeshOptions options;
-  options.cells_per_edge = 2;
-  options.blend_layers = 1;
-  options.shell_layers = 3;
-  options.shell_growth = 3.0;
-  return std::make_shared<const meshes::HexMesh>(meshes::make_block_mesh(shape, options));
-}
-
 /// A mesh of which the membrane is what matters.
 inline meshes::HexMesh membrane_mesh(const meshes::FrozenShape& shape, int cells_per_edge) {
   meshes::BlockMeshOptions options;

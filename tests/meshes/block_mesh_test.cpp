@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(two_runs_give_the_same_mesh) {
 }
 
 BOOST_AUTO_TEST_CASE(cells_are_relaxed_where_straight_lines_fold) {
-  const FrozenShape shape = stomatocyte();
+  const FrozenShape shape = bowl();
   BlockMeshOptions near = coarse();
   near.cells_per_edge = 1;
   near.shell_growth = 3.0;
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(cells_are_relaxed_where_straight_lines_fold) {
   const MeshQuality found = quality(mesh, shape, gauss_points);
   BOOST_TEST(found.smallest_scaled_jacobian > 0.1);
   BOOST_TEST(std::abs(found.volume_error) < 1e-6);
-  BOOST_TEST(std::abs(found.area_error) < 1e-5);
+  BOOST_TEST(std::abs(found.area_error) < 1e-4);
   const SheetGaps gaps = sheet_gaps(mesh, shape);
   BOOST_TEST(gaps.off_shape < 1e-13);
   BOOST_TEST(gaps.position < 1e-13);

@@ -90,16 +90,10 @@ inline FrozenShape asymmetric() {
   }));
 }
 
-/// A bowl whose wall is 2 w thick at the axis and reaches round to 126°, a little more than a cup: the stomatocytes of
-/// vehd, of reduced volume 0.53 at w = 0.35.
-inline FrozenShape stomatocyte() {
-  return FrozenShape(project(40, [](const Point& r) {
-    constexpr double bend = 2.2, wall = 0.35;
-    const double across = std::hypot(r.x(), r.y());
-    const double angle = bend * across;
-    const double per_across = across > 0.0 ? std::sin(angle) / across : bend;
-    return Point((1.0 + wall * r.z()) * Point(per_across * r.x(), per_across * r.y(), std::cos(angle)));
-  }));
+/// The disc bent into a bowl, its centroid outside: straight lines from core to membrane fold.
+inline FrozenShape bowl() {
+  return FrozenShape(
+      project(5, [](const Point& r) { return Point(disc_point(r) + 0.9 * (1.0 - r.z() * r.z()) * Point::UnitZ()); }));
 }
 
 struct NamedShape {
