@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
@@ -236,6 +237,40 @@ BenchTable values_table() {
   return table;
 }
 
+/// Error of the steps alone of fixed steps, of all with a tolerance; nothing where it is not known.
+std::optional<double> error_of_integrator(const TimedRun& run, const References& references) {
+  const bool is_fixed = std::holds_alternative<double>(run.dt);
+  const TimedRun* reference = is_fixed ? references.same_degree : &references.best;
+  if (reference == nullptr || reference == &run) return {};
+  const double error = std::ranges::max(errors_of(run, *reference));
+  return error > 0.0 ? std::optional(error) : std::nullopt;
+}
+
+BenchTable empty_digits_table() {
+  return {"digits",
+          {{"integrator", "integrator", "{}", false, 20},
+           {"error_largest", "errors from", "{:.1e}", false, 12},
+           {"error_smallest", "to", "{:.1e}"},
+           {"seconds_of_a_digit", "one more digit multiplies the seconds by", "{:.2g}"}}};
+}
+
+/// What one more digit costs, from the power law through all runs of an integrator with a known error; nothing where
+/// there are too few, or errors that do not fall.
+std::vector<BenchCell> digits_row(const std::vector<TimedRun>& runs, const References& references) {
+  std::vector<double> errors, seconds;
+  for (const TimedRun& run : runs) {
+    const std::optional<double> error = error_of_integrator(run, references);
+    if (!error) continue;
+    errors.push_back(*error);
+    seconds.push_back(spread_of(run.seconds).median);
+  }
+  if (errors.size() < 3) return {};
+  const auto [smallest, largest] = std::ranges::minmax(errors);
+  const double exponent = smallest < largest ? fitted_exponent(errors, seconds) : 0.0;
+  if (exponent >= 0.0) return {};
+  return {runs.front().integrator, largest, smallest, std::pow(10.0, -exponent)};
+}
+
 void require_falling(const TimeTask& task) {
   for (std::size_t i = 1; i < task.steps.size(); ++i) {
     if (std::abs(task.steps[i] - 0.5 * task.steps[i - 1]) > 1e-12 * task.steps[i - 1]) {
@@ -299,6 +334,14 @@ BenchResult bench_time(const TimeTask& task, BenchObserver& observer) {
     observer.heading(result.tables.back());
     for (std::size_t i = 0; i < time_orders.size(); ++i) add_values(result.tables.back(), runs[i], observer);
   }
+  std::vector<std::vector<BenchCell>> digits;
+  for (const auto& of_integrator : runs) {
+    if (std::vector<BenchCell> row = digits_row(of_integrator, references); !row.empty()) digits.push_back(row);
+  }
+  if (digits.empty()) return result;
+  result.tables.push_back(empty_digits_table());
+  observer.heading(result.tables.back());
+  for (std::vector<BenchCell>& row : digits) add_row(result.tables.back(), std::move(row), observer);
   return result;
 }
 

@@ -195,6 +195,11 @@ BOOST_AUTO_TEST_CASE(errors_in_time_fall_with_the_step_as_the_order_says) {
   BOOST_TEST(number(third[0], "steps") == 4);
   // Three values, the order and the limit, of either integrator.
   BOOST_TEST(bench.json["values"].size() == 10);
+  // Seconds of so short runs say nothing; errors that fall have a digit each.
+  for (const auto& row : bench.json["digits"]) {
+    BOOST_TEST(number(row, "error_smallest") < number(row, "error_largest"));
+    BOOST_TEST(number(row, "seconds_of_a_digit") > 1.0);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_tolerances_are_those_asked_for) {
