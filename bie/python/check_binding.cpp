@@ -39,14 +39,16 @@ std::tuple<int, std::string, std::string> check(const std::filesystem::path& pro
                                                 const std::filesystem::path& file,
                                                 const std::vector<std::string>& settings,
                                                 const std::filesystem::path& directory,
-                                                const std::optional<std::string>& time, bool quick,
+                                                const std::optional<std::string>& time,
+                                                const std::optional<std::string>& from, bool quick,
                                                 const std::optional<double>& required, int ranks) {
   const FemProgram fem(program_folder);
-  const CheckTask task{.frozen = read_frozen_state({file, settings}, time),
-                       .directory = directory,
-                       .quick = quick,
-                       .required = required,
-                       .n_ranks = ranks};
+  CheckTask task{.frozen = read_frozen_state({file, settings}, time),
+                 .directory = directory,
+                 .quick = quick,
+                 .required = required,
+                 .n_ranks = ranks};
+  if (from) task.span = read_time_span(file, *from, task.frozen);
   const FemProgram::Result result = compare_methods(fem, task);
   return {static_cast<int>(result.code), result.json.dump(), task.frozen.note};
 }
@@ -55,7 +57,7 @@ std::tuple<int, std::string, std::string> check(const std::filesystem::path& pro
 
 void bind_check(py::module_& module) {
   module.def("check", &check, py::arg("program_folder"), py::arg("file"), py::arg("settings"), py::arg("directory"),
-             py::arg("time"), py::arg("quick"), py::arg("required"), py::arg("ranks"),
+             py::arg("time"), py::arg("from_time"), py::arg("quick"), py::arg("required"), py::arg("ranks"),
              py::call_guard<py::gil_scoped_release>());
   module.def("solve_sources_by_elements", &solve_sources, py::arg("program_folder"), py::arg("position"),
              py::arg("sources"), py::arg("conductivity_in"), py::arg("conductivity_out"), py::arg("degree"),

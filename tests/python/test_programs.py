@@ -76,11 +76,16 @@ class Checks(InFolder):
     def test_a_check_is_a_table(self):
         row = {"l2": 0.25, "max": 0.5, "fem_error": 1e-3, "bie_error": 1e-4, "verdict": "agree", "fem_solver": 0.0}
         table = vehd.CheckResult({"verdict": "agree", "fields": {"q": row}, "from_shape": {},
-                                  "stored": {"q": {**row, "verdict": "undecided"}}}).table
-        self.assertEqual(list(table["group"]), ["fields", "stored"])
-        self.assertEqual(list(table["verdict"]), ["agree", "undecided"])
+                                  "stored": {"q": {**row, "verdict": "undecided"}}, "in_time": {"Vm": row}}).table
+        self.assertEqual(list(table["group"]), ["fields", "stored", "in_time"])
+        self.assertEqual(list(table["verdict"]), ["agree", "undecided", "agree"])
         np.testing.assert_array_equal(table["l2"], 0.25)
         self.assertEqual(list(table), ["group", "field", "l2", "max", "fem_error", "bie_error", "verdict"])
+
+    @unittest.skipUnless(has_elements, "the finite elements are not built (VEHD_FEM_CHECK)")
+    def test_a_time_to_advance_from_goes_with_a_run(self):
+        with self.assertRaisesRegex(vehd.InputError, "--from goes with a run"):
+            vehd.check(vehd.Scene.from_text(SHEARED), self.folder / "check", from_time=0.0, quick=True)
 
     @unittest.skipUnless(has_elements, "the finite elements are not built (VEHD_FEM_CHECK)")
     def test_elements_find_the_charge_of_point_sources(self):

@@ -23,9 +23,9 @@ class CheckResult(dict):
 
     @property
     def table(self) -> Table:
-        """One row for each comparison: group ("fields", "from_shape", "stored"), field, l2 and max of the relative
-        difference, fem_error, bie_error, verdict; `table.to_pandas()` is a DataFrame."""
-        rows = [{"group": group, "field": field, **values} for group in ("fields", "from_shape", "stored")
+        """One row for each comparison: group ("fields", "from_shape", "stored", "in_time"), field, l2 and max of the
+        relative difference, fem_error, bie_error, verdict; `table.to_pandas()` is a DataFrame."""
+        rows = [{"group": group, "field": field, **values} for group in ("fields", "from_shape", "stored", "in_time")
                 for field, values in self.get(group, {}).items()]
         names = ("group", "field", "l2", "max", "fem_error", "bie_error", "verdict")
         table = Table({name: np.array([row[name] for row in rows]) for name in names})
@@ -49,13 +49,14 @@ def has_finite_elements() -> bool:
 
 def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
           directory: Optional[Union[str, "os.PathLike[str]"]] = None, *, time: Optional[Union[float, str]] = None,
-          quick: bool = False, require: Optional[float] = None, ranks: int = 1,
-          settings: Optional[Mapping[str, Any]] = None) -> CheckResult:
+          from_time: Optional[Union[float, str]] = None, quick: bool = False, require: Optional[float] = None,
+          ranks: int = 1, settings: Optional[Mapping[str, Any]] = None) -> CheckResult:
     """Compares the fields of a frozen shape with finite elements, as `vehd check` does.
 
     what: a simulation with files, its run.h5 or its folder; or a scene, or its file, for its initial state.
     directory: for the results; "check" beside a run.h5 if left out.
     time: of a snapshot, as "0.5 ms" or a number in the unit of the history; the last one if left out.
+    from_time: of an earlier snapshot, likewise; the elements then also advance V_m from there by themselves.
     quick: coarse elements, about ten seconds. require: largest error of either method, as a share of each field, with
     which they may agree. ranks: MPI processes of the finite elements.
 
@@ -80,8 +81,9 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
         if file.suffix == ".toml":
             raise _core.InputError("a scene has no folder of its own: give a directory")
         directory = file.parent / "check"
-    code, text, note = _core.check(_program_folder(), os.fspath(file), overrides, os.fspath(directory),
-                                   None if time is None else str(time), quick, require, ranks)
+    times = [None if moment is None else str(moment) for moment in (time, from_time)]
+    code, text, note = _core.check(_program_folder(), os.fspath(file), overrides, os.fspath(directory), *times, quick,
+                                   require, ranks)
     result = CheckResult(json.loads(text) or {})
     result.agrees = code == 0
     result.note = note
