@@ -36,6 +36,9 @@ struct ChargingMembrane {
   ScalarOnSurface initial;  ///< V_m before the first step
 };
 
+/// What holds at the membrane.
+using MembraneCondition = std::variant<PrescribedJump, SteadyMembrane, ChargedMembrane, ChargingMembrane>;
+
 /// What holds at the outer sphere for the disturbance ψ = φ + E_∞·x.
 struct OuterCondition {
   /// Which condition holds.
@@ -55,7 +58,7 @@ struct PotentialProblem {
   double conductivity_out = 1.0;
   double permittivity_in = 1.0;
   double permittivity_out = 1.0;
-  std::variant<PrescribedJump, SteadyMembrane, ChargedMembrane, ChargingMembrane> membrane = SteadyMembrane{};
+  MembraneCondition membrane = SteadyMembrane{};
   ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous
   OuterCondition outer;
   double tolerance = 1e-11;  ///< of the linear solver, relative

@@ -12,7 +12,7 @@ BOOST_AUTO_TEST_CASE(ranks_together_solve_the_potential_as_one_alone) {
   PotentialProblem problem;
   problem.field = {0.3, 0.2, 1.0};
   problem.conductivity_out = 2.0;
-  const std::variant<PrescribedJump, SteadyMembrane, ChargingMembrane> membranes[] = {
+  const MembraneCondition membranes[] = {
       PrescribedJump{on_surface([](const Vector3& x, const Vector3&) { return 0.2 * x.z(); })},
       SteadyMembrane{5.0, 0.0}, SteadyMembrane{0.0, 0.3}};
   const OneMesh level{.degree = 3};

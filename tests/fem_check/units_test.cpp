@@ -44,10 +44,13 @@ BOOST_AUTO_TEST_CASE(potential_is_the_same_in_all_units) {
     const SurfacePoints points = space.quadrature_points(4);
     std::vector<PotentialTraces> results;
     PotentialProblem problem = electric_problem(u.length, u.potential, u.conductivity);
-    const std::variant<PrescribedJump, SteadyMembrane, ChargingMembrane> membranes[] = {
+    const MembraneCondition membranes[] = {
         PrescribedJump{
             on_surface([&](const Vector3& x, const Vector3&) { return u.potential * 0.2 * x.z() / u.length; })},
-        SteadyMembrane{5.0 * u.conductivity / u.length, 0.0}, SteadyMembrane{0.0, 0.3 * u.potential}};
+        SteadyMembrane{5.0 * u.conductivity / u.length, 0.0}, SteadyMembrane{0.0, 0.3 * u.potential},
+        ChargedMembrane{2.0 * u.conductivity / u.length, on_surface([&](const Vector3& x, const Vector3&) {
+                          return 0.2 * u.conductivity * u.potential / u.length * x.x() / u.length;
+                        })}};
     for (const auto& membrane : membranes) {
       problem.membrane = membrane;
       PotentialTraces traces = solve_potential(space, problem).on_surface(points);
