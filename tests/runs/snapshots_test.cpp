@@ -16,7 +16,7 @@ namespace {
 std::map<int, double> values_at_snapshots(double tolerance, const std::string& column) {
   vehd::Scene scene = vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/dc_pulse.toml"), tolerance);
   scene.numerics.dt.reset();
-  scene.numerics.end_time = 0.19;
+  scene.numerics.end_time = 0.18;
   const TemporaryDirectory directory;
   const vehd::RunPaths paths{directory / "run"};
   vehd::make_directory(paths.directory);
@@ -26,7 +26,7 @@ std::map<int, double> values_at_snapshots(double tolerance, const std::string& c
   const vehd::HistoryTable history(paths.history());
   std::map<int, double> values;
   for (std::size_t i = 0; i < history.n_rows(); ++i) {
-    const double number = history.column("time")[i] / 0.02;
+    const double number = 9.0 * history.column("time")[i] / history.column("time").back();
     const int nearest = static_cast<int>(std::lround(number));
     if (std::abs(number - nearest) < 1e-7) values[nearest] = history.column(column)[i];
   }
