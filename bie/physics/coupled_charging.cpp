@@ -25,7 +25,10 @@ class CoupledEquation {
  public:
   CoupledEquation(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                   const std::vector<Storage>& storages)
-      : membranes_(membranes), interaction_(interaction), storages_(storages) {
+      : membranes_(membranes),
+        interaction_(interaction),
+        storages_(storages),
+        owned_(interaction.shares().own(membranes.size())) {
     for (std::size_t b = 0; b < membranes.size(); ++b) {
       const ElectricParameters& electric = membranes[b].electric;
       const double a = storages[b].a;
@@ -46,33 +49,33 @@ class CoupledEquation {
   }
 
   [[nodiscard]] std::vector<Vector> left_side(const std::vector<Vector>& potentials) const {
-    std::vector<Vector> charges;
-    for (std::size_t b = 0; b < potentials.size(); ++b) {
-      charges.push_back(storages_[b].varies()
-                            ? of_values(b, storages_[b].vary.a.cwiseProduct(values_of(b, potentials[b])))
-                            : of_coefficients(b, charge_[b], potentials[b]));
+    std::vector<Vector> charges(potentials.size());
+    for (const std::size_t b : owned_) {
+      charges[b] = storages_[b].varies() ? of_values(b, storages_[b].vary.a.cwiseProduct(values_of(b, potentials[b])))
+                                         : of_coefficients(b, charge_[b], potentials[b]);
     }
     std::vector<Vector> result = interaction_.weighted_single_flux(charges);
     const std::vector<Vector> of_potentials = interaction_.weighted_double_flux(potentials);
-    for (std::size_t a = 0; a < own_.size(); ++a) {
+    for (const std::size_t a : owned_) {
       result[a] = own_[a].conduction() * (result[a] - of_potentials[a]) + own_[a].own(potentials[a]);
     }
+    interaction_.shares().gather(result);
     return result;
   }
 
   [[nodiscard]] std::vector<Vector> right_side() const {
-    std::vector<Vector> charges;
-    for (std::size_t b = 0; b < storages_.size(); ++b) {
+    std::vector<Vector> charges(storages_.size());
+    for (const std::size_t b : owned_) {
       const Storage& storage = storages_[b];
-      charges.push_back(storage.varies() ? of_values(b, storage.vary.b)
-                                         : of_coefficients(b, charge_of_b_[b], storage.b));
+      charges[b] = storage.varies() ? of_values(b, storage.vary.b) : of_coefficients(b, charge_of_b_[b], storage.b);
     }
     std::vector<Vector> result = interaction_.weighted_single_flux(charges);
-    for (std::size_t a = 0; a < own_.size(); ++a) {
+    for (const std::size_t a : owned_) {
       const Storage& storage = storages_[a];
       result[a] = own_[a].conduction() * result[a] +
                   (storage.varies() ? own_[a].right_side_of_values(storage.vary.b) : own_[a].right_side(storage.b));
     }
+    interaction_.shares().gather(result);
     return result;
   }
 
@@ -101,6 +104,7 @@ class CoupledEquation {
   const std::vector<ElectricMembrane>& membranes_;
   const Interaction& interaction_;
   const std::vector<Storage>& storages_;
+  std::vector<std::size_t> owned_;  ///< membranes of this rank
   std::vector<ChargingEquation> own_;
   std::vector<double> charge_, charge_of_b_;
 };

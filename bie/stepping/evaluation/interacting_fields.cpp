@@ -29,16 +29,16 @@ std::vector<Matrix> solve_fields_of_charges(const std::vector<VesicleTask>& task
   require_converged(densities.report, "charge densities, Eq. (12)");
   solved.iterations_electric += densities.report.iterations;
   const std::vector<Vector> of_others = potentials_of_others(membranes, interaction, potentials, densities.membranes);
-  std::vector<Matrix> forces;
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  std::vector<Matrix> forces(tasks.size());
+  for (const std::size_t a : interaction.shares().own(tasks.size())) {
     const VesicleTask& task = tasks[a];
     const ElectricParameters& electric = membranes[a].electric;
     const ElectricTraces traces =
         electric_traces(electric, task.membrane, potentials[a], densities.membranes[a], of_others[a]);
     task.fields.charge = task.membrane.fine.analyze(traces.charge);
     task.solution.potential_rate = charging_rate(task, electric, traces);
-    forces.push_back(electric_force(electric.permittivity, task.membrane, traces, electric.permittivity_ratio));
-    task.fields.force_electric = task.membrane.fine.analyze(forces.back());
+    forces[a] = electric_force(electric.permittivity, task.membrane, traces, electric.permittivity_ratio);
+    task.fields.force_electric = task.membrane.fine.analyze(forces[a]);
   }
   return forces;
 }
@@ -64,13 +64,14 @@ Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
 void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<Forcing>& forcing,
                       SolvedFields& solved) {
   std::vector<FlowMembrane> membranes;
-  std::vector<Matrix> weighted, background;
+  const std::vector<std::size_t> own = solved.interaction->shares().own(tasks.size());
+  std::vector<Matrix> weighted(tasks.size()), background;
   std::vector<bool> is_sphere;
   std::vector<Vector> start;
+  for (const std::size_t a : own) weighted[a] = tasks[a].membrane.weighted(forcing[a].force);
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     const VesicleTask& task = tasks[a];
     membranes.push_back({flow_parameters(task.model, task.vesicle), task.membrane});
-    weighted.push_back(task.membrane.weighted(forcing[a].force));
     background.push_back(forcing[a].velocity);
     task.solution.is_sphere = uniform_tension_is_free(membranes[a].parameters, task.membrane);
     is_sphere.push_back(task.solution.is_sphere);
@@ -82,7 +83,7 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
       solve_tensions(membranes, is_sphere, flow, velocities, start, tasks.front().settings.flow_tolerance);
   require_converged(tensions.report, "tensions, Eq. (27b)");
   solved.iterations_flow += tensions.report.iterations;
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  for (const std::size_t a : own) {
     const VesicleTask& task = tasks[a];
     task.fields.velocity = symmetric(task.membrane, velocities[a] + tensions.velocities[a]);
     if (!task.vesicle.inextensible) continue;
@@ -94,7 +95,7 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
 }  // namespace
 
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
-                                                  Instruments& instruments) {
+                                                  const Shares& shares, Instruments& instruments) {
   std::vector<InteractingMembrane> membranes;
   for (const VesicleTask& task : tasks) {
     PairSelection selection;
@@ -111,11 +112,12 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
   PairSettings settings;
   settings.tolerance =
       std::max(settings.tolerance, thresholds::pair_share * tasks.front().settings.quadrature_tolerance);
-  return std::make_shared<const Interaction>(membranes, settings, instruments);
+  return std::make_shared<const Interaction>(membranes, settings, instruments, shares);
 }
 
 void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,
                        SolvedFields& solved) {
+  const std::vector<std::size_t> own = solved.interaction->shares().own(tasks.size());
   std::vector<Forcing> forcing;
   for (const VesicleTask& task : tasks) {
     forcing.push_back({Matrix::Zero(task.membrane.surface.n_points(), 3), Matrix::Zero(task.state.position.rows(), 3)});
@@ -132,7 +134,7 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     const std::vector<Matrix> forces = is_averaged(tasks.front().model)
                                            ? averaged_forces(tasks, solved)
                                            : solve_fields_of_charges(tasks, time, limit, solved);
-    for (std::size_t a = 0; a < tasks.size(); ++a) forcing[a].force -= forces[a];
+    for (const std::size_t a : own) forcing[a].force -= forces[a];
   }
   if (!tasks.front().model.mobile) return;
   if (tasks.front().model.contact) {
@@ -140,7 +142,7 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     add_contact(*tasks.front().model.contact, tasks, forcing);
   }
   const auto timer = instruments.time("tension solve");
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  for (const std::size_t a : own) {
     add_forces(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, forcing[a]);
   }
   solve_velocities(tasks, forcing, solved);

@@ -16,6 +16,11 @@ struct ScalarPair {
   Vector normal, tension;
 };
 
+template <MaybeConst<ScalarPair> Pair, typename Visit>
+void visit_members(Pair& pair, Visit& visit) {
+  visit(pair.normal, pair.tension);
+}
+
 /// The problem on one membrane.
 class OneTension {
  public:
@@ -150,10 +155,10 @@ class Layout {
 
 std::vector<Matrix> velocities_of(const std::vector<OneTension>& all, CoupledFlow& flow,
                                   const std::vector<ScalarPair>& unknowns) {
-  std::vector<Matrix> weighted;
-  for (std::size_t a = 0; a < all.size(); ++a) {
+  std::vector<Matrix> weighted(all.size());
+  for (const std::size_t a : flow.shares().own(all.size())) {
     const Matrix force = all[a].force(unknowns[a]);
-    weighted.push_back(force.size() == 0 ? Matrix() : all[a].membrane().weighted(force));
+    if (force.size() > 0) weighted[a] = all[a].membrane().weighted(force);
   }
   return flow.velocities(weighted);
 }
@@ -167,11 +172,14 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a]);
   const Layout layout(all);
   const Vector scales = layout.scales(all);
+  const Shares& shares = flow.shares();
+  const std::vector<std::size_t> own = shares.own(all.size());
   const LinearMap map = [&](const Vector& v) {
     const std::vector<ScalarPair> unknowns = layout.scalars(v.cwiseProduct(scales));
     const std::vector<Matrix> velocities = velocities_of(all, flow, unknowns);
-    std::vector<ScalarPair> result;
-    for (std::size_t a = 0; a < all.size(); ++a) result.push_back(all[a].response(velocities[a], unknowns[a]));
+    std::vector<ScalarPair> result(all.size());
+    for (const std::size_t a : own) result[a] = all[a].response(velocities[a], unknowns[a]);
+    shares.gather(result);
     return layout.stack(result);
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
@@ -179,10 +187,11 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     for (std::size_t a = 0; a < all.size(); ++a) parts[a] = all[a].sphere_inverse(parts[a]);
     return layout.stack(parts).cwiseQuotient(scales);
   };
-  std::vector<ScalarPair> rhs, guess;
+  std::vector<ScalarPair> rhs(all.size()), guess;
+  for (const std::size_t a : own) rhs[a] = all[a].constraints(-driven[a]);
+  shares.gather(rhs);
   for (std::size_t a = 0; a < all.size(); ++a) {
-    rhs.push_back(all[a].constraints(-driven[a]));
-    const Vector none = Vector::Zero(driven[a].rows());
+    const Vector none = Vector::Zero(n_coefficients(all[a].membrane().fine.order()));
     guess.push_back({none, start[a].size() > 0 ? start[a] : none});
     // The mean does nothing on a sphere, and is none of the unknowns' business.
     if (is_sphere[a]) guess.back().tension[0] = 0.0;
@@ -195,7 +204,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   result.velocities = velocities_of(all, flow, unknowns);
   for (std::size_t a = 0; a < all.size(); ++a) {
     result.tension.push_back(membranes[a].parameters.inextensible ? unknowns[a].tension : Vector());
-    result.force.push_back(all[a].force(unknowns[a]));
+    result.force.push_back(shares.owns(a) ? all[a].force(unknowns[a]) : Matrix());
   }
   return result;
 }

@@ -14,6 +14,7 @@
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/shared_motions.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -33,31 +34,6 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
     options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
   }
   return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
-}
-
-Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fields) {
-  const Membrane& membrane = *solution.membrane;
-  Rate::OfVesicle rate;
-  rate.velocity = solution.is_sphere ? rigid_sphere_velocity(membrane, fields.velocity) : fields.velocity;
-  rate.potential = solution.potential_rate;
-  rate.free_charge = solution.free_charge_rate;
-  rate.poration = solution.poration_rate;
-  rate.charge = fields.charge_amplitude.size() > 0 ? fields.charge_amplitude : Matrix(fields.charge);
-  rate.potential_amplitude = fields.potential_amplitude;
-  if (fields.tension.size() > 0 && !solution.is_sphere) {
-    const Vector tension = membrane.fine.synthesize(fields.tension);
-    rate.tension_integral = tension.dot(membrane.surface.quadrature);
-    rate.tension_size = tension.cwiseAbs().dot(membrane.surface.quadrature);
-  }
-  return rate;
-}
-
-Rate rate_of(const SolvedFields& solved) {
-  Rate rate;
-  for (std::size_t a = 0; a < solved.vesicles.size(); ++a) {
-    rate.vesicles.push_back(rate_of(solved.vesicles[a], solved.fields.vesicles[a]));
-  }
-  return rate;
 }
 
 void require_finite(const Motion& motion) {
@@ -97,7 +73,7 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   }
   const bool is_linear = charges() && !porates();
   if (is_linear) charge(electric_at(result.time), dt, charged);
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+  result.vesicles = shared_motions(shares(), start_.vesicles.size(), iterations_flow_, [&](std::size_t a) {
     SurfaceFields fields = start_.vesicles[a];
     if (is_linear) take(std::move(charged[a]), result.time, a, fields);
     if (porates()) {
@@ -107,8 +83,8 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
     if (model_.mobile) fields.tension = instantaneous.tension;
     const auto rigid = [&](const Membrane& sphere) { return motion_of_velocity(sphere, instantaneous.velocity, dt); };
-    result.vesicles.push_back(motion(a, {std::move(fields), instantaneous.velocity}, rigid, dt, end));
-  }
+    return motion(a, {std::move(fields), instantaneous.velocity}, rigid, dt, end);
+  });
   return result;
 }
 
@@ -127,7 +103,7 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
     }
     charge(homogeneous, dt, changes);
   }
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+  result.vesicles = shared_motions(shares(), start_.vesicles.size(), iterations_flow_, [&](std::size_t a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
     if (porates()) {
@@ -146,20 +122,20 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
     const auto rigid = [&](const Membrane& sphere) {
       return motion_of_displacement(sphere, y.vesicles[a].material.position + lacks - start_.vesicles[a].position);
     };
-    result.vesicles.push_back(motion(a, {std::move(fields), lacks / dt}, rigid, dt, end));
-  }
+    return motion(a, {std::move(fields), lacks / dt}, rigid, dt, end);
+  });
   return result;
 }
 
 NodeSolution StepOperations::held(const NodeSolution& y, double dt, NodeEnd end) {
   NodeSolution result{y.time, {}};
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+  result.vesicles = shared_motions(shares(), start_.vesicles.size(), iterations_flow_, [&](std::size_t a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
     const Matrix displacement = fields.position - start_.vesicles[a].position;
     const auto rigid = [&](const Membrane& sphere) { return motion_of_displacement(sphere, displacement); };
-    result.vesicles.push_back(motion(a, {std::move(fields), Matrix::Zero(displacement.rows(), 3)}, rigid, dt, end));
-  }
+    return motion(a, {std::move(fields), Matrix::Zero(displacement.rows(), 3)}, rigid, dt, end);
+  });
   return result;
 }
 
@@ -287,8 +263,11 @@ State StepOperations::passed_state(const NodeSolution& node) const {
 
 State StepOperations::end_state(const NodeSolution& node) const {
   State state = passed_state(node);
+  std::vector<SentScalars> flow(state.vesicles.size());
+  for (const std::size_t a : shares().own(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
+  shares().gather(flow);
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow_[a].recycled(), iterations_flow_);
+    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_flow_);
   }
   return state;
 }

@@ -1,0 +1,116 @@
+#ifdef VEHD_MPI_PROGRAM
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "bie/runs/checkpoint.hpp"
+#include "tests/app/reference_run.hpp"
+
+BOOST_AUTO_TEST_SUITE(mpi)
+
+namespace {
+
+std::string two_vesicles(const std::string& end_time) {
+  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
+         "[flow]\nkind = \"shear\"\nrate = 1.0\n[numerics]\norder = 4\ndt = 0.1\nend_time = " +
+         end_time +
+         "\n[[vesicle]]\nname = \"left\"\nshape.centre = [-1.6, 0.0, 0.3]\n"
+         "[[vesicle]]\nname = \"right\"\nshape.centre = [1.4, 0.2, 0.0]\n";
+}
+
+std::vector<std::string> on_ranks(const std::string& n, const std::vector<std::string>& arguments) {
+  // Containers have root alone, and tests run beside others. The last lets a step end that a signal falls into.
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  std::vector<std::string> command = {"mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n", n};
+  command.insert(command.end(), {"--mca", "odls_base_sigkill_timeout", "60", VEHD_MPI_PROGRAM});
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+struct RunOnRanks : RunPair {
+  explicit RunOnRanks(const std::string& end_time) : RunPair(two_vesicles(end_time)) {}
+
+  [[nodiscard]] std::vector<std::string> on(const std::string& n) const {
+    return on_ranks(n, {"run", scene, "-o", output, "--resume", "--no-plot", "--quiet"});
+  }
+  /// The processes of this run.
+  [[nodiscard]] std::vector<pid_t> processes() const {
+    std::vector<pid_t> all;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::error_code gone;
+      if (std::filesystem::read_symlink(entry.path() / "exe", gone) != std::filesystem::path(VEHD_MPI_PROGRAM))
+        continue;
+      std::ifstream arguments(entry.path() / "cmdline");
+      const std::string command(std::istreambuf_iterator<char>(arguments), {});
+      if (command.find(scene) != std::string::npos) all.push_back(std::stoi(entry.path().filename()));
+    }
+    return all;
+  }
+  /// Lets what has ended early go on by one process to a nearby end, and compares.
+  void finish_soon() {
+    const double reached = vehd::read_checkpoint(output + "/checkpoint.h5").state.time;
+    write_text(scene, two_vesicles(std::to_string(reached + 0.15)));
+    run_reference();
+    finish();
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(ranks_have_the_bits_and_the_words_of_one) {
+  const RunOnRanks run("0.3");
+  run.run_reference();
+  const ProgramResult begun =
+      run_command(on_ranks("2", {"run", run.scene, "-o", run.output, "--no-plot", "--set", "numerics.end_time=0.2"}));
+  BOOST_TEST(begun.exit_code == 0, begun.errors);
+  BOOST_TEST(begun.output.starts_with("completed at time 0.2: 2 steps"), begun.output);
+  BOOST_TEST(begun.output.find("completed", 1) == std::string::npos, begun.output);
+  const ProgramResult resumed = run_command(run.on("3"));
+  BOOST_TEST(resumed.exit_code == 0, resumed.errors);
+  check_same_run(run.output, run.reference);
+  // Of all ranks and sessions; the second session begins with the shape at which the first has ended.
+  const auto evaluations = [](const std::string& folder) {
+    return json_of(folder + "/summary.json").at("kernel_evaluations").begin()->get<std::int64_t>();
+  };
+  BOOST_TEST(evaluations(run.output) * 4 == evaluations(run.reference) * 5);
+}
+
+BOOST_AUTO_TEST_CASE(wrong_input_is_said_once) {
+  const RunOnRanks run("0.1");
+  write_text(run.scene, two_vesicles("-1"));
+  const ProgramResult result = run_command(run.on("2"));
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(std::ranges::count(result.errors, '\n') == 1, result.errors);
+}
+
+BOOST_AUTO_TEST_CASE(a_signal_leaves_a_resumable_run) {
+  RunOnRanks run("100000.0");
+  RunningProgram program(run.on("2"));
+  run.wait_for_rows(program);
+  program.send(SIGINT);
+  BOOST_TEST(program.wait().exit_code != 0);
+  BOOST_TEST(json_of(run.output + "/summary.json").at("verdict").get<std::string>().starts_with("stopped: a signal"));
+  run.finish_soon();
+}
+
+BOOST_AUTO_TEST_CASE(a_killed_rank_ends_all_and_leaves_a_resumable_run) {
+  RunOnRanks run("100000.0");
+  RunningProgram program(run.on("2"));
+  run.wait_for_rows(program);
+  const std::vector<pid_t> processes = run.processes();
+  BOOST_TEST_REQUIRE(processes.size() == 2U);
+  ::kill(processes.back(), SIGKILL);
+  BOOST_TEST(program.wait().exit_code != 0);
+  BOOST_TEST(run.processes().empty());
+  run.finish_soon();
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+#endif

@@ -1,0 +1,110 @@
+#include <boost/test/unit_test.hpp>
+
+#include "bie/runs/session.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/support/output_error.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/forked_ranks.hpp"
+
+BOOST_AUTO_TEST_SUITE(runs_on_ranks)
+
+namespace {
+
+using vehd::Ranks;
+using vehd::testing::on_ranks;
+
+/// Three vesicles without symmetry in shear and field, each of its own size, one with another fluid.
+std::string three_vesicles(const std::string& numerics) {
+  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n"
+         "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
+         "[flow]\nkind = \"shear\"\nrate = 1.0\n"
+         "[electric]\nfield = [0.0, 0.3, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+         "[[vesicle]]\n[vesicle.shape]\ncentre = [-1.6, 0.0, 0.3]\n"
+         "[[vesicle]]\n[vesicle.shape]\ncentre = [1.4, 0.2, 0.0]\nscale = 0.8\n[vesicle.fluid]\nviscosity_ratio = 2.0\n"
+         "[[vesicle]]\n[vesicle.shape]\ncentre = [0.1, 2.3, 0.9]\nscale = 0.7\n"
+         "[output]\nevery = 0.1\n[numerics]\n" +
+         numerics;
+}
+
+/// Enough of them for multipole expansions.
+const std::string kSuspension =
+    "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
+    "[flow]\nkind = \"shear\"\nrate = 1.0\n[contact]\nenergy = 0.1\nrange = 0.5\n"
+    "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\ninitial_Vm = \"steady\"\n"
+    "[numerics]\norder = 4\ndt = 0.1\nend_time = 0.1\n"
+    "[suspension]\nkind = \"box\"\nsize = [12, 12, 30]\ncount = 10\n";
+
+/// One run in a directory of its own, which each session begins or continues.
+class Run {
+ public:
+  [[nodiscard]] std::string file(const std::string& name) const { return file_text(folder_ / ("out/" + name)); }
+
+  /// What each of the ranks says at the end.
+  std::vector<std::string> go_on(const std::string& scene, int n_ranks) const {
+    return on_ranks(n_ranks, [&](const Ranks& ranks) {
+      return ranks.together([&] {
+        const vehd::SceneSource source{folder_ / "scene.toml", {}, scene};
+        const vehd::RunSession session(vehd::read_scene(source), source, folder_ / "out", true, ranks);
+        vehd::Interruption interruption;
+        const vehd::RunOutcome outcome = session.simulate(interruption, {});
+        return outcome.completed ? std::string("completed") : outcome.reason;
+      });
+    });
+  }
+
+  void make_unwritable() const { std::filesystem::create_directories(folder_ / "out/run.h5"); }
+
+ private:
+  TemporaryDirectory folder_;
+};
+
+void check_completed(const std::vector<std::string>& said) {
+  for (const std::string& of_rank : said) BOOST_TEST(of_rank == "completed");
+}
+
+/// Runs of this scene on any number of ranks have the same files.
+void check_same_on_all_numbers(const std::string& scene) {
+  const Run alone;
+  check_completed(alone.go_on(scene, 1));
+  for (const int n_ranks : {2, 3}) {
+    const Run shared;
+    check_completed(shared.go_on(scene, n_ranks));
+    for (const char* name : {"history.csv", "vesicles.csv"}) BOOST_TEST((shared.file(name) == alone.file(name)), name);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(steps_of_first_order_have_the_same_bits_on_any_number_of_ranks) {
+  check_same_on_all_numbers(three_vesicles("order = 5\ndt = 0.1\nend_time = 0.2\n"));
+}
+
+BOOST_AUTO_TEST_CASE(steps_with_a_tolerance_have_the_same_bits_on_any_number_of_ranks) {
+  check_same_on_all_numbers(three_vesicles("order = 10\ntolerance = 1e-1\nend_time = 0.1\n"));
+}
+
+BOOST_AUTO_TEST_CASE(expansions_have_the_same_bits_on_any_number_of_ranks) { check_same_on_all_numbers(kSuspension); }
+
+BOOST_AUTO_TEST_CASE(a_run_goes_on_with_another_number_of_ranks) {
+  const auto until = [](const std::string& end) {
+    return three_vesicles("order = 5\ndt = 0.1\nend_time = " + end + "\n");
+  };
+  const Run whole, resumed;
+  check_completed(whole.go_on(until("0.3"), 1));
+  check_completed(resumed.go_on(until("0.1"), 3));
+  check_completed(resumed.go_on(until("0.2"), 1));
+  check_completed(resumed.go_on(until("0.3"), 2));
+  for (const char* name : {"history.csv", "vesicles.csv"}) BOOST_TEST((resumed.file(name) == whole.file(name)), name);
+}
+
+BOOST_AUTO_TEST_CASE(a_rank_without_a_directory_to_write_in_ends_all) {
+  const Run run;
+  run.make_unwritable();
+  const std::vector<std::string> said = run.go_on(three_vesicles("order = 5\ndt = 0.1\nend_time = 0.1\n"), 3);
+  for (const std::string& of_rank : said) {
+    BOOST_TEST(of_rank == said.front());
+    BOOST_TEST(of_rank != "completed");
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
