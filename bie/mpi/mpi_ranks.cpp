@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -41,8 +40,10 @@ class MpiLink : public RankLink {
     const std::vector<int> sizes = sizes_of_all(own.size());
     const std::vector<int> places = places_of(sizes);
     std::string all(static_cast<std::size_t>(places.back()), '\0');
-    MPI_Allgatherv(own.data(), sizes[static_cast<std::size_t>(rank_)], MPI_CHAR, all.data(), sizes.data(),
-                   places.data(), MPI_CHAR, MPI_COMM_WORLD);
+    MPI_Request request{};
+    MPI_Iallgatherv(own.data(), sizes[static_cast<std::size_t>(rank_)], MPI_CHAR, all.data(), sizes.data(),
+                    places.data(), MPI_CHAR, MPI_COMM_WORLD, &request);
+    wait(request);
     return parts_of(all, places);
   }
 
@@ -54,11 +55,14 @@ class MpiLink : public RankLink {
       all_sent += text;
     }
     std::vector<int> received(to.size());
-    MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    MPI_Request request{};
+    MPI_Ialltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, MPI_COMM_WORLD, &request);
+    wait(request);
     const std::vector<int> from = places_of(sent), at = places_of(received);
     std::string all(static_cast<std::size_t>(at.back()), '\0');
-    MPI_Alltoallv(all_sent.data(), sent.data(), from.data(), MPI_CHAR, all.data(), received.data(), at.data(), MPI_CHAR,
-                  MPI_COMM_WORLD);
+    MPI_Ialltoallv(all_sent.data(), sent.data(), from.data(), MPI_CHAR, all.data(), received.data(), at.data(),
+                   MPI_CHAR, MPI_COMM_WORLD, &request);
+    wait(request);
     return parts_of(all, at);
   }
 
@@ -88,19 +92,24 @@ class MpiLink : public RankLink {
     return parts;
   }
 
-  /// Returns when all ranks are there. Waiting is left to the system: ranks of Open MPI spin, and a rank that spins
-  /// takes the processor of another, or of its own threads, as soon as there are too few.
   [[nodiscard]] std::vector<int> sizes_of_all(std::size_t own) const {
-    constexpr int kSpins = 200;
-    constexpr std::chrono::microseconds kPause{20};
     const int size = size_of(own);
     std::vector<int> sizes(static_cast<std::size_t>(size_));
     MPI_Request request{};
     MPI_Iallgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD, &request);
+    wait(request);
+    return sizes;
+  }
+
+  /// Whoever waits long leaves the processor to others: ranks of Open MPI spin, which costs another rank, or their own
+  /// threads, whole time slices as soon as anything else runs on the machine.
+  static void wait(MPI_Request& request) {
+    constexpr int kSpins = 200;
+    constexpr std::chrono::microseconds kPause{20};
     for (int polls = 0;; ++polls) {
       int done = 0;
       MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-      if (done != 0) return sizes;
+      if (done != 0) return;
       if (polls >= kSpins) std::this_thread::sleep_for(kPause);
     }
   }
