@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "bie/support/interruption.hpp"
+
 namespace vehd {
 
 namespace {
@@ -24,6 +26,8 @@ constexpr std::array kSetByLaunchers = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PM
 class MpiLink : public RankLink {
  public:
   MpiLink() {
+    // Threads that MPI starts for itself leave alone what a run waits for, and would end the process otherwise.
+    const Interruption inherited;
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);

@@ -55,8 +55,8 @@ struct RunOnRanks : RunPair {
       if (std::filesystem::read_symlink(entry.path() / "exe", gone) != std::filesystem::path(VEHD_MPI_PROGRAM))
         continue;
       std::ifstream arguments(entry.path() / "cmdline");
-      const std::string command(std::istreambuf_iterator<char>(arguments), {});
-      if (command.find(scene) != std::string::npos) all.push_back(std::stoi(entry.path().filename()));
+      const std::string words(std::istreambuf_iterator<char>(arguments), {});
+      if (words.find(scene) != std::string::npos) all.push_back(std::stoi(entry.path().filename()));
     }
     return all;
   }
@@ -111,7 +111,7 @@ BOOST_FIXTURE_TEST_CASE(wrong_input_is_said_once, AnyContainer) {
 }
 
 BOOST_FIXTURE_TEST_CASE(a_signal_leaves_a_resumable_run, AnyContainer) {
-  RunOnRanks run("100000.0");
+  RunOnRanks run("10000.0");
   RunningProgram program(run.on("2"));
   run.wait_for_rows(program);
   // That which mpirun hands on.
@@ -123,7 +123,7 @@ BOOST_FIXTURE_TEST_CASE(a_signal_leaves_a_resumable_run, AnyContainer) {
 }
 
 BOOST_FIXTURE_TEST_CASE(a_killed_rank_ends_all_and_leaves_a_resumable_run, AnyContainer) {
-  RunOnRanks run("100000.0");
+  RunOnRanks run("10000.0");
   RunningProgram program(run.on("2"));
   run.wait_for_rows(program);
   const std::vector<pid_t> processes = run.processes();
