@@ -42,6 +42,9 @@ void require_valid(const PotentialProblem& problem) {
     require(bool(prescribed->potential_jump), "the prescribed transmembrane potential is missing");
   } else if (const auto* steady = std::get_if<SteadyMembrane>(&problem.membrane)) {
     require(steady->conductance >= 0.0, "membrane conductance is negative");
+  } else if (const auto* charged = std::get_if<ChargedMembrane>(&problem.membrane)) {
+    require(charged->capacitance > 0.0, "membrane capacitance must be positive");
+    require(bool(charged->inner_charge), "the charge of the inner face is missing");
   } else {
     const auto& charging = std::get<ChargingMembrane>(problem.membrane);
     require(charging.capacitance > 0.0, "membrane capacitance must be positive");
@@ -54,6 +57,7 @@ void require_valid(const PotentialProblem& problem) {
 /// Coefficient of [[u]][[w]] on γ.
 double membrane_coefficient(const PotentialProblem& problem) {
   if (const auto* steady = std::get_if<SteadyMembrane>(&problem.membrane)) return steady->conductance;
+  if (const auto* charged = std::get_if<ChargedMembrane>(&problem.membrane)) return charged->capacitance;
   if (const auto* charging = std::get_if<ChargingMembrane>(&problem.membrane)) {
     return charging->conductance + charging->capacitance / charging->time_step;
   }
@@ -262,6 +266,8 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
       equations.solve(charging->capacitance / charging->time_step * voltage);
       voltage = membrane_voltage(*data, rule);
     }
+  } else if (const auto* charged = std::get_if<ChargedMembrane>(&problem.membrane)) {
+    equations.solve(charged->inner_charge(rule));
   } else {
     equations.solve(Vector::Zero(rule.size()));
     if (mean_is_free(problem)) {

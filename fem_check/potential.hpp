@@ -20,6 +20,13 @@ struct SteadyMembrane {
   double mean = 0.0;
 };
 
+/// Free charge of the inner face, −ε_i ∂φ_i/∂n = C_m V_m − q_i: the permittivities are the conductivities of the
+/// problem, and its current jump is q_i + q_e.
+struct ChargedMembrane {
+  double capacitance = 1.0;
+  ScalarOnSurface inner_charge;  ///< q_i
+};
+
 /// Backward Euler steps of C_m dV_m/dt + G_m V_m = −σ_i ∂φ_i/∂n.
 struct ChargingMembrane {
   double capacitance = 1.0;
@@ -48,7 +55,7 @@ struct PotentialProblem {
   double conductivity_out = 1.0;
   double permittivity_in = 1.0;
   double permittivity_out = 1.0;
-  std::variant<PrescribedJump, SteadyMembrane, ChargingMembrane> membrane = SteadyMembrane{};
+  std::variant<PrescribedJump, SteadyMembrane, ChargedMembrane, ChargingMembrane> membrane = SteadyMembrane{};
   ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous
   OuterCondition outer;
   double tolerance = 1e-11;  ///< of the linear solver, relative

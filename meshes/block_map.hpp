@@ -8,15 +8,12 @@
 
 namespace vehd::meshes {
 
-/// The smooth map from reference coordinates X to space that gives a block mesh its geometry.
+/// The map from reference coordinates X to space that gives a block mesh its geometry.
 ///
 /// Reference space is three nested cubes |X|_∞ = ½ (core), 1 (membrane γ), 2 (outer sphere). A face of the cube with
 /// s = |X|_∞ and v = X/s belongs to the direction r̂ = V g/|g|, g_k = tan(π v_k/4): equal angles along block edges.
-///   core:   centre + K X/½
-///   blend:  from centre + K v at s = ½ to x(r̂) at s = 1, linear in s
-///   shell:  from x(r̂) at s = 1 to centre + R U g/|g| at s = 2, linear in s
-/// U and V are the BlockAxes. K = U diag(half-widths) squashes the core into the room that the shape leaves along each
-/// axis.
+/// Every map takes s = 1 to x(r̂) and s = 2 to centre + R U g/|g|, U and V the BlockAxes; in between kinds of map
+/// differ.
 class BlockMap {
  public:
   static constexpr double kCore = 0.5;
@@ -24,7 +21,10 @@ class BlockMap {
   static constexpr double kOuter = 2.0;
 
   /// @throws MeshError if the outer sphere does not hold the shape
-  BlockMap(const FrozenShape& shape, const BlockAxes& axes, double outer_radius, double core_fraction);
+  BlockMap(const FrozenShape& shape, const BlockAxes& axes, double outer_radius);
+  virtual ~BlockMap() = default;
+  BlockMap(const BlockMap&) = delete;
+  BlockMap& operator=(const BlockMap&) = delete;
 
   [[nodiscard]] const Point& centre() const { return centre_; }
   [[nodiscard]] double outer_radius() const { return outer_radius_; }
@@ -41,19 +41,42 @@ class BlockMap {
   /// Many columns at once, all of one block.
   [[nodiscard]] Eigen::Matrix3Xd positions(const Block& block, const Eigen::Matrix3Xd& reference) const;
   /// ∂ position/∂X.
-  [[nodiscard]] Matrix3 derivative(const Block& block, const Point& reference) const;
+  [[nodiscard]] virtual Matrix3 derivative(const Block& block, const Point& reference) const = 0;
+
+ protected:
+  /// What the formulas of a block share: s, v = X/s and g.
+  struct CubePoint {
+    double s;
+    Point v;
+    Point g;
+  };
+  [[nodiscard]] static CubePoint cube_point(const Block& block, const Point& reference);
+  /// Their derivatives by X, with that of g/|g|.
+  struct CubeSlopes {
+    Point s;
+    Matrix3 v;
+    Matrix3 unit;
+  };
+  [[nodiscard]] static CubeSlopes cube_slopes(const Block& block, const CubePoint& point);
+
+  [[nodiscard]] const FrozenShape& shape() const { return shape_; }
+  [[nodiscard]] const Matrix3& block_to_direction() const { return axes_.in_directions; }
+  [[nodiscard]] const Matrix3& block_to_space() const { return axes_.in_space; }
 
  private:
-  /// Position where x(r̂) is known already.
-  [[nodiscard]] Point blended(const Block& block, const Point& reference, const Point& on_membrane) const;
+  [[nodiscard]] virtual Point in_core(const Point& reference) const = 0;
+  /// Position outside the core, where x(r̂) is known already.
+  [[nodiscard]] virtual Point around_core(const Block& block, const Point& reference,
+                                          const Point& on_membrane) const = 0;
 
   FrozenShape shape_;
   Point centre_;
   double outer_radius_;
-  Matrix3 block_to_direction_;  // V
-  Matrix3 block_to_space_;      // U
-  Matrix3 core_;                // K
+  BlockAxes axes_;
 };
+
+/// Growth of the layers of the shell of a shape of this radius.
+double shell_growth(const BlockMeshOptions& options, double radius);
 
 /// Vertices, cells and interface of the reference mesh, made by gmsh: 13 transfinite blocks. The third unit coordinate
 /// of every blend and shell cell points outwards.

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "meshes/block_map.hpp"
+#include "meshes/blended_map.hpp"
 #include "meshes/mesh_quality.hpp"
 #include "meshes/oriented_mesh.hpp"
+#include "meshes/relaxed_map.hpp"
 #include "meshes/volume_mesh.hpp"
 
 namespace vehd::meshes {
@@ -79,21 +80,71 @@ Point HexMesh::direction(int cell_index, const Point& unit) const {
   return map_->direction(blocks_[cell_index], reference(cell_index, unit));
 }
 
+double shell_growth(const BlockMeshOptions& options, double radius) {
+  return options.shell_growth > 0.0 ? options.shell_growth
+                                    : std::pow(options.outer_radius / radius, 1.0 / options.shell_layers);
+}
+
+namespace {
+
+using Maps = std::vector<std::shared_ptr<const BlockMap>>;
+
+std::vector<HexMesh> meshes_of(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options,
+                               const Maps& maps) {
+  std::vector<HexMesh> meshes;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    meshes.emplace_back(make_block_topology(options[i], shell_growth(options[i], shape.radius())), maps[i]);
+  }
+  return meshes;
+}
+
+Maps blended_maps(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options, const BlockAxes& axes) {
+  Maps maps;
+  for (const BlockMeshOptions& o : options) {
+    maps.push_back(std::make_shared<const BlendedMap>(shape, axes, o.outer_radius, o.core_fraction));
+  }
+  return maps;
+}
+
+Maps relaxed_maps(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options, const BlockAxes& axes) {
+  const auto blocks = std::make_shared<const RelaxedBlocks>(shape, axes, options.front());
+  Maps maps;
+  for (const BlockMeshOptions& o : options) {
+    maps.push_back(std::make_shared<const RelaxedMap>(shape, axes, o.outer_radius, blocks));
+  }
+  return maps;
+}
+
+std::vector<HexMesh> make_meshes(const FrozenShape& shape, std::vector<BlockMeshOptions> options,
+                                 const BlockAxes& axes) {
+  constexpr int kGaussPoints = 3;
+  const auto quality_of = [&](const HexMesh& mesh) { return quality(mesh, shape, kGaussPoints); };
+  std::vector<HexMesh> meshes = meshes_of(shape, options, blended_maps(shape, options, axes));
+  const double blended = quality_of(meshes.front()).smallest_scaled_jacobian;
+  if (blended < options.front().smallest_scaled_jacobian) {
+    for (BlockMeshOptions& o : options) o.cells_per_edge += o.cells_per_edge % 2;  // no kink of the map within a cell
+    meshes = meshes_of(shape, options, relaxed_maps(shape, options, axes));
+  }
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    require_quality(quality_of(meshes[i]), options[i].smallest_scaled_jacobian);
+  }
+  return meshes;
+}
+
+}  // namespace
+
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options) {
-  require_options(options);
-  return make_block_mesh(shape, options, best_axes(shape));
+  return std::move(make_block_meshes(shape, {options}).front());
 }
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options, const BlockAxes& axes) {
   require_options(options);
-  const auto map = std::make_shared<const BlockMap>(shape, axes, options.outer_radius, options.core_fraction);
-  const double growth = options.shell_growth > 0.0
-                            ? options.shell_growth
-                            : std::pow(options.outer_radius / shape.radius(), 1.0 / options.shell_layers);
-  HexMesh mesh(make_block_topology(options, growth), map);
-  constexpr int kGaussPoints = 3;
-  require_quality(quality(mesh, shape, kGaussPoints), options.smallest_scaled_jacobian);
-  return mesh;
+  return std::move(make_meshes(shape, {options}, axes).front());
+}
+
+std::vector<HexMesh> make_block_meshes(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options) {
+  for (const BlockMeshOptions& o : options) require_options(o);
+  return make_meshes(shape, options, best_axes(shape));
 }
 
 }  // namespace vehd::meshes

@@ -57,7 +57,9 @@ class VolumeMesh {
 
 /// Membrane faces per edge of a block, layers and radii of the block mesh.
 struct BlockMeshOptions {
-  int cells_per_edge = 4;       ///< along each of the edges that divide the membrane into 6 blocks; also in the core
+  /// Along each of the edges that divide the membrane into 6 blocks; also in the core. Where cells are relaxed (see
+  /// make_block_mesh) an odd number becomes the next even one.
+  int cells_per_edge = 4;
   int blend_layers = 2;         ///< between core and membrane
   int shell_layers = 4;         ///< between membrane and outer sphere
   double blend_growth = 1.0;    ///< thickness of a blend layer over that of the next one towards the membrane
@@ -87,11 +89,18 @@ class HexMesh final : public VolumeMesh {
   std::vector<Block> blocks_;
 };
 
-/// @throws MeshError if the outer sphere does not hold the shape, or if an element is inverted or too flat
+/// Cells run straight from the core to the membrane and on to the outer sphere (BlendedMap); where that folds them or
+/// makes them too flat, they are relaxed until they follow the shape (RelaxedMap).
+/// @throws MeshError if the outer sphere does not hold the shape, or if an element is inverted or too flat even so
 /// @throws std::invalid_argument if an option is out of range
 /// Accuracy: membrane and outer sphere where they should be to 1e-13, neighbours meet to 1e-13
 /// (tests/meshes/block_mesh_test.cpp)
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options = {});
+
+/// Meshes of one shape that differ in the layers of the shell alone, the inner layers at the same places in all: what
+/// it costs to follow a strongly bent shape is paid once.
+/// @throws MeshError, std::invalid_argument as make_block_mesh
+std::vector<HexMesh> make_block_meshes(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options);
 
 /// Sizes of the tetrahedral mesh. Lengths are in units of FrozenShape::radius() unless they say otherwise.
 struct TetMeshOptions {

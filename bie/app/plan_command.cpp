@@ -37,6 +37,7 @@ nlohmann::json json_of(const RunPlan& plan) {
     if (!plan.vesicles.empty()) json["operators"].back()["vesicles"] = op.n_vesicles;
   }
   if (!plan.vesicles.empty()) json["vesicles"] = plan.vesicles;
+  if (!plan.vesicles.empty()) json["pair_targets"] = plan.pair_targets;
   json["kernel_evaluations_per_shape"] = plan.kernel_evaluations;
   json["shapes_per_step"] = plan.shapes_per_step;
   json["jumps"] = plan.n_jumps;
@@ -99,7 +100,11 @@ void print(const RunPlan& plan) {
              plan.shapes_per_step, jumps);
   for (const PlannedOperator& op : plan.operators) fmt::print("  {:<22} {}\n", op.name, op.why);
   if (const std::size_t n = plan.vesicles.size(); n > 1) {
-    fmt::print("pairs      {} of a vesicle and another, whose layers it feels\n", n * (n - 1));
+    const auto targets = [&](const char* way) { return plan.pair_targets.at(way); };
+    fmt::print(
+        "pairs      {} of a vesicle and another, whose layers it feels: at the start at {} nodes by rows, at {} by "
+        "sums, at {} by expansions\n",
+        n * (n - 1), targets("near"), targets("far"), targets("expanded"));
   }
   fmt::print("unknowns   {} a step\n", plan.unknowns);
   if (!plan.stops.empty()) {

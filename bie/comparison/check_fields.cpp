@@ -76,9 +76,10 @@ class FrozenSolver {
     result.charge = fields.charge;
     result.force_electric = fields.force_electric;
     result.potential_rate = solved_.vesicles.front().potential_rate;
-    const Vector& potential = state_.vesicles.front().transmembrane_potential;
-    const SecondKindSolution density = charge_density(potential);
-    const PotentialSources sources{electric_.field, potential, conductivity_contrast(electric_) * density.weighted};
+    const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields);
+    result.potential_of_charges = fields.potential;
+    result.free_charge_rate = solved_.vesicles.front().free_charge_rate;
+    const PotentialSources sources{electric_.field, potential, weighted_charge(potential)};
     keep_samples(result.sample_potential, where_possible(samples, 2, [&](const Matrix& points) {
                    const PotentialSamples at =
                        potential_at(points, Side::principal_value, position_, sources, {}, instruments_);
@@ -140,6 +141,12 @@ class FrozenSolver {
     result.velocity_of_shape = fields.velocity;
     if (position_.rows() != membrane_of(frozen_).position.rows()) return;
     result.velocity_truncation = fields.velocity - velocity_of(total_force(frozen_, fields));
+  }
+
+  /// J q of the state, coefficients.
+  [[nodiscard]] Vector weighted_charge(const Vector& potential) const {
+    if (relaxes_charge(frozen_.model)) return weighted(result.charge);
+    return conductivity_contrast(electric_) * charge_density(potential).weighted;
   }
 
   [[nodiscard]] SecondKindSolution charge_density(const Vector& potential) const {
@@ -207,7 +214,9 @@ CheckContents check_contents(const FrozenState& frozen) {
                                    frozen.source, sigma));
     }
     contents.steady = !applied_field(frozen).isZero(0.0);
-    contents.electric = contents.steady || !membrane_of(frozen).transmembrane_potential.isZero(0.0);
+    const VesicleState& membrane = membrane_of(frozen);
+    contents.electric =
+        contents.steady || !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
   }
   if (!contents.electric && !contents.flow) {
     throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",

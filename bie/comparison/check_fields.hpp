@@ -23,7 +23,9 @@ struct CheckFields {
   // From x, V_m and the time alone, as a run computes them.
   Vector charge;                 ///< q
   Matrix force_electric;         ///< f_E
-  Vector potential_rate;         ///< dV_m/dt of material points
+  Vector potential_rate;         ///< dV_m/dt of material points, or with displacement currents D(q_i/C_m)/Dt
+  Vector potential_of_charges;   ///< V_m that follows from free charges; with displacement currents alone
+  Vector free_charge_rate;       ///< D(q_i + q_e)/Dt over C_m; with displacement currents alone
   Matrix force_bending;          ///< f_b
   Matrix force_tension;          ///< f_λ
   Vector tension;                ///< λ

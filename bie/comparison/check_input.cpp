@@ -70,8 +70,11 @@ void write_physics(Hdf5Writer& file, const CheckInput& input) {
 void write_given(Hdf5Writer& file, const CheckInput& input) {
   file.group("/given");
   if (input.contents.electric) {
-    write(file, "/given/Vm", input.frozen.state.vesicles.front().transmembrane_potential,
+    const VesicleFields& fields = input.frozen.fields.vesicles.front();
+    write(file, "/given/Vm", transmembrane_potential(input.frozen.state.vesicles.front(), fields),
           {"potential", "V_m of the snapshot"});
+    write(file, "/given/free_charge_in", fields.free_charge_in, {"charge/area", "q_i of the inner face"});
+    write(file, "/given/free_charge_out", fields.free_charge_out, {"charge/area", "q_e of the outer face"});
   }
   if (input.contents.flow)
     write(file, "/given/force", input.force, {"force/area", "f on the fluid, f_b + f_lambda - f_E and others"});
@@ -105,6 +108,8 @@ void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields&
   field("q", fields.charge, {"potential/length", "q = [[d phi/d n]] of the given V_m"});
   field("force_electric", fields.force_electric, {"force/area", "f_E of the given V_m"});
   field("Vm_rate", fields.potential_rate, {"potential/time", "dV_m/dt of the given V_m"});
+  field("Vm_of_charges", fields.potential_of_charges, {"potential", "V_m of the given free charges"});
+  field("free_charge_rate", fields.free_charge_rate, {"potential/time", "rate of q_i + q_e over C_m"});
   field("force_bending", fields.force_bending, {"force/area", "f_b of the shape"});
   field("force_tension", fields.force_tension, {"force/area", "f_lambda of the shape and the given V_m"});
   field("tension", fields.tension, {"force/length", "lambda of the shape and the given V_m"});

@@ -27,14 +27,7 @@ void require_instant(const Scene& scene, const std::filesystem::path& file) {
       file.string()));
 }
 
-/// They know no charge of the fluids.
-void require_no_relaxing_charge(const Scene& scene, const std::filesystem::path& file) {
-  if (!has_relaxing_charge(scene)) return;
-  throw InputError(fmt::format(
-      "{}: has displacement currents; vehd check accepts fields without \"displacement_current\"", file.string()));
-}
-
-/// Nor what a membrane conducts that porates.
+/// They do not know what a membrane conducts that porates.
 void require_no_reaction(const Scene& scene, const std::filesystem::path& file) {
   if (!scene.poration || scene.poration->model == PorationModel::criterion) return;
   throw InputError(
@@ -76,7 +69,6 @@ FrozenState start_of_scene(const SceneSource& source) {
   const Scene scene = read_scene(source);
   require_one_vesicle(scene, source.file, "vehd check");
   require_instant(scene, source.file);
-  require_no_relaxing_charge(scene, source.file);
   require_no_reaction(scene, source.file);
   require_no_places(scene, source.file);
   FrozenState frozen;
@@ -101,7 +93,6 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   run.require_sealed(snapshot);
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   require_instant(scene, file);
-  require_no_relaxing_charge(scene, file);
   require_no_reaction(scene, file);
   require_no_places(scene, file);
   FrozenState frozen;
@@ -116,8 +107,8 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   VesicleState& vesicle = state.vesicles.emplace_back();
   vesicle.position = run.coefficients(snapshot, "x", 3);
   vesicle.area_strain = Vector::Zero(vesicle.position.rows());
-  if (frozen.model.electric) vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
-  if (frozen.model.vesicles.front().inextensible) vesicle.tension = Vector::Zero(vesicle.position.rows());
+  const VesicleModel& of_model = frozen.model.vesicles.front();
+  if (of_model.inextensible) vesicle.tension = Vector::Zero(vesicle.position.rows());
   VesicleFields& fields = frozen.fields.vesicles.emplace_back();
   fields.velocity = read("velocity", 3);
   fields.force_bending = read("force_bending", 3);
@@ -125,6 +116,16 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   fields.force_electric = read("force_electric", 3);
   fields.tension = read("tension", 1);
   fields.charge = read("q", 1);
+  if (relaxes_charge(frozen.model)) {
+    fields.potential = run.coefficients(snapshot, "Vm", 1);
+    fields.free_charge_in = run.coefficients(snapshot, "free_charge_in", 1);
+    fields.free_charge_out = run.coefficients(snapshot, "free_charge_out", 1);
+    const double capacitance = of_model.charging.capacitance;
+    vesicle.transmembrane_potential = fields.free_charge_in / capacitance;
+    vesicle.free_charge = (fields.free_charge_in + fields.free_charge_out) / capacitance;
+  } else if (frozen.model.electric) {
+    vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
+  }
   frozen.symmetry = symmetry_of(scene, frozen);
   frozen.settings = settings_of(scene);
   return frozen;

@@ -108,6 +108,10 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
     throw InputError(
         fmt::format("{}: without [electric] there is no V_m; --from accepts runs in a field", file.string()));
   }
+  if (relaxes_charge(end.model)) {
+    throw InputError(fmt::format("{}: has displacement currents; --from accepts runs without \"displacement_current\"",
+                                 file.string()));
+  }
   const RunReader run(file);
   const GivenTimes times(run, file);
   const SnapshotChoice choice = choose_snapshot(run, file, times.number_of(from), times.shown());

@@ -11,6 +11,8 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/vesicles.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evaluation/interacting_fields.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
@@ -96,6 +98,21 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
   return parts.empty() ? "nothing but its own term" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
+/// Of each way that layers between vesicles take, the targets at the start.
+std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, const MembraneSpace& space) {
+  if (problem.start.size() < 2) return {};
+  std::vector<Matrix> positions;
+  for (const StartMembrane& start : problem.start) {
+    positions.push_back(resize_order(start.position, problem.settings.order));
+  }
+  // Without layers the targets are sorted and no more.
+  std::vector<InteractingMembrane> membranes;
+  for (const Matrix& position : positions) membranes.push_back({position, space.targets(), {}});
+  Instruments instruments;
+  const Interaction sorted(membranes, pair_settings(problem.settings), instruments);
+  return instruments.pair_targets();
+}
+
 std::int64_t jumps_until(const Model& model, double end_time) {
   std::int64_t count = 0;
   for (auto time = next_discontinuity(model, 0.0); time && *time <= end_time; time = next_discontinuity(model, *time)) {
@@ -140,6 +157,7 @@ RunPlan plan_of(const Scene& scene) {
   const MembraneSpace space(problem.settings, symmetry);
   plan.kernel_evaluations =
       evaluations_per_assembly(space.quadrature(), space.targets(), symmetry.reflections, space.fold());
+  plan.pair_targets = pair_targets_of(problem, space);
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.n_jumps = jumps_until(model, scene.numerics.end_time);
   plan.unknowns =

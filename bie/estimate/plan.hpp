@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,9 @@ struct RunPlan {
   std::vector<RunTime> times;
   std::string symmetry;
   std::vector<PlannedOperator> operators;
-  std::uint64_t kernel_evaluations = 0;  ///< of each operator of a vesicle at each new shape
-  std::vector<std::string> vesicles;     ///< names of several
+  std::uint64_t kernel_evaluations = 0;               ///< of each operator of a vesicle at each new shape
+  std::vector<std::string> vesicles;                  ///< names of several
+  std::map<std::string, std::uint64_t> pair_targets;  ///< of several at the start, as in summary.json
   int shapes_per_step = 1;
   std::int64_t n_jumps = 0;   ///< of what acts, up to the end: at each the shape is evaluated once more
   std::int64_t unknowns = 0;  ///< independent scalars that the solves of a step find

@@ -20,6 +20,8 @@ const DatasetLabel electric_label{"force/area", "electric force f_E = [[n . Sigm
 const DatasetLabel contact_label{"force/area", "force of the contact potential on the fluid"};
 const DatasetLabel potential_label{"potential", "transmembrane potential V_m = [[phi]], interior minus exterior"};
 const DatasetLabel charge_label{"potential/length", "q = [[d phi/d n]], interior minus exterior"};
+const DatasetLabel inner_charge_label{"charge/area", "free charge of the inner face, C_m V_m - epsilon_i E_i"};
+const DatasetLabel outer_charge_label{"charge/area", "free charge of the outer face, epsilon_e E_e - C_m V_m"};
 const DatasetLabel potential_amplitude_label{"potential", "magnitude of the amplitude of V_m in an averaged ac field"};
 const DatasetLabel potential_part_label{"potential", "part of the amplitude z of V_m, which is Re(z exp(i omega t))"};
 const DatasetLabel phase_label{"1", "phase of V_m against the field in degrees, 0 where there is no V_m"};
@@ -158,6 +160,8 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, cons
   writer.field("force_contact", f.force_contact, contact_label);
   writer.field("Vm", transmembrane_potential(vesicle, f), potential_label);
   writer.field("q", f.charge, charge_label);
+  writer.field("free_charge_in", f.free_charge_in, inner_charge_label);
+  writer.field("free_charge_out", f.free_charge_out, outer_charge_label);
   write_amplitudes(writer, f.potential_amplitude, f.charge_amplitude);
   writer.field("poration", vesicle.poration, poration_label);
   const MembraneMaterial& material = vesicle.material;

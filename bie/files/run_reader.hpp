@@ -17,7 +17,7 @@ constexpr std::int64_t run_schema_version = 1;
 
 /// Datasets that a snapshot may have, in the order in which its checksum takes them; each on the grid, in coefficients/
 /// and in surface/.
-constexpr std::array<std::string_view, 24> snapshot_fields = {"x",
+constexpr std::array<std::string_view, 26> snapshot_fields = {"x",
                                                               "velocity",
                                                               "force_bending",
                                                               "force_tension",
@@ -25,6 +25,8 @@ constexpr std::array<std::string_view, 24> snapshot_fields = {"x",
                                                               "force_contact",
                                                               "Vm",
                                                               "q",
+                                                              "free_charge_in",
+                                                              "free_charge_out",
                                                               "Vm_amplitude",
                                                               "Vm_phase_deg",
                                                               "Vm_real",

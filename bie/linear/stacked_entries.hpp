@@ -18,6 +18,15 @@ class StackedEntries {
 
   [[nodiscard]] Index size() const { return size_; }
 
+  [[nodiscard]] std::size_t n_parts() const { return entries_.size(); }
+  /// Where the entries of a vector begin, and how many it has.
+  [[nodiscard]] Index first_of(std::size_t part) const {
+    Index first = 0;
+    for (std::size_t a = 0; a < part; ++a) first += count_of(a);
+    return first;
+  }
+  [[nodiscard]] Index count_of(std::size_t part) const { return static_cast<Index>(entries_[part].size()); }
+
   [[nodiscard]] Vector stack(const std::vector<Vector>& parts) const {
     Vector result(size_);
     Index first = 0;

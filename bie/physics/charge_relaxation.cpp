@@ -3,20 +3,11 @@
 #include <utility>
 
 #include "bie/linear/subspace_solve.hpp"
-#include "bie/physics/membrane_charging.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
-
-/// E_i = (aV − s_i)/k_i, E_e = (aV + s_e)/k_e: what conducts or is displaced on either side for what the membrane
-/// takes.
-struct FaceLaw {
-  double a = 0.0;      ///< of V
-  double k_in, k_out;  ///< of the fields
-  Vector s_in, s_out;  ///< coefficients
-};
 
 /// J (½ f + side S′[f]), coefficients.
 Vector half_and_adjoint(const Membrane& membrane, double side, const Vector& field) {
@@ -27,18 +18,9 @@ Vector half_and_adjoint(const Membrane& membrane, double side, const Vector& fie
 /// ½(E_i + E_e) + S′[E_e − E_i] − D′[V] = E·n with both fields in terms of V, times κ = k_i k_e/(k_i + k_e).
 SolveReport solve_law(const ElectricParameters& electric, const Membrane& membrane, const FaceLaw& law,
                       double tolerance, Vector& potential) {
-  ElectricParameters of_law = electric;
-  of_law.conductivity_in = law.k_in;
-  of_law.conductivity_out = law.k_out;
+  const ElectricParameters of_law = conducting(electric, law);
   const ChargingEquation equation(of_law, membrane, law.a);
-  const SphereTransform& fine = membrane.fine;
-  Vector rhs = fine.analyze(weighted_field_flux(membrane, electric.field)) +
-               half_and_adjoint(membrane, -1.0, law.s_in / law.k_in) -
-               half_and_adjoint(membrane, 1.0, law.s_out / law.k_out);
-  rhs *= equation.conduction();
-  // No net current: ∫(aV − s_i) dA = 0.
-  const double over_size = equation.conduction() / series_conductivity(of_law);
-  rhs[0] = over_size * membrane.weighted(fine.synthesize(law.s_in))(0, 0);
+  const Vector rhs = right_side_of(of_law, membrane, equation, law);
   if (potential.size() != rhs.size()) potential = Vector::Zero(rhs.size());
   const LinearMap map = [&](const Vector& v) { return equation.own(v); };
   const LinearMap preconditioner = [&](const Vector& r) { return equation.sphere_inverse(r); };
@@ -57,35 +39,87 @@ Vector without_mean(const Membrane& membrane, Vector values) {
 
 }  // namespace
 
-RelaxingField field_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
-                               const Membrane& membrane, const FaceCharges& charges, double tolerance,
-                               const Vector& start) {
+FaceLaw law_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
+                       const FaceCharges& charges) {
+  const double c = charging.capacitance;
+  return {c, permittivity_in(electric), electric.permittivity, c * charges.inner, c * (charges.sum - charges.inner)};
+}
+
+FaceLaw law_of_step(const ElectricParameters& electric, const ChargingParameters& charging, double dt,
+                    const FaceCharges& charges) {
   const double c = charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
-  RelaxingField field;
-  field.potential = start;
-  field.report = solve_law(electric, membrane, {c, in, out, c * charges.inner, c * (charges.sum - charges.inner)},
-                           tolerance, field.potential);
+  return {c / dt + charging.conductance, electric.conductivity_in + in / dt, electric.conductivity_out + out / dt,
+          (c / dt) * charges.inner, (c / dt) * (charges.sum - charges.inner)};
+}
+
+ElectricParameters conducting(const ElectricParameters& electric, const FaceLaw& law) {
+  ElectricParameters of_law = electric;
+  of_law.conductivity_in = law.k_in;
+  of_law.conductivity_out = law.k_out;
+  return of_law;
+}
+
+Vector right_side_of(const ElectricParameters& of_law, const Membrane& membrane, const ChargingEquation& equation,
+                     const FaceLaw& law) {
   const SphereTransform& fine = membrane.fine;
-  // E_e − E_i by C_m V, then the mean of both from their layers, which smooth: free of the truncation that C_m V − q_i
-  // would magnify.
+  Vector rhs = fine.analyze(weighted_field_flux(membrane, of_law.field)) +
+               half_and_adjoint(membrane, -1.0, law.s_in / law.k_in) -
+               half_and_adjoint(membrane, 1.0, law.s_out / law.k_out);
+  rhs *= equation.conduction();
+  const double over_size = equation.conduction() / series_conductivity(of_law);
+  rhs[0] = over_size * membrane.weighted(fine.synthesize(law.s_in))(0, 0);
+  return rhs;
+}
+
+FaceCharges charges_after(const ElectricParameters& electric, const ChargingParameters& charging, const FaceLaw& law,
+                          const Vector& potential) {
+  const double c = charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
+  const Vector field_in = (law.a * potential - law.s_in) / law.k_in;
+  const Vector field_out = (law.a * potential + law.s_out) / law.k_out;
+  return {potential - (in / c) * field_in, (out / c) * field_out - (in / c) * field_in};
+}
+
+Vector weighted_field_jump(const ElectricParameters& electric, const ChargingParameters& charging,
+                           const Membrane& membrane, const FaceCharges& charges, const Vector& potential) {
+  const double c = charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
   const Vector difference =
-      (c / out) * (field.potential + charges.sum - charges.inner) - (c / in) * (field.potential - charges.inner);
-  const Vector weighted = membrane.weighted(fine.synthesize(difference));
-  const Vector smoothed = fine.synthesize(membrane.layers.laplace_adjoint.apply(weighted));
-  const Vector mean =
-      (weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, field.potential) - smoothed)
-          .cwiseQuotient(membrane.surface.area_element);
-  const Vector free = c * fine.synthesize(charges.sum);
+      (c / out) * (potential + charges.sum - charges.inner) - (c / in) * (potential - charges.inner);
+  return membrane.weighted(membrane.fine.synthesize(difference));
+}
+
+ElectricTraces traces_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
+                                 const Membrane& membrane, const FaceCharges& charges, const Vector& potential,
+                                 const Vector& weighted_jump, const Vector& flux_of_others, const Vector& of_others) {
+  const SphereTransform& fine = membrane.fine;
+  const double in = permittivity_in(electric), out = electric.permittivity;
+  const Vector smoothed = fine.synthesize(membrane.layers.laplace_adjoint.apply(weighted_jump));
+  Vector weighted_mean =
+      weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential) - smoothed;
+  if (flux_of_others.size() > 0) weighted_mean += fine.synthesize(flux_of_others);
+  const Vector mean = weighted_mean.cwiseQuotient(membrane.surface.area_element);
+  const Vector free = charging.capacitance * fine.synthesize(charges.sum);
   const Vector jump = (2.0 / (in + out)) * ((in - out) * mean + free);
-  ElectricTraces& traces = field.traces;
+  ElectricTraces traces;
   traces.flux_in = 0.5 * jump - mean;
   traces.flux_out = -0.5 * jump - mean;
   traces.charge = jump;
   const Vector applied = fine.analyze(-(membrane.surface.position * electric.field));
-  const Vector between = applied - Vector(membrane.layers.laplace_double.apply(field.potential)) +
-                         Vector(membrane.layers.laplace_single.apply(weighted));
-  traces.potential_in = between + 0.5 * field.potential;
-  traces.potential_out = between - 0.5 * field.potential;
+  Vector between = applied - Vector(membrane.layers.laplace_double.apply(potential)) +
+                   Vector(membrane.layers.laplace_single.apply(weighted_jump));
+  if (of_others.size() > 0) between += of_others;
+  traces.potential_in = between + 0.5 * potential;
+  traces.potential_out = between - 0.5 * potential;
+  return traces;
+}
+
+RelaxingField field_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
+                               const Membrane& membrane, const FaceCharges& charges, double tolerance,
+                               const Vector& start) {
+  RelaxingField field;
+  field.potential = start;
+  field.report = solve_law(electric, membrane, law_of_charges(electric, charging, charges), tolerance, field.potential);
+  const Vector jump = weighted_field_jump(electric, charging, membrane, charges, field.potential);
+  field.traces = traces_of_charges(electric, charging, membrane, charges, field.potential, jump);
   return field;
 }
 
@@ -100,16 +134,10 @@ FaceCharges charge_rates(const ElectricParameters& electric, const ChargingParam
 
 SolveReport relax_charges(const ElectricParameters& electric, const ChargingParameters& charging,
                           const Membrane& membrane, double dt, double tolerance, FaceCharges& charges) {
-  const double c = charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
-  const FaceLaw law{c / dt + charging.conductance, electric.conductivity_in + in / dt,
-                    electric.conductivity_out + out / dt, (c / dt) * charges.inner,
-                    (c / dt) * (charges.sum - charges.inner)};
+  const FaceLaw law = law_of_step(electric, charging, dt, charges);
   Vector potential = charges.inner;
   const SolveReport report = solve_law(electric, membrane, law, tolerance, potential);
-  const Vector field_in = (law.a * potential - law.s_in) / law.k_in;
-  const Vector field_out = (law.a * potential + law.s_out) / law.k_out;
-  charges.inner = potential - (in / c) * field_in;
-  charges.sum = (out / c) * field_out - (in / c) * field_in;
+  charges = charges_after(electric, charging, law, potential);
   return report;
 }
 

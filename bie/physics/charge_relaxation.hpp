@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/electric.hpp"
+#include "bie/physics/membrane_charging.hpp"
 
 namespace vehd {
 
@@ -18,6 +18,42 @@ struct RelaxingField {
   ElectricTraces traces;  ///< the charge in them is [[∂φ/∂n]], no free charge
   SolveReport report;
 };
+
+/// What the faces of one membrane hold and let through for a V: E_i = (aV − s_i)/k_i, E_e = (aV + s_e)/k_e.
+struct FaceLaw {
+  double a = 0.0;      ///< of V
+  double k_in, k_out;  ///< of the fields: what conducts, or is displaced
+  Vector s_in, s_out;  ///< coefficients
+};
+
+/// q_i = C_m V − ε_i E_i and q_e = ε_e E_e − C_m V.
+FaceLaw law_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
+                       const FaceCharges& charges);
+/// One step of backward Euler from these charges, with K_k = σ_k + ε_k/dt.
+FaceLaw law_of_step(const ElectricParameters& electric, const ChargingParameters& charging, double dt,
+                    const FaceCharges& charges);
+/// The same field between fluids of conductivities k_i and k_e.
+ElectricParameters conducting(const ElectricParameters& electric, const FaceLaw& law);
+/// κ(E·n + ½(s_i/k_i − s_e/k_e) − S′[s_i/k_i + s_e/k_e]) of one membrane by itself, weighted and scaled as the equation
+/// is; no net current: degree 0 holds ∫(aV − s_i) dA = 0.
+/// @param of_law  conducting(electric, law)
+Vector right_side_of(const ElectricParameters& of_law, const Membrane& membrane, const ChargingEquation& equation,
+                     const FaceLaw& law);
+/// The charges at the end of a step that ends in V.
+FaceCharges charges_after(const ElectricParameters& electric, const ChargingParameters& charging, const FaceLaw& law,
+                          const Vector& potential);
+
+/// E_e − E_i on one membrane by C_m V, coefficients of J times it: the single layer beside V in the potential.
+Vector weighted_field_jump(const ElectricParameters& electric, const ChargingParameters& charging,
+                           const Membrane& membrane, const FaceCharges& charges, const Vector& potential);
+/// Traces that go with V and that layer. The mean of both fields is found from the layers, which smooth: free of the
+/// truncation that C_m V − q_i would magnify.
+/// @param flux_of_others, of_others  J n·∇ of the double layers less the single layers of other membranes, and their
+///     potential; coefficients, or empty
+ElectricTraces traces_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
+                                 const Membrane& membrane, const FaceCharges& charges, const Vector& potential,
+                                 const Vector& weighted_jump, const Vector& flux_of_others = {},
+                                 const Vector& of_others = {});
 
 /// Solves (½ + ηS′)(C_m V − q_i) − κ D′[V] = κ (E·n − ½ Q/ε_e − S′[Q/ε_e]), η and κ of the permittivities,
 /// Q = q_i + q_e, for V, and with it everything on the membrane.

@@ -3,6 +3,7 @@
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -38,11 +39,11 @@ std::vector<Vector> weighted_fluxes(const std::vector<ElectricMembrane>& membran
                                     const std::vector<Vector>& potentials) {
   const std::vector<Vector> of_others = interaction.weighted_double_flux(potentials);
   std::vector<Vector> fluxes(membranes.size());
-  for (const std::size_t a : interaction.shares().own(membranes.size())) {
+  for_each_member(interaction.shares().own(membranes.size()), [&](std::size_t a) {
     const Membrane& membrane = membranes[a].membrane;
     fluxes[a] = weighted_field_flux(membrane, membranes[a].electric.field) +
                 weighted_hypersingular(membrane, potentials[a]) + membrane.fine.synthesize(of_others[a]);
-  }
+  });
   return fluxes;
 }
 
@@ -70,7 +71,8 @@ CoupledDensities solve_second_kind(const std::vector<ElectricMembrane>& membrane
   const LinearMap map = [&](const Vector& unknowns) {
     const std::vector<Vector> weighted = densities_of(unknowns);
     std::vector<Vector> result = fluxes_of_others(membranes, interaction, weighted);
-    for (const std::size_t a : own) result[a] += second_kind_operator(membranes[a].membrane, etas[a], weighted[a]);
+    for_each_member(
+        own, [&](std::size_t a) { result[a] += second_kind_operator(membranes[a].membrane, etas[a], weighted[a]); });
     shares.gather(result);
     return stacked.stack(result);
   };

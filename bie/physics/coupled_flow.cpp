@@ -2,6 +2,7 @@
 
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -49,9 +50,8 @@ CoupledFlow::CoupledFlow(const std::vector<FlowMembrane>& membranes, const Inter
       jumps[b] = ratio == 1.0 ? Matrix() : Matrix((1.0 - ratio) * jumps[b]);
     }
     std::vector<Matrix> of_others = interaction.stokes_double(jumps);
-    for (const std::size_t a : interaction.shares().own(of_others.size())) {
-      of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a]));
-    }
+    for_each_member(interaction.shares().own(of_others.size()),
+                    [&](std::size_t a) { of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a])); });
     interaction.shares().gather(of_others);
     return v - stacked.stack(columns(of_others));
   };
@@ -65,14 +65,14 @@ CoupledFlow::CoupledFlow(CoupledFlow&&) noexcept = default;
 std::vector<Matrix> CoupledFlow::velocities(const std::vector<Matrix>& weighted,
                                             const std::vector<Matrix>& background) {
   std::vector<Matrix> result = interaction_.stokes_single(weighted);
-  for (const std::size_t a : interaction_.shares().own(result.size())) {
+  for_each_member(interaction_.shares().own(result.size()), [&](std::size_t a) {
     const Membrane& membrane = membranes_[a].membrane;
     if (weighted[a].size() > 0 && !membrane.layers.stokes_single.empty())
       result[a] += membrane.layers.stokes_single.apply(weighted[a]);
     result[a] /= membranes_[a].parameters.viscosity;
     if (!background.empty()) result[a] += background[a];
     result[a] = membrane.velocity(std::move(result[a]));
-  }
+  });
   if (!contrast_) return result;
   interaction_.shares().gather(result);
   const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(columns(result)), {}, kWithinSolve);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <optional>
 
 #include "bie/potentials/far_expansions.hpp"
@@ -41,22 +40,10 @@ struct Interaction::Parts {
   std::optional<FarExpansions> expansions;  ///< for all others, where there are any
 
   [[nodiscard]] std::size_t n() const { return targets.size(); }
-  /// Those of this rank, over threads: membranes if there are many, else what is done for each.
+  /// Those of this rank.
   template <class Body>
   void for_each_membrane(const Body& body) const {
-    const std::vector<std::size_t> own = shares.own(n());
-    std::vector<std::exception_ptr> exceptions(own.size());
-    for_each_index(std::ssize(own), n() > kFewMembranes, [&](Index i) {
-      const auto k = static_cast<std::size_t>(i);
-      try {
-        body(own[k]);
-      } catch (...) {
-        exceptions[k] = std::current_exception();
-      }
-    });
-    for (const std::exception_ptr& exception : exceptions) {
-      if (exception) std::rethrow_exception(exception);
-    }
+    for_each_member(shares.own(n()), body);
   }
 
   /// @param layer     of one membrane at the nodes of those that are near to it
@@ -179,6 +166,10 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     }
   }
   parts_ = std::move(parts);
+  const PairCounts all = counts();
+  instruments.count_pair_targets("near", static_cast<std::uint64_t>(all.near));
+  instruments.count_pair_targets("far", static_cast<std::uint64_t>(all.far));
+  instruments.count_pair_targets("expanded", static_cast<std::uint64_t>(all.expanded));
 }
 
 Interaction::~Interaction() = default;

@@ -28,7 +28,8 @@ struct InteractingMembrane {
 /// Source: paper Eqs. (6), (8), (9) with source and target on different membranes
 class Interaction {
  public:
-  /// @param settings  memory for rows is that of all
+  /// @param settings     memory for rows is that of all
+  /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
   /// @throws ConvergenceError if two membranes intersect or are too near for any rule, on the rank of one of them
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings, Instruments& instruments,
               Shares shares = {});

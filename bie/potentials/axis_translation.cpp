@@ -1,6 +1,7 @@
 #include "bie/potentials/axis_translation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -29,11 +30,15 @@ double binomial(int n, int k) {
 struct AxisTranslation::Batch {
   Vector values, spare;
   Vector cosine, sine;  ///< of m times the polar angle, of each column
+  /// Of m times the azimuth, of each source.
+  Matrix azimuth_cosine, azimuth_sine;
   explicit Batch(int degree)
       : values(n_solid(degree) * kTogetherTurned),
         spare(std::max(n_solid(degree), Index{2} * (degree + 1)) * kTogetherTurned),
         cosine((degree + 1) * kTogetherTurned),
-        sine(cosine.size()) {}
+        sine(cosine.size()),
+        azimuth_cosine(degree + 1, kTogetherTurned),
+        azimuth_sine(degree + 1, kTogetherTurned) {}
 };
 
 AxisTranslation::AxisTranslation(int degree)
@@ -176,14 +181,20 @@ void AxisTranslation::add_local(std::span<const DistantMoments> sources, Batch& 
   for (const DistantMoments& source : sources) degree = std::max(degree, source.degree);
   if (static_cast<Index>(sources.size()) * kColumns < kWidth) batch.values.setZero();
 
+  std::array<double, kTogetherTurned> inverse_distance;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const WayAngles way(sources[i].offset);
+    inverse_distance[i] = 1.0 / way.distance;
     const auto first = static_cast<Index>(i) * kColumns;
     const auto to = [&](Index row) { return few(batch.values.data() + row * kWidth + first); };
-    Multiples polar{way.cosine_polar, way.sine_polar};
-    for (int m = 0; m <= degree; ++m, polar.next()) {
+    Multiples polar{way.cosine_polar, way.sine_polar}, azimuth{way.cosine_azimuth, way.sine_azimuth};
+    double* cosines = batch.azimuth_cosine.col(static_cast<Index>(i)).data();
+    double* sines = batch.azimuth_sine.col(static_cast<Index>(i)).data();
+    for (int m = 0; m <= degree; ++m, polar.next(), azimuth.next()) {
       few(batch.cosine.data() + m * kWidth + first) = polar.c;
       few(batch.sine.data() + m * kWidth + first) = polar.s;
+      cosines[m] = azimuth.c;
+      sines[m] = azimuth.s;
     }
     const RowMatrix& moments = *sources[i].moments;
     const auto from = [&](Index row) -> Few {
@@ -193,14 +204,12 @@ void AxisTranslation::add_local(std::span<const DistantMoments> sources, Batch& 
       return entry;
     };
     double power = 1.0;
-    for (int l = 0; l <= degree; ++l, power /= way.distance) {
+    for (int l = 0; l <= degree; ++l, power *= inverse_distance[i]) {
       to(cosine_at(l, 0)) = power * from(cosine_at(l, 0));
-      Multiples azimuth{way.cosine_azimuth, way.sine_azimuth};
       for (int m = 1; m <= l; ++m) {
-        azimuth.next();
         const Few a = power * from(cosine_at(l, m)), b = power * from(sine_at(l, m));
-        to(cosine_at(l, m)) = azimuth.c * a + azimuth.s * b;
-        to(sine_at(l, m)) = azimuth.c * b - azimuth.s * a;
+        to(cosine_at(l, m)) = cosines[m] * a + sines[m] * b;
+        to(sine_at(l, m)) = cosines[m] * b - sines[m] * a;
       }
     }
   }
@@ -215,18 +224,17 @@ void AxisTranslation::add_local(std::span<const DistantMoments> sources, Batch& 
   quarter_turn(degree, false, spare, values);
 
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const WayAngles way(sources[i].offset);
+    const double* cosines = batch.azimuth_cosine.col(static_cast<Index>(i)).data();
+    const double* sines = batch.azimuth_sine.col(static_cast<Index>(i)).data();
     const auto from = [&](Index row) -> Few { return few(values + row * kWidth + static_cast<Index>(i) * kColumns); };
     const auto to = [&](Index row) { return few(sum.row(row).data()); };
-    double power = 1.0 / way.distance;
-    for (int l = 0; l <= degree; ++l, power /= way.distance) {
+    double power = inverse_distance[i];
+    for (int l = 0; l <= degree; ++l, power *= inverse_distance[i]) {
       to(cosine_at(l, 0)) += power * from(cosine_at(l, 0));
-      Multiples azimuth{way.cosine_azimuth, way.sine_azimuth};
       for (int m = 1; m <= l; ++m) {
-        azimuth.next();
         const Few a = power * from(cosine_at(l, m)), b = power * from(sine_at(l, m));
-        to(cosine_at(l, m)) += azimuth.c * a - azimuth.s * b;
-        to(sine_at(l, m)) += azimuth.c * b + azimuth.s * a;
+        to(cosine_at(l, m)) += cosines[m] * a - sines[m] * b;
+        to(sine_at(l, m)) += cosines[m] * b + sines[m] * a;
       }
     }
   }

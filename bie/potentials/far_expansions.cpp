@@ -18,13 +18,6 @@ constexpr int kHighestDegree = 24;
 constexpr int kMoreDegrees = 2;
 constexpr double kPi = std::numbers::pi;
 
-/// Aᵀ B for B of few columns, each column of A read once: a product that rearranges A takes three times as long.
-Matrix few_columns(const Matrix& a, const Matrix& b) {
-  RowMatrix result(a.cols(), b.cols());
-  result = a.transpose().lazyProduct(b);
-  return result;
-}
-
 }  // namespace
 
 FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance,
@@ -69,7 +62,7 @@ void FarExpansions::find_places(const std::vector<ExpandedMembrane>& membranes, 
   }
   shares_.gather(radii);
   for (std::size_t a = 0; a < membranes.size(); ++a) {
-    const Place of_another{centres[a] / scale_, radii[a], nodes[a], {}, {}, {}, {}, {}, {}, {}};
+    const Place of_another{centres[a] / scale_, radii[a], nodes[a], {}, {}, {}, MomentSums(Matrix()), {}, {}, {}};
     places_.push_back(places[a] ? *std::move(places[a]) : of_another);
   }
 }
@@ -82,7 +75,7 @@ FarExpansions::Place FarExpansions::place_of(const ExpandedMembrane& membrane, c
   };
   Matrix from_centre = about_centre(grid.nodes.leftCols(3)), targets = about_centre(membrane.points);
   const double radius = std::max(from_centre.rowwise().norm().maxCoeff(), targets.rowwise().norm().maxCoeff());
-  Matrix regular = regular_harmonics(from_centre, kHighestDegree);
+  MomentSums sums(regular_harmonics(from_centre, kHighestDegree));
   Matrix target_regular = regular_harmonics(targets, kHighestDegree);
   return {centre / scale_,
           radius,
@@ -90,7 +83,7 @@ FarExpansions::Place FarExpansions::place_of(const ExpandedMembrane& membrane, c
           grid.weight,
           std::move(from_centre),
           grid.area_vectors,
-          std::move(regular),
+          std::move(sums),
           std::move(targets),
           membrane.normals,
           std::move(target_regular)};
@@ -119,9 +112,9 @@ Index FarExpansions::n_targets() const {
 }
 
 Matrix FarExpansions::dipole_moments(const Place& place, const std::vector<Matrix>& components) const {
-  Matrix sums = Matrix::Zero(place.regular.cols(), components.front().cols());
+  Matrix sums = Matrix::Zero(n_solid(kHighestDegree), components.front().cols());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    sums += derivative_[axis].transpose() * Matrix(place.regular.transpose() * components[axis]);
+    sums += derivative_[axis].transpose() * place.sums.of(components[axis]);
   }
   return moments(sums);
 }
@@ -133,7 +126,7 @@ std::vector<Matrix> FarExpansions::single_moments(const std::vector<Vector>& wei
     if (!has_density(b, weighted[b])) continue;
     const Place& place = places_[b];
     const Vector charges = place.weight.cwiseProduct(place.nodes.synthesize(weighted[b]).col(0));
-    result[b] = moments(few_columns(place.regular, charges));
+    result[b] = moments(place.sums.of(charges));
   }
   return result;
 }
@@ -154,6 +147,7 @@ std::vector<Matrix> FarExpansions::double_moments(const std::vector<Vector>& den
 
 std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, bool is_stokes) const {
   std::vector<RowMatrix> turnable(places_.size());
+#pragma omp parallel for schedule(static)
   for (std::size_t b = 0; b < places_.size(); ++b) {
     if (moments[b].size() > 0) turnable[b] = translation_.turnable(moments[b]);
   }
@@ -174,6 +168,7 @@ std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, boo
 
 std::vector<Matrix> FarExpansions::scalar_values(const std::vector<Matrix>& moments, double factor) const {
   std::vector<Matrix> values = local(moments, false);
+#pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < places_.size(); ++a) {
     if (shares_.owns(a)) values[a] = factor * (places_[a].target_regular * values[a]);
   }
@@ -182,6 +177,7 @@ std::vector<Matrix> FarExpansions::scalar_values(const std::vector<Matrix>& mome
 
 std::vector<Matrix> FarExpansions::scalar_slopes(const std::vector<Matrix>& moments, double factor) const {
   std::vector<Matrix> values = local(moments, false);
+#pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < places_.size(); ++a) {
     if (!shares_.owns(a)) continue;
     const Place& place = places_[a];
@@ -244,7 +240,7 @@ std::vector<Matrix> FarExpansions::stokes_single(const std::vector<Matrix>& weig
     Matrix charges(place.weight.size(), 4);
     charges.leftCols(3) = place.weight.asDiagonal() * place.nodes.synthesize(weighted[b]);
     charges.col(3) = place.from_centre.cwiseProduct(charges.leftCols(3)).rowwise().sum();
-    all[b] = moments(few_columns(place.regular, charges));
+    all[b] = moments(place.sums.of(charges));
   }
   return stokes_values(all, 1.0 / (8.0 * kPi * scale_));
 }

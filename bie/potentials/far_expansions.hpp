@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bie/potentials/axis_translation.hpp"
+#include "bie/potentials/moment_sums.hpp"
 #include "bie/potentials/shared_transforms.hpp"
 #include "bie/support/ranks/shares.hpp"
 
@@ -57,7 +58,7 @@ class FarExpansions {
     SphereTransform nodes;
     Vector weight;
     Matrix from_centre, area_vectors;  ///< of the nodes
-    Matrix regular;                    ///< at the nodes, [n_nodes x n_solid]
+    MomentSums sums;                   ///< over the nodes
     Matrix target_from_centre, target_normals, target_regular;
   };
   struct FarSource {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "bie/potentials/far_rule.hpp"
@@ -25,10 +26,14 @@ struct SampledMembrane {
   Vector3 middle;  ///< mean of the nodes
   double reach;    ///< largest distance of a node from it
 
-  explicit SampledMembrane(const Matrix& coefficients) : position(coefficients) {
+  static SphereTransform transform_of(int order) {
     constexpr int kCoarsest = 12;
-    const int order = order_of(coefficients.rows());
-    const SphereTransform transform(order, make_grid(std::max(order, kCoarsest)));
+    return {order, make_grid(std::max(order, kCoarsest))};
+  }
+  explicit SampledMembrane(const Matrix& coefficients)
+      : SampledMembrane(coefficients, transform_of(order_of(coefficients.rows()))) {}
+  /// @param transform  transform_of its degree
+  SampledMembrane(const Matrix& coefficients, const SphereTransform& transform) : position(coefficients) {
     grid = transform.grid();
     nodes = transform.synthesize(coefficients);
     middle = nodes.colwise().mean().transpose();
@@ -157,7 +162,13 @@ NearestPoints nearest_points(const Matrix& first, const Matrix& second) {
 
 ClosestPair closest_pair(const std::vector<Matrix>& membranes) {
   std::vector<SampledMembrane> sampled;
-  for (const Matrix& membrane : membranes) sampled.emplace_back(membrane);
+  std::map<int, SphereTransform> transforms;
+  for (const Matrix& membrane : membranes) {
+    const int order = order_of(membrane.rows());
+    auto found = transforms.find(order);
+    if (found == transforms.end()) found = transforms.emplace(order, SampledMembrane::transform_of(order)).first;
+    sampled.emplace_back(membrane, found->second);
+  }
   struct Candidate {
     double least;  ///< what the gap is at least
     std::size_t first, second;

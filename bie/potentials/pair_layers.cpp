@@ -179,7 +179,9 @@ struct PairLayers::Data {
     FarRules rules(at.source, transforms);
     const std::map<int, std::vector<Index>> far = sort_targets(rules);
     counts.near = static_cast<Index>(near.targets.size());
-    near.rows = rows_of_near_targets(at, near.targets, near.columns, {settings.tolerance, settings.max_rules});
+    if (near.columns.count > 0) {
+      near.rows = rows_of_near_targets(at, near.targets, near.columns, {settings.tolerance, settings.max_rules});
+    }
     double room = settings.row_bytes;
     std::map<int, std::vector<Index>> of_single;
     for (const auto& [q, targets] : far) {

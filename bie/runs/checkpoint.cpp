@@ -72,7 +72,8 @@ constexpr const char* responses_of = "_responses";
 std::string totals_text(const RunTotals& totals) {
   const nlohmann::json json = {{"seconds", totals.seconds},
                                {"kernel_evaluations", totals.kernel_evaluations},
-                               {"seconds_of_parts", totals.seconds_of_parts}};
+                               {"seconds_of_parts", totals.seconds_of_parts},
+                               {"pair_targets", totals.pair_targets}};
   return json.dump();
 }
 
@@ -80,7 +81,8 @@ RunTotals totals_of(const std::string& text, const Hdf5Reader& file) {
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
     return {json.at("seconds").get<double>(), json.at("kernel_evaluations").get<std::map<std::string, std::uint64_t>>(),
-            json.at("seconds_of_parts").get<std::map<std::string, double>>()};
+            json.at("seconds_of_parts").get<std::map<std::string, double>>(),
+            json.value("pair_targets", std::map<std::string, std::uint64_t>())};
   } catch (const nlohmann::json::exception& error) {
     file.refuse(fmt::format("/totals is damaged ({})", error.what()));
   }

@@ -17,6 +17,7 @@ struct RunTotals {
   double seconds = 0.0;
   std::map<std::string, std::uint64_t> kernel_evaluations;
   std::map<std::string, double> seconds_of_parts;
+  std::map<std::string, std::uint64_t> pair_targets{};  ///< see Instruments
 };
 
 /// What error bars need to go on, see ErrorBars. Rows have the columns of history.csv, without units.

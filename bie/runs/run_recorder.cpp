@@ -55,8 +55,9 @@ SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Ch
 /// Lists the fields of the snapshots. @param has  whether they have the field of this name
 template <typename Predicate>
 void name_fields(XdmfSeries& series, const Predicate& has) {
-  for (const char* name : {"Vm", "q", "Vm_amplitude", "Vm_phase_deg", "q_amplitude", "poration", "conductance",
-                           "capacitance", "pump_current", "bending_modulus", "spontaneous_curvature", "tension"}) {
+  for (const char* name :
+       {"Vm", "q", "free_charge_in", "free_charge_out", "Vm_amplitude", "Vm_phase_deg", "q_amplitude", "poration",
+        "conductance", "capacitance", "pump_current", "bending_modulus", "spontaneous_curvature", "tension"}) {
     if (has(name)) series.scalars.emplace_back(name);
   }
   for (const char* name : {"velocity", "force_bending", "force_tension", "force_electric", "force_contact"}) {

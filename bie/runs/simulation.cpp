@@ -37,11 +37,13 @@ HistoryRow row_in_laboratory(const LabFrameOutput& laboratory, int order, const 
 RunTotals WorkMeter::totals() const {
   RunTotals totals = before_;
   totals.seconds += seconds();
-  for (const std::string& of_rank : ranks_.gather(packed(instruments_.kernel_evaluations()))) {
-    for (const auto& [name, count] : unpacked<std::map<std::string, std::uint64_t>>(of_rank)) {
-      totals.kernel_evaluations[name] += count;
+  const auto add = [&](const std::map<std::string, std::uint64_t>& own, auto& sums) {
+    for (const std::string& of_rank : ranks_.gather(packed(own))) {
+      for (const auto& [name, count] : unpacked<std::map<std::string, std::uint64_t>>(of_rank)) sums[name] += count;
     }
-  }
+  };
+  add(instruments_.kernel_evaluations(), totals.kernel_evaluations);
+  add(instruments_.pair_targets(), totals.pair_targets);
   for (const auto& [name, seconds] : instruments_.seconds()) totals.seconds_of_parts[name] += seconds;
   return totals;
 }

@@ -40,6 +40,8 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
   fields.force_contact = matrix("force_contact");
   fields.tension = vector("tension");
   fields.charge = vector("q");
+  fields.free_charge_in = vector("free_charge_in");
+  fields.free_charge_out = vector("free_charge_out");
   if (source.has(group + "/coefficients/Vm_real")) {
     fields.potential_amplitude = amplitude("Vm_real", "Vm_imaginary");
     fields.charge_amplitude = amplitude("q_real", "q_imaginary");

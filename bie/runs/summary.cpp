@@ -84,6 +84,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   if (history.has("poration_time")) json["poration"] = poration_of(history);
   json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));
   json["kernel_evaluations"] = totals.kernel_evaluations;
+  if (!totals.pair_targets.empty()) json["pair_targets"] = totals.pair_targets;
   json["version"] = program_version();
   return json;
 }

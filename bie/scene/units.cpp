@@ -49,6 +49,7 @@ std::vector<Dimension> make_dimensions() {
       {"force/area", {0, -1, 1, 0}, {{"Pa"}}},
       {"force/length", {1, -1, 1, 0}, {{"N/m"}, {"mN/m", 1, 1e3}, {"J/m^2"}, {"mJ/m^2", 1, 1e3}, {"uJ/m^2", 1, 1e6}}},
       {"potential/length", {-1, 0, 0, 1}, {{"V/m"}}},
+      {"charge/area", {1, -1, 1, -1}, {{"C/m^2"}}},
       {"dipole", {4, -1, 1, -1}, {{"C m"}}},
       {"power", {3, -2, 1, 0}, {{"W"}}},
       {"force", {2, -1, 1, 0}, {{"N"}}},

@@ -72,11 +72,6 @@ class VesicleChecks {
   }
 
   void check_electric() const {
-    if (has_relaxing_charge(scene_)) {
-      refuse(0,
-             "\"displacement_current\" in [electric] is true with several vesicles; accepted: of one vesicle, or with "
-             "\"average\" in [electric.waveform]");
-    }
     const auto is_steady = [](const VesicleScene& vesicle) {
       return vesicle.electric->initial_potential == InitialPotential::steady;
     };
@@ -141,7 +136,8 @@ class VesicleChecks {
     const double gap = nearest_points(positions[a], positions[b]).gap;
     const Matrix& first = positions[a];
     // Far from that, whatever the radius is exactly.
-    if (gap > first.bottomRows(first.rows() - 1).norm()) return;
+    constexpr double kFar = 0.01;
+    if (gap > kFar * first.bottomRows(first.rows() - 1).norm()) return;
     const double area = std::min(vehd::size_of(positions[a]).area, vehd::size_of(positions[b]).area);
     const double relative = gap / std::sqrt(area / (4.0 * std::numbers::pi));
     if (relative >= thresholds::smallest_gap) return;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evaluation/charge_difference.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
 #include "bie/stepping/first_step.hpp"
@@ -75,17 +76,14 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       discretisation_(discretisation_of(setup_, state)),
       state_(std::move(state)) {}
 
-/// Of a start whose charge, which moves V_m, needs more than its shape and V_m do. @returns whether any rose
+/// Of a start whose charge, which moves V_m, needs more than its shape and V_m do: a spectrum that is cut too early
+/// says little of how many degrees more. @returns whether any rose
 bool Evolution::raise_orders_for_charge() {
   std::vector<int> orders;
   bool raised = false;
   for (std::size_t a = 0; a < start_.size(); ++a) {
     orders.push_back(order(a));
-    const VesicleFields& fields = evaluation_.fields.vesicles[a];
-    const Matrix charge = is_averaged(setup_.model) ? fields.charge_amplitude : Matrix(fields.charge);
-    if (!adapts() || order(a) >= setup_.settings.order || charge.size() == 0) continue;
-    if (Resolution(charge).remainder() <= thresholds::charge_share * setup_.control.tolerance) continue;
-    // A spectrum that is cut too early says little of how many degrees more are needed.
+    if (!adapts() || !setup_.model.electric || order(a) >= setup_.settings.order) continue;
     orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
     raised = true;
   }
@@ -97,14 +95,15 @@ bool Evolution::raise_orders_for_charge() {
     start_at(orders, start_);
     evaluation_ = {};
     arrive(state_);
-    return true;
+    if (charge_difference(setup_.model, discretisation_, evaluation, evaluation_) > truncation_target(setup_))
+      return true;
   } catch (const ConvergenceError&) {
     // A higher degree that cannot be had now may be asked for again by a step.
-    discretisation_ = discretisation;
-    state_ = state;
-    evaluation_ = evaluation;
-    return false;
   }
+  discretisation_ = discretisation;
+  state_ = state;
+  evaluation_ = evaluation;
+  return false;
 }
 
 void Evolution::evaluate_start() {

@@ -54,16 +54,37 @@ class Instruments {
 
   /// Kernel evaluations are counted one per (target, quadrature node) pair, whatever the number of components.
   void count_kernel(const std::string& kernel, std::uint64_t evaluations) { kernels_[kernel] += evaluations; }
+  /// Counts targets on one membrane of the layers of another, by the way that these take there.
+  void count_pair_targets(const std::string& way, std::uint64_t targets) { pair_targets_[way] += targets; }
   /// Times a part until the end of the scope.
   [[nodiscard]] ScopedTimer time(const std::string& part) { return {*this, part}; }
 
+  /// Adds what others have counted that ran side by side, on threads. Each part gets its share of the wall time that
+  /// they took together, which is taken from the part around it.
+  template <class Others>
+  void take_side_by_side(const Others& others, double wall_seconds) {
+    double sum = 0.0;
+    for (const Instruments& other : others) {
+      for (const auto& [kernel, evaluations] : other.kernels_) kernels_[kernel] += evaluations;
+      for (const auto& [way, targets] : other.pair_targets_) pair_targets_[way] += targets;
+      for (const auto& [part, seconds] : other.seconds_) sum += seconds;
+    }
+    if (!(sum > 0.0)) return;
+    for (const Instruments& other : others) {
+      for (const auto& [part, seconds] : other.seconds_) seconds_[part] += wall_seconds * seconds / sum;
+    }
+    if (running_ != nullptr) *running_ -= wall_seconds;
+  }
+
   /// Evaluations so far by the name of the kernel.
   const std::map<std::string, std::uint64_t>& kernel_evaluations() const { return kernels_; }
+  /// Targets of pairs so far by the way that the layers take.
+  const std::map<std::string, std::uint64_t>& pair_targets() const { return pair_targets_; }
   /// Wall time so far by the name of the part.
   const std::map<std::string, double>& seconds() const { return seconds_; }
 
  private:
-  std::map<std::string, std::uint64_t> kernels_;
+  std::map<std::string, std::uint64_t> kernels_, pair_targets_;
   std::map<std::string, double> seconds_;
   double* running_ = nullptr;
   PartObserver* observer_;

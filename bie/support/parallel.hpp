@@ -1,5 +1,13 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <iterator>
+#include <vector>
+
+#include "bie/support/instruments.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -14,6 +22,61 @@ void for_each_index(Index count, bool worthwhile, const Body& body) {
   }
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < count; ++i) body(i);
+}
+
+/// Are there so many members of a group that threads share them? With fewer they share what is done for each.
+inline bool are_many(Index count) {
+  constexpr Index kFew = 8;
+  return count > kFew;
+}
+
+/// Calls body(i) for the members i = 0 … count − 1 of a group, on all threads if there are many, in an order that no
+/// result may depend on. If some throw, what the first of them threw is thrown once all have ended.
+template <typename Body>
+void for_each_member(Index count, const Body& body) {
+  if (!are_many(count)) {
+    for (Index i = 0; i < count; ++i) body(i);
+    return;
+  }
+  std::vector<std::exception_ptr> exceptions(static_cast<std::size_t>(count));
+#pragma omp parallel for schedule(dynamic, 1)
+  for (Index i = 0; i < count; ++i) {
+    try {
+      body(i);
+    } catch (...) {
+      exceptions[static_cast<std::size_t>(i)] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& exception : exceptions) {
+    if (exception) std::rethrow_exception(exception);
+  }
+}
+
+/// The same for these members: body(member).
+template <typename Body>
+void for_each_member(const std::vector<std::size_t>& members, const Body& body) {
+  for_each_member(std::ssize(members), [&](Index i) { body(members[static_cast<std::size_t>(i)]); });
+}
+
+/// The same where members count their work: body(i, instruments).
+template <typename Body>
+void for_each_member(Index count, Instruments& instruments, const Body& body) {
+  if (!are_many(count)) {
+    for (Index i = 0; i < count; ++i) body(i, instruments);
+    return;
+  }
+  std::deque<Instruments> of_each(static_cast<std::size_t>(count));
+  const auto start = std::chrono::steady_clock::now();
+  for_each_member(count, [&](Index i) { body(i, of_each[static_cast<std::size_t>(i)]); });
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  instruments.take_side_by_side(of_each, elapsed.count());
+}
+
+/// The same for these members: body(member, instruments).
+template <typename Body>
+void for_each_member(const std::vector<std::size_t>& members, Instruments& instruments, const Body& body) {
+  for_each_member(std::ssize(members), instruments,
+                  [&](Index i, Instruments& of_one) { body(members[static_cast<std::size_t>(i)], of_one); });
 }
 
 }  // namespace vehd

@@ -78,6 +78,10 @@ BieFields read_fields(const Hdf5Input& file, const std::string& group, const Che
     fields.charge = of.required("q", 1);
     fields.force_electric = of.required("force_electric", 3);
     fields.potential_rate = of.required("Vm_rate", 1);
+    if (input.charged_faces()) {
+      fields.potential_of_charges = of.required("Vm_of_charges", 1);
+      fields.free_charge_rate = of.required("free_charge_rate", 1);
+    }
     fields.steady_potential = of.optional("Vm_steady", 1);
     if (input.physics.field.norm() > 0.0) fields.steady_potential = of.required("Vm_steady", 1);
     if (fields.steady_potential.size() > 0) fields.steady_charge = of.required("q_steady", 1);
@@ -178,8 +182,11 @@ CheckInput read_check_input(const std::filesystem::path& path) {
   const int order = static_cast<int>(file.number("/", "order"));
   input.position = Coefficients(file, "", order).required("x", 3);
   input.physics = read_physics(file);
-  input.potential = Coefficients(file, "/given", order).optional("Vm", 1);
-  input.force = Coefficients(file, "/given", order).optional("force", 3);
+  const Coefficients given(file, "/given", order);
+  input.potential = given.optional("Vm", 1);
+  input.free_charge_in = given.optional("free_charge_in", 1);
+  if (input.charged_faces()) input.free_charge_out = given.required("free_charge_out", 1);
+  input.force = given.optional("force", 3);
   if (!input.electric() && !input.flow()) file.refuse("has neither /given/Vm nor /given/force: nothing to compare");
   input.stored = read_stored(file, input);
   input.bie = read_fields(file, "/bie", input);

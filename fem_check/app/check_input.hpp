@@ -30,6 +30,7 @@ struct BieFields {
   int order = 0;
   // Of x and V_m alone.
   Eigen::MatrixXd charge, force_electric, potential_rate;
+  Eigen::MatrixXd potential_of_charges, free_charge_rate;  ///< with displacement currents alone
   Eigen::MatrixXd force_bending, force_tension, tension;
   bool tension_is_free = false;         ///< a uniform tension does nothing
   Eigen::MatrixXd velocity_of_shape;    ///< of all these forces
@@ -75,8 +76,9 @@ struct CheckInput {
   double time = 0.0;
   Eigen::MatrixXd position;
   Physics physics;
-  Eigen::MatrixXd potential;  ///< V_m of the snapshot
-  Eigen::MatrixXd force;      ///< f on the fluid
+  Eigen::MatrixXd potential;                        ///< V_m of the snapshot
+  Eigen::MatrixXd free_charge_in, free_charge_out;  ///< q_i and q_e of its faces; with displacement currents alone
+  Eigen::MatrixXd force;                            ///< f on the fluid
   StoredFields stored;
   BieFields bie;       ///< in the order of the state: what is compared
   BieFields bie_high;  ///< in another one: what estimates the error of the first
@@ -84,6 +86,7 @@ struct CheckInput {
   std::optional<InTime> in_time;
 
   [[nodiscard]] bool electric() const { return potential.size() > 0; }
+  [[nodiscard]] bool charged_faces() const { return free_charge_in.size() > 0; }
   [[nodiscard]] bool steady() const { return bie.steady_potential.size() > 0; }
   [[nodiscard]] bool flow() const { return force.size() > 0; }
 };

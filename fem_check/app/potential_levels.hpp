@@ -11,15 +11,17 @@
 
 namespace vehd::fem_check {
 
-/// Potentials at rising degree. Surface fields: q, flux_in = ∂φ_i/∂n and force (V_m given), Vm and q_steady (membrane
-/// law); samples: potential.
+/// Potentials at rising degree. Surface fields: q, flux_in = ∂φ_i/∂n and force (V_m given, or with displacement
+/// currents the charges of both faces), Vm_of_charges and free_current = σ_i E_i − σ_e E_e of those charges, Vm and
+/// q_steady (membrane law); samples: potential.
 struct PotentialLevels {
   LevelSequence sequence;
-  std::vector<PotentialSolution> solutions;  ///< of every level, V_m given
+  std::vector<PotentialSolution> solutions;  ///< of every level, V_m or charges given
   std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
 };
 
-/// Solves the potential with V_m given, and under the membrane law where the input has that. @throws SolveError
+/// Solves the potential with V_m or charges given, and under the membrane law where the input has that. @throws
+/// SolveError
 PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
                                        const Report& report);
 

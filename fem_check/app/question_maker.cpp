@@ -20,7 +20,8 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
   NaturalSizes sizes;
   sizes.potential = physics.field.norm() * radius + potential;
   sizes.field = sizes.potential / radius;
-  sizes.charge = sizes.field * std::abs(inside - outside) / (inside + outside);
+  // Free charge that relaxes may be anything.
+  sizes.charge = input.charged_faces() ? sizes.field : sizes.field * std::abs(inside - outside) / (inside + outside);
   sizes.electric_force = physics.permittivity_out * sizes.field * sizes.field;
   sizes.current = inside * outside / (inside + outside) * sizes.field + physics.conductance * potential;
   const double shear = physics.flow_gradient.norm();

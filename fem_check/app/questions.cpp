@@ -80,6 +80,10 @@ std::vector<FieldQuestion> electric_questions(const CheckInput& input, const Com
   const NaturalSizes sizes = natural_sizes(input, places);
   Questions questions(input, places, sequence);
   questions.list.push_back(questions.on_surface("q", "q", &BieFields::charge, sizes.charge));
+  if (input.charged_faces()) {
+    questions.list.push_back(
+        questions.on_surface("Vm_of_charges", "V_m of charges", &BieFields::potential_of_charges, sizes.potential));
+  }
   if (input.steady()) {
     questions.list.push_back(questions.on_surface("Vm", "V_m steady", &BieFields::steady_potential, sizes.potential));
     questions.list.push_back(questions.on_surface("q_steady", "q steady", &BieFields::steady_charge, sizes.charge));

@@ -36,12 +36,11 @@ meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double
 }
 
 Meshes::Meshes(const meshes::FrozenShape& shape, const Refinement& refinement) {
-  const auto mesh = [&](bool far) {
-    return std::make_shared<meshes::HexMesh>(
-        meshes::make_block_mesh(shape, block_mesh_options(refinement, shape.radius(), far)));
-  };
-  near_ = mesh(false);
-  far_ = mesh(true);
+  std::vector<meshes::HexMesh> both = meshes::make_block_meshes(
+      shape,
+      {block_mesh_options(refinement, shape.radius(), false), block_mesh_options(refinement, shape.radius(), true)});
+  near_ = std::make_shared<meshes::HexMesh>(std::move(both.front()));
+  far_ = std::make_shared<meshes::HexMesh>(std::move(both.back()));
 }
 
 }  // namespace vehd::fem_check

@@ -12,18 +12,30 @@ FieldQuestion stored(FieldQuestion question) {
   return question;
 }
 
-/// −(σ_i ∂φ_i/∂n + G_m V_m), the current that charges the membrane, from ∂φ_i/∂n of a level; C_m dV_m/dt of the run.
+/// −(σ_i ∂φ_i/∂n + G_m V_m), the current that charges the membrane, from ∂φ_i/∂n of a level; C_m dV_m/dt of the run, or
+/// with displacement currents dq_i/dt.
 FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces& places, const NaturalSizes& sizes,
                                 const QuestionMaker& maker) {
   const Physics& physics = input.physics;
   const Eigen::MatrixXd rate = physics.capacitance * input.bie.potential_rate;
-  FieldQuestion question = stored(maker.on_surface("charging_current", "C dV_m/dt", "flux_in", rate, rate,
-                                                   physics.capacitance * input.bie_high.potential_rate, sizes.current));
+  FieldQuestion question =
+      stored(maker.on_surface("charging_current", input.charged_faces() ? "dq_i/dt" : "C dV_m/dt", "flux_in", rate,
+                              rate, physics.capacitance * input.bie_high.potential_rate, sizes.current));
   question.is_remainder = true;
   const Eigen::MatrixXd leak = physics.conductance * SurfaceSeries(input.potential)(places.surface);
   question.from_level = [leak, sigma = physics.conductivity_in](const Eigen::MatrixXd& flux_in) {
     return Eigen::MatrixXd(-sigma * flux_in - leak);
   };
+  return question;
+}
+
+/// σ_i E_i − σ_e E_e, at which the free charge of both faces grows.
+FieldQuestion free_current_question(const CheckInput& input, const NaturalSizes& sizes, const QuestionMaker& maker) {
+  const double capacitance = input.physics.capacitance;
+  const Eigen::MatrixXd rate = capacitance * input.bie.free_charge_rate;
+  FieldQuestion question = stored(maker.on_surface("free_current", "dQ_f/dt", "free_current", rate, rate,
+                                                   capacitance * input.bie_high.free_charge_rate, sizes.current));
+  question.is_remainder = true;
   return question;
 }
 
@@ -55,11 +67,18 @@ FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlace
 std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, const ComparisonPlaces& places) {
   const NaturalSizes sizes = natural_sizes(input, places);
   const QuestionMaker maker(places);
-  return {stored(maker.on_surface("q", "q", "q", input.stored.charge, input.bie.charge, input.bie_high.charge,
-                                  sizes.charge)),
-          stored(maker.on_surface("force", "f_E", "force", input.stored.force_electric, input.bie.force_electric,
-                                  input.bie_high.force_electric, sizes.electric_force)),
-          charging_question(input, places, sizes, maker)};
+  std::vector<FieldQuestion> list{
+      stored(
+          maker.on_surface("q", "q", "q", input.stored.charge, input.bie.charge, input.bie_high.charge, sizes.charge)),
+      stored(maker.on_surface("force", "f_E", "force", input.stored.force_electric, input.bie.force_electric,
+                              input.bie_high.force_electric, sizes.electric_force)),
+      charging_question(input, places, sizes, maker)};
+  if (!input.charged_faces()) return list;
+  list.push_back(
+      stored(maker.on_surface("Vm_of_charges", "V_m", "Vm_of_charges", input.potential, input.bie.potential_of_charges,
+                              input.bie_high.potential_of_charges, sizes.potential)));
+  list.push_back(free_current_question(input, sizes, maker));
+  return list;
 }
 
 FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& places,

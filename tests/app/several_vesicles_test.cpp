@@ -164,6 +164,27 @@ BOOST_AUTO_TEST_CASE(plan_counts_the_kernels_of_all) {
   BOOST_TEST(plan.at("operators").back().at("vesicles").get<int>() == 1);
 }
 
+// Of ten some are far enough for expansions.
+BOOST_AUTO_TEST_CASE(plan_counts_the_targets_of_pairs_as_the_run_does) {
+  const OwnCache cache;
+  const std::string scene =
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
+      "[numerics]\norder = 4\ndt = 0.1\nend_time = 0\n"
+      "[suspension]\nkind = \"ball\"\nradius = 5\ncount = 10\n";
+  for (const auto& [text, n_vesicles] : {std::pair(scene, 10), std::pair(quick_pair("0.0"), 2)}) {
+    const FinishedRun run(text);
+    const ProgramResult result = run_vehd({"plan", run.scene, "--json", run.directory / "plan.json"});
+    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+    const auto planned = json_of(run.directory / "plan.json").at("pair_targets");
+    BOOST_TEST((planned == json_of(run.output + "/summary.json").at("pair_targets")));
+    int sum = 0;
+    for (const char* way : {"near", "far", "expanded"}) sum += planned.at(way).get<int>();
+    const int order = n_vesicles == 10 ? 4 : 6;
+    BOOST_TEST(sum == n_vesicles * (n_vesicles - 1) * 2 * (order + 1) * (order + 1));
+    BOOST_TEST((planned.at("expanded") > 0) == (n_vesicles == 10));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_at_its_limit_says_which_two_where_and_how_near) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", pressed_bodies(0.8008, 0.1));

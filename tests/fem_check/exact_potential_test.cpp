@@ -66,6 +66,36 @@ BOOST_AUTO_TEST_CASE(sphere_charges_by_backward_euler) {
   BOOST_TEST(relative_l2(points, traces.flux_in, flux * points.position.row(2).transpose()) < 1e-4);
 }
 
+// V = v·x and E_i = e·x with C v − ε_i e = p and ε_e (3E − 2e − 2v) − C v = q for the charges p·x and q·x of the faces.
+BOOST_AUTO_TEST_CASE(potential_of_charged_faces_of_a_sphere_is_that_of_its_dipoles) {
+  const Discretisation space = discretise(unit_sphere(), {.degree = 4});
+  const SurfacePoints points = space.quadrature_points(7);
+  const Vector3 field(0.3, -0.2, 0.9), inner(0.5, 0.1, -0.4), outer(-0.2, 0.3, 0.6);
+  const auto dipole = [](const Vector3& of) {
+    return on_surface([of](const Vector3& x, const Vector3&) { return of.dot(x); });
+  };
+  const double capacitance = 1.5;
+  for (const auto& [in, out] : {std::pair(0.4, 0.7), std::pair(0.7, 0.4), std::pair(0.02, 0.03)}) {
+    PotentialProblem problem;
+    problem.field = field;
+    problem.conductivity_in = in;
+    problem.conductivity_out = out;
+    problem.membrane = ChargedMembrane{capacitance, dipole(inner)};
+    problem.current_jump = dipole(inner + outer);
+    const PotentialTraces traces = solve_potential(space, problem).on_surface(points);
+    const double more = 1.0 + 2.0 * out / capacitance;
+    const Vector3 inside = (3.0 * out * field - outer - more * inner) / (2.0 * out + in * more);
+    const Vector3 voltage = (inner + in * inside) / capacitance;
+    const Vector3 outside = 3.0 * field - 2.0 * inside - 2.0 * voltage;
+    const auto exact = [&](const Vector3& of) { return Vector(points.position.transpose() * of); };
+    BOOST_TEST_CONTEXT("ε_i = " << in << ", ε_e = " << out) {
+      BOOST_TEST(relative_l2(points, traces.transmembrane_potential, exact(voltage)) < 1e-4);
+      BOOST_TEST(relative_l2(points, traces.flux_in, exact(-inside)) < 1e-4);
+      BOOST_TEST(relative_l2(points, traces.charge, exact(outside - inside)) < 1e-4);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(prolate_without_jump_has_a_uniform_field_inside) {
   const Discretisation space = discretise(shapes::prolate(), {.degree = 5});
   const SurfacePoints points = space.quadrature_points(8);

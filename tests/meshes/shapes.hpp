@@ -90,7 +90,7 @@ inline FrozenShape asymmetric() {
   }));
 }
 
-/// The disc bent into a bowl, its centroid outside: no block mesh can follow.
+/// The disc bent into a bowl, its centroid outside: straight lines from core to membrane fold.
 inline FrozenShape bowl() {
   return FrozenShape(
       project(5, [](const Point& r) { return Point(disc_point(r) + 0.9 * (1.0 - r.z() * r.z()) * Point::UnitZ()); }));

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "bie/support/types.hpp"
@@ -12,6 +13,13 @@ namespace vehd::testing {
 
 /// Of degree m for conductivities σ_i/σ_e = k, infinite k included.
 inline double polarisability(int m, double k) { return std::isinf(k) ? -1.0 : -m * (k - 1.0) / (m * (k + 1.0) + 1.0); }
+inline std::complex<double> polarisability(int m, std::complex<double> k) {
+  return -static_cast<double>(m) * (k - 1.0) / (static_cast<double>(m) * (k + 1.0) + 1.0);
+}
+
+/// Of two quantities, or its mean over a period where they are complex amplitudes.
+inline double mean_product(double a, double b) { return a * b; }
+inline double mean_product(std::complex<double> a, std::complex<double> b) { return 0.5 * (std::conj(a) * b).real(); }
 
 /// Attraction of the spheres.
 struct SphereForces {
@@ -19,9 +27,11 @@ struct SphereForces {
   double across;  ///< in a field across it: they repel each other
 };
 
-/// @param k  σ_i/σ_e that a multipole of degree m sees, k(m)
+/// @param k  σ_i/σ_e that a multipole of degree m sees, k(m); complex at a frequency, and the forces are means then
 template <class Ratio>
 SphereForces sphere_forces_of(double gap, const Ratio& k, int n_multipoles = 60) {
+  using Scalar = decltype(k(1));
+  using Unknowns = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   const double d = 2.0 + gap;
   const auto coefficient = [](int m, int n, int shift) {
     // (m+n)!/((m+shift)!(n−shift)!)
@@ -29,8 +39,9 @@ SphereForces sphere_forces_of(double gap, const Ratio& k, int n_multipoles = 60)
   };
   SphereForces result{};
   for (const int shift : {0, 1}) {
-    Matrix system = Matrix::Identity(n_multipoles, n_multipoles);
-    Vector rhs = Vector::Zero(n_multipoles);
+    using System = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    System system = System::Identity(n_multipoles, n_multipoles);
+    Unknowns rhs = Unknowns::Zero(n_multipoles);
     rhs[0] = -polarisability(1, k(1));
     for (int m = 1; m <= n_multipoles; ++m) {
       for (int n = 1; n <= n_multipoles; ++n) {
@@ -38,14 +49,14 @@ SphereForces sphere_forces_of(double gap, const Ratio& k, int n_multipoles = 60)
         system(m - 1, n - 1) += sign * polarisability(m, k(m)) * coefficient(m, n, shift) * std::pow(d, -(m + n + 1.0));
       }
     }
-    const Vector a = system.partialPivLu().solve(rhs);
+    const Unknowns a = system.partialPivLu().solve(rhs);
     // The field that each multipole is in, A = g L.
-    const auto bracket = [&](int m) { return a[m - 1] / polarisability(m, k(m)); };
+    const auto bracket = [&](int m) -> Scalar { return a[m - 1] / polarisability(m, k(m)); };
     double force = 0.0;
     for (int n = 1; n < n_multipoles; ++n) {
-      if (shift == 0) force += -4.0 * std::numbers::pi * (n + 1.0) * bracket(n + 1) * a[n - 1];
+      if (shift == 0) force += -4.0 * std::numbers::pi * (n + 1.0) * mean_product(bracket(n + 1), a[n - 1]);
       if (shift == 1 && n >= 2)
-        force += -4.0 * std::numbers::pi * 0.5 * n * (n - 1.0) * (n + 1.0) * bracket(n) * a[n - 2];
+        force += -4.0 * std::numbers::pi * 0.5 * n * (n - 1.0) * (n + 1.0) * mean_product(bracket(n), a[n - 2]);
     }
     (shift == 0 ? result.along : result.across) = force;
   }

@@ -48,13 +48,22 @@ BOOST_AUTO_TEST_CASE(what_has_no_effect_is_refused) {
   BOOST_TEST(is_refused_for(scene_with("displacement_current = true\n", "average = true\n"), "\"permittivity\""));
   BOOST_TEST(is_refused_for(scene_with("displacement_current = true\npermittivity = 1\ninitial_Vm = \"file\"\n", ""),
                             "\"displacement_current\""));
-  BOOST_TEST(is_refused_for(
-      with_appended("[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\npermittivity = 1\n"
-                    "displacement_current = true\n[[vesicle]]\n[[vesicle]]\nshape.centre = [9, 0, 0]\n"),
-      "several vesicles"));
   BOOST_TEST(is_refused_for(with_appended("[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n"
                                           "[electric.waveform]\nkind = \"pulse\"\nduration = 1\naverage = true\n"),
                             "belongs to kind \"ac\""));
+}
+
+BOOST_AUTO_TEST_CASE(several_vesicles_have_displacement_currents_of_all_or_of_none) {
+  const std::string field =
+      "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\npermittivity = 1\n"
+      "displacement_current = true\n";
+  const std::string vesicles = "[[vesicle]]\n[[vesicle]]\nshape.centre = [9, 0, 0]\n";
+  const vehd::Model model = vehd::model_of(parsed(with_appended(field + vesicles)));
+  BOOST_TEST(model.vesicles.size() == 2U);
+  BOOST_TEST(vehd::relaxes_charge(model));
+  BOOST_TEST(is_refused_for(with_appended(field + vesicles + "electric.displacement_current = false\n"),
+                            "is the same for all vesicles"));
+  BOOST_TEST(is_refused_for(with_appended(field + vesicles + "electric.initial_Vm = \"file\"\n"), "\"initial_Vm\""));
 }
 
 BOOST_AUTO_TEST_CASE(different_permittivities_need_the_charge_where_they_count) {

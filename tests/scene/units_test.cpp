@@ -248,6 +248,7 @@ BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
                                                {"mJ/m^2", 1e-3},
                                                {"uJ/m^2", 1e-6},
                                                {"C m", 1},
+                                               {"C/m^2", 1},
                                                {"W", 1},
                                                {"1/m^2", 1},
                                                {"1/um^2", 1e12},

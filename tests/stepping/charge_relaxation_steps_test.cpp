@@ -6,7 +6,7 @@
 #include "bie/physics/sphere_in_ac_field.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/complex_columns.hpp"
-#include "tests/support/runs.hpp"
+#include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
 BOOST_AUTO_TEST_SUITE(charge_relaxation_steps)
@@ -26,6 +26,15 @@ Model relaxing_model() {
 State end_of(const Model& model, const Matrix& position, int time_order, double end, int n_steps) {
   const Discretisation discretisation = symmetric_discretisation(model, position, time_order);
   return run(model, discretisation, start(model, discretisation, position, end / n_steps), end / n_steps, n_steps);
+}
+
+/// Solvers that add nothing to what is compared; the constraints are held as in a run.
+NumericalSettings tight_settings(int time_order) {
+  NumericalSettings settings;
+  settings.time_order = time_order;
+  settings.flow_tolerance = 1e-11;
+  settings.electric_tolerance = 1e-12;
+  return settings;
 }
 
 }  // namespace
@@ -135,6 +144,107 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_d
   const auto [rate_of_inner, rate_of_sum] = charges(1);
   BOOST_TEST(max_difference(now.solution.potential_rate, -omega * rate_of_inner) < 5e-3);
   BOOST_TEST(max_difference(now.solution.free_charge_rate, -omega * rate_of_sum) < 5e-3);
+}
+
+namespace {
+
+/// Two vesicles, one above the other, with fluids of their own.
+struct TwoVesicles {
+  Model model = with_vesicles(relaxing_model(), 2);
+  std::vector<Matrix> shapes;
+
+  TwoVesicles() {
+    model.vesicles[1].inside = {2.0, 1.5};
+    const Matrix shape = ellipsoid(8, {1.0, 1.0, 1.2});
+    shapes = {translated(shape, {0.0, 0.0, -1.6}), translated(0.9 * shape, {0.0, 0.0, 1.6})};
+  }
+  [[nodiscard]] State end_of(int time_order, double end, int n_steps) const {
+    const Discretisation discretisation = spaces(time_order);
+    const double dt = end / n_steps;
+    return run(model, discretisation, start(model, discretisation, shapes, dt), dt, n_steps);
+  }
+  [[nodiscard]] Discretisation spaces(int time_order) const {
+    return discretisation_of(shapes, tight_settings(time_order), find_symmetry(model, at_rest(shapes)));
+  }
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(two_frozen_vesicles_keep_every_order_in_time, TwoVesicles) {
+  model.mobile = false;
+  model.electric->waveform = Waveform::alternating(1.0, 0.5, 0.3);
+  const State exact = end_of(highest_time_order, 1.0, 32);
+  for (int order = 1; order <= highest_time_order; ++order) {
+    double errors[2] = {0.0, 0.0};
+    for (int level = 0; level < 2; ++level) {
+      const State end = end_of(order, 1.0, 8 << level);
+      for (const std::size_t a : {0, 1}) {
+        const VesicleState &found = end.vesicles[a], &expected = exact.vesicles[a];
+        errors[level] += max_difference(found.transmembrane_potential, expected.transmembrane_potential) +
+                         max_difference(found.free_charge, expected.free_charge);
+      }
+    }
+    BOOST_TEST(std::log2(errors[0] / errors[1]) > order - 0.4, order << ": " << errors[0] << " " << errors[1]);
+  }
+}
+
+BOOST_FIXTURE_TEST_CASE(two_moving_vesicles_keep_the_order_in_time, TwoVesicles) {
+  const auto observed = [&](int time_order, int n_steps) {
+    Instruments instruments;
+    const Evaluation evaluation = evaluate(model, spaces(time_order), end_of(time_order, 0.4, n_steps), instruments);
+    const VesicleDiagnostics &a = evaluation.diagnostics.vesicles[0], &b = evaluation.diagnostics.vesicles[1];
+    return Vector{{a.extent_z, b.extent_z, b.centroid_z - a.centroid_z, a.Vm_max, b.Vm_max, a.q_north, b.q_north}};
+  };
+  const Vector exact = observed(highest_time_order, 8);
+  const auto error = [&](int order, int n_steps) {
+    return (observed(order, n_steps) - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff();
+  };
+  for (const auto& [order, n_steps] : {std::pair(1, 4), std::pair(2, 8)}) {
+    const double coarse = error(order, n_steps), fine = error(order, 2 * n_steps);
+    BOOST_TEST(std::log2(coarse / fine) > order - 0.4, order << ": " << coarse << ", " << fine);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(copies_far_apart_move_as_one_vesicle) {
+  const Model model = relaxing_model();
+  const Matrix shape = asymmetric_shape(8);
+  const std::vector<Matrix> shapes{shape, translated(shape, {0.0, 2e4, 1e4}), translated(shape, {3e4, 0.0, 0.0})};
+  const Model of_all = with_vesicles(model, 3);
+  const double dt = 0.05;
+  const Discretisation together = discretisation_of(shapes, tight_settings(2)),
+                       alone = discretisation_of({shape}, tight_settings(2));
+  const State all = run(of_all, together, start(of_all, together, shapes, dt), dt, 2);
+  const VesicleState one = run(model, alone, start(model, alone, shape, dt), dt, 2).vesicles[0];
+  for (std::size_t a = 0; a < 3; ++a) {
+    const VesicleState& vesicle = all.vesicles[a];
+    // Of coordinates of 1e4 rounding leaves 1e-12.
+    const Matrix moved = vesicle.position - (shapes[a] - shape);
+    BOOST_TEST(max_difference(moved, one.position) < 1e-8);
+    BOOST_TEST(max_difference(vesicle.transmembrane_potential, one.transmembrane_potential) < 1e-8);
+    BOOST_TEST(max_difference(vesicle.free_charge, one.free_charge) < 1e-8);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(steady_charges_of_two_vesicles_do_not_change) {
+  Model model = with_vesicles(relaxing_model(), 2);
+  model.vesicles[1].inside = {2.0, 1.5};
+  model.vesicles[1].charging = {0.7, 0.5};
+  const std::vector<Matrix> shapes{ellipsoid(10, {1.0, 1.0, 1.1}),
+                                   translated(ellipsoid(10, {0.9, 0.8, 0.9}), {0.4, 0.0, 2.8})};
+  const Discretisation discretisation = discretisation_of(shapes, solved_to_rounding(10));
+  const SolvedFields found = solved(model, discretisation, start(model, discretisation, shapes, 0.1, true));
+  for (std::size_t a = 0; a < 2; ++a) {
+    const VesicleFields& fields = found.fields.vesicles[a];
+    BOOST_TEST(fields.potential.norm() > 0.5);
+    BOOST_TEST(found.vesicles[a].potential_rate.norm() < 1e-4 * fields.potential.norm());
+    BOOST_TEST(found.vesicles[a].free_charge_rate.norm() < 1e-4 * fields.potential.norm());
+    // K_k E_k = G_m V of both faces.
+    const double conductance = model.vesicles[a].charging.conductance;
+    BOOST_TEST(max_difference(
+                   fields.free_charge_out + fields.free_charge_in,
+                   (0.3 - 0.3 * model.vesicles[a].inside.permittivity_ratio / model.vesicles[a].inside.conductivity) *
+                       conductance * fields.potential) < 1e-4);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -13,9 +13,9 @@ struct SolvedVesicle {
 template <MaybeConst<SolvedVesicle> Vesicle, typename Visit>
 void visit_members(Vesicle& vesicle, Visit& visit) {
   auto& [velocity, bending, of_tension, electric, contact, tension, charge, conductance, potential, potential_amplitude,
-         charge_amplitude] = vesicle.fields;
+         charge_amplitude, free_charge_in, free_charge_out] = vesicle.fields;
   visit(velocity, bending, of_tension, electric, contact, tension, charge, conductance, potential, potential_amplitude,
-        charge_amplitude);
+        charge_amplitude, free_charge_in, free_charge_out);
   visit(vesicle.potential_rate, vesicle.poration_rate, vesicle.free_charge_rate);
 }
 

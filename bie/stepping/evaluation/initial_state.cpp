@@ -37,6 +37,15 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
 
 constexpr LayerSelection kElectricLayers{true, true, true, false};
 
+/// With displacement currents the steady V_m stands for the charges of both faces.
+void take_steady_charges(const Model& model, const VesicleModel& vesicle, VesicleState& state) {
+  if (!relaxes_charge(model)) return;
+  FaceCharges charges =
+      steady_charges(electric_parameters(model, vesicle), vesicle.charging, state.transmembrane_potential);
+  state.transmembrane_potential = std::move(charges.inner);
+  state.free_charge = std::move(charges.sum);
+}
+
 /// V_m of several vesicles whose steady state is one.
 void find_steady_potentials(const Model& model, const Discretisation& discretisation, State& state,
                             Instruments& instruments) {
@@ -67,6 +76,7 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
       "steady membrane potentials");
   for (std::size_t a = 0; a < frozen.size(); ++a) {
     state.vesicles[a].transmembrane_potential = std::move(potentials[a]);
+    take_steady_charges(model, model.vesicles[a], state.vesicles[a]);
   }
 }
 
@@ -92,12 +102,7 @@ State initial_state(const Model& model, const Discretisation& discretisation,
       require_converged(steady_potential(electric_parameters(model, vesicle), vesicle.charging, membrane,
                                          discretisation.settings().electric_tolerance, start.transmembrane_potential),
                         "steady membrane potential");
-      if (relaxes_charge(model)) {
-        FaceCharges charges =
-            steady_charges(electric_parameters(model, vesicle), vesicle.charging, start.transmembrane_potential);
-        start.transmembrane_potential = std::move(charges.inner);
-        start.free_charge = std::move(charges.sum);
-      }
+      take_steady_charges(model, vesicle, start);
     }
   }
   const auto is_steady = [](const StartMembrane& membrane) { return membrane.potential.steady; };

@@ -4,18 +4,20 @@
 
 #include "bie/physics/coupled_electric.hpp"
 #include "bie/stepping/evaluation/averaged_forces.hpp"
+#include "bie/stepping/evaluation/relaxing_charge.hpp"
 #include "bie/stepping/solve/coupled_tension.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
 namespace {
 
 /// f_E of each with q and dV_m/dt as by-products. @returns values on the upsampled grids
-std::vector<Matrix> solve_fields_of_charges(const std::vector<VesicleTask>& tasks, double time, Limit limit,
-                                            SolvedFields& solved) {
+std::vector<Matrix> forces_of_densities(const std::vector<VesicleTask>& tasks, double time, Limit limit,
+                                        SolvedFields& solved) {
   std::vector<ElectricMembrane> membranes;
   std::vector<Vector> potentials;
   for (const VesicleTask& task : tasks) {
@@ -30,7 +32,7 @@ std::vector<Matrix> solve_fields_of_charges(const std::vector<VesicleTask>& task
   solved.iterations_electric += densities.report.iterations;
   const std::vector<Vector> of_others = potentials_of_others(membranes, interaction, potentials, densities.membranes);
   std::vector<Matrix> forces(tasks.size());
-  for (const std::size_t a : interaction.shares().own(tasks.size())) {
+  for_each_member(interaction.shares().own(tasks.size()), [&](std::size_t a) {
     const VesicleTask& task = tasks[a];
     const ElectricParameters& electric = membranes[a].electric;
     const ElectricTraces traces =
@@ -39,7 +41,7 @@ std::vector<Matrix> solve_fields_of_charges(const std::vector<VesicleTask>& task
     task.solution.potential_rate = charging_rate(task, electric, traces);
     forces[a] = electric_force(electric.permittivity, task.membrane, traces, electric.permittivity_ratio);
     task.fields.force_electric = task.membrane.fine.analyze(forces[a]);
-  }
+  });
   return forces;
 }
 
@@ -68,6 +70,7 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
   std::vector<Matrix> weighted(tasks.size()), background;
   std::vector<bool> is_sphere;
   std::vector<Vector> start;
+  std::vector<RecycledSubspace> known;
   for (const std::size_t a : own) weighted[a] = tasks[a].membrane.weighted(forcing[a].force);
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     const VesicleTask& task = tasks[a];
@@ -76,23 +79,35 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
     task.solution.is_sphere = uniform_tension_is_free(membranes[a].parameters, task.membrane);
     is_sphere.push_back(task.solution.is_sphere);
     start.push_back(task.state.tension);
+    const auto& recycled = task.state.recycled.tension;
+    known.push_back(recycled ? recycled->in(task.space.subspace().scalars(), 1) : RecycledSubspace{});
   }
   CoupledFlow flow(membranes, *solved.interaction);
   std::vector<Matrix> velocities = flow.velocities(weighted, background);
   const CoupledTension tensions =
-      solve_tensions(membranes, is_sphere, flow, velocities, start, tasks.front().settings.flow_tolerance);
+      solve_tensions(membranes, is_sphere, flow, velocities, start, known, tasks.front().settings.flow_tolerance);
   require_converged(tensions.report, "tensions, Eq. (27b)");
   solved.iterations_flow += tensions.report.iterations;
-  for (const std::size_t a : own) {
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    if (!tasks[a].vesicle.inextensible) continue;
+    tasks[a].solution.recycled.tension = recycled_scalars(tasks[a].space.subspace().scalars(), tensions.learned[a]);
+  }
+  for_each_member(own, [&](std::size_t a) {
     const VesicleTask& task = tasks[a];
     task.fields.velocity = symmetric(task.membrane, velocities[a] + tensions.velocities[a]);
-    if (!task.vesicle.inextensible) continue;
+    if (!task.vesicle.inextensible) return;
     task.fields.tension = tensions.tension[a];
     task.fields.force_tension = task.membrane.fine.analyze(tensions.force[a]);
-  }
+  });
 }
 
 }  // namespace
+
+PairSettings pair_settings(const NumericalSettings& settings) {
+  PairSettings result;
+  result.tolerance = std::max(result.tolerance, thresholds::pair_share * settings.quadrature_tolerance);
+  return result;
+}
 
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
                                                   const Shares& shares, Instruments& instruments) {
@@ -109,10 +124,7 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
     }
     membranes.push_back({task.state.position, task.space.targets(), selection});
   }
-  PairSettings settings;
-  settings.tolerance =
-      std::max(settings.tolerance, thresholds::pair_share * tasks.front().settings.quadrature_tolerance);
-  return std::make_shared<const Interaction>(membranes, settings, instruments, shares);
+  return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments, shares);
 }
 
 void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,
@@ -128,12 +140,14 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
       task.fields.charge = Vector::Zero(n);
       task.solution.potential_rate = Vector::Zero(n);
       task.fields.force_electric = Matrix::Zero(n, 3);
+      if (relaxes_charge(task.model)) without_charges(task);
     }
   } else if (tasks.front().model.electric) {
     const auto timer = instruments.time("electric");
-    const std::vector<Matrix> forces = is_averaged(tasks.front().model)
-                                           ? averaged_forces(tasks, solved)
-                                           : solve_fields_of_charges(tasks, time, limit, solved);
+    const Model& model = tasks.front().model;
+    const std::vector<Matrix> forces = is_averaged(model)      ? averaged_forces(tasks, solved)
+                                       : relaxes_charge(model) ? forces_of_charges(tasks, time, limit, solved)
+                                                               : forces_of_densities(tasks, time, limit, solved);
     for (const std::size_t a : own) forcing[a].force -= forces[a];
   }
   if (!tasks.front().model.mobile) return;
@@ -142,9 +156,9 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     add_contact(*tasks.front().model.contact, tasks, forcing);
   }
   const auto timer = instruments.time("tension solve");
-  for (const std::size_t a : own) {
+  for_each_member(own, [&](std::size_t a) {
     add_forces(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, forcing[a]);
-  }
+  });
   solve_velocities(tasks, forcing, solved);
 }
 

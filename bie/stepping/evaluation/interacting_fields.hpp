@@ -7,6 +7,9 @@
 
 namespace vehd {
 
+/// How exact the layers between membranes are next to those of each.
+PairSettings pair_settings(const NumericalSettings& settings);
+
 /// The layers between the membranes that the effects of a model need; those of the electric problem only while it is
 /// active.
 /// @param shares  which rank has the layers of which vesicle

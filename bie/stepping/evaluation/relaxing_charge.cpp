@@ -2,27 +2,67 @@
 
 #include <utility>
 
-#include "bie/physics/charge_relaxation.hpp"
+#include "bie/physics/coupled_relaxation.hpp"
 
 namespace vehd {
 
-Matrix force_of_charges(const VesicleTask& task, const ElectricParameters& electric, int& iterations) {
-  const Membrane& membrane = task.membrane;
-  const FaceCharges charges{task.state.transmembrane_potential, task.state.free_charge};
-  RelaxingField field = field_of_charges(electric, task.vesicle.charging, membrane, charges,
-                                         task.settings.electric_tolerance, charges.inner);
-  require_converged(field.report, "V_m of free charges");
-  iterations += field.report.iterations;
-  FaceCharges rates = charge_rates(electric, task.vesicle.charging, membrane, field);
-  task.solution.potential_rate = std::move(rates.inner);
-  task.solution.free_charge_rate = std::move(rates.sum);
-  task.fields.charge = membrane.fine.analyze(field.traces.charge);
-  task.fields.potential = std::move(field.potential);
-  return electric_force(electric.permittivity, membrane, field.traces, electric.permittivity_ratio);
+namespace {
+
+void take_charges(const VesicleTask& task) {
+  const double capacitance = task.vesicle.charging.capacitance;
+  const Vector& inner = task.state.transmembrane_potential;
+  task.fields.free_charge_in = capacitance * inner;
+  task.fields.free_charge_out = capacitance * (task.state.free_charge - inner);
+}
+
+/// Of one vesicle or of several.
+std::vector<RelaxingField> solved_fields(const std::vector<VesicleTask>& tasks,
+                                         const std::vector<ChargingMembrane>& membranes,
+                                         const Interaction* interaction) {
+  const double tolerance = tasks.front().settings.electric_tolerance;
+  std::vector<FaceCharges> charges;
+  std::vector<Vector> start;
+  for (const VesicleTask& task : tasks) {
+    charges.push_back({task.state.transmembrane_potential, task.state.free_charge});
+    start.push_back(task.state.transmembrane_potential);
+  }
+  if (interaction != nullptr) return fields_of_charges(membranes, *interaction, charges, tolerance, std::move(start));
+  const auto& [in_field, charging] = membranes.front();
+  return {field_of_charges(in_field.electric, charging, in_field.membrane, charges.front(), tolerance, start.front())};
+}
+
+}  // namespace
+
+std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, double time, Limit limit,
+                                      SolvedFields& solved) {
+  std::vector<ChargingMembrane> membranes;
+  for (const VesicleTask& task : tasks) {
+    membranes.push_back(
+        {{electric_parameters(task.model, task.vesicle).at(time, limit), task.membrane}, task.vesicle.charging});
+  }
+  std::vector<RelaxingField> fields = solved_fields(tasks, membranes, solved.interaction.get());
+  require_converged(fields.front().report, "V_m of free charges");
+  solved.iterations_electric += fields.front().report.iterations;
+  const Shares shares = solved.interaction ? solved.interaction->shares() : Shares();
+  std::vector<Matrix> forces(tasks.size());
+  for (const std::size_t a : shares.own(tasks.size())) {
+    const VesicleTask& task = tasks[a];
+    const ElectricParameters& electric = membranes[a].in_field.electric;
+    FaceCharges rates = charge_rates(electric, task.vesicle.charging, task.membrane, fields[a]);
+    task.solution.potential_rate = std::move(rates.inner);
+    task.solution.free_charge_rate = std::move(rates.sum);
+    take_charges(task);
+    task.fields.charge = task.membrane.fine.analyze(fields[a].traces.charge);
+    task.fields.potential = std::move(fields[a].potential);
+    forces[a] = electric_force(electric.permittivity, task.membrane, fields[a].traces, electric.permittivity_ratio);
+    task.fields.force_electric = task.membrane.fine.analyze(forces[a]);
+  }
+  return forces;
 }
 
 void without_charges(const VesicleTask& task) {
   const Vector none = Vector::Zero(task.state.position.rows());
+  take_charges(task);
   task.fields.potential = none;
   task.solution.free_charge_rate = none;
 }

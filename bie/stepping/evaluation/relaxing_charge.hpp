@@ -1,14 +1,19 @@
 #pragma once
 
+#include <vector>
+
 #include "bie/stepping/evaluation/vesicle_task.hpp"
 
 namespace vehd {
 
-/// f_E of the free charges of a state, with V_m, q and the rates of the charges as by-products, see field_of_charges.
-/// @param electric  of the time
-/// @return  values on the upsampled grid
+/// f_E of the free charges of each vesicle, with V_m, q and the rates of the charges as by-products, see
+/// field_of_charges and fields_of_charges.
+/// @param limit   which value of the field counts where it jumps
+/// @param solved  with the interaction of several vesicles
+/// @return  values on the upsampled grids; of vesicles of other ranks all stay empty
 /// @throws ConvergenceError
-Matrix force_of_charges(const VesicleTask& task, const ElectricParameters& electric, int& iterations);
+std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, double time, Limit limit,
+                                      SolvedFields& solved);
 
 /// The same where there is no charge and no field.
 void without_charges(const VesicleTask& task);

@@ -12,14 +12,16 @@
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
 namespace {
 
 /// f_E with q and dV_m/dt as by-products, Eqs. (12), (15), (32). @returns values on the upsampled grid
-Matrix solve_electric(const VesicleTask& task, const ElectricParameters& electric, int& iterations) {
+Matrix solve_electric(const VesicleTask& task, double time, Limit limit, int& iterations) {
   const Membrane& membrane = task.membrane;
+  const ElectricParameters electric = electric_parameters(task.model, task.vesicle).at(time, limit);
   const Vector& potential = task.state.transmembrane_potential;
   const Vector rhs = weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential);
   const SecondKindSolution density =
@@ -29,7 +31,9 @@ Matrix solve_electric(const VesicleTask& task, const ElectricParameters& electri
   const ElectricTraces traces = electric_traces(electric, membrane, potential, density);
   task.fields.charge = membrane.fine.analyze(traces.charge);
   task.solution.potential_rate = charging_rate(task, electric, traces);
-  return electric_force(electric.permittivity, membrane, traces, electric.permittivity_ratio);
+  Matrix force = electric_force(electric.permittivity, membrane, traces, electric.permittivity_ratio);
+  task.fields.force_electric = membrane.fine.analyze(force);
+  return force;
 }
 
 /// Velocity of the membrane under the forcing, with the tension that keeps it inextensible, Eq. (27b).
@@ -71,12 +75,9 @@ void solve(const VesicleTask& task, double time, Limit limit, Instruments& instr
     if (relaxes_charge(task.model)) without_charges(task);
   } else if (task.model.electric) {
     const auto timer = instruments.time("electric");
-    const ElectricParameters electric = electric_parameters(task.model, task.vesicle).at(time, limit);
-    const Matrix force = is_averaged(task.model)      ? averaged_forces({task}, solved).front()
-                         : relaxes_charge(task.model) ? force_of_charges(task, electric, solved.iterations_electric)
-                                                      : solve_electric(task, electric, solved.iterations_electric);
-    task.fields.force_electric = membrane.fine.analyze(force);
-    forcing.force -= force;
+    forcing.force -= is_averaged(task.model)      ? averaged_forces({task}, solved).front()
+                     : relaxes_charge(task.model) ? forces_of_charges({task}, time, limit, solved).front()
+                                                  : solve_electric(task, time, limit, solved.iterations_electric);
   }
   if (!task.model.mobile) return;
   const auto timer = instruments.time("tension solve");
@@ -103,13 +104,14 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
   solved.fields.vesicles.resize(n);
   solved.vesicles.resize(n);
   const bool reuse = !model.mobile && previous != nullptr && (solved.electric_inactive || !previous->electric_inactive);
-  for (std::size_t a = 0; a < n; ++a) {
+  for_each_member(static_cast<Index>(n), instruments, [&](Index i, Instruments& of_one) {
+    const auto a = static_cast<std::size_t>(i);
     VesicleSolution& solution = solved.vesicles[a];
     solution.recycled = state.vesicles[a].recycled;
     solution.membrane = reuse ? previous->vesicles[a].membrane
                               : assembled(model, model.vesicles[a], discretisation.vesicle(a), state.vesicles[a],
-                                          !solved.electric_inactive, shares.owns(a), instruments);
-  }
+                                          !solved.electric_inactive, shares.owns(a), of_one);
+  });
   std::vector<VesicleTask> tasks;
   for (std::size_t a = 0; a < n; ++a) {
     tasks.push_back({model, model.vesicles[a], discretisation.settings(), discretisation.vesicle(a), state.vesicles[a],

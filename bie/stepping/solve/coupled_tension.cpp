@@ -1,10 +1,16 @@
 #include "bie/stepping/solve/coupled_tension.hpp"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/physics/tension.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
+#include "bie/stepping/solve/tension_inverse.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -25,7 +31,8 @@ void visit_members(Pair& pair, Visit& visit) {
 class OneTension {
  public:
   OneTension(const FlowMembrane& one, bool is_sphere)
-      : membrane_(one.membrane),
+      : one_(one),
+        membrane_(one.membrane),
         inextensible_(one.parameters.inextensible),
         is_sphere_(is_sphere),
         mean_response_(
@@ -40,6 +47,12 @@ class OneTension {
       }
       inverse_.push_back(block.inverse());
     }
+  }
+
+  /// What approximate_inverse goes by from now on, unless it is a sphere.
+  void find_inverse(const TensionGrid& grid) {
+    if (is_sphere_ || !inextensible_) return;
+    of_membrane_.emplace(one_, grid, tension_entries(), mean_response_);
   }
 
   [[nodiscard]] const Membrane& membrane() const { return membrane_; }
@@ -85,7 +98,13 @@ class OneTension {
     return result;
   }
 
-  [[nodiscard]] ScalarPair sphere_inverse(const ScalarPair& residual) const {
+  [[nodiscard]] ScalarPair approximate_inverse(const ScalarPair& residual) const {
+    if (of_membrane_) {
+      const std::vector<Index> entries = tension_entries();
+      ScalarPair of_all = residual;
+      of_all.tension(entries) = of_membrane_->apply(residual.tension(entries));
+      return of_all;
+    }
     ScalarPair result = residual;
     for (Index i = 0; i < result.tension.size(); ++i) {
       const Eigen::Matrix2d& m = inverse_[static_cast<std::size_t>(degree_of(i))];
@@ -96,10 +115,12 @@ class OneTension {
   }
 
  private:
+  const FlowMembrane& one_;
   const Membrane& membrane_;
   bool inextensible_, is_sphere_;
   double mean_response_;
-  std::vector<Eigen::Matrix2d> inverse_;  ///< of each degree
+  std::vector<Eigen::Matrix2d> inverse_;  ///< of each degree of a sphere
+  std::optional<TensionInverse> of_membrane_;
 };
 
 /// The scalars of all membranes as one vector: normal forces, behind them tensions.
@@ -129,6 +150,32 @@ class Layout {
     return result;
   }
 
+  /// Of membranes without normal forces: what is known of each of its rows, as rows of all. Nothing where one has
+  /// something else.
+  [[nodiscard]] RecycledSubspace joined(const std::vector<RecycledSubspace>& of_each, const Vector& scales) const {
+    const Index count = of_each.front().count();
+    RecycledSubspace result{Matrix(size(), count), Matrix(size(), count)};
+    for (std::size_t a = 0; a < of_each.size(); ++a) {
+      const Index first = tension_.first_of(a), n = tension_.count_of(a);
+      if (of_each[a].count() != count || of_each[a].arguments.rows() != n) return {};
+      result.arguments.middleRows(first, n) = of_each[a].arguments;
+      result.responses.middleRows(first, n) = of_each[a].responses;
+    }
+    result.arguments = scales.cwiseInverse().asDiagonal() * result.arguments;
+    return result;
+  }
+
+  /// The other way.
+  [[nodiscard]] std::vector<RecycledSubspace> of_each(const RecycledSubspace& all, const Vector& scales) const {
+    const Matrix arguments = scales.asDiagonal() * all.arguments;
+    std::vector<RecycledSubspace> result;
+    for (std::size_t a = 0; a < tension_.n_parts(); ++a) {
+      const Index first = tension_.first_of(a), n = tension_.count_of(a);
+      result.push_back({arguments.middleRows(first, n), all.responses.middleRows(first, n)});
+    }
+    return result;
+  }
+
   /// c and λ over their scales, which are alike for membranes of any size.
   [[nodiscard]] Vector scales(const std::vector<OneTension>& all) const {
     std::vector<double> radii;
@@ -153,13 +200,23 @@ class Layout {
   StackedEntries normal_, tension_;
 };
 
+/// Preconditioners of many membranes, of those of this rank.
+void find_inverses(std::vector<OneTension>& all, const std::vector<std::size_t>& own) {
+  std::map<int, TensionGrid> grids;
+  for (const std::size_t a : own) {
+    const int order = all[a].membrane().fine.order();
+    if (!grids.contains(order)) grids.emplace(order, order);
+  }
+  for_each_member(own, [&](std::size_t a) { all[a].find_inverse(grids.at(all[a].membrane().fine.order())); });
+}
+
 std::vector<Matrix> velocities_of(const std::vector<OneTension>& all, CoupledFlow& flow,
                                   const std::vector<ScalarPair>& unknowns) {
   std::vector<Matrix> weighted(all.size());
-  for (const std::size_t a : flow.shares().own(all.size())) {
+  for_each_member(flow.shares().own(all.size()), [&](std::size_t a) {
     const Matrix force = all[a].force(unknowns[a]);
     if (force.size() > 0) weighted[a] = all[a].membrane().weighted(force);
-  }
+  });
   return flow.velocities(weighted);
 }
 
@@ -167,24 +224,32 @@ std::vector<Matrix> velocities_of(const std::vector<OneTension>& all, CoupledFlo
 
 CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
                               CoupledFlow& flow, const std::vector<Matrix>& driven, const std::vector<Vector>& start,
-                              double tolerance) {
+                              const std::vector<RecycledSubspace>& known, double tolerance) {
   std::vector<OneTension> all;
   for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a]);
-  const Layout layout(all);
-  const Vector scales = layout.scales(all);
   const Shares& shares = flow.shares();
   const std::vector<std::size_t> own = shares.own(all.size());
+  const bool many = are_many(static_cast<Index>(all.size()));
+  if (many) find_inverses(all, own);
+  const Layout layout(all);
+  const Vector scales = layout.scales(all);
   const LinearMap map = [&](const Vector& v) {
     const std::vector<ScalarPair> unknowns = layout.scalars(v.cwiseProduct(scales));
     const std::vector<Matrix> velocities = velocities_of(all, flow, unknowns);
     std::vector<ScalarPair> result(all.size());
-    for (const std::size_t a : own) result[a] = all[a].response(velocities[a], unknowns[a]);
+    for_each_member(own, [&](std::size_t a) { result[a] = all[a].response(velocities[a], unknowns[a]); });
     shares.gather(result);
     return layout.stack(result);
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
     std::vector<ScalarPair> parts = layout.scalars(residual);
-    for (std::size_t a = 0; a < all.size(); ++a) parts[a] = all[a].sphere_inverse(parts[a]);
+    // Those of spheres, which few membranes have, every rank has for all.
+    if (many) {
+      for_each_member(own, [&](std::size_t a) { parts[a] = all[a].approximate_inverse(parts[a]); });
+      shares.gather(parts);
+    } else {
+      for (std::size_t a = 0; a < all.size(); ++a) parts[a] = all[a].approximate_inverse(parts[a]);
+    }
     return layout.stack(parts).cwiseQuotient(scales);
   };
   std::vector<ScalarPair> rhs(all.size()), guess;
@@ -196,10 +261,17 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     // The mean does nothing on a sphere, and is none of the unknowns' business.
     if (is_sphere[a]) guess.back().tension[0] = 0.0;
   }
-  RecycledGcr solver(map, preconditioner, layout.size());
+  const bool recycles = !many && std::ranges::count(is_sphere, true) == 0;
+  const RecycledSubspace former = recycles ? layout.joined(known, scales) : RecycledSubspace{};
+  RecycledGcr solver(map, preconditioner, layout.size(), 0, former);
   const RecycledGcr::Solution solution = solver.solve(layout.stack(rhs), layout.stack(guess).cwiseQuotient(scales),
                                                       {tolerance, thresholds::most_flow_iterations});
-  CoupledTension result{{}, {}, {}, solution.report};
+  CoupledTension result{{}, {}, {}, std::vector<RecycledSubspace>(all.size()), solution.report};
+  if (recycles) {
+    const RecycledSubspace learned =
+        joined(solver.learned(), selected(former, solver.kept()), thresholds::most_recycled);
+    if (learned.count() > 0) result.learned = layout.of_each(learned, scales);
+  }
   const std::vector<ScalarPair> unknowns = layout.scalars(solution.x.cwiseProduct(scales));
   result.velocities = velocities_of(all, flow, unknowns);
   for (std::size_t a = 0; a < all.size(); ++a) {

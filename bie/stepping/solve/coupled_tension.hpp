@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bie/linear/recycled_subspace.hpp"
 #include "bie/linear/solve_report.hpp"
 #include "bie/physics/coupled_flow.hpp"
 
@@ -12,26 +13,31 @@ struct CoupledTension {
   std::vector<Vector> tension;     ///< λ of each, coefficients; empty where the membrane may extend
   std::vector<Matrix> force;       ///< f_λ on the fluid, values on the upsampled grid; empty likewise
   std::vector<Matrix> velocities;  ///< of the membranes under these forces alone, coefficients
+  /// What all solves so far have learned, for the next: of each membrane its rows of the map of all, λ ↦ J ∇_γ·u; the
+  /// columns are in common. Empty of many membranes, and where one is a sphere.
+  std::vector<RecycledSubspace> learned;
   SolveReport report;
 };
 
 /// Solves ∇_γ·(u + w) = 0 on every inextensible membrane, Eq. (27b), u the velocity under the tensions of all and w the
-/// given one. The unknowns are λ/R, preconditioned with the sphere's inverse on each membrane.
+/// given one. The unknowns are λ/R, preconditioned with the sphere's inverse on each membrane, or with that of each
+/// membrane's own response (TensionInverse) where there are many.
 ///
 /// An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp): there a force c n of degrees 2 … p − 1
 /// holds it in shape, the limit of a large uniform tension on a shape that hardly differs from a sphere; it is an
 /// unknown beside λ, and counts as force of the tension. The mean of λ stays zero there.
 /// Of several ranks, see Interaction, each needs w of its own membranes and gets forces and velocities of these, the
-/// tensions of all.
+/// tensions and what is learned of all.
 /// @param is_sphere  of each membrane, see uniform_tension_is_free
 /// @param driven     w on each, coefficients
 /// @param start      λ of each to start from; empty ones are zero
+/// @param known      CoupledTension::learned on membranes that were nearly the same; counts if all of them have it
 /// @param tolerance  of the preconditioned residual, relative
 /// Accuracy: two spheres along their line of centres as Stimson and Jeffery say to 1e-8 down to gaps of half a radius
 /// (tests/stepping/solve/coupled_tension_test.cpp)
 /// Source: paper Eq. (27b), the layers being those of all membranes
 CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
                               CoupledFlow& flow, const std::vector<Matrix>& driven, const std::vector<Vector>& start,
-                              double tolerance);
+                              const std::vector<RecycledSubspace>& known, double tolerance);
 
 }  // namespace vehd

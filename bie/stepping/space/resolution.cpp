@@ -26,16 +26,23 @@ double least_potential_scale(const AppliedField& electric, double radius) {
   return thresholds::least_potential_share * electric.field.norm() * radius;
 }
 
-double potential_scale(double least, double largest) {
+double scale_of(double least, double largest) {
   const double scale = std::max(largest, least);
-  // Without a field and a potential any scale serves: the error is zero.
+  // Where both are zero any scale serves: the error is zero.
   return scale > 0.0 ? scale : 1.0;
 }
 
 }  // namespace
 
 double potential_scale(const AppliedField& electric, double radius, double largest) {
-  return potential_scale(least_potential_scale(electric, radius), largest);
+  return scale_of(least_potential_scale(electric, radius), largest);
+}
+
+double charge_scale(const Model& model, std::size_t vesicle, double largest) {
+  const ElectricParameters electric = electric_parameters(model, model.vesicles[vesicle]);
+  const double contrast = electric.averaged_frequency ? std::abs(complex_conductivities(electric).contrast())
+                                                      : std::abs(conductivity_contrast(electric));
+  return scale_of(thresholds::least_charge_share * contrast * electric.field.norm(), largest);
 }
 
 Resolution::Resolution(const Model& model, const VesicleState& vesicle)
@@ -54,18 +61,12 @@ Resolution::Resolution(const Model& model, const VesicleState& vesicle, const Ma
   least_scale_ = least_potential_scale(*model.electric, radius);
 }
 
-Resolution::Resolution(const Matrix& field) {
-  shape_ = degree_bounds(field);
-  const double size = shape_.maxCoeff();
-  if (size > 0.0) shape_ /= size;
-}
-
 Resolution::Tail Resolution::tail_of_cut(int order) const {
   Tail tail{shape_.head(order + 1)};
   Vector& bound = tail.bound;
   if (potential_.size() > 0) {
     const Vector potential = potential_.head(order + 1);
-    bound = bound.cwiseMax(potential / potential_scale(least_scale_, potential.maxCoeff()));
+    bound = bound.cwiseMax(potential / scale_of(least_scale_, potential.maxCoeff()));
   }
   // Symmetry can silence every other degree.
   for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);

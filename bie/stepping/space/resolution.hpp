@@ -9,6 +9,10 @@ namespace vehd {
 /// What an error of V_m is measured by: its largest value, or a tenth of what the field could charge at most.
 double potential_scale(const AppliedField& electric, double radius, double largest);
 
+/// The same of q, or its amplitude, of a vesicle: the largest, or a share of η|E| where that is more.
+/// [potential/length]
+double charge_scale(const Model& model, std::size_t vesicle, double largest);
+
 /// How the degrees of one membrane die away.
 /// Accuracy: an estimate; of a geometric spectrum between 0.9 and 3 times what is left out
 /// (tests/stepping/adaptive_evolution_test.cpp)
@@ -16,9 +20,6 @@ class Resolution {
  public:
   /// @param vesicle  of the state whose spectra are looked at
   Resolution(const Model& model, const VesicleState& vesicle);
-  /// Of coefficients of another field, over its size.
-  /// @param field  a column for each component
-  explicit Resolution(const Matrix& field);
   /// A vesicle in an averaged field, whose V_m is no part of the state.
   /// @param potential  amplitude of V_m, of the degree of the vesicle
   Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential);

@@ -24,6 +24,9 @@ struct VesicleFields {
   // Of a field of which only the mean over a period counts, in place of V_m and q; the electric force is the mean.
   Matrix potential_amplitude;  ///< of V_m, complex: the columns are real and imaginary part, [n_coefficients x 2]
   Matrix charge_amplitude;     ///< of q likewise
+  // Free charge of the inner and of the outer face, per area; empty without displacement currents.
+  Vector free_charge_in{};   ///< q_i = C_m V_m − ε_i E_i
+  Vector free_charge_out{};  ///< q_e = ε_e E_e − C_m V_m
 };
 
 /// V_m of a membrane at one time, coefficients; empty without electricity and in an averaged field.

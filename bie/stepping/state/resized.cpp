@@ -27,7 +27,8 @@ VesicleFields resized(VesicleFields fields, int order) {
                         &fields.force_contact, &fields.potential_amplitude, &fields.charge_amplitude}) {
     *field = resized(*field, order);
   }
-  for (Vector* field : {&fields.charge, &fields.potential, &fields.tension, &fields.conductance}) {
+  for (Vector* field : {&fields.charge, &fields.potential, &fields.tension, &fields.conductance, &fields.free_charge_in,
+                        &fields.free_charge_out}) {
     *field = resized(Matrix(*field), order);
   }
   return fields;

@@ -57,6 +57,8 @@ Fields rotated(const Matrix3& rotation, Fields fields) {
     f.charge = rotated_scalar(rotation, f.charge);
     f.potential = rotated_scalar(rotation, f.potential);
     f.conductance = rotated_scalar(rotation, f.conductance);
+    f.free_charge_in = rotated_scalar(rotation, f.free_charge_in);
+    f.free_charge_out = rotated_scalar(rotation, f.free_charge_out);
     f.potential_amplitude = rotated_scalars(rotation, f.potential_amplitude);
     f.charge_amplitude = rotated_scalars(rotation, f.charge_amplitude);
   }

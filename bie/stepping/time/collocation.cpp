@@ -31,14 +31,13 @@ InstantaneousDifference Collocation::change_to(const NodeSolution& end) {
   return physics_.instantaneous_difference(rates_.back(), *next_at_last_);
 }
 
-/// y_0 + dt Σ_j q_mj F_j − y_m.
-Residual Collocation::residual(std::size_t m) const {
-  const auto weights = rule_.weights.row(static_cast<Index>(m));
+/// y_0 + dt Σ_j q_j F_j − y.
+Residual Collocation::residual(const Vector& weights, const NodeSolution& y) const {
   const State& start = physics_.start();
   Residual residual;
   for (std::size_t a = 0; a < start.vesicles.size(); ++a) {
     const SurfaceFields& from = start.vesicles[a];
-    const SurfaceFields& to = nodes_[m].vesicles[a].material;
+    const SurfaceFields& to = y.vesicles[a].material;
     Residual::OfVesicle r{from.position - to.position, from.transmembrane_potential - to.transmembrane_potential,
                           from.free_charge - to.free_charge, from.poration - to.poration};
     for (std::size_t j = 0; j < rates_.size(); ++j) {
@@ -55,7 +54,13 @@ Residual Collocation::residual(std::size_t m) const {
 }
 
 NodeSolution Collocation::corrected(std::size_t m, NodeEnd end) {
-  return physics_.implicit_solve(nodes_[m], residual(m), rule_.implicit_sizes[m] * dt_, end);
+  const Vector weights = rule_.weights.row(static_cast<Index>(m));
+  return physics_.implicit_solve(nodes_[m], residual(weights, nodes_[m]), rule_.implicit_sizes[m] * dt_, end);
+}
+
+NodeSolution Collocation::corrected(const NodeSolution& y, NodeEnd end) {
+  const Vector weights = integration_weights(rule_, (y.time - physics_.start().time) / dt_);
+  return physics_.implicit_solve(y, residual(weights, y), rule_.implicit_sizes.back() * dt_, end);
 }
 
 }  // namespace vehd

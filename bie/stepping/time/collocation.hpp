@@ -32,9 +32,12 @@ class Collocation {
   InstantaneousDifference change_to(const NodeSolution& end);
   /// Node m after a correction with the rates as they are: y + (1 − d_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F_j − y).
   [[nodiscard]] NodeSolution corrected(std::size_t m, NodeEnd end);
+  /// A solution at any time within the step after a correction with these rates: y + (1 − d dt L)⁻¹ (y_0 + ∫F dt − y),
+  /// F being the polynomial through the rates at the start and at every node, and d that of the last node.
+  [[nodiscard]] NodeSolution corrected(const NodeSolution& y, NodeEnd end);
 
  private:
-  [[nodiscard]] Residual residual(std::size_t m) const;
+  [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y) const;
 
   StepOperations& physics_;
   const TimeRule& rule_;

@@ -44,6 +44,13 @@ class SweepErrors {
     return std::max({shape_.error_after(j), potential_.error_after(j), tension_.error_after(j, supposed(tension_)),
                      charge_.error_after(j, supposed(charge_))});
   }
+  /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as by the first
+  /// sweep, whose changes have all degrees.
+  [[nodiscard]] double magnification() const {
+    const double visible = std::max(shape_.first(), potential_.first());
+    if (visible <= 0.0) return 1.0;
+    return std::clamp(std::max(tension_.first(), charge_.first()) / visible, 1.0, thresholds::most_magnification);
+  }
 
  private:
   Corrections shape_, potential_, tension_, charge_;
@@ -89,25 +96,35 @@ std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolu
   return result;
 }
 
-/// Finds the states at these times. @returns whether all are within what is allowed; if not there are none
+/// Error of a solution that one more correction has changed so much.
+double error_left(const VisibleDifference& change) {
+  constexpr double ratio = thresholds::cautious_contraction;
+  return std::max(change.shape, change.potential) * ratio / (1.0 - ratio);
+}
+
+/// Finds the states at these times.
+/// @param magnification  of errors of shape and V_m by tension and charge
+/// @returns whether all are within what is allowed; if not there are none
 bool pass(const std::vector<double>& times, StepOperations& physics, const TimeRule& rule, double dt, double allowed,
-          Collocation& y, ControlledSweeps& result) {
+          double magnification, Collocation& y, ControlledSweeps& result) {
   // The last sweep was made at the last node alone; its rates serve the others as well.
   for (std::size_t m = 0; m < y.last(); ++m) y.node(m) = y.corrected(m, NodeEnd::material);
   const StepPolynomial within(physics, rule, dt, y);
   // It falls like dt⁴ or faster. Where the moments of the next steps lie is chance.
   result.factor = std::min(result.factor, size_factor(within.error(), allowed, 3));
   double largest = 0.0;
-  for (const double time : times) largest = std::max(largest, within.error(time));
-  if (largest > allowed) {
-    result.excess = std::max(result.excess, largest / allowed);
-    return false;
+  for (const double time : times) largest = std::max(largest, magnification * within.error(time));
+  for (auto time = times.begin(); time != times.end() && largest <= allowed; ++time) {
+    const NodeSolution first = within.at(*time);
+    const NodeSolution second = y.corrected(first, NodeEnd::remapped);
+    largest = std::max(largest, error_left(physics.visible_difference(first, second)));
+    result.passed.push_back(physics.passed_state(second));
   }
-  const double size = rule.implicit_sizes[y.last()] * dt;
-  for (const double time : times) {
-    result.passed.push_back(physics.passed_state(physics.held(within.at(time), size, NodeEnd::remapped)));
-  }
-  return true;
+  if (largest <= allowed) return true;
+  result.passed.clear();
+  result.excess = std::max(result.excess, largest / allowed);
+  result.factor = std::min(result.factor, size_factor(largest, allowed, 3));
+  return false;
 }
 
 }  // namespace
@@ -155,7 +172,8 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   // Before what is solved for within the step can be recycled.
   result.state = physics.end_state(y.node(last));
   const std::vector<double> times = goal.times_before(physics.start().time + dt);
-  if (!times.empty() && !pass(times, physics, rule, dt, thresholds::moment_share * goal.tolerance, y, result)) {
+  const double allowed_within = thresholds::moment_share * goal.tolerance;
+  if (!times.empty() && !pass(times, physics, rule, dt, allowed_within, errors.magnification(), y, result)) {
     return result;
   }
   result.end = std::move(y.node(last));

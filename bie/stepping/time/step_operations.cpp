@@ -6,15 +6,10 @@
 #include <optional>
 
 #include "bie/physics/averaged_field.hpp"
-#include "bie/physics/charge_relaxation.hpp"
-#include "bie/physics/coupled_charging.hpp"
 #include "bie/physics/electric.hpp"
-#include "bie/physics/membrane_charging.hpp"
-#include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
-#include "bie/stepping/time/shared_motions.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -34,12 +29,6 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
     options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
   }
   return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
-}
-
-void require_finite(const Motion& motion) {
-  bool finite = motion.arrived.position.allFinite();
-  for_each_scalar(motion.arrived, [&](const Vector& scalar) { finite = finite && scalar.allFinite(); });
-  if (!finite) throw ConvergenceError("the new state is not finite");
 }
 
 }  // namespace
@@ -73,7 +62,8 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   }
   const bool is_linear = charges() && !porates();
   if (is_linear) charge(electric_at(result.time), dt, charged);
-  result.vesicles = shared_motions(shares(), start_.vesicles.size(), iterations_flow_, [&](std::size_t a) {
+  std::vector<MotionStart> starts;
+  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = start_.vesicles[a];
     if (is_linear) take(std::move(charged[a]), result.time, a, fields);
     if (porates()) {
@@ -82,9 +72,12 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
     }
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
     if (model_.mobile) fields.tension = instantaneous.tension;
-    const auto rigid = [&](const Membrane& sphere) { return motion_of_velocity(sphere, instantaneous.velocity, dt); };
-    return motion(a, {std::move(fields), instantaneous.velocity}, rigid, dt, end);
-  });
+    starts.push_back({std::move(fields), instantaneous.velocity});
+  }
+  const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
+    return motion_of_velocity(sphere, at_start_.fields.vesicles[a].velocity, dt);
+  };
+  result.vesicles = motions(starts, rigid, dt, end);
   return result;
 }
 
@@ -103,7 +96,8 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
     }
     charge(homogeneous, dt, changes);
   }
-  result.vesicles = shared_motions(shares(), start_.vesicles.size(), iterations_flow_, [&](std::size_t a) {
+  std::vector<MotionStart> starts;
+  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
     if (porates()) {
@@ -117,25 +111,14 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
       changes[a].free += fields.free_charge;
       take(std::move(changes[a]), result.time, a, fields);
     }
-    const Matrix& lacks = r.vesicles[a].position;
-    // A rigid motion has no stiffness, so nothing of it is implicit.
-    const auto rigid = [&](const Membrane& sphere) {
-      return motion_of_displacement(sphere, y.vesicles[a].material.position + lacks - start_.vesicles[a].position);
-    };
-    return motion(a, {std::move(fields), lacks / dt}, rigid, dt, end);
-  });
-  return result;
-}
-
-NodeSolution StepOperations::held(const NodeSolution& y, double dt, NodeEnd end) {
-  NodeSolution result{y.time, {}};
-  result.vesicles = shared_motions(shares(), start_.vesicles.size(), iterations_flow_, [&](std::size_t a) {
-    SurfaceFields fields = y.vesicles[a].material;
-    fields.area_strain = start_.vesicles[a].area_strain;
-    const Matrix displacement = fields.position - start_.vesicles[a].position;
-    const auto rigid = [&](const Membrane& sphere) { return motion_of_displacement(sphere, displacement); };
-    return motion(a, {std::move(fields), Matrix::Zero(displacement.rows(), 3)}, rigid, dt, end);
-  });
+    starts.push_back({std::move(fields), r.vesicles[a].position / dt});
+  }
+  // A rigid motion has no stiffness, so nothing of it is implicit.
+  const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
+    return motion_of_displacement(
+        sphere, y.vesicles[a].material.position + r.vesicles[a].position - start_.vesicles[a].position);
+  };
+  result.vesicles = motions(starts, rigid, dt, end);
   return result;
 }
 
@@ -149,28 +132,8 @@ std::vector<ElectricParameters> StepOperations::electric_at(double time) const {
 
 void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges) {
   const auto timer = instruments_.time("electric");
-  const double tolerance = discretisation_.settings().electric_tolerance;
-  SolveReport report;
-  if (relaxes_charge(model_)) {
-    FaceCharges faces{std::move(charges.front().potential), std::move(charges.front().free)};
-    report = relax_charges(electric.front(), model_.vesicles.front().charging, *at_start_.vesicles.front().membrane, dt,
-                           tolerance, faces);
-    charges.front() = {std::move(faces.inner), std::move(faces.sum)};
-  } else if (charges.size() == 1) {
-    report = charge_membrane(electric.front(), model_.vesicles.front().charging, *at_start_.vesicles.front().membrane,
-                             dt, tolerance, charges.front().potential);
-  } else {
-    std::vector<Vector> potentials;
-    std::vector<ElectricMembrane> membranes;
-    std::vector<ChargingParameters> charging;
-    for (std::size_t a = 0; a < charges.size(); ++a) {
-      membranes.push_back({electric[a], *at_start_.vesicles[a].membrane});
-      charging.push_back(model_.vesicles[a].charging);
-      potentials.push_back(std::move(charges[a].potential));
-    }
-    report = charge_membranes(membranes, *at_start_.interaction, charging, dt, tolerance, potentials);
-    for (std::size_t a = 0; a < charges.size(); ++a) charges[a].potential = std::move(potentials[a]);
-  }
+  const SolveReport report =
+      charge_step(model_, at_start_, electric, dt, discretisation_.settings().electric_tolerance, charges);
   iterations_electric_ += report.iterations;
   if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
 }
@@ -213,34 +176,6 @@ void StepOperations::forget_decayed(double time, std::size_t a, Vector& potentia
   const double scale = model_.electric->field.norm() * at_start_.vesicles[a].membrane->radius;
   if (model_.electric->waveform.is_quiet(time) && potential.norm() < thresholds::decayed_potential * scale)
     potential.setZero();
-}
-
-Motion StepOperations::motion(std::size_t a, const MotionStart& start, const RigidMotion& rigid, double dt,
-                              NodeEnd end) {
-  const VesicleSolution& solution = at_start_.vesicles[a];
-  Motion result;
-  if (!model_.mobile) {
-    result.material = result.arrived = start.fields;
-  } else {
-    const auto timer = instruments_.time("velocity solve");
-    const Arrival there = arrival(a, end);
-    const FlowParameters parameters = flow_parameters(model_, model_.vesicles[a]);
-    result = solution.is_sphere
-                 ? rigid_sphere_motion(start.fields, *solution.membrane, rigid(*solution.membrane), there)
-                 : constrained_motion({parameters, discretisation_.settings(), start_.vesicles[a], *solution.membrane},
-                                      start, dt, flow_[a].of(dt), there, iterations_flow_);
-  }
-  require_finite(result);
-  return result;
-}
-
-Arrival StepOperations::arrival(std::size_t a, NodeEnd end) const {
-  if (end == NodeEnd::material) return [](const SurfaceFields& material) { return material; };
-  return [this, a](const SurfaceFields& material) {
-    const auto timer = instruments_.time("remap");
-    return remap(discretisation_.vesicle(a).fine_transform(), material.position - start_.vesicles[a].position,
-                 material);
-  };
 }
 
 State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const {
@@ -329,14 +264,6 @@ double StepOperations::least_tension(std::size_t a) const {
   return bending ? thresholds::least_tension_share * 4.0 * std::numbers::pi * bending->modulus : 0.0;
 }
 
-/// A charge that the field of the scene makes much more of.
-double StepOperations::least_charge(std::size_t a) const {
-  const ElectricParameters electric = electric_parameters(model_, model_.vesicles[a]);
-  const double contrast = electric.averaged_frequency ? std::abs(complex_conductivities(electric).contrast())
-                                                      : std::abs(conductivity_contrast(electric));
-  return thresholds::least_charge_share * contrast * electric.field.norm();
-}
-
 InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, const Rate& b) const {
   const auto share = [](double change, double size) { return size > 0.0 ? change / size : 0.0; };
   InstantaneousDifference largest;
@@ -349,7 +276,7 @@ InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, 
     const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
     const double charge = fine.synthesize(y.charge - x.charge).cwiseAbs().maxCoeff();
     const double size = fine.synthesize(y.charge).cwiseAbs().maxCoeff();
-    largest.charge = std::max(largest.charge, share(charge, std::max(size, least_charge(i))));
+    largest.charge = std::max(largest.charge, charge / charge_scale(model_, i, size));
     if (y.potential_amplitude.size() == 0) continue;
     const double potential = fine.synthesize(y.potential_amplitude - x.potential_amplitude).cwiseAbs().maxCoeff();
     const double most = fine.synthesize(y.potential_amplitude).cwiseAbs().maxCoeff();

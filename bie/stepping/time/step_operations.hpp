@@ -8,6 +8,7 @@
 #include "bie/stepping/solve/constrained_motion.hpp"
 #include "bie/stepping/solve/flow_systems.hpp"
 #include "bie/stepping/solve/rigid_sphere.hpp"
+#include "bie/stepping/time/charge_step.hpp"
 #include "bie/stepping/time/rate.hpp"
 
 namespace vehd {
@@ -82,8 +83,6 @@ class StepOperations {
   NodeSolution first_order_step(double dt, NodeEnd end);
   /// y + (1 − dt L)⁻¹ r.
   NodeSolution implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end);
-  /// y with areas and volumes projected back to what they have to be.
-  NodeSolution held(const NodeSolution& y, double dt, NodeEnd end);
 
   /// The state at the end of the step, from a node that is remapped; collective.
   [[nodiscard]] State end_state(const NodeSolution& node) const;
@@ -111,14 +110,9 @@ class StepOperations {
   }
   [[nodiscard]] State state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const;
   [[nodiscard]] double least_tension(std::size_t vesicle) const;
-  [[nodiscard]] double least_charge(std::size_t vesicle) const;
   [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
-  /// V_m of a membrane, or the charges of its faces.
-  struct Charge {
-    Vector potential, free;
-  };
   void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges);
   [[nodiscard]] double poration_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] bool porates() const;
@@ -127,11 +121,14 @@ class StepOperations {
   void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] const Shares& shares() const { return discretisation_.shares(); }
-  [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end) const;
-  using RigidMotion = std::function<SphereMotion(const Membrane& sphere)>;
-  /// Solves and projects; V_m of the start is that of the end.
+  [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end, Instruments& instruments) const;
+  using RigidMotion = std::function<SphereMotion(std::size_t vesicle, const Membrane& sphere)>;
+  /// Solves and projects all vesicles, each on its rank; V_m of the start is that of the end. Collective.
   /// @param rigid  the motion of a sphere, which takes the place of the start's velocity there
-  Motion motion(std::size_t vesicle, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end);
+  std::vector<Motion> motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt, NodeEnd end);
+  /// The same of one. Others may be moved at the same time.
+  Motion motion(std::size_t vesicle, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end,
+                Instruments& instruments, int& iterations);
 
   const Model& model_;
   const Discretisation& discretisation_;

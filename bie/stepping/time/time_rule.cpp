@@ -22,4 +22,18 @@ TimeRule time_rule(int order) {
           {0.10404994025001671, 0.33281274542850664, 0.4812901402100925}};
 }
 
+Vector integration_weights(const TimeRule& rule, double c) {
+  // Those that are exact for every power.
+  const Index n = static_cast<Index>(rule.nodes.size()) + 1;
+  Matrix powers(n, n);
+  Vector integrals(n);
+  for (Index k = 0; k < n; ++k) {
+    const double degree = static_cast<double>(k);
+    integrals[k] = std::pow(c, degree + 1.0) / (degree + 1.0);
+    powers(k, 0) = k == 0 ? 1.0 : 0.0;
+    for (Index j = 1; j < n; ++j) powers(k, j) = std::pow(rule.nodes[static_cast<std::size_t>(j - 1)], degree);
+  }
+  return powers.partialPivLu().solve(integrals);
+}
+
 }  // namespace vehd

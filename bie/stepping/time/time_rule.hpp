@@ -23,6 +23,10 @@ struct TimeRule {
 /// Source: Radau IIA methods, Hairer and Wanner 1996; sizes as in van der Houwen and Sommeijer 1991
 TimeRule time_rule(int order);
 
+/// q_j of ∫_0^c of the polynomial through values at the points 0, c_1, …, c_M, [M + 1].
+/// Accuracy: 1e-13 for polynomials of degree M (tests/stepping/time/time_rules_test.cpp)
+Vector integration_weights(const TimeRule& rule, double c);
+
 /// Highest order that has a rule.
 constexpr int highest_time_order = 5;
 

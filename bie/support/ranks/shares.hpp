@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "bie/support/parallel.hpp"
 #include "bie/support/ranks/parcel.hpp"
 #include "bie/support/ranks/ranks.hpp"
 
@@ -40,12 +41,13 @@ class Shares {
     }
   }
 
-  /// What `part(a)` gives for each of n parts, on all ranks, which call it for their own. What it throws all throw.
+  /// What `part(a)` gives for each of n parts, on all ranks, which call it for their own, on threads as for_each_member
+  /// does. What it throws all throw.
   template <typename Part>
   auto of_all(std::size_t n, const Part& part) const {
     std::vector<std::invoke_result_t<const Part&, std::size_t>> values(n);
     ranks_.together([&] {
-      for (const std::size_t a : own(n)) values[a] = part(a);
+      for_each_member(own(n), [&](std::size_t a) { values[a] = part(a); });
       gather(values);
     });
     return values;

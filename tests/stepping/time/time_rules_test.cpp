@@ -22,6 +22,22 @@ BOOST_AUTO_TEST_CASE(weights_integrate_polynomials_from_the_start_to_every_node)
   }
 }
 
+BOOST_AUTO_TEST_CASE(weights_integrate_polynomials_through_all_points_to_any_time) {
+  for (int order = 2; order <= highest_time_order; ++order) {
+    const TimeRule rule = time_rule(order);
+    const int n_nodes = static_cast<int>(rule.nodes.size());
+    for (const double c : {0.0, 0.1, 0.37, 0.8, 1.0}) {
+      const Vector weights = integration_weights(rule, c);
+      BOOST_TEST_REQUIRE(weights.size() == n_nodes + 1);
+      for (int degree = 0; degree <= n_nodes; ++degree) {
+        double sum = degree == 0 ? weights[0] : 0.0;
+        for (int j = 0; j < n_nodes; ++j) sum += weights[j + 1] * std::pow(rule.nodes[j], degree);
+        BOOST_TEST(std::abs(sum - std::pow(c, degree + 1) / (degree + 1)) < 1e-13, order << " " << c << " " << degree);
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(whole_step_is_integrated_to_the_order_of_radau) {
   for (const int order : {3, 4, 5}) {
     const TimeRule rule = time_rule(order);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/physics/electric.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
+
+namespace vehd {
+
+/// V_m of a membrane, or with displacement currents the charges of its faces: SurfaceFields::transmembrane_potential
+/// and SurfaceFields::free_charge.
+struct Charge {
+  Vector potential, free;
+};
+
+/// One implicit step of the charging of all membranes, see charge_membrane, charge_membranes and relax_charges.
+/// @param at_start  membranes and their interaction
+/// @param electric  of each vesicle at the end of the step
+/// @param charges   before the step on input, after it on output
+SolveReport charge_step(const Model& model, const SolvedFields& at_start,
+                        const std::vector<ElectricParameters>& electric, double dt, double tolerance,
+                        std::vector<Charge>& charges);
+
+}  // namespace vehd

@@ -1,0 +1,210 @@
+#include "bie/physics/coupled_relaxation.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "bie/physics/averaged_field.hpp"
+#include "bie/support/complex_columns.hpp"
+#include "tests/physics/coupled_spheres.hpp"
+#include "tests/support/electric.hpp"
+#include "tests/support/several.hpp"
+
+BOOST_AUTO_TEST_SUITE(coupled_relaxation)
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kTight = 1e-13;
+
+ElectricParameters relaxing(const Vector3& field, double conductivity_in = 0.6, double permittivity_ratio = 0.5) {
+  ElectricParameters electric{field, conductivity_in, 1.7, 0.4, permittivity_ratio};
+  electric.displacement_current = true;
+  return electric;
+}
+constexpr ChargingParameters kMembrane{0.8, 0.3};
+
+SeveralMembranes spheres_above_each_other(int order, double distance) {
+  const Vector3 up(0.0, 0.0, distance / 2.0);
+  return {order, {translated(sphere(order), -up), translated(sphere(order), up)}, kLaplaceLayers, kLaplacePairs};
+}
+
+std::vector<ChargingMembrane> charging_in(const SeveralMembranes& several, const ElectricParameters& electric) {
+  std::vector<ChargingMembrane> all;
+  for (const Membrane& membrane : several.membranes) all.push_back({{electric, membrane}, kMembrane});
+  return all;
+}
+
+std::vector<FaceCharges> no_charges(const SeveralMembranes& several) {
+  std::vector<FaceCharges> all;
+  for (const Vector& zero : several.zeros()) all.push_back({zero, zero});
+  return all;
+}
+
+std::vector<RelaxingField> fields(const std::vector<ChargingMembrane>& membranes, const SeveralMembranes& several,
+                                  const std::vector<FaceCharges>& charges) {
+  std::vector<RelaxingField> found =
+      fields_of_charges(membranes, several.interaction, charges, kTight, several.zeros());
+  require_converged(found.front().report, "V_m");
+  return found;
+}
+
+/// What pulls the lower one up.
+double attraction(const SeveralMembranes& several, const ElectricParameters& electric,
+                  const std::vector<RelaxingField>& found) {
+  const Matrix force =
+      electric_force(electric.permittivity, several.membranes[0], found[0].traces, electric.permittivity_ratio);
+  return -total(several.membranes[0], force).z();
+}
+
+/// Charges q_i/C, Q/C of an amplitude: K_k E_k = yV, so q_i = C V − ε_i yV/K_i and q_e = ε_e yV/K_e − C V.
+std::pair<Matrix, Matrix> charge_amplitudes(const ChargingMembrane& of, double frequency, const Matrix& potential) {
+  ElectricParameters electric = of.in_field.electric;
+  electric.averaged_frequency = frequency;
+  const ComplexConductivities k = complex_conductivities(electric);
+  const Complex current = membrane_admittance(of.charging, frequency) / of.charging.capacitance;
+  const Matrix inner = times(electric.permittivity * electric.permittivity_ratio * current / k.inside, potential);
+  return {potential - inner, times(electric.permittivity * current / k.outside, potential) - inner};
+}
+
+}  // namespace
+
+// One implicit step from no charge is a steady state between fluids that conduct ε/dt more, of a membrane that conducts
+// C_m/dt more: K_i/K_e and (C_m/dt + G_m)/K_e in the multipoles.
+BOOST_AUTO_TEST_CASE(one_step_of_two_spheres_is_that_of_their_multipoles) {
+  const SeveralMembranes spheres = spheres_above_each_other(16, 2.5);
+  const ElectricParameters electric = relaxing({0.0, 0.0, 1.0}, 6.0);
+  const std::vector<ChargingMembrane> membranes = charging_in(spheres, electric);
+  for (const double dt : {1e-3, 0.2, 10.0}) {
+    std::vector<FaceCharges> charges = no_charges(spheres);
+    require_converged(relax_charges(membranes, spheres.interaction, dt, kTight, charges), "charges");
+    const double k_in = 6.0 + 0.2 / dt, k_out = 1.7 + 0.4 / dt;
+    const SphereForces exact = charged_sphere_forces(0.5, k_in / k_out, (0.8 / dt + 0.3) / k_out);
+    const double found = attraction(spheres, electric, fields(membranes, spheres, charges));
+    BOOST_TEST(std::abs(found - 0.4 * exact.along) < 1e-7, "dt = " << dt << ": " << found << ", " << exact.along);
+  }
+}
+
+// k_m = k/(1 + m K_i/y) in the multipoles.
+BOOST_AUTO_TEST_CASE(two_spheres_in_an_alternating_field_attract_as_their_complex_multipoles_say) {
+  const SeveralMembranes spheres = spheres_above_each_other(16, 2.5);
+  ElectricParameters electric = relaxing({0.0, 0.0, 1.0}, 6.0);
+  for (const double frequency : {0.03, 0.3, 3.0}) {
+    electric.averaged_frequency = frequency;
+    const ComplexConductivities k = complex_conductivities(electric);
+    const Complex s = k.inside / membrane_admittance(kMembrane, frequency);
+    const SphereForces exact = sphere_forces_of(
+        0.5, [&](int m) -> Complex { return k.inside / k.outside / (1.0 + static_cast<double>(m) * s); });
+    const AveragedFields solved =
+        solve_averaged_fields(spheres.in_field(electric), {kMembrane, kMembrane}, &spheres.interaction, kTight);
+    require_converged(solved.report, "amplitudes");
+    const double found = -total(spheres.membranes[0], solved.membranes[0].force).z();
+    BOOST_TEST(std::abs(found - 0.4 * exact.along) < 1e-7, frequency << ": " << found << ", " << 0.4 * exact.along);
+  }
+}
+
+// Field of the dipole of the other: V grows by −2 g/d³ along it.
+BOOST_AUTO_TEST_CASE(a_sphere_far_away_counts_with_the_third_power_of_its_distance) {
+  const ElectricParameters electric = relaxing({0.0, 0.0, 1.0}, 6.0);
+  const double dt = 0.2, k_in = 6.0 + 0.2 / dt, k_out = 1.7 + 0.4 / dt, g = (0.8 / dt + 0.3) / k_out;
+  const double dipole = polarisability(1, k_in / k_out / (1.0 + k_in / k_out / g));
+  for (const double distance : {8.0, 16.0, 32.0}) {
+    const SeveralMembranes spheres = spheres_above_each_other(6, distance);
+    std::vector<FaceCharges> charges = no_charges(spheres);
+    require_converged(relax_charges(charging_in(spheres, electric), spheres.interaction, dt, kTight, charges), "pair");
+    FaceCharges alone = no_charges(spheres).front();
+    require_converged(relax_charges(electric, kMembrane, spheres.membranes[0], dt, kTight, alone), "alone");
+    const Index along = coefficient_index(1, 0);
+    const double growth = charges[0].inner[along] / alone.inner[along] - 1.0;
+    const double expected = -2.0 * dipole / std::pow(distance, 3);
+    // The dipoles that the dipoles make are the next term.
+    BOOST_TEST(std::abs(growth - expected) < 2.0 * expected * expected + 1e-11, growth << ", " << expected);
+  }
+}
+
+// Of two membranes without symmetry, each with fluids and properties of its own: with the charges of an amplitude the
+// potential is its real part and the rates are those of the alternation.
+BOOST_AUTO_TEST_CASE(charges_of_two_membranes_change_as_their_amplitudes_alternate) {
+  const SeveralMembranes two(10, {asymmetric_shape(10), translated(ellipsoid(10, {0.8, 0.7, 0.9}), {0.5, 0.3, 2.6})},
+                             kLaplaceLayers, kLaplacePairs);
+  const Vector3 field(0.4, -0.3, 1.1);
+  const std::vector<ChargingMembrane> membranes{{{relaxing(field), two.membranes[0]}, kMembrane},
+                                                {{relaxing(field, 3.0, 2.0), two.membranes[1]}, {0.5, 0.1}}};
+  const double frequency = 0.2, omega = 2.0 * std::numbers::pi * frequency;
+  std::vector<ElectricMembrane> averaged;
+  std::vector<ChargingParameters> charging;
+  for (const ChargingMembrane& of : membranes) {
+    averaged.push_back(of.in_field);
+    averaged.back().electric.averaged_frequency = frequency;
+    charging.push_back(of.charging);
+  }
+  const AveragedFields solved = solve_averaged_fields(averaged, charging, &two.interaction, kTight);
+  std::vector<FaceCharges> charges;
+  std::vector<Matrix> inner, sum;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const auto [of_inner, of_sum] = charge_amplitudes(membranes[a], frequency, solved.membranes[a].potential);
+    charges.push_back({of_inner.col(0), of_sum.col(0)});
+    inner.push_back(of_inner);
+    sum.push_back(of_sum);
+  }
+  const std::vector<RelaxingField> now = fields(membranes, two, charges);
+  for (std::size_t a = 0; a < 2; ++a) {
+    const Vector potential = solved.membranes[a].potential.col(0);
+    BOOST_TEST(max_difference(now[a].potential, potential) < 1e-3 * potential.norm());
+    const auto& [electric, membrane] = membranes[a].in_field;
+    const FaceCharges rates = charge_rates(electric, membranes[a].charging, membrane, now[a]);
+    // A quarter of a period later the alternation has minus the imaginary part.
+    BOOST_TEST(max_difference(rates.inner, -omega * inner[a].col(1)) < 3e-3 * omega * inner[a].norm());
+    BOOST_TEST(max_difference(rates.sum, -omega * sum[a].col(1)) < 3e-3 * omega * sum[a].norm());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_step_of_two_membranes_ends_in_charges_whose_field_makes_it) {
+  const SeveralMembranes two(
+      10, {ellipsoid(10, {1.0, 0.9, 1.1}), translated(ellipsoid(10, {0.8, 0.7, 0.9}), {0.5, 0.3, 2.6})}, kLaplaceLayers,
+      kLaplacePairs);
+  const Vector3 field(0.4, -0.3, 1.1);
+  const std::vector<ChargingMembrane> membranes{{{relaxing(field), two.membranes[0]}, kMembrane},
+                                                {{relaxing(field, 3.0, 2.0), two.membranes[1]}, {0.5, 0.1}}};
+  const double dt = 0.3;
+  std::vector<FaceCharges> charges = no_charges(two);
+  for (int step = 0; step < 2; ++step) {
+    const std::vector<FaceCharges> before = charges;
+    require_converged(relax_charges(membranes, two.interaction, dt, kTight, charges), "charges");
+    const std::vector<RelaxingField> now = fields(membranes, two, charges);
+    for (std::size_t a = 0; a < 2; ++a) {
+      const auto& [electric, membrane] = membranes[a].in_field;
+      const FaceCharges rates = charge_rates(electric, membranes[a].charging, membrane, now[a]);
+      BOOST_TEST(max_difference(dt * rates.inner, charges[a].inner - before[a].inner) < 1e-4 * charges[a].inner.norm());
+      BOOST_TEST(max_difference(dt * rates.sum, charges[a].sum - before[a].sum) < 1e-4 * charges[a].sum.norm());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(copies_far_apart_are_each_alone) {
+  const Matrix shape = asymmetric_shape(8);
+  const SeveralMembranes three(8, {shape, translated(shape, {2e4, 1e4, 0.0}), translated(shape, {0.0, -1e4, 3e4})},
+                               kLaplaceLayers, kLaplacePairs);
+  const ElectricParameters electric = relaxing({0.4, -0.3, 1.1});
+  const std::vector<ChargingMembrane> membranes = charging_in(three, electric);
+  std::vector<FaceCharges> charges = no_charges(three);
+  require_converged(relax_charges(membranes, three.interaction, 0.3, kTight, charges), "charges");
+  FaceCharges alone = no_charges(three).front();
+  require_converged(relax_charges(electric, kMembrane, three.membranes[0], 0.3, kTight, alone), "alone");
+  const RelaxingField of_one = field_of_charges(electric, kMembrane, three.membranes[0], alone, kTight);
+  const std::vector<RelaxingField> of_all = fields(membranes, three, charges);
+  for (std::size_t a = 0; a < 3; ++a) {
+    BOOST_TEST(max_difference(charges[a].inner, alone.inner) < 1e-10);
+    BOOST_TEST(max_difference(charges[a].sum, alone.sum) < 1e-10);
+    BOOST_TEST(max_difference(of_all[a].potential, of_one.potential) < 1e-10);
+    BOOST_TEST(max_difference(of_all[a].traces.flux_in, of_one.traces.flux_in) < 1e-9);
+    BOOST_TEST(max_difference(of_all[a].traces.charge, of_one.traces.charge) < 1e-9);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
