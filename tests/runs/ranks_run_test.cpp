@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include "bie/files/run_reader.hpp"
 #include "bie/runs/session.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/output_error.hpp"
@@ -49,6 +50,15 @@ const std::string kSuspension =
 class Run {
  public:
   [[nodiscard]] std::string file(const std::string& name) const { return file_text(folder_ / ("out/" + name)); }
+  /// Of all numbers of each snapshot.
+  [[nodiscard]] std::vector<std::int64_t> checksums() const {
+    const vehd::Hdf5Reader numbers(folder_ / "out/run.h5");
+    std::vector<std::int64_t> all;
+    for (const std::string& name : numbers.members("/snapshots")) {
+      all.push_back(vehd::snapshot_checksum(numbers, "/snapshots/" + name));
+    }
+    return all;
+  }
   [[nodiscard]] std::string counted(const std::string& what) const {
     return nlohmann::json::parse(file("summary.json")).at(what).dump();
   }
@@ -85,6 +95,7 @@ void check_same_files(const std::string& scene, const std::vector<int>& numbers)
     const Run shared;
     check_completed(shared.go_on(scene, n_ranks));
     for (const char* name : {"history.csv", "vesicles.csv"}) BOOST_TEST((shared.file(name) == alone.file(name)), name);
+    BOOST_TEST(shared.checksums() == alone.checksums(), boost::test_tools::per_element());
     for (const char* what : {"kernel_evaluations", "pair_targets"})
       BOOST_TEST(shared.counted(what) == alone.counted(what));
   }
