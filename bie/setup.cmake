@@ -26,6 +26,7 @@
 #   -DVEHD_PYTHON=ON                test, build and docs include the module of Python and install what it needs; without it
 #                                   they include it where pybind11 and numpy are there already; package includes it
 #                                   unless this is OFF
+#   -DVEHD_MPI=ON                   builds a vehd that runs on several processes, and installs what it needs
 #   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of that of this machine;
 #                                   levels: for every x86-64, the numerical libraries for its newer levels as well
 #   -DVEHD_TEST_LEVEL=x86-64-v3     test runs the tests that rounding could change once more, on numerical libraries for this
@@ -227,7 +228,7 @@ if(STEP MATCHES "^(test|sanitize|faults|slurm|fuzz)$")
 else()
   list(APPEND options -DBUILD_TESTING=OFF)
 endif()
-foreach(option IN ITEMS CMAKE_COMPILE_WARNING_AS_ERROR VEHD_TEST_LEVEL)
+foreach(option IN ITEMS CMAKE_COMPILE_WARNING_AS_ERROR VEHD_TEST_LEVEL VEHD_MPI)
   if(DEFINED ${option})
     list(APPEND options "-D${option}=${${option}}")
   endif()

@@ -4,6 +4,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
+
 #include "bie/app/commands.hpp"
 #include "bie/files/versions.hpp"
 #include "bie/support/errors.hpp"
@@ -24,6 +26,14 @@ void send_messages_to_standard_error() {
   auto logger = spdlog::stderr_color_mt("vehd");
   logger->set_pattern("%^%l%$: %v");
   spdlog::set_default_logger(std::move(logger));
+}
+
+/// What is said is said by the first rank.
+void fall_silent() {
+  spdlog::set_level(spdlog::level::off);
+  for (std::FILE* stream : {stdout, stderr}) {
+    if (std::freopen("/dev/null", "w", stream) == nullptr) throw OutputError("/dev/null cannot be opened");
+  }
 }
 
 std::string version_text() {
@@ -79,16 +89,17 @@ void write_json(const CommonOptions& options, const nlohmann::json& result) {
   if (options.json) options.json->write(result.dump(2) + "\n");
 }
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, const Ranks& ranks) {
   keep_freed_memory();
   send_messages_to_standard_error();
+  if (!ranks.is_first()) fall_silent();
   CLI::App program("Simulates a lipid vesicle in viscous flow and electric field by boundary integral equations.",
                    "vehd");
   program.set_version_flag("--version", version_text(), "Print the versions of the program and its libraries");
   program.require_subcommand(1);
   program.footer(footer);
   ExitCode exit_code = ExitCode::done;
-  add_run_command(program, exit_code);
+  add_run_command(program, ranks, exit_code);
   add_sweep_command(program, exit_code);
   add_plot_command(program, exit_code);
   add_report_command(program, exit_code);
@@ -100,7 +111,9 @@ int run_program(int argc, char** argv) {
   add_examples_command(program, exit_code);
   add_completion_command(program, exit_code);
   add_help_command(program, exit_code);
-  return static_cast<int>(parse_and_run(program, argc, argv, exit_code));
+  const ExitCode code = parse_and_run(program, argc, argv, exit_code);
+  // mpirun ends all ranks as soon as one returns anything else.
+  return ranks.is_first() ? static_cast<int>(code) : 0;
 }
 
 }  // namespace vehd

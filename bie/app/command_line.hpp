@@ -1,9 +1,12 @@
 #pragma once
 
+#include "bie/support/ranks/ranks.hpp"
+
 namespace vehd {
 
 /// The whole program: parses, runs one command, reports errors on standard error.
-/// @return the exit code, an ExitCode
-int run_program(int argc, char** argv);
+/// @param ranks  that `vehd run` computes with; all but the first are silent
+/// @return       the exit code, an ExitCode; 0 on all ranks but the first
+int run_program(int argc, char** argv, const Ranks& ranks = {});
 
 }  // namespace vehd

@@ -5,13 +5,14 @@
 #include <optional>
 
 #include "bie/support/exit_code.hpp"
+#include "bie/support/ranks/ranks.hpp"
 #include "bie/support/result_file.hpp"
 
 /// One function per command: it adds the command's options and a callback that runs it and sets the exit code.
 namespace vehd {
 
-/// vehd run: simulates a scene.
-void add_run_command(CLI::App& program, ExitCode& exit_code);
+/// vehd run: simulates a scene. @param ranks  that do so together
+void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code);
 /// vehd sweep: simulates a scene for many values of its keys.
 void add_sweep_command(CLI::App& program, ExitCode& exit_code);
 /// vehd plot: pictures of a run, or of a sweep.

@@ -3,6 +3,9 @@
 #include <cstdlib>
 
 #include "bie/app/command_line.hpp"
+#ifdef VEHD_MPI
+#include "bie/mpi/mpi_ranks.hpp"
+#endif
 
 int main(int argc, char** argv) {
   // OpenMP reads its environment once, when the program is loaded. Threads that spin while they wait lose whole time
@@ -11,5 +14,9 @@ int main(int argc, char** argv) {
     setenv("OMP_WAIT_POLICY", "passive", 1);
     execv("/proc/self/exe", argv);
   }
+#ifdef VEHD_MPI
+  return vehd::run_program(argc, argv, vehd::mpi_ranks());
+#else
   return vehd::run_program(argc, argv);
+#endif
 }

@@ -69,12 +69,13 @@ void plot_if_possible(const RunPaths& paths) {
   }
 }
 
-ExitCode run(const RunOptions& options) {
+ExitCode run(const RunOptions& options, const Ranks& ranks) {
   // Before anything runs in parallel: threads inherit which signals they leave alone.
   std::optional<Interruption> interruption(std::in_place);
   const Scene scene = read_scene(options.scene.source);
-  const RunSession session(scene, options.scene.source, directory_of(options), options.resume);
+  const RunSession session(scene, options.scene.source, directory_of(options), options.resume, ranks);
   if (session.is_complete()) {
+    if (!ranks.is_first()) return ExitCode::done;
     fmt::print("{}: the run is already complete, nothing to do\n", session.paths().directory.string());
     write_json(options.common, session.last_summary());
     return ExitCode::done;
@@ -84,11 +85,12 @@ ExitCode run(const RunOptions& options) {
                  omp_get_max_threads());
   }
   for (const SceneChange& change : session.changes()) fmt::print("changed at {}\n", text_of(change));
-  Progress progress(options.quiet ? Progress::Style::none : Progress::suitable_style());
+  Progress progress(options.quiet || !ranks.is_first() ? Progress::Style::none : Progress::suitable_style());
   const RunOutcome outcome =
       session.simulate(*interruption, [&progress](const RunStatus& status) { show_run(progress, status); });
   progress.finish();
   interruption.reset();
+  if (!ranks.is_first()) return outcome.completed ? ExitCode::done : ExitCode::stopped_early;
   nlohmann::json summary;
   try {
     summary = session.summarise(outcome);
@@ -110,7 +112,7 @@ ExitCode run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& program, ExitCode& exit_code) {
+void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene");
   const auto options = std::make_shared<RunOptions>();
   add_scene_choice(*command, options->scene);
@@ -127,7 +129,7 @@ void add_run_command(CLI::App& program, ExitCode& exit_code) {
   command->footer(
       "Writes history.csv, run.h5, run.xdmf (ParaView), summary.json, scene.toml and plots/.\n"
       "Ctrl-C finishes the step in hand and leaves a run that --resume continues.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, ranks, &exit_code] { exit_code = ranks.together([&] { return run(*options, ranks); }); });
 }
 
 }  // namespace vehd

@@ -37,7 +37,7 @@ std::string failure_of(const std::string& command, const fs::path& folder) {
 }  // namespace
 
 std::vector<std::string> commands_of_page(const fs::path& page) {
-  static const std::regex not_to_be_run("^(git |cmake |ctest |apt-get |dpkg |out/(installed|package)/)");
+  static const std::regex not_to_be_run("^(git |cmake |ctest |apt-get |dpkg |mpirun |out/(installed|package)/)");
   std::vector<std::string> commands;
   std::istringstream text(text_of_file(page));
   bool inside = false;

@@ -42,6 +42,10 @@ else()
   vehd_need(libomp-dev OpenMP)
 endif()
 
+if(VEHD_MPI)
+  vehd_need(libopenmpi-dev MPI COMPONENTS C)
+endif()
+
 set(has_fem_check ${VEHD_FEM_CHECK})
 if(VEHD_FEM_CHECK)
   find_package(deal.II 9.4 QUIET)

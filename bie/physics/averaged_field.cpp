@@ -34,13 +34,13 @@ Matrix weighted_hypersingular_of(const Membrane& membrane, const Matrix& potenti
 /// A map of the real fields of all membranes, of the real parts and of the imaginary parts.
 template <typename Map>
 std::vector<Matrix> of_parts(const Map& map, const std::vector<Matrix>& fields) {
-  std::vector<Matrix> result;
+  std::vector<Matrix> result(fields.size());
   for (Index part = 0; part < 2; ++part) {
     std::vector<Vector> real;
     for (const Matrix& field : fields) real.emplace_back(field.size() == 0 ? Vector() : Vector(field.col(part)));
     const std::vector<Vector> mapped = map(real);
     for (std::size_t a = 0; a < fields.size(); ++a) {
-      if (part == 0) result.emplace_back(mapped[a].size(), 2);
+      if (part == 0) result[a].resize(mapped[a].size(), 2);
       result[a].col(part) = mapped[a];
     }
   }
@@ -136,11 +136,15 @@ class AmplitudeEquations {
   }
 
   [[nodiscard]] std::size_t count() const { return equations_.size(); }
+  /// Those of the membranes of this rank.
+  [[nodiscard]] std::vector<std::size_t> own() const {
+    return interaction_ == nullptr ? Shares().own(count()) : interaction_->shares().own(count());
+  }
   [[nodiscard]] const AmplitudeEquation& operator[](std::size_t a) const { return equations_[a]; }
 
   [[nodiscard]] std::vector<Matrix> charges(const std::vector<Matrix>& potentials) const {
-    std::vector<Matrix> result;
-    for (std::size_t b = 0; b < count(); ++b) result.push_back(equations_[b].weighted_charge(potentials[b]));
+    std::vector<Matrix> result(count());
+    for (const std::size_t b : own()) result[b] = equations_[b].weighted_charge(potentials[b]);
     return result;
   }
 
@@ -158,19 +162,18 @@ class AmplitudeEquations {
         of_parts([&](const std::vector<Vector>& f) { return interaction_->single_potential(f); }, charges);
     const std::vector<Matrix> jumps =
         of_parts([&](const std::vector<Vector>& f) { return interaction_->double_potential(f); }, potentials);
-    for (std::size_t a = 0; a < count(); ++a) result[a] -= jumps[a];
+    for (const std::size_t a : own()) result[a] -= jumps[a];
     return result;
   }
 
   [[nodiscard]] std::vector<Matrix> left_side(const std::vector<Matrix>& potentials) const {
-    std::vector<Matrix> result;
-    for (std::size_t a = 0; a < count(); ++a) result.push_back(equations_[a].own(potentials[a]));
+    std::vector<Matrix> result(count());
+    for (const std::size_t a : own()) result[a] = equations_[a].own(potentials[a]);
     if (interaction_ == nullptr) return result;
     const std::vector<Matrix> single = single_fluxes_of_others(charges(potentials));
     const std::vector<Matrix> doubles = double_fluxes_of_others(potentials);
-    for (std::size_t a = 0; a < count(); ++a) {
-      result[a] += times(equations_[a].conduction(), single[a] - doubles[a]);
-    }
+    for (const std::size_t a : own()) result[a] += times(equations_[a].conduction(), single[a] - doubles[a]);
+    interaction_->shares().gather(result);
     return result;
   }
 
@@ -312,14 +315,15 @@ AveragedFields solve_averaged_fields(const std::vector<ElectricMembrane>& membra
     const std::vector<Matrix> charges = equations.charges(potentials);
     fluxes = equations.double_fluxes_of_others(potentials);
     const std::vector<Matrix> single = equations.single_fluxes_of_others(charges);
-    for (std::size_t a = 0; a < fluxes.size(); ++a) fluxes[a] -= single[a];
+    for (const std::size_t a : equations.own()) fluxes[a] -= single[a];
     of_others = equations.potentials_of_others(potentials, charges);
   }
-  for (std::size_t a = 0; a < membranes.size(); ++a) {
+  result.membranes.resize(membranes.size());
+  for (const std::size_t a : equations.own()) {
     const AmplitudeEquation& equation = equations[a];
     const ComplexDensity density = equation.insulates() ? insulated_density(equation, tolerance, result.report)
                                                         : density_of(equation, potentials[a], fluxes[a]);
-    result.membranes.push_back(field_of(equation, potentials[a], density, of_others[a]));
+    result.membranes[a] = field_of(equation, potentials[a], density, of_others[a]);
   }
   return result;
 }

@@ -31,7 +31,7 @@ struct AveragedField {
   Matrix force;      ///< f_E, mean over a period, on the upsampled grid, [n_points x 3]
 };
 
-/// Those of several membranes.
+/// Those of several membranes; of membranes of other ranks, see Interaction, they are empty.
 struct AveragedFields {
   std::vector<AveragedField> membranes;
   SolveReport report;

@@ -31,13 +31,13 @@ struct Charging {
 SolveReport solve_charging(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                            const Charging& charging, double tolerance, std::vector<Vector>& potentials) {
   const CoupledEquation equation(membranes, interaction, charging.storages);
-  std::vector<Vector> of_own, charges;
-  for (std::size_t b = 0; b < membranes.size(); ++b) {
+  std::vector<Vector> of_own(membranes.size()), charges(membranes.size());
+  for (const std::size_t b : interaction.shares().own(membranes.size())) {
     const Vector& given = charging.given[b];
     const double factor = equation.charge_of_current(b);
     const bool varies = charging.storages[b].varying.size() > 0;
-    charges.push_back(varies ? equation.weighted_values(b, factor, given) : equation.weighted(b, factor, given));
-    of_own.push_back(varies ? equation.own(b).right_side_of_values(given) : equation.own(b).right_side(given));
+    charges[b] = varies ? equation.weighted_values(b, factor, given) : equation.weighted(b, factor, given);
+    of_own[b] = varies ? equation.own(b).right_side_of_values(given) : equation.own(b).right_side(given);
   }
   return equation.solve(equation.right_sides(of_own, charges), tolerance, potentials);
 }

@@ -10,7 +10,10 @@ namespace vehd {
 
 CoupledEquation::CoupledEquation(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                                  const std::vector<Storage>& storages)
-    : membranes_(membranes), interaction_(interaction), storages_(storages) {
+    : membranes_(membranes),
+      interaction_(interaction),
+      storages_(storages),
+      owned_(interaction.shares().own(membranes.size())) {
   for (std::size_t b = 0; b < membranes.size(); ++b) {
     const ElectricParameters& electric = membranes[b].electric;
     const double a = storages[b].a;
@@ -31,29 +34,30 @@ CoupledEquation::CoupledEquation(const std::vector<ElectricMembrane>& membranes,
 }
 
 std::vector<Vector> CoupledEquation::left_side(const std::vector<Vector>& potentials) const {
-  std::vector<Vector> charges;
-  for (std::size_t b = 0; b < potentials.size(); ++b) {
+  std::vector<Vector> charges(potentials.size());
+  for (const std::size_t b : owned_) {
     const Vector& varying = storages_[b].varying;
     if (varying.size() > 0) {
       const Vector values = membranes_[b].membrane.fine.synthesize(potentials[b]);
-      charges.push_back(weighted_values(b, charge_of_current_[b], varying.cwiseProduct(values)));
+      charges[b] = weighted_values(b, charge_of_current_[b], varying.cwiseProduct(values));
     } else {
-      charges.push_back(weighted(b, charge_[b], potentials[b]));
+      charges[b] = weighted(b, charge_[b], potentials[b]);
     }
   }
   std::vector<Vector> result = interaction_.weighted_single_flux(charges);
   const std::vector<Vector> of_potentials = interaction_.weighted_double_flux(potentials);
-  for_each_member(static_cast<Index>(own_.size()), [&](Index i) {
-    const auto a = static_cast<std::size_t>(i);
+  for_each_member(owned_, [&](std::size_t a) {
     result[a] = own_[a].conduction() * (result[a] - of_potentials[a]) + own_[a].own(potentials[a]);
   });
+  interaction_.shares().gather(result);
   return result;
 }
 
 std::vector<Vector> CoupledEquation::right_sides(const std::vector<Vector>& of_own,
                                                  const std::vector<Vector>& charges) const {
   std::vector<Vector> result = interaction_.weighted_single_flux(charges);
-  for (std::size_t a = 0; a < own_.size(); ++a) result[a] = own_[a].conduction() * result[a] + of_own[a];
+  for (const std::size_t a : owned_) result[a] = own_[a].conduction() * result[a] + of_own[a];
+  interaction_.shares().gather(result);
   return result;
 }
 

@@ -24,14 +24,17 @@ class CoupledEquation {
   CoupledEquation(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                   const std::vector<Storage>& storages);
 
+  // Collective where membranes are those of several ranks, see Interaction; all ranks get the results of all.
+
   /// What V does on all membranes, coefficients of each, as all here.
   [[nodiscard]] std::vector<Vector> left_side(const std::vector<Vector>& potentials) const;
-  /// Right sides of each membrane by itself and what given layers of charge do to all others.
+  /// Right sides of each membrane by itself and what given layers of charge do to all others; of both those of this
+  /// rank count.
   /// @param charges  coefficients of J times the density of S′ that goes with the right side; an empty one is zero
   [[nodiscard]] std::vector<Vector> right_sides(const std::vector<Vector>& of_own,
                                                 const std::vector<Vector>& charges) const;
 
-  /// The equation of one membrane by itself.
+  /// The equation of one membrane by itself; its layers are known on the rank of the membrane.
   [[nodiscard]] const ChargingEquation& own(std::size_t a) const { return own_[a]; }
   /// η/κ, and 0 without a.
   [[nodiscard]] double charge_of_current(std::size_t a) const { return charge_of_current_[a]; }
@@ -50,6 +53,7 @@ class CoupledEquation {
   const std::vector<ElectricMembrane>& membranes_;
   const Interaction& interaction_;
   const std::vector<Storage>& storages_;
+  std::vector<std::size_t> owned_;  // membranes of this rank
   std::vector<ChargingEquation> own_;
   std::vector<double> charge_;             // η g over V
   std::vector<double> charge_of_current_;  // η g over a V

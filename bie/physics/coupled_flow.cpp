@@ -50,10 +50,9 @@ CoupledFlow::CoupledFlow(const std::vector<FlowMembrane>& membranes, const Inter
       jumps[b] = ratio == 1.0 ? Matrix() : Matrix((1.0 - ratio) * jumps[b]);
     }
     std::vector<Matrix> of_others = interaction.stokes_double(jumps);
-    for_each_member(static_cast<Index>(of_others.size()), [&](Index i) {
-      const auto a = static_cast<std::size_t>(i);
-      of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a]));
-    });
+    for_each_member(interaction.shares().own(of_others.size()),
+                    [&](std::size_t a) { of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a])); });
+    interaction.shares().gather(of_others);
     return v - stacked.stack(columns(of_others));
   };
   solver_ = std::make_unique<RecycledGcr>(
@@ -66,8 +65,7 @@ CoupledFlow::CoupledFlow(CoupledFlow&&) noexcept = default;
 std::vector<Matrix> CoupledFlow::velocities(const std::vector<Matrix>& weighted,
                                             const std::vector<Matrix>& background) {
   std::vector<Matrix> result = interaction_.stokes_single(weighted);
-  for_each_member(static_cast<Index>(result.size()), [&](Index i) {
-    const auto a = static_cast<std::size_t>(i);
+  for_each_member(interaction_.shares().own(result.size()), [&](std::size_t a) {
     const Membrane& membrane = membranes_[a].membrane;
     if (weighted[a].size() > 0 && !membrane.layers.stokes_single.empty())
       result[a] += membrane.layers.stokes_single.apply(weighted[a]);
@@ -76,6 +74,7 @@ std::vector<Matrix> CoupledFlow::velocities(const std::vector<Matrix>& weighted,
     result[a] = membrane.velocity(std::move(result[a]));
   });
   if (!contrast_) return result;
+  interaction_.shares().gather(result);
   const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(columns(result)), {}, kWithinSolve);
   require_converged(solution.report, "velocities of membranes with a viscosity contrast");
   return matrices(stacked_.parts(solution.x));

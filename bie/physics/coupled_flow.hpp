@@ -35,7 +35,9 @@ class CoupledFlow {
   ~CoupledFlow();
   CoupledFlow(CoupledFlow&&) noexcept;
 
-  /// Velocities of all membranes under forces on the fluid, coefficients.
+  /// Which membranes are whose: of forces and velocities those of this rank count, see Interaction.
+  [[nodiscard]] const Shares& shares() const { return interaction_.shares(); }
+  /// Velocities of the membranes under forces on the fluid, coefficients.
   /// @param weighted    of J f, [n_coefficients x 3]; empty ones are zero
   /// @param background  v_∞ on each, or nothing
   /// @throws ConvergenceError if the double layers do not converge

@@ -19,19 +19,20 @@ SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Int
     storages.push_back({laws[b].a});
   }
   const CoupledEquation equation(of_laws, interaction, storages);
-  std::vector<Vector> of_own, charges;
-  for (std::size_t b = 0; b < membranes.size(); ++b) {
+  std::vector<Vector> of_own(membranes.size()), charges(membranes.size());
+  for (const std::size_t b : interaction.shares().own(membranes.size())) {
     const FaceLaw& law = laws[b];
-    of_own.push_back(right_side_of(of_laws[b].electric, of_laws[b].membrane, equation.own(b), law));
+    of_own[b] = right_side_of(of_laws[b].electric, of_laws[b].membrane, equation.own(b), law);
     // E_e − E_i where V is zero, on the right.
-    charges.push_back(equation.weighted(b, -1.0, law.s_in / law.k_in + law.s_out / law.k_out));
+    charges[b] = equation.weighted(b, -1.0, law.s_in / law.k_in + law.s_out / law.k_out);
   }
   return equation.solve(equation.right_sides(of_own, charges), tolerance, potentials);
 }
 
-/// Of the double layers less the single layers of all other membranes.
-std::vector<Vector> difference(std::vector<Vector> doubles, const std::vector<Vector>& singles) {
-  for (std::size_t a = 0; a < doubles.size(); ++a) doubles[a] -= singles[a];
+/// Of the double layers less the single layers of all other membranes, on those of this rank.
+std::vector<Vector> difference(const std::vector<std::size_t>& own, std::vector<Vector> doubles,
+                               const std::vector<Vector>& singles) {
+  for (const std::size_t a : own) doubles[a] -= singles[a];
   return doubles;
 }
 
@@ -46,21 +47,22 @@ std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>
   }
   std::vector<Vector> potentials = std::move(start);
   const SolveReport report = solve_laws(membranes, interaction, laws, tolerance, potentials);
-  std::vector<Vector> jumps;
-  for (std::size_t b = 0; b < membranes.size(); ++b) {
+  const std::vector<std::size_t> own = interaction.shares().own(membranes.size());
+  std::vector<Vector> jumps(membranes.size());
+  for (const std::size_t b : own) {
     const auto& [electric, membrane] = membranes[b].in_field;
-    jumps.push_back(weighted_field_jump(electric, membranes[b].charging, membrane, charges[b], potentials[b]));
+    jumps[b] = weighted_field_jump(electric, membranes[b].charging, membrane, charges[b], potentials[b]);
   }
   const std::vector<Vector> fluxes =
-      difference(interaction.weighted_double_flux(potentials), interaction.weighted_single_flux(jumps));
+      difference(own, interaction.weighted_double_flux(potentials), interaction.weighted_single_flux(jumps));
   const std::vector<Vector> minus_of_others =
-      difference(interaction.double_potential(potentials), interaction.single_potential(jumps));
+      difference(own, interaction.double_potential(potentials), interaction.single_potential(jumps));
   std::vector<RelaxingField> fields;
-  for (std::size_t a = 0; a < membranes.size(); ++a) {
+  for (const Vector& potential : potentials) fields.push_back({potential, {}, report});
+  for (const std::size_t a : own) {
     const auto& [electric, membrane] = membranes[a].in_field;
-    ElectricTraces traces = traces_of_charges(electric, membranes[a].charging, membrane, charges[a], potentials[a],
-                                              jumps[a], fluxes[a], -minus_of_others[a]);
-    fields.push_back({std::move(potentials[a]), std::move(traces), report});
+    fields[a].traces = traces_of_charges(electric, membranes[a].charging, membrane, charges[a], potentials[a], jumps[a],
+                                         fluxes[a], -minus_of_others[a]);
   }
   return fields;
 }

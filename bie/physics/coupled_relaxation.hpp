@@ -16,7 +16,7 @@ struct ChargingMembrane {
 /// field_of_charges of all membranes together: with E_k of every membrane b in terms of its own V_b and charges,
 ///   ½(E_i + E_e)_a + Σ_b S′_ab[(E_e − E_i)_b] − Σ_b D′_ab[V_b] = E·n on every membrane a.
 /// @param start  first guesses of V
-/// @returns      each with the report of all
+/// @returns      each with the report of all; traces of membranes of other ranks, see Interaction, are empty
 /// Accuracy: spectral; forces between two spheres at a gap of half a radius to 1e-7 at p = 16
 /// (tests/physics/coupled_relaxation_test.cpp)
 /// Source: docs/theory/electric.md, the layers being those of all membranes

@@ -32,15 +32,18 @@ constexpr std::size_t kFewMembranes = 8;
 }  // namespace
 
 struct Interaction::Parts {
+  Shares shares;
   std::vector<SphereTransform> targets;        ///< of each membrane
   std::vector<std::vector<std::size_t>> near;  ///< of each membrane the others that its layers serve
-  std::vector<PairLayers> layers;              ///< of each membrane at the nodes of these, one after the other
-  std::optional<FarExpansions> expansions;     ///< for all others, where there are any
+  /// Of each membrane of this rank at the nodes of these, one after the other.
+  std::vector<std::optional<PairLayers>> layers;
+  std::optional<FarExpansions> expansions;  ///< for all others, where there are any
 
   [[nodiscard]] std::size_t n() const { return targets.size(); }
+  /// Those of this rank.
   template <class Body>
   void for_each_membrane(const Body& body) const {
-    for_each_member(static_cast<Index>(n()), [&](Index i) { body(static_cast<std::size_t>(i)); });
+    for_each_member(shares.own(n()), body);
   }
 
   /// @param layer     of one membrane at the nodes of those that are near to it
@@ -59,33 +62,68 @@ struct Interaction::Parts {
     }
     std::vector<Matrix> from(n());
     for_each_membrane([&](std::size_t b) {
-      if (densities[b].size() > 0 && !near[b].empty()) from[b] = layer(layers[b], densities[b]);
+      if (densities[b].size() > 0 && !near[b].empty()) from[b] = layer(*layers[b], densities[b]);
     });
+    add_near(from, values);
+    std::vector<Field> result(n());
+    for_each_membrane([&](std::size_t a) { result[a] = targets[a].analyze(values[a]); });
+    return result;
+  }
+
+  /// Adds what each membrane does to those near to it, in the order of the sources. @param from  of those of this rank
+  void add_near(const std::vector<Matrix>& from, std::vector<Matrix>& values) const {
+    std::vector<Packing> to(static_cast<std::size_t>(shares.ranks().size()));
+    for_each_block(from, [&](std::size_t a, const auto& block) {
+      if (!shares.owns(a)) to[static_cast<std::size_t>(shares.owner(a))](a, Matrix(block));
+    });
+    std::vector<std::string> parcels;
+    for (Packing& parcel : to) parcels.push_back(parcel.take());
+    parcels = shares.ranks().exchange(parcels);
+    for (int rank = 0; rank < shares.ranks().size(); ++rank) {
+      if (rank == shares.ranks().rank()) {
+        for_each_block(from, [&](std::size_t a, const auto& block) {
+          if (shares.owns(a)) values[a] += block;
+        });
+      }
+      Unpacking parcel(parcels[static_cast<std::size_t>(rank)]);
+      while (!parcel.is_empty()) {
+        std::size_t a = 0;
+        Matrix block;
+        parcel(a, block);
+        values[a] += block;
+      }
+    }
+  }
+
+  /// body(target, values there) for all targets near to all sources, in the order of the sources.
+  template <class Body>
+  void for_each_block(const std::vector<Matrix>& from, const Body& body) const {
     for (std::size_t b = 0; b < n(); ++b) {
       if (from[b].size() == 0) continue;
       Index first = 0;
       for (const std::size_t a : near[b]) {
-        values[a] += from[b].middleRows(first, values[a].rows());
-        first += values[a].rows();
+        const Index count = targets[a].grid().n_points();
+        body(a, from[b].middleRows(first, count));
+        first += count;
       }
     }
-    std::vector<Field> result(n());
-    for_each_membrane([&](std::size_t a) { result[a] = targets[a].analyze(values[a]); });
-    return result;
   }
 
   template <class Layer, class Expanded>
   [[nodiscard]] std::vector<Vector> fluxes(const std::vector<Vector>& densities, const Layer& layer,
                                            const Expanded& expanded) const {
     std::vector<Vector> result = sums(densities, 1, layer, expanded);
-    for (Vector& flux : result) flux[0] = 0.0;
+    for (Vector& flux : result) {
+      if (flux.size() > 0) flux[0] = 0.0;
+    }
     return result;
   }
 };
 
 Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
-                         Instruments& instruments) {
+                         Instruments& instruments, Shares shares) {
   auto parts = std::make_unique<Parts>();
+  parts->shares = std::move(shares);
   SharedTransforms transforms;
   PairSettings of_one = settings;
   of_one.row_bytes /= static_cast<double>(membranes.size());
@@ -100,10 +138,12 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     for (std::size_t a = 0; a < membranes.size(); ++a) {
       expanded.push_back({membranes[a].position, nodes[a].points, nodes[a].area_vectors});
     }
-    parts->expansions.emplace(expanded, settings.tolerance, transforms);
+    parts->expansions.emplace(expanded, settings.tolerance, transforms, parts->shares);
   }
   for (std::size_t b = 0; b < membranes.size(); ++b) {
     std::vector<std::size_t>& near = parts->near.emplace_back();
+    std::optional<PairLayers>& layers = parts->layers.emplace_back();
+    if (!parts->shares.owns(b)) continue;
     Index n_near = 0;
     for (std::size_t a = 0; a < membranes.size(); ++a) {
       if (a == b || (parts->expansions && parts->expansions->is_far(a, b))) continue;
@@ -118,8 +158,8 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
       first += nodes[a].points.rows();
     }
     try {
-      parts->layers.emplace_back(membranes[b].position, others.points, others.area_vectors, membranes[b].selection,
-                                 of_one, transforms, instruments);
+      layers.emplace(membranes[b].position, others.points, others.area_vectors, membranes[b].selection, of_one,
+                     transforms, instruments);
     } catch (const ConvergenceError& error) {
       throw ConvergenceError(
           fmt::format("membrane {} of {} and another one: {}", b + 1, membranes.size(), error.what()));
@@ -136,6 +176,8 @@ Interaction::~Interaction() = default;
 Interaction::Interaction(Interaction&&) noexcept = default;
 
 std::size_t Interaction::n_membranes() const { return parts_->n(); }
+
+const Shares& Interaction::shares() const { return parts_->shares; }
 
 std::vector<Vector> Interaction::weighted_single_flux(const std::vector<Vector>& weighted) const {
   return parts_->fluxes(
@@ -175,10 +217,11 @@ std::vector<Matrix> Interaction::stokes_double(const std::vector<Matrix>& veloci
 
 PairCounts Interaction::counts() const {
   PairCounts all;
-  for (const PairLayers& layers : parts_->layers) {
-    all.far += layers.counts().far;
-    all.near += layers.counts().near;
-    all.far_nodes += layers.counts().far_nodes;
+  for (const std::optional<PairLayers>& layers : parts_->layers) {
+    if (!layers) continue;
+    all.far += layers->counts().far;
+    all.near += layers->counts().near;
+    all.far_nodes += layers->counts().far_nodes;
   }
   if (parts_->expansions) all.expanded = parts_->expansions->n_targets();
   return all;

@@ -5,6 +5,7 @@
 
 #include "bie/potentials/pair_layers.hpp"
 #include "bie/sphere/transform.hpp"
+#include "bie/support/ranks/shares.hpp"
 
 namespace vehd {
 
@@ -18,6 +19,9 @@ struct InteractingMembrane {
 /// Layers of every membrane on all others, as maps from the densities of all to coefficients on each: for membrane a
 /// the sum over all b ≠ a. With more than a few membranes distant pairs are served by multipole expansions. Made once
 /// for frozen shapes, applied many times; an empty density counts as zero. All membranes are outside one another.
+///
+/// Of several ranks each has the layers of its own membranes: of densities it needs theirs, and of results it gets
+/// theirs, the others stay empty. All calls are collective then. The sums have the same bits for any number of ranks.
 /// Accuracy: that of PairLayers at the nodes, and what the degree of the target leaves out of the sums; Green's
 /// identity between two shapes without symmetry, nine membranes as the sums of their pairs to 1e-9
 /// (tests/physics/interaction_test.cpp)
@@ -25,15 +29,17 @@ struct InteractingMembrane {
 class Interaction {
  public:
   /// @param settings     memory for rows is that of all
-  /// @param instruments  targets of all pairs are counted there
-  /// @throws ConvergenceError if two membranes intersect or are too near for any rule
-  Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
-              Instruments& instruments);
+  /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
+  /// @throws ConvergenceError if two membranes intersect or are too near for any rule, on the rank of one of them
+  Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings, Instruments& instruments,
+              Shares shares = {});
 
   ~Interaction();
   Interaction(Interaction&&) noexcept;
 
   [[nodiscard]] std::size_t n_membranes() const;
+  /// Which membranes are whose.
+  [[nodiscard]] const Shares& shares() const;
 
   // Each throws std::logic_error for a layer that was not selected.
 
@@ -50,7 +56,7 @@ class Interaction {
   /// Stokes double layer from v, [n_coefficients x 3] each.
   [[nodiscard]] std::vector<Matrix> stokes_double(const std::vector<Matrix>& velocities) const;
 
-  /// How many targets of all pairs take which way.
+  /// How many targets of all pairs take which way; of the membranes of this rank.
   [[nodiscard]] PairCounts counts() const;
 
  private:

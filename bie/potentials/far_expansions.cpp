@@ -21,8 +21,8 @@ constexpr double kPi = std::numbers::pi;
 }  // namespace
 
 FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance,
-                             SharedTransforms& transforms)
-    : tolerance_(tolerance), translation_(kHighestDegree), far_from_(membranes.size()) {
+                             SharedTransforms& transforms, Shares shares)
+    : shares_(std::move(shares)), tolerance_(tolerance), translation_(kHighestDegree), far_from_(membranes.size()) {
   std::vector<Vector3> centres;
   double largest = 0.0;
   for (const ExpandedMembrane& membrane : membranes) {
@@ -31,6 +31,20 @@ FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, dou
   }
   scale_ = largest;
   for (int axis = 0; axis < 3; ++axis) derivative_.push_back(regular_derivative(axis, kHighestDegree));
+  find_places(membranes, centres, transforms);
+  for (std::size_t a = 0; a < membranes.size(); ++a) {
+    if (!shares_.owns(a)) continue;
+    for (std::size_t b = 0; b < membranes.size(); ++b) {
+      if (a == b) continue;
+      const int degree = degree_of(places_[std::min(a, b)], places_[std::max(a, b)]);
+      if (degree <= kHighestDegree) far_from_[a].push_back({b, degree});
+    }
+    std::ranges::stable_sort(far_from_[a], {}, &FarSource::degree);
+  }
+}
+
+void FarExpansions::find_places(const std::vector<ExpandedMembrane>& membranes, const std::vector<Vector3>& centres,
+                                SharedTransforms& transforms) {
   std::vector<SphereTransform> nodes;
   for (const ExpandedMembrane& membrane : membranes) {
     const int order = order_of(membrane.position.rows());
@@ -40,16 +54,16 @@ FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, dou
   std::vector<std::optional<Place>> places(membranes.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < membranes.size(); ++a) {
-    places[a] = place_of(membranes[a], centres[a], nodes[a]);
+    if (shares_.owns(a)) places[a] = place_of(membranes[a], centres[a], nodes[a]);
   }
-  for (std::optional<Place>& place : places) places_.push_back(*std::move(place));
+  std::vector<double> radii(membranes.size());
   for (std::size_t a = 0; a < membranes.size(); ++a) {
-    for (std::size_t b = 0; b < membranes.size(); ++b) {
-      if (a == b) continue;
-      const int degree = degree_of(places_[std::min(a, b)], places_[std::max(a, b)]);
-      if (degree <= kHighestDegree) far_from_[a].push_back({b, degree});
-    }
-    std::ranges::stable_sort(far_from_[a], {}, &FarSource::degree);
+    if (places[a]) radii[a] = places[a]->radius;
+  }
+  shares_.gather(radii);
+  for (std::size_t a = 0; a < membranes.size(); ++a) {
+    const Place of_another{centres[a] / scale_, radii[a], nodes[a], {}, {}, {}, MomentSums(Matrix()), {}, {}, {}};
+    places_.push_back(places[a] ? *std::move(places[a]) : of_another);
   }
 }
 
@@ -109,7 +123,7 @@ std::vector<Matrix> FarExpansions::single_moments(const std::vector<Vector>& wei
   std::vector<Matrix> result(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (weighted[b].size() == 0) continue;
+    if (!has_density(b, weighted[b])) continue;
     const Place& place = places_[b];
     const Vector charges = place.weight.cwiseProduct(place.nodes.synthesize(weighted[b]).col(0));
     result[b] = moments(place.sums.of(charges));
@@ -121,7 +135,7 @@ std::vector<Matrix> FarExpansions::double_moments(const std::vector<Vector>& den
   std::vector<Matrix> result(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (densities[b].size() == 0) continue;
+    if (!has_density(b, densities[b])) continue;
     const Place& place = places_[b];
     const Vector charges = place.weight.cwiseProduct(place.nodes.synthesize(densities[b]).col(0));
     std::vector<Matrix> dipoles;
@@ -137,9 +151,11 @@ std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, boo
   for (std::size_t b = 0; b < places_.size(); ++b) {
     if (moments[b].size() > 0) turnable[b] = translation_.turnable(moments[b]);
   }
+  shares_.gather(turnable);
   std::vector<Matrix> result(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < places_.size(); ++a) {
+    if (!shares_.owns(a)) continue;
     std::vector<DistantMoments> sources;
     for (const FarSource& far : far_from_[a]) {
       if (turnable[far.membrane].size() == 0) continue;
@@ -153,7 +169,9 @@ std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, boo
 std::vector<Matrix> FarExpansions::scalar_values(const std::vector<Matrix>& moments, double factor) const {
   std::vector<Matrix> values = local(moments, false);
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < places_.size(); ++a) values[a] = factor * (places_[a].target_regular * values[a]);
+  for (std::size_t a = 0; a < places_.size(); ++a) {
+    if (shares_.owns(a)) values[a] = factor * (places_[a].target_regular * values[a]);
+  }
   return values;
 }
 
@@ -161,6 +179,7 @@ std::vector<Matrix> FarExpansions::scalar_slopes(const std::vector<Matrix>& mome
   std::vector<Matrix> values = local(moments, false);
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < places_.size(); ++a) {
+    if (!shares_.owns(a)) continue;
     const Place& place = places_[a];
     Vector slope = Vector::Zero(place.target_regular.rows());
     for (int k = 0; k < 3; ++k) {
@@ -176,6 +195,7 @@ std::vector<Matrix> FarExpansions::stokes_values(const std::vector<Matrix>& mome
   std::vector<Matrix> values = local(moments, true);
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < places_.size(); ++a) {
+    if (!shares_.owns(a)) continue;
     const Place& place = places_[a];
     // u_i = A_i + ∂_i B − x_j ∂_i A_j
     Matrix coefficients(values[a].rows(), 12);
@@ -215,7 +235,7 @@ std::vector<Matrix> FarExpansions::stokes_single(const std::vector<Matrix>& weig
   std::vector<Matrix> all(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (weighted[b].size() == 0) continue;
+    if (!has_density(b, weighted[b])) continue;
     const Place& place = places_[b];
     Matrix charges(place.weight.size(), 4);
     charges.leftCols(3) = place.weight.asDiagonal() * place.nodes.synthesize(weighted[b]);
@@ -230,7 +250,7 @@ std::vector<Matrix> FarExpansions::stokes_double(const std::vector<Matrix>& velo
   std::vector<Matrix> all(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (velocities[b].size() == 0) continue;
+    if (!has_density(b, velocities[b])) continue;
     const Place& place = places_[b];
     const Matrix v = place.weight.asDiagonal() * place.nodes.synthesize(velocities[b]);
     const Matrix& n = place.area_vectors;

@@ -6,6 +6,7 @@
 #include "bie/potentials/axis_translation.hpp"
 #include "bie/potentials/moment_sums.hpp"
 #include "bie/potentials/shared_transforms.hpp"
+#include "bie/support/ranks/shares.hpp"
 
 namespace vehd {
 
@@ -24,14 +25,17 @@ struct ExpandedMembrane {
 class FarExpansions {
  public:
   /// @param tolerance  relative, below 1
-  FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance, SharedTransforms& transforms);
+  /// @param shares     which membranes this rank has moments and values of; collective, as are all sums
+  FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance, SharedTransforms& transforms,
+                Shares shares = {});
 
   /// Whether the layers of the second at the first are among the sums.
   [[nodiscard]] bool is_far(std::size_t target, std::size_t source) const;
-  /// How many targets of all pairs are.
+  /// How many targets of all pairs are, of the membranes of this rank.
   [[nodiscard]] Index n_targets() const;
 
-  // For each membrane the sum over all that are far from it, at its points. Empty densities count as zero.
+  // For each membrane of this rank the sum over all that are far from it, at its points. Of densities those of its own
+  // membranes count; empty ones count as zero.
 
   /// S[f] from J f. @return [n_targets]
   [[nodiscard]] std::vector<Matrix> laplace_single(const std::vector<Vector>& weighted) const;
@@ -47,7 +51,7 @@ class FarExpansions {
   [[nodiscard]] std::vector<Matrix> stokes_double(const std::vector<Matrix>& velocities) const;
 
  private:
-  /// Lengths are over scale_.
+  /// Lengths are over scale_. Of membranes of other ranks the first two alone.
   struct Place {
     Vector3 centre;
     double radius;
@@ -62,9 +66,15 @@ class FarExpansions {
     int degree;
   };
 
+  void find_places(const std::vector<ExpandedMembrane>& membranes, const std::vector<Vector3>& centres,
+                   SharedTransforms& transforms);
   [[nodiscard]] Place place_of(const ExpandedMembrane& membrane, const Vector3& centre,
                                const SphereTransform& nodes) const;
   [[nodiscard]] int degree_of(const Place& a, const Place& b) const;
+  template <class Density>
+  [[nodiscard]] bool has_density(std::size_t source, const Density& density) const {
+    return density.size() > 0 && shares_.owns(source);
+  }
   [[nodiscard]] Matrix dipole_moments(const Place& place, const std::vector<Matrix>& components) const;
   /// @param moments     of each membrane, [n_solid x columns] or empty
   /// @param is_stokes   the last of four columns is about the centre of its source
@@ -75,6 +85,7 @@ class FarExpansions {
   [[nodiscard]] std::vector<Matrix> single_moments(const std::vector<Vector>& weighted) const;
   [[nodiscard]] std::vector<Matrix> double_moments(const std::vector<Vector>& densities) const;
 
+  Shares shares_;
   double tolerance_, scale_ = 1.0;
   AxisTranslation translation_;
   std::vector<Eigen::SparseMatrix<double>> derivative_;

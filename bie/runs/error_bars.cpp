@@ -88,12 +88,12 @@ Vector between(const Vector& first, const Vector& last, const Vector& run, Histo
 
 }  // namespace
 
-ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& from)
+ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& from, Ranks ranks)
     : scene_(scene_of_companion(scene)),
       kind_(history_kind(scene)),
       share_(share_of_difference(scene.numerics)),
       start_order_(from ? from->start_order : scene.numerics.order),
-      companion_(scene_, start_of(from), OutputUnits(scene_)),
+      companion_(scene_, start_of(from), OutputUnits(scene_), std::move(ranks)),
       lab_frame_output_(companion_.problem().frame, companion_.problem().settings) {
   if (!from) return;
   node_ = from->node;

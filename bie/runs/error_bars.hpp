@@ -25,7 +25,7 @@ class ErrorBars {
   /// @param scene  of the run
   /// @param from   of a run that goes on; absent: a new one
   /// @throws ConvergenceError
-  ErrorBars(const Scene& scene, const std::optional<CompanionState>& from);
+  ErrorBars(const Scene& scene, const std::optional<CompanionState>& from, Ranks ranks = {});
 
   /// Solves everything at the start.
   void start();

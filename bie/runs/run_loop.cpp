@@ -23,7 +23,7 @@ NumericalSettings settings_of_files(const RunTask& task, NumericalSettings setti
 
 std::unique_ptr<ErrorBars> error_bars_of(const RunTask& task) {
   if (!task.scene.numerics.error_bars) return nullptr;
-  return std::make_unique<ErrorBars>(task.scene, start_of(task).companion);
+  return std::make_unique<ErrorBars>(task.scene, start_of(task).companion, task.ranks);
 }
 
 Checkpoint with_companion(Checkpoint start, const ErrorBars* error_bars) {
@@ -31,12 +31,12 @@ Checkpoint with_companion(Checkpoint start, const ErrorBars* error_bars) {
   return start;
 }
 
-RunOutcome advance_to_end(RecordedRun& run, Interruption& interruption) {
+RunOutcome advance_to_end(RecordedRun& run, const Ranks& ranks, Interruption& interruption) {
   try {
     run.start();
     const Simulation& simulation = run.simulation();
     while (!simulation.at_end()) {
-      if (interruption.requested()) {
+      if (ranks.any(interruption.requested())) {
         const std::string now = simulation.time_text(simulation.evolution().state().time);
         return {.completed = false, .reason = fmt::format("a signal came at time {}", now)};
       }
@@ -51,30 +51,44 @@ RunOutcome advance_to_end(RecordedRun& run, Interruption& interruption) {
 }  // namespace
 
 RecordedRun::RecordedRun(const RunTask& task)
-    : simulation_(task.scene, start_of(task), units_of(task)),
+    : simulation_(task.scene, start_of(task), units_of(task), task.ranks),
       error_bars_(error_bars_of(task)),
-      recorder_(task.paths, settings_of_files(task, simulation_.problem().settings), simulation_.problem().frame,
-                with_companion(simulation_.checkpoint(), error_bars_.get()), simulation_.units(),
-                history_kind(task.scene)),
+      ranks_(task.ranks),
+      is_recorded_(start_of(task).n_rows > 0),
       tell_(task.tell),
-      after_step_(task.after_step) {}
+      after_step_(task.after_step) {
+  // Others may still be reading what the first is about to change.
+  ranks_.meet();
+  ranks_.together([&] {
+    if (!ranks_.is_first()) return;
+    recorder_.emplace(task.paths, settings_of_files(task, simulation_.problem().settings), simulation_.problem().frame,
+                      with_companion(simulation_.checkpoint(), error_bars_.get()), simulation_.units(),
+                      history_kind(task.scene));
+  });
+}
 
 void RecordedRun::record() {
   const Simulation& simulation = simulation_;
   const std::vector<RecordedSide> sides = simulation.sides();
+  std::vector<Vector> known;
   if (error_bars_) {
     error_bars_->add(sides);
-    const std::vector<Vector> known = error_bars_->follow(simulation.at_end());
-    recorder_.record_errors(known, error_bars_->state());
+    known = error_bars_->follow(simulation.at_end());
   }
-  recorder_.record(simulation.evolution().state(), sides, simulation.totals());
+  const RunTotals totals = simulation.totals();
+  ranks_.together([&] {
+    if (!recorder_) return;
+    if (error_bars_) recorder_->record_errors(known, error_bars_->state());
+    recorder_->record(simulation.evolution().state(), sides, totals);
+  });
+  is_recorded_ = true;
   if (tell_) tell_(simulation.status());
 }
 
 void RecordedRun::start() {
   simulation_.start();
   if (error_bars_) error_bars_->start();
-  if (recorder_.n_rows() == 0) record();
+  if (!is_recorded_) record();
 }
 
 void RecordedRun::step() {
@@ -84,19 +98,25 @@ void RecordedRun::step() {
 }
 
 RunOutcome RecordedRun::failed(const ConvergenceError& error) {
-  recorder_.keep_last_state(simulation_.evolution().evaluation().fields);
+  ranks_.together([&] {
+    if (recorder_) recorder_->keep_last_state(simulation_.evolution().evaluation().fields);
+  });
   return {.completed = false, .reason = error.what(), .cannot_step = true};
 }
 
 void RecordedRun::end(const RunOutcome& outcome) {
-  recorder_.end_session(simulation_.totals());
-  if (outcome.completed) recorder_.finish();
+  const RunTotals totals = simulation_.totals();
+  ranks_.together([&] {
+    if (!recorder_) return;
+    recorder_->end_session(totals);
+    if (outcome.completed) recorder_->finish();
+  });
 }
 
 RunOutcome simulate(const RunTask& task, Interruption& interruption) {
   RecordedRun run(task);
   try {
-    const RunOutcome outcome = advance_to_end(run, interruption);
+    const RunOutcome outcome = advance_to_end(run, task.ranks, interruption);
     run.end(outcome);
     return outcome;
   } catch (const OutputError& error) {

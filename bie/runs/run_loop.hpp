@@ -14,6 +14,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/interruption.hpp"
+#include "bie/support/ranks/ranks.hpp"
 
 namespace vehd {
 
@@ -31,9 +32,10 @@ struct RunTask {
   const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
   TellStatus tell{};                            ///< called when the start and each step are in the files
   std::function<void()> after_step{};           ///< called when a step is in the files; may be empty
+  Ranks ranks{};                                ///< that run it together; the first one has the files
 };
 
-/// A simulation with its files, which are up to date after every accepted step.
+/// A simulation with its files, which are up to date after every accepted step. All calls are collective.
 class RecordedRun {
  public:
   /// @param task  what it refers to must outlive the run
@@ -57,7 +59,9 @@ class RecordedRun {
 
   Simulation simulation_;
   std::unique_ptr<ErrorBars> error_bars_;  ///< where they are asked for
-  RunRecorder recorder_;
+  Ranks ranks_;
+  std::optional<RunRecorder> recorder_;  ///< on the first rank
+  bool is_recorded_;                     ///< the state that it starts from
   TellStatus tell_;
   std::function<void()> after_step_;
 };

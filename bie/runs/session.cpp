@@ -26,8 +26,12 @@ bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths&
 
 }  // namespace
 
-RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume)
-    : scene_(std::move(scene)), paths_{directory}, lock_(lock_in(paths_)) {
+RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
+                       Ranks ranks)
+    : scene_(std::move(scene)), paths_{directory}, ranks_(std::move(ranks)) {
+  ranks_.together([&] {
+    if (ranks_.is_first()) lock_ = lock_in(paths_);
+  });
   if (!admit_run(paths_, resume)) return;
   checkpoint_ = read_checkpoint(paths_.checkpoint());
   require_same_physics(scene_, source, *checkpoint_, paths_);

@@ -23,9 +23,11 @@ class RunSession {
   /// Creates the directory if it is missing. Nothing of a former run in it is touched yet.
   /// @param source  of the scene, for messages
   /// @param resume  whether a former run may go on
+  /// @param ranks   that run it together: all calls are collective, and only the first rank writes
   /// @throws InputError if another session is at it, or if what the directory holds cannot go on with this scene
   /// @throws OutputError if the directory cannot be used
-  RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume);
+  RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
+             Ranks ranks = {});
 
   [[nodiscard]] const RunPaths& paths() const { return paths_; }
   /// A former session has reached the end of the scene: nothing is left to do.
@@ -38,11 +40,13 @@ class RunSession {
   [[nodiscard]] std::vector<SceneChange> changes() const;
 
   /// What it is to do; refers to the session, which must outlive it.
-  [[nodiscard]] RunTask task(TellStatus tell) const { return {scene_, paths_, checkpoint_, std::move(tell)}; }
+  [[nodiscard]] RunTask task(TellStatus tell) const {
+    return {scene_, paths_, checkpoint_, std::move(tell), {}, ranks_};
+  }
   /// See `simulate`.
   RunOutcome simulate(Interruption& interruption, TellStatus tell) const;
 
-  /// Writes summary.json. @return its content
+  /// Writes summary.json, on the first rank alone. @return its content
   /// @throws InputError, OutputError if files of the run are gone or the disk is full
   [[nodiscard]] nlohmann::json summarise(const RunOutcome& outcome) const;
   /// That of the last session.
@@ -53,6 +57,7 @@ class RunSession {
  private:
   Scene scene_;
   RunPaths paths_;
+  Ranks ranks_;
   std::unique_ptr<DirectoryLock> lock_;
   std::optional<Checkpoint> checkpoint_;
   std::optional<std::int64_t> threads_before_;

@@ -11,6 +11,7 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/state/resized.hpp"
+#include "bie/support/ranks/parcel.hpp"
 
 namespace vehd {
 namespace {
@@ -36,27 +37,34 @@ HistoryRow row_in_laboratory(const LabFrameOutput& laboratory, int order, const 
 RunTotals WorkMeter::totals() const {
   RunTotals totals = before_;
   totals.seconds += seconds();
-  for (const auto& [name, count] : instruments_.kernel_evaluations()) totals.kernel_evaluations[name] += count;
-  for (const auto& [way, count] : instruments_.pair_targets()) totals.pair_targets[way] += count;
+  const auto add = [&](const std::map<std::string, std::uint64_t>& own, auto& sums) {
+    for (const std::string& of_rank : ranks_.gather(packed(own))) {
+      for (const auto& [name, count] : unpacked<std::map<std::string, std::uint64_t>>(of_rank)) sums[name] += count;
+    }
+  };
+  add(instruments_.kernel_evaluations(), totals.kernel_evaluations);
+  add(instruments_.pair_targets(), totals.pair_targets);
   for (const auto& [name, seconds] : instruments_.seconds()) totals.seconds_of_parts[name] += seconds;
   return totals;
 }
 
-Simulation::Simulation(const Scene& scene, Checkpoint from, OutputUnits units)
+Simulation::Simulation(const Scene& scene, Checkpoint from, OutputUnits units, Ranks ranks)
     : scene_(scene),
       from_(std::move(from)),
       units_(std::move(units)),
       time_unit_(units_.of("time")),
       problem_(problem_of(scene, start_order())),
+      ranks_(std::move(ranks)),
       events_(events_of(scene)),
       evolution_(evolution_of_scene()),
-      meter_(from_.totals, instruments_),
+      meter_(from_.totals, instruments_, ranks_),
       start_time_(evolution_.state().time) {}
 
 int Simulation::start_order() const { return goes_on() ? static_cast<int>(from_.start_order) : scene_.numerics.order; }
 
 Evolution Simulation::evolution_of_scene() {
   EvolutionSetup setup = setup_of(problem_);
+  setup.ranks = ranks_;
   setup.time_text = [unit = time_unit_](double time) { return unit.text_of(time); };
   if (goes_on()) return {std::move(setup), from_.state, instruments_};
   return {std::move(setup), problem_.start, instruments_};

@@ -28,18 +28,20 @@ HistoryRow row_in_laboratory(const LabFrameOutput& laboratory, int order, const 
 /// Work of this session on top of that of former ones.
 class WorkMeter {
  public:
-  WorkMeter(RunTotals before, const Instruments& instruments) : before_(std::move(before)), instruments_(instruments) {}
+  WorkMeter(RunTotals before, const Instruments& instruments, Ranks ranks)
+      : before_(std::move(before)), instruments_(instruments), ranks_(std::move(ranks)) {}
 
   /// Of this session.
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// Of all sessions.
+  /// Of all sessions; kernels are those of all ranks, seconds of this one. Collective.
   [[nodiscard]] RunTotals totals() const;
 
  private:
   RunTotals before_;
   const Instruments& instruments_;
+  Ranks ranks_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -50,8 +52,9 @@ class Simulation {
   /// @param scene  must outlive the simulation
   /// @param from   where a run goes on; that of a new one has no state
   /// @param units  of results and messages
+  /// @param ranks  that simulate together: all calls that compute are collective
   /// @throws InputError if the shape file cannot be used, ConvergenceError
-  Simulation(const Scene& scene, Checkpoint from, OutputUnits units);
+  Simulation(const Scene& scene, Checkpoint from, OutputUnits units, Ranks ranks = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -68,7 +71,7 @@ class Simulation {
   [[nodiscard]] std::vector<RecordedSide> sides() const;
   /// Where it is after the start or the last step.
   [[nodiscard]] RunStatus status() const;
-  /// Work of all sessions.
+  /// Work of all sessions; collective.
   [[nodiscard]] RunTotals totals() const { return meter_.totals(); }
   /// From which a run goes on where this one is; the numerics, the end and the snapshot times may differ from those of
   /// the former session.
@@ -99,6 +102,7 @@ class Simulation {
   OutputUnits units_;
   OutputUnit time_unit_;
   Problem problem_;
+  Ranks ranks_;
   EventTimes events_;
   Evolution evolution_;
   WorkMeter meter_;

@@ -33,7 +33,7 @@ Discretisation discretisation_of(const EvolutionSetup& setup, const State& state
   for (const VesicleState& vesicle : state.vesicles) {
     finenesses.push_back(fineness_of(order_of(vesicle.position.rows()), vesicle.quadrature_level));
   }
-  return {setup.settings, setup.symmetry, finenesses};
+  return {setup.settings, setup.symmetry, finenesses, setup.ranks};
 }
 
 /// Of the coarsest grid, over the radius.
@@ -159,7 +159,7 @@ void Evolution::start_at(const std::vector<int>& orders, const std::vector<Start
     membranes[a].position = resize_order(membranes[a].position, orders[a]);
     finenesses.push_back(fineness_of(orders[a], 0));
   }
-  discretisation_ = Discretisation(setup_.settings, setup_.symmetry, finenesses);
+  discretisation_ = Discretisation(setup_.settings, setup_.symmetry, finenesses, setup_.ranks);
   state_ =
       initial_state(setup_.model, discretisation_, membranes, adapts() ? 0.0 : setup_.control.largest, instruments_);
 }

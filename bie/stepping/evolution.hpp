@@ -26,6 +26,7 @@ struct EvolutionSetup {
   StepControl control;
   Frame frame{};                     ///< of the state, in which messages name no place
   std::vector<std::string> names{};  ///< of several vesicles in messages; empty: their numbers
+  Ranks ranks{};                     ///< that take the way together: all calls of an Evolution are collective
   /// How messages write a time.
   std::function<std::string(double)> time_text = [](double time) { return fmt::format("{:g}", time); };
 };

@@ -107,14 +107,14 @@ constexpr double least_charge_share = 0.1;
 /// Slowest decay of a spectrum from degree to degree that a geometric series continues: slower ones do not decay within
 /// any degree that vehd has (0.97 to the power 64 is a seventh).
 constexpr double slowest_decay = 0.97;
-/// Share of the tolerance that the degrees left out may make up, and what two more change of the charge at the start: the
-/// rest is that of the step.
+/// Share of the tolerance that the degrees left out may make up, and what two more change of the charge at the start:
+/// the rest is that of the step.
 constexpr double truncation_share = 0.3;
 /// Share of the target of x and V_m below which a lower degree is idle: far enough that the degree does not rise again
 /// at once.
 constexpr double idle_truncation = 0.1;
-/// What the layers between vesicles may lose, as a share of the tolerance of the quadrature: they never decide how exact
-/// a run is.
+/// What the layers between vesicles may lose, as a share of the tolerance of the quadrature: they never decide how
+/// exact a run is.
 constexpr double pair_share = 1e-3;
 /// Degrees that a change has to save: four of sixteen are a quarter of the coefficients and half of the assembly.
 constexpr int worthwhile_degrees = 4;

@@ -10,6 +10,8 @@ Interruption::Interruption() {
   sigemptyset(&signals_);
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
+  // Of all signals that ask for an end mpirun hands on this one alone.
+  sigaddset(&signals_, SIGUSR1);
   pthread_sigmask(SIG_BLOCK, &signals_, &former_mask_);
 }
 

@@ -11,7 +11,7 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// While alive, SIGINT and SIGTERM wait until `requested` looks for them, so that a step is never torn. Threads
+/// While alive, SIGINT, SIGTERM and SIGUSR1 wait until `requested` looks for them, so that a step is never torn. Threads
 /// started later inherit this; create it before the first parallel region.
 class Interruption {
  public:

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <deque>
 #include <exception>
+#include <iterator>
 #include <vector>
 
 #include "bie/support/instruments.hpp"
@@ -50,6 +52,12 @@ void for_each_member(Index count, const Body& body) {
   }
 }
 
+/// The same for these members: body(member).
+template <typename Body>
+void for_each_member(const std::vector<std::size_t>& members, const Body& body) {
+  for_each_member(std::ssize(members), [&](Index i) { body(members[static_cast<std::size_t>(i)]); });
+}
+
 /// The same where members count their work: body(i, instruments).
 template <typename Body>
 void for_each_member(Index count, Instruments& instruments, const Body& body) {
@@ -62,6 +70,13 @@ void for_each_member(Index count, Instruments& instruments, const Body& body) {
   for_each_member(count, [&](Index i) { body(i, of_each[static_cast<std::size_t>(i)]); });
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   instruments.take_side_by_side(of_each, elapsed.count());
+}
+
+/// The same for these members: body(member, instruments).
+template <typename Body>
+void for_each_member(const std::vector<std::size_t>& members, Instruments& instruments, const Body& body) {
+  for_each_member(std::ssize(members), instruments,
+                  [&](Index i, Instruments& of_one) { body(members[static_cast<std::size_t>(i)], of_one); });
 }
 
 }  // namespace vehd

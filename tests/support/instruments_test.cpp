@@ -70,6 +70,22 @@ BOOST_AUTO_TEST_CASE(members_that_work_side_by_side_share_the_wall_time) {
   BOOST_TEST(instruments.seconds().at("inner") + instruments.seconds().at("outer") <= whole);
 }
 
+BOOST_AUTO_TEST_CASE(chosen_members_are_called_by_their_own_numbers) {
+  for (const std::size_t count : {3, 30}) {
+    std::vector<std::size_t> members;
+    for (std::size_t k = 0; k < count; ++k) members.push_back(2 * k + 1);
+    std::vector<char> calls(2 * count);
+    vehd::Instruments instruments;
+    vehd::for_each_member(members, [&](std::size_t member) { ++calls[member]; });
+    vehd::for_each_member(members, instruments, [&](std::size_t member, vehd::Instruments& of_one) {
+      ++calls[member];
+      of_one.count_kernel("kernel", member);
+    });
+    for (std::size_t i = 0; i < calls.size(); ++i) BOOST_TEST(calls[i] == (i % 2 == 1 ? 2 : 0));
+    BOOST_TEST(instruments.kernel_evaluations().at("kernel") == count * count);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_first_member_that_throws_is_heard_when_all_have_ended) {
   for (const vehd::Index count : {5, 50}) {
     std::vector<char> done(static_cast<std::size_t>(count));

@@ -17,13 +17,14 @@ std::vector<Matrix> averaged_forces(const std::vector<VesicleTask>& tasks, Solve
       solve_averaged_fields(membranes, charging, solved.interaction.get(), tasks.front().settings.electric_tolerance);
   require_converged(averaged.report, "amplitudes of V_m in an averaged field");
   solved.iterations_electric += averaged.report.iterations;
-  std::vector<Matrix> forces;
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  const Shares shares = solved.interaction ? solved.interaction->shares() : Shares();
+  std::vector<Matrix> forces(tasks.size());
+  for (const std::size_t a : shares.own(tasks.size())) {
     AveragedField& field = averaged.membranes[a];
     tasks[a].fields.potential_amplitude = std::move(field.potential);
     tasks[a].fields.charge_amplitude = std::move(field.charge);
     tasks[a].fields.force_electric = tasks[a].membrane.fine.analyze(field.force);
-    forces.push_back(std::move(field.force));
+    forces[a] = std::move(field.force);
   }
   return forces;
 }

@@ -15,11 +15,12 @@ namespace vehd {
 
 /// What a step needs of one membrane besides its fields.
 struct VesicleSolution {
-  /// Surface and operators; null in an evaluation that no step starts from.
+  /// Surface and operators, these on the rank of the vesicle alone; null in an evaluation that no step starts from.
   std::shared_ptr<const Membrane> membrane;
-  bool is_sphere = false;      ///< see uniform_tension_is_free
-  Vector potential_rate;       ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
-  Matrix force_of_effects;     ///< of all explicit effects on the fluid, values on the upsampled grid; empty without
+  bool is_sphere = false;  ///< see uniform_tension_is_free
+  Vector potential_rate;   ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
+  /// Of all explicit effects on the fluid, values on the upsampled grid; empty without, and on other ranks.
+  Matrix force_of_effects;
   Vector poration_rate;        ///< that of SurfaceFields::poration; empty without
   Vector free_charge_rate;     ///< that of SurfaceFields::free_charge; empty without displacement currents
   RecycledSubspaces recycled;  ///< those of the state with what the tension solve has learned
@@ -37,7 +38,7 @@ struct SolvedFields {
   bool electric_inactive = false;  ///< see electric_inactive()
 };
 
-/// Solves everything at a frozen state.
+/// Solves everything at a frozen state; collective, see Discretisation::shares.
 /// @param previous  of the same run, if there is one: where shapes are frozen its operators serve again
 /// @param limit     which value counts where a waveform jumps at the time of the state
 /// @throws ConvergenceError naming the solve that failed

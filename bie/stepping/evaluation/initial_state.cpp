@@ -49,6 +49,7 @@ void take_steady_charges(const Model& model, const VesicleModel& vesicle, Vesicl
 /// V_m of several vesicles whose steady state is one.
 void find_steady_potentials(const Model& model, const Discretisation& discretisation, State& state,
                             Instruments& instruments) {
+  const Shares& shares = discretisation.shares();
   std::vector<Membrane> frozen;
   std::vector<InteractingMembrane> interacting;
   std::vector<ElectricParameters> electric;
@@ -56,11 +57,12 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     const MembraneSpace& space = discretisation.vesicle(a);
     const Matrix& position = state.vesicles[a].position;
     electric.push_back(electric_parameters(model, model.vesicles[a]));
-    frozen.push_back(membrane_at(space, position, kElectricLayers, 1.0, instruments));
+    const LayerSelection layers = shares.owns(a) ? kElectricLayers : LayerSelection{};
+    frozen.push_back(membrane_at(space, position, layers, 1.0, instruments));
     frozen.back().material = material_at(space, state.vesicles[a].material);
     interacting.push_back({position, space.targets(), electric_pair_selection(electric.back())});
   }
-  const Interaction interaction(interacting, {}, instruments);
+  const Interaction interaction(interacting, {}, instruments, shares);
   std::vector<ElectricMembrane> membranes;
   std::vector<ChargingParameters> charging;
   std::vector<Vector> potentials;
@@ -108,7 +110,8 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     if (!std::all_of(membranes.begin(), membranes.end(), is_steady)) {
       throw InputError("some vesicles start with a steady V_m, others do not; accepted: all of them or none");
     }
-    find_steady_potentials(model, discretisation, state, instruments);
+    discretisation.shares().ranks().together(
+        [&] { find_steady_potentials(model, discretisation, state, instruments); });
   }
   return state;
 }

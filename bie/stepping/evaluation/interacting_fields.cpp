@@ -32,8 +32,7 @@ std::vector<Matrix> forces_of_densities(const std::vector<VesicleTask>& tasks, d
   solved.iterations_electric += densities.report.iterations;
   const std::vector<Vector> of_others = potentials_of_others(membranes, interaction, potentials, densities.membranes);
   std::vector<Matrix> forces(tasks.size());
-  for_each_member(static_cast<Index>(tasks.size()), [&](Index i) {
-    const auto a = static_cast<std::size_t>(i);
+  for_each_member(interaction.shares().own(tasks.size()), [&](std::size_t a) {
     const VesicleTask& task = tasks[a];
     const ElectricParameters& electric = membranes[a].electric;
     const ElectricTraces traces =
@@ -67,14 +66,15 @@ Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
 void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<Forcing>& forcing,
                       SolvedFields& solved) {
   std::vector<FlowMembrane> membranes;
-  std::vector<Matrix> weighted, background;
+  const std::vector<std::size_t> own = solved.interaction->shares().own(tasks.size());
+  std::vector<Matrix> weighted(tasks.size()), background;
   std::vector<bool> is_sphere;
   std::vector<Vector> start;
   std::vector<RecycledSubspace> known;
+  for (const std::size_t a : own) weighted[a] = tasks[a].membrane.weighted(forcing[a].force);
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     const VesicleTask& task = tasks[a];
     membranes.push_back({flow_parameters(task.model, task.vesicle), task.membrane});
-    weighted.push_back(task.membrane.weighted(forcing[a].force));
     background.push_back(forcing[a].velocity);
     task.solution.is_sphere = uniform_tension_is_free(membranes[a].parameters, task.membrane);
     is_sphere.push_back(task.solution.is_sphere);
@@ -88,12 +88,14 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
       solve_tensions(membranes, is_sphere, flow, velocities, start, known, tasks.front().settings.flow_tolerance);
   require_converged(tensions.report, "tensions, Eq. (27b)");
   solved.iterations_flow += tensions.report.iterations;
-  for_each_member(static_cast<Index>(tasks.size()), [&](Index i) {
-    const auto a = static_cast<std::size_t>(i);
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    if (!tasks[a].vesicle.inextensible) continue;
+    tasks[a].solution.recycled.tension = recycled_scalars(tasks[a].space.subspace().scalars(), tensions.learned[a]);
+  }
+  for_each_member(own, [&](std::size_t a) {
     const VesicleTask& task = tasks[a];
     task.fields.velocity = symmetric(task.membrane, velocities[a] + tensions.velocities[a]);
     if (!task.vesicle.inextensible) return;
-    task.solution.recycled.tension = recycled_scalars(task.space.subspace().scalars(), tensions.learned[a]);
     task.fields.tension = tensions.tension[a];
     task.fields.force_tension = task.membrane.fine.analyze(tensions.force[a]);
   });
@@ -108,7 +110,7 @@ PairSettings pair_settings(const NumericalSettings& settings) {
 }
 
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
-                                                  Instruments& instruments) {
+                                                  const Shares& shares, Instruments& instruments) {
   std::vector<InteractingMembrane> membranes;
   for (const VesicleTask& task : tasks) {
     PairSelection selection;
@@ -122,11 +124,12 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
     }
     membranes.push_back({task.state.position, task.space.targets(), selection});
   }
-  return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments);
+  return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments, shares);
 }
 
 void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,
                        SolvedFields& solved) {
+  const std::vector<std::size_t> own = solved.interaction->shares().own(tasks.size());
   std::vector<Forcing> forcing;
   for (const VesicleTask& task : tasks) {
     forcing.push_back({Matrix::Zero(task.membrane.surface.n_points(), 3), Matrix::Zero(task.state.position.rows(), 3)});
@@ -145,7 +148,7 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     const std::vector<Matrix> forces = is_averaged(model)      ? averaged_forces(tasks, solved)
                                        : relaxes_charge(model) ? forces_of_charges(tasks, time, limit, solved)
                                                                : forces_of_densities(tasks, time, limit, solved);
-    for (std::size_t a = 0; a < tasks.size(); ++a) forcing[a].force -= forces[a];
+    for (const std::size_t a : own) forcing[a].force -= forces[a];
   }
   if (!tasks.front().model.mobile) return;
   if (tasks.front().model.contact) {
@@ -153,8 +156,7 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     add_contact(*tasks.front().model.contact, tasks, forcing);
   }
   const auto timer = instruments.time("tension solve");
-  for_each_member(static_cast<Index>(tasks.size()), [&](Index i) {
-    const auto a = static_cast<std::size_t>(i);
+  for_each_member(own, [&](std::size_t a) {
     add_forces(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, forcing[a]);
   });
   solve_velocities(tasks, forcing, solved);

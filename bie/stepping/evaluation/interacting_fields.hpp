@@ -12,13 +12,14 @@ PairSettings pair_settings(const NumericalSettings& settings);
 
 /// The layers between the membranes that the effects of a model need; those of the electric problem only while it is
 /// active.
+/// @param shares  which rank has the layers of which vesicle
 /// @throws ConvergenceError if two membranes intersect or are too near for any rule
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
-                                                  Instruments& instruments);
+                                                  const Shares& shares, Instruments& instruments);
 
 /// solve_fields for several vesicles, coupled through the field and the fluid around them: charge densities, Eq. (12),
 /// forces, velocities and tensions, Eq. (27b), of all at once.
-/// @param solved  with operators and interaction; the rest is found here
+/// @param solved  with operators and interaction; the rest is found here, for the vesicles of this rank
 /// @throws ConvergenceError naming the solve that failed
 /// Accuracy: spectral; two spheres approach each other in a field with the exact speed to 1e-8
 /// (tests/stepping/evaluation/interacting_fields_test.cpp)

@@ -43,8 +43,9 @@ std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, dou
   std::vector<RelaxingField> fields = solved_fields(tasks, membranes, solved.interaction.get());
   require_converged(fields.front().report, "V_m of free charges");
   solved.iterations_electric += fields.front().report.iterations;
-  std::vector<Matrix> forces;
-  for (std::size_t a = 0; a < tasks.size(); ++a) {
+  const Shares shares = solved.interaction ? solved.interaction->shares() : Shares();
+  std::vector<Matrix> forces(tasks.size());
+  for (const std::size_t a : shares.own(tasks.size())) {
     const VesicleTask& task = tasks[a];
     const ElectricParameters& electric = membranes[a].in_field.electric;
     FaceCharges rates = charge_rates(electric, task.vesicle.charging, task.membrane, fields[a]);
@@ -53,9 +54,8 @@ std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, dou
     take_charges(task);
     task.fields.charge = task.membrane.fine.analyze(fields[a].traces.charge);
     task.fields.potential = std::move(fields[a].potential);
-    forces.push_back(
-        electric_force(electric.permittivity, task.membrane, fields[a].traces, electric.permittivity_ratio));
-    task.fields.force_electric = task.membrane.fine.analyze(forces.back());
+    forces[a] = electric_force(electric.permittivity, task.membrane, fields[a].traces, electric.permittivity_ratio);
+    task.fields.force_electric = task.membrane.fine.analyze(forces[a]);
   }
   return forces;
 }

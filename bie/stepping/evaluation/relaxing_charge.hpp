@@ -10,7 +10,7 @@ namespace vehd {
 /// field_of_charges and fields_of_charges.
 /// @param limit   which value of the field counts where it jumps
 /// @param solved  with the interaction of several vesicles
-/// @return  values on the upsampled grids
+/// @return  values on the upsampled grids; of vesicles of other ranks all stay empty
 /// @throws ConvergenceError
 std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, double time, Limit limit,
                                       SolvedFields& solved);

@@ -4,6 +4,7 @@
 #include "bie/physics/tension.hpp"
 #include "bie/stepping/evaluation/averaged_forces.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/evaluation/gather_solution.hpp"
 #include "bie/stepping/evaluation/interacting_fields.hpp"
 #include "bie/stepping/evaluation/relaxing_charge.hpp"
 #include "bie/stepping/evaluation/vesicle_task.hpp"
@@ -85,19 +86,19 @@ void solve(const VesicleTask& task, double time, Limit limit, Instruments& instr
 }
 
 std::shared_ptr<const Membrane> assembled(const Model& model, const VesicleModel& vesicle, const MembraneSpace& space,
-                                          const SurfaceFields& fields, bool electric_active, Instruments& instruments) {
+                                          const SurfaceFields& fields, bool electric_active, bool own,
+                                          Instruments& instruments) {
   const auto timer = instruments.time("operator assembly");
-  const LayerSelection layers = needed_layers(model, vesicle, electric_active);
+  const LayerSelection layers = own ? needed_layers(model, vesicle, electric_active) : LayerSelection{};
   Membrane membrane = membrane_at(space, fields.position, layers, vesicle.viscosity_ratio, instruments);
   membrane.material = material_at(space, fields.material);
   return std::make_shared<const Membrane>(std::move(membrane));
 }
 
-}  // namespace
-
-SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
-                          Instruments& instruments, const SolvedFields* previous, Limit limit) {
+SolvedFields solve_all(const Model& model, const Discretisation& discretisation, const State& state,
+                       Instruments& instruments, const SolvedFields* previous, Limit limit) {
   const std::size_t n = state.vesicles.size();
+  const Shares& shares = discretisation.shares();
   SolvedFields solved;
   solved.electric_inactive = electric_inactive(model, state, limit);
   solved.fields.vesicles.resize(n);
@@ -109,7 +110,7 @@ SolvedFields solve_fields(const Model& model, const Discretisation& discretisati
     solution.recycled = state.vesicles[a].recycled;
     solution.membrane = reuse ? previous->vesicles[a].membrane
                               : assembled(model, model.vesicles[a], discretisation.vesicle(a), state.vesicles[a],
-                                          !solved.electric_inactive, of_one);
+                                          !solved.electric_inactive, shares.owns(a), of_one);
   });
   std::vector<VesicleTask> tasks;
   for (std::size_t a = 0; a < n; ++a) {
@@ -120,10 +121,20 @@ SolvedFields solve_fields(const Model& model, const Discretisation& discretisati
   if (n == 1) {
     solve(tasks.front(), state.time, limit, instruments, solved);
   } else {
-    solved.interaction = reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, instruments);
+    solved.interaction =
+        reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, shares, instruments);
     solve_interacting(tasks, state.time, limit, instruments, solved);
+    gather_from_owners(shares, solved);
   }
   return solved;
+}
+
+}  // namespace
+
+SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
+                          Instruments& instruments, const SolvedFields* previous, Limit limit) {
+  return discretisation.shares().ranks().together(
+      [&] { return solve_all(model, discretisation, state, instruments, previous, limit); });
 }
 
 }  // namespace vehd

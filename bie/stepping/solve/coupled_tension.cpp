@@ -22,6 +22,11 @@ struct ScalarPair {
   Vector normal, tension;
 };
 
+template <MaybeConst<ScalarPair> Pair, typename Visit>
+void visit_members(Pair& pair, Visit& visit) {
+  visit(pair.normal, pair.tension);
+}
+
 /// The problem on one membrane.
 class OneTension {
  public:
@@ -195,24 +200,20 @@ class Layout {
   StackedEntries normal_, tension_;
 };
 
-/// Preconditioners of many membranes.
-void find_inverses(std::vector<OneTension>& all) {
+/// Preconditioners of many membranes, of those of this rank.
+void find_inverses(std::vector<OneTension>& all, const std::vector<std::size_t>& own) {
   std::map<int, TensionGrid> grids;
-  for (const OneTension& one : all) {
-    const int order = one.membrane().fine.order();
+  for (const std::size_t a : own) {
+    const int order = all[a].membrane().fine.order();
     if (!grids.contains(order)) grids.emplace(order, order);
   }
-  for_each_member(static_cast<Index>(all.size()), [&](Index i) {
-    OneTension& one = all[static_cast<std::size_t>(i)];
-    one.find_inverse(grids.at(one.membrane().fine.order()));
-  });
+  for_each_member(own, [&](std::size_t a) { all[a].find_inverse(grids.at(all[a].membrane().fine.order())); });
 }
 
 std::vector<Matrix> velocities_of(const std::vector<OneTension>& all, CoupledFlow& flow,
                                   const std::vector<ScalarPair>& unknowns) {
   std::vector<Matrix> weighted(all.size());
-  for_each_member(static_cast<Index>(all.size()), [&](Index i) {
-    const auto a = static_cast<std::size_t>(i);
+  for_each_member(flow.shares().own(all.size()), [&](std::size_t a) {
     const Matrix force = all[a].force(unknowns[a]);
     if (force.size() > 0) weighted[a] = all[a].membrane().weighted(force);
   });
@@ -226,36 +227,41 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
                               const std::vector<RecycledSubspace>& known, double tolerance) {
   std::vector<OneTension> all;
   for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a]);
-  if (are_many(static_cast<Index>(all.size()))) find_inverses(all);
+  const Shares& shares = flow.shares();
+  const std::vector<std::size_t> own = shares.own(all.size());
+  const bool many = are_many(static_cast<Index>(all.size()));
+  if (many) find_inverses(all, own);
   const Layout layout(all);
   const Vector scales = layout.scales(all);
   const LinearMap map = [&](const Vector& v) {
     const std::vector<ScalarPair> unknowns = layout.scalars(v.cwiseProduct(scales));
     const std::vector<Matrix> velocities = velocities_of(all, flow, unknowns);
     std::vector<ScalarPair> result(all.size());
-    for_each_member(static_cast<Index>(all.size()), [&](Index i) {
-      const auto a = static_cast<std::size_t>(i);
-      result[a] = all[a].response(velocities[a], unknowns[a]);
-    });
+    for_each_member(own, [&](std::size_t a) { result[a] = all[a].response(velocities[a], unknowns[a]); });
+    shares.gather(result);
     return layout.stack(result);
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
     std::vector<ScalarPair> parts = layout.scalars(residual);
-    for_each_member(static_cast<Index>(all.size()), [&](Index i) {
-      const auto a = static_cast<std::size_t>(i);
-      parts[a] = all[a].approximate_inverse(parts[a]);
-    });
+    // Those of spheres, which few membranes have, every rank has for all.
+    if (many) {
+      for_each_member(own, [&](std::size_t a) { parts[a] = all[a].approximate_inverse(parts[a]); });
+      shares.gather(parts);
+    } else {
+      for (std::size_t a = 0; a < all.size(); ++a) parts[a] = all[a].approximate_inverse(parts[a]);
+    }
     return layout.stack(parts).cwiseQuotient(scales);
   };
-  std::vector<ScalarPair> rhs, guess;
+  std::vector<ScalarPair> rhs(all.size()), guess;
+  for (const std::size_t a : own) rhs[a] = all[a].constraints(-driven[a]);
+  shares.gather(rhs);
   for (std::size_t a = 0; a < all.size(); ++a) {
-    rhs.push_back(all[a].constraints(-driven[a]));
-    const Vector none = Vector::Zero(driven[a].rows());
+    const Vector none = Vector::Zero(n_coefficients(all[a].membrane().fine.order()));
     guess.push_back({none, start[a].size() > 0 ? start[a] : none});
     // The mean does nothing on a sphere, and is none of the unknowns' business.
     if (is_sphere[a]) guess.back().tension[0] = 0.0;
   }
-  const bool recycles = !are_many(static_cast<Index>(all.size())) && std::ranges::count(is_sphere, true) == 0;
+  const bool recycles = !many && std::ranges::count(is_sphere, true) == 0;
   const RecycledSubspace former = recycles ? layout.joined(known, scales) : RecycledSubspace{};
   RecycledGcr solver(map, preconditioner, layout.size(), 0, former);
   const RecycledGcr::Solution solution = solver.solve(layout.stack(rhs), layout.stack(guess).cwiseQuotient(scales),
@@ -270,7 +276,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   result.velocities = velocities_of(all, flow, unknowns);
   for (std::size_t a = 0; a < all.size(); ++a) {
     result.tension.push_back(membranes[a].parameters.inextensible ? unknowns[a].tension : Vector());
-    result.force.push_back(all[a].force(unknowns[a]));
+    result.force.push_back(shares.owns(a) ? all[a].force(unknowns[a]) : Matrix());
   }
   return result;
 }

@@ -26,6 +26,8 @@ struct CoupledTension {
 /// An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp): there a force c n of degrees 2 … p − 1
 /// holds it in shape, the limit of a large uniform tension on a shape that hardly differs from a sphere; it is an
 /// unknown beside λ, and counts as force of the tension. The mean of λ stays zero there.
+/// Of several ranks, see Interaction, each needs w of its own membranes and gets forces and velocities of these, the
+/// tensions and what is learned of all.
 /// @param is_sphere  of each membrane, see uniform_tension_is_free
 /// @param driven     w on each, coefficients
 /// @param start      λ of each to start from; empty ones are zero

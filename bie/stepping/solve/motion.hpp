@@ -16,6 +16,12 @@ struct Motion {
   double arrival_shift = 0.0;
 };
 
+template <MaybeConst<Motion> Sent, typename Visit>
+void visit_members(Sent& motion, Visit& visit) {
+  auto& [material, arrived, raw_area, arrival_shift] = motion;
+  visit(material, arrived, raw_area, arrival_shift);
+}
+
 /// Takes the fields at the material points to the nodes where a motion ends: new ones at the end of a step, the
 /// material points themselves within it.
 using Arrival = std::function<SurfaceFields(const SurfaceFields& material)>;

@@ -1,5 +1,6 @@
 #include "bie/stepping/space/discretisation.hpp"
 
+#include <cmath>
 #include <numeric>
 
 namespace vehd {
@@ -35,14 +36,24 @@ Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry
     : Discretisation(settings, symmetry, {{settings.order, 1.0}}) {}
 
 Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry& symmetry,
-                               const std::vector<Fineness>& vesicles)
+                               const std::vector<Fineness>& vesicles, const Ranks& ranks)
     : settings_(settings), symmetry_(symmetry) {
   for (const Fineness& fineness : vesicles) vesicles_.push_back(space_of(fineness));
+  share(ranks);
+}
+
+/// By the sizes of the operators.
+void Discretisation::share(const Ranks& ranks) {
+  if (n_vesicles() < 2) return;
+  std::vector<double> costs;
+  for (const auto& space : vesicles_) costs.push_back(std::pow(space->order() + 1.0, 4));
+  shares_ = Shares(ranks, costs);
 }
 
 Discretisation Discretisation::with(std::size_t vesicle, const Fineness& fineness) const {
   Discretisation result = *this;
   result.vesicles_[vesicle] = space_of(fineness);
+  result.share(shares_.ranks());
   return result;
 }
 

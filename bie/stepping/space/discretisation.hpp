@@ -6,6 +6,7 @@
 #include "bie/potentials/rotated_quadrature.hpp"
 #include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
+#include "bie/support/ranks/shares.hpp"
 
 namespace vehd {
 
@@ -61,13 +62,16 @@ struct Fineness {
   double quadrature_refinement = 1.0;  ///< nodes of the singular quadrature, relative to those of the settings
 };
 
-/// The spaces of all vesicles with the settings that they share. Immutable; a copy shares the spaces.
+/// The spaces of all vesicles with the settings that they share, and which rank computes what of which vesicle.
+/// Immutable; a copy shares the spaces.
 class Discretisation {
  public:
   /// One vesicle with the degree and the quadrature of the settings.
   explicit Discretisation(const NumericalSettings& settings, const Symmetry& symmetry = {});
   /// Vesicles each with its own degree and quadrature.
-  Discretisation(const NumericalSettings& settings, const Symmetry& symmetry, const std::vector<Fineness>& vesicles);
+  /// @param ranks  that compute together; a single vesicle is computed by each of them
+  Discretisation(const NumericalSettings& settings, const Symmetry& symmetry, const std::vector<Fineness>& vesicles,
+                 const Ranks& ranks = {});
 
   /// The same but for one vesicle.
   [[nodiscard]] Discretisation with(std::size_t vesicle, const Fineness& fineness) const;
@@ -77,13 +81,17 @@ class Discretisation {
   /// Space of one vesicle.
   [[nodiscard]] const MembraneSpace& vesicle(std::size_t a) const { return *vesicles_[a]; }
   [[nodiscard]] std::size_t n_vesicles() const { return vesicles_.size(); }
+  /// Which vesicle has its operators on which rank.
+  [[nodiscard]] const Shares& shares() const { return shares_; }
 
  private:
+  void share(const Ranks& ranks);
   [[nodiscard]] std::shared_ptr<const MembraneSpace> space_of(const Fineness& fineness) const;
 
   NumericalSettings settings_;
   Symmetry symmetry_;
   std::vector<std::shared_ptr<const MembraneSpace>> vesicles_;
+  Shares shares_;
 };
 
 }  // namespace vehd

@@ -9,7 +9,8 @@ namespace vehd {
 /// What an error of V_m is measured by: its largest value, or a tenth of what the field could charge at most.
 double potential_scale(const AppliedField& electric, double radius, double largest);
 
-/// The same of q, or its amplitude, of a vesicle: the largest, or a share of η|E| where that is more. [potential/length]
+/// The same of q, or its amplitude, of a vesicle: the largest, or a share of η|E| where that is more.
+/// [potential/length]
 double charge_scale(const Model& model, std::size_t vesicle, double largest);
 
 /// How the degrees of one membrane die away.

@@ -29,6 +29,23 @@ std::shared_ptr<const RecycledScalars> recycled_scalars(const std::vector<Index>
   return subspace.count() == 0 ? nullptr : std::make_shared<const RecycledScalars>(entries, std::move(subspace));
 }
 
+void visit_members(const SentScalars& sent, Packing& packing) {
+  const bool any = sent.known != nullptr;
+  packing(any);
+  if (any) packing(sent.known->entries(), sent.known->subspace().arguments, sent.known->subspace().responses);
+}
+
+void visit_members(SentScalars& sent, Unpacking& unpacking) {
+  bool any = false;
+  unpacking(any);
+  sent.known = nullptr;
+  if (!any) return;
+  std::vector<Index> entries;
+  RecycledSubspace subspace;
+  unpacking(entries, subspace.arguments, subspace.responses);
+  sent.known = std::make_shared<const RecycledScalars>(std::move(entries), std::move(subspace));
+}
+
 RecycledSubspaces after_step(const RecycledSubspaces& before, std::shared_ptr<const RecycledScalars> flow,
                              int iterations) {
   RecycledSubspaces after = before;

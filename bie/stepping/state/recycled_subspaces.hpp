@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bie/linear/recycled_subspace.hpp"
+#include "bie/support/ranks/parcel.hpp"
 
 namespace vehd {
 
@@ -33,6 +34,14 @@ class RecycledScalars {
 
 /// Null where the subspace is empty.
 std::shared_ptr<const RecycledScalars> recycled_scalars(const std::vector<Index>& entries, RecycledSubspace subspace);
+
+/// The same on its way from one rank to another.
+struct SentScalars {
+  std::shared_ptr<const RecycledScalars> known;  ///< or null
+};
+
+void visit_members(const SentScalars& sent, Packing& packing);
+void visit_members(SentScalars& sent, Unpacking& unpacking);
 
 /// What velocity solves have learned of their operators, in the coefficients that the symmetry leaves; nothing known:
 /// null. Directions that served one step serve the next, whose operators are nearly the same.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bie/physics/membrane_material.hpp"
+#include "bie/support/ranks/parcel.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -27,6 +28,14 @@ void for_each_scalar(Fields& fields, const Visit& visit) {
     if (scalar->size() > 0) visit(*scalar);
   }
   for_each_property(fields.material, visit);
+}
+
+template <MaybeConst<SurfaceFields> Fields, typename Visit>
+void visit_members(Fields& fields, Visit& visit) {
+  auto& [position, area_strain, transmembrane_potential, free_charge, tension, poration, material] = fields;
+  visit(position, area_strain, transmembrane_potential, free_charge, tension, poration);
+  auto& [capacitance, conductance, pump_current, bending_modulus, spontaneous_curvature] = material;
+  visit(capacitance, conductance, pump_current, bending_modulus, spontaneous_curvature);
 }
 
 }  // namespace vehd

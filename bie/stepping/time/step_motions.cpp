@@ -1,4 +1,5 @@
-#include <numeric>
+#include <string>
+#include <utility>
 
 #include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/state/composition.hpp"
@@ -16,26 +17,48 @@ void require_finite(const Motion& motion) {
   if (!finite) throw ConvergenceError("the new state is not finite");
 }
 
+/// A motion with the iterations that it took, or why there is none.
+struct CountedMotion {
+  Motion motion;
+  int iterations = 0;
+  std::string failure{};
+};
+
+template <MaybeConst<CountedMotion> Sent, typename Visit>
+void visit_members(Sent& sent, Visit& visit) {
+  visit(sent.motion, sent.iterations, sent.failure);
+}
+
 }  // namespace
 
 std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt,
                                             NodeEnd end) {
-  std::vector<Motion> result(starts.size());
-  std::vector<int> iterations(starts.size(), 0);
-  const auto move = [&](Index i, Instruments& instruments) {
-    const auto a = static_cast<std::size_t>(i);
-    result[a] = motion(a, starts[a], rigid, dt, end, instruments, iterations[a]);
-    require_finite(result[a]);
+  std::vector<CountedMotion> all(starts.size());
+  const auto move = [&](std::size_t a, Instruments& instruments) {
+    CountedMotion& of_one = all[a];
+    try {
+      of_one.motion = motion(a, starts[a], rigid, dt, end, instruments, of_one.iterations);
+      require_finite(of_one.motion);
+    } catch (const ConvergenceError& error) {
+      of_one.failure = error.what();
+      throw;
+    }
   };
-  // Those of solves that fail count all the same.
-  const auto count = [&] { iterations_flow_ += std::accumulate(iterations.begin(), iterations.end(), 0); };
-  try {
-    for_each_member(static_cast<Index>(starts.size()), instruments_, move);
-  } catch (...) {
-    count();
-    throw;
+  shares().ranks().together([&] {
+    try {
+      for_each_member(shares().own(all.size()), instruments_, move);
+    } catch (const ConvergenceError&) {
+      // Which vesicle is the first without a motion all ranks have to say.
+    }
+    shares().gather(all);
+  });
+  std::vector<Motion> result;
+  for (CountedMotion& of_one : all) {
+    // Those of solves that fail count all the same.
+    iterations_flow_ += of_one.iterations;
+    if (!of_one.failure.empty()) throw ConvergenceError(of_one.failure);
+    result.push_back(std::move(of_one.motion));
   }
-  count();
   return result;
 }
 

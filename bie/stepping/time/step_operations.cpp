@@ -31,31 +31,6 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
   return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
 }
 
-Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fields) {
-  const Membrane& membrane = *solution.membrane;
-  Rate::OfVesicle rate;
-  rate.velocity = solution.is_sphere ? rigid_sphere_velocity(membrane, fields.velocity) : fields.velocity;
-  rate.potential = solution.potential_rate;
-  rate.free_charge = solution.free_charge_rate;
-  rate.poration = solution.poration_rate;
-  rate.charge = fields.charge_amplitude.size() > 0 ? fields.charge_amplitude : Matrix(fields.charge);
-  rate.potential_amplitude = fields.potential_amplitude;
-  if (fields.tension.size() > 0 && !solution.is_sphere) {
-    const Vector tension = membrane.fine.synthesize(fields.tension);
-    rate.tension_integral = tension.dot(membrane.surface.quadrature);
-    rate.tension_size = tension.cwiseAbs().dot(membrane.surface.quadrature);
-  }
-  return rate;
-}
-
-Rate rate_of(const SolvedFields& solved) {
-  Rate rate;
-  for (std::size_t a = 0; a < solved.vesicles.size(); ++a) {
-    rate.vesicles.push_back(rate_of(solved.vesicles[a], solved.fields.vesicles[a]));
-  }
-  return rate;
-}
-
 }  // namespace
 
 StepOperations::StepOperations(const Model& model, const Discretisation& discretisation, const State& start,
@@ -223,8 +198,11 @@ State StepOperations::passed_state(const NodeSolution& node) const {
 
 State StepOperations::end_state(const NodeSolution& node) const {
   State state = passed_state(node);
+  std::vector<SentScalars> flow(state.vesicles.size());
+  for (const std::size_t a : shares().own(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
+  shares().gather(flow);
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow_[a].recycled(), iterations_flow_);
+    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_flow_);
   }
   return state;
 }

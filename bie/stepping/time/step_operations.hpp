@@ -9,6 +9,7 @@
 #include "bie/stepping/solve/flow_systems.hpp"
 #include "bie/stepping/solve/rigid_sphere.hpp"
 #include "bie/stepping/time/charge_step.hpp"
+#include "bie/stepping/time/rate.hpp"
 
 namespace vehd {
 
@@ -17,22 +18,6 @@ namespace vehd {
 struct NodeSolution {
   double time = 0.0;
   std::vector<Motion> vesicles;
-};
-
-/// F = dy/dt of material points, coefficients; a part that does not change is empty. With it what was solved for on the
-/// way and a history tells of.
-struct Rate {
-  struct OfVesicle {
-    Matrix velocity;
-    Vector potential;
-    Vector free_charge;             ///< of SurfaceFields::free_charge; empty without
-    Vector poration;                ///< of SurfaceFields::poration; empty without
-    Matrix charge;                  ///< q, or its amplitude; empty without electricity
-    Matrix potential_amplitude;     ///< of V_m in an averaged field, which is solved for at once; empty without
-    double tension_integral = 0.0;  ///< ∫λ dA; 0 where a sphere leaves its mean open
-    double tension_size = 0.0;      ///< ∫|λ| dA
-  };
-  std::vector<OfVesicle> vesicles;
 };
 
 /// How two solutions of one node differ in what can be seen, the largest of all vesicles.
@@ -99,7 +84,7 @@ class StepOperations {
   /// y + (1 − dt L)⁻¹ r.
   NodeSolution implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end);
 
-  /// The state at the end of the step, from a node that is remapped.
+  /// The state at the end of the step, from a node that is remapped; collective.
   [[nodiscard]] State end_state(const NodeSolution& node) const;
   /// A state within the step, from a node that is remapped; no step starts from it.
   [[nodiscard]] State passed_state(const NodeSolution& node) const;
@@ -135,9 +120,10 @@ class StepOperations {
               SurfaceFields& fields);
   void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
+  [[nodiscard]] const Shares& shares() const { return discretisation_.shares(); }
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end, Instruments& instruments) const;
   using RigidMotion = std::function<SphereMotion(std::size_t vesicle, const Membrane& sphere)>;
-  /// Solves and projects all vesicles; V_m of the start is that of the end.
+  /// Solves and projects all vesicles, each on its rank; V_m of the start is that of the end. Collective.
   /// @param rigid  the motion of a sphere, which takes the place of the start's velocity there
   std::vector<Motion> motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt, NodeEnd end);
   /// The same of one. Others may be moved at the same time.

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vehd {
+
+/// How the processes of one run talk to each other; all calls are collective.
+class RankLink {
+ public:
+  virtual ~RankLink() = default;
+  /// Number of this process, from 0.
+  [[nodiscard]] virtual int rank() const = 0;
+  /// How many there are.
+  [[nodiscard]] virtual int size() const = 0;
+  /// What each rank gives, of any length, in the order of ranks.
+  virtual std::vector<std::string> gather(const std::string& own) = 0;
+  /// `to[r]` goes to rank r. @return what each rank has sent to this one
+  virtual std::vector<std::string> exchange(const std::vector<std::string>& to) = 0;
+};
+
+}  // namespace vehd

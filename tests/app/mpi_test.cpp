@@ -1,0 +1,139 @@
+#ifdef VEHD_MPI_PROGRAM
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "bie/runs/checkpoint.hpp"
+#include "tests/app/reference_run.hpp"
+
+BOOST_AUTO_TEST_SUITE(mpi)
+
+namespace {
+
+/// At rest but for what bending does to them, so that they never meet.
+std::string two_vesicles(const std::string& end_time) {
+  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
+         "[output]\nevery = 0.1\n[numerics]\norder = 4\ndt = 0.1\nend_time = " +
+         end_time +
+         "\n[[vesicle]]\nname = \"left\"\nshape.centre = [-1.6, 0.0, 0.3]\n"
+         "[[vesicle]]\nname = \"right\"\nshape.centre = [1.4, 0.2, 0.0]\n";
+}
+
+/// Containers have root alone, and often fewer slots than ranks.
+struct AnyContainer {
+  AnyContainer() {
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+  }
+};
+
+/// Tests run beside others, and what mpirun is told to end it ends at once.
+std::vector<std::string> on_ranks(const std::string& n, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {"mpirun", "-q", "--bind-to", "none", "-n", n};
+  command.insert(command.end(), {"--mca", "odls_base_sigkill_timeout", "0", VEHD_MPI_PROGRAM});
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+struct RunOnRanks : RunPair {
+  explicit RunOnRanks(const std::string& end_time) : RunPair(two_vesicles(end_time)) {}
+
+  [[nodiscard]] std::vector<std::string> on(const std::string& n) const {
+    return on_ranks(n, {"run", scene, "-o", output, "--resume", "--no-plot", "--quiet"});
+  }
+  /// The processes of this run.
+  [[nodiscard]] std::vector<pid_t> processes() const {
+    std::vector<pid_t> all;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::error_code gone;
+      if (std::filesystem::read_symlink(entry.path() / "exe", gone) != std::filesystem::path(VEHD_MPI_PROGRAM))
+        continue;
+      std::ifstream arguments(entry.path() / "cmdline");
+      const std::string words(std::istreambuf_iterator<char>(arguments), {});
+      if (words.find(scene) != std::string::npos) all.push_back(std::stoi(entry.path().filename()));
+    }
+    return all;
+  }
+  /// Lets what has ended early go on by one process to a nearby end, and compares.
+  void finish_soon() {
+    const double reached = vehd::read_checkpoint(output + "/checkpoint.h5").state.time;
+    write_text(scene, two_vesicles(std::to_string(reached + 0.15)));
+    run_reference();
+    finish();
+  }
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(ranks_have_the_bits_and_the_words_of_one, AnyContainer) {
+  const RunOnRanks run("0.3");
+  run.run_reference();
+  const ProgramResult begun =
+      run_command(on_ranks("2", {"run", run.scene, "-o", run.output, "--no-plot", "--set", "numerics.end_time=0.2"}));
+  BOOST_TEST(begun.exit_code == 0, begun.errors);
+  BOOST_TEST(begun.output.starts_with("completed at time 0.2: 2 steps"), begun.output);
+  BOOST_TEST(begun.output.find("completed", 1) == std::string::npos, begun.output);
+  const ProgramResult resumed = run_command(run.on("3"));
+  BOOST_TEST(resumed.exit_code == 0, resumed.errors);
+  check_same_run(run.output, run.reference);
+  // Of all ranks and sessions; the second session begins with the shape at which the first has ended.
+  const auto evaluations = [](const std::string& folder) {
+    return json_of(folder + "/summary.json").at("kernel_evaluations").begin()->get<std::int64_t>();
+  };
+  BOOST_TEST(evaluations(run.output) * 4 == evaluations(run.reference) * 5);
+}
+
+// With little to compute.
+BOOST_FIXTURE_TEST_CASE(the_command_of_the_page_works, AnyContainer) {
+  const std::string page = file_text(VEHD_SOURCE_DIR "/docs/several_vesicles.md");
+  const std::size_t first = page.find("\nmpirun ") + 1;
+  std::string command = page.substr(first, page.find('\n', first) - first);
+  command.replace(command.find("build/vehd"), 10, VEHD_MPI_PROGRAM);
+  const TemporaryDirectory directory;
+  command.replace(command.find(" -o "), 4, " -o " + (directory / ""));
+  command += " --no-plot --set numerics.degree=6 --set numerics.end_time=0.01";
+  const ProgramResult result = run_command({"sh", "-c", "cd " VEHD_SOURCE_DIR " && " + command});
+  BOOST_TEST(result.exit_code == 0, result.errors);
+}
+
+BOOST_FIXTURE_TEST_CASE(wrong_input_is_said_once, AnyContainer) {
+  const RunOnRanks run("0.1");
+  write_text(run.scene, two_vesicles("-1"));
+  const ProgramResult result = run_command(run.on("2"));
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(std::ranges::count(result.errors, '\n') == 1, result.errors);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_signal_leaves_a_resumable_run, AnyContainer) {
+  RunOnRanks run("10000.0");
+  RunningProgram program(run.on("2"));
+  run.wait_for_rows(program);
+  // That which mpirun hands on.
+  program.send(SIGUSR1);
+  const ProgramResult result = program.wait();
+  BOOST_TEST(result.exit_code == 3, result.errors);
+  BOOST_TEST(json_of(run.output + "/summary.json").at("verdict").get<std::string>().starts_with("stopped: a signal"));
+  run.finish_soon();
+}
+
+BOOST_FIXTURE_TEST_CASE(a_killed_rank_ends_all_and_leaves_a_resumable_run, AnyContainer) {
+  RunOnRanks run("10000.0");
+  RunningProgram program(run.on("2"));
+  run.wait_for_rows(program);
+  const std::vector<pid_t> processes = run.processes();
+  BOOST_TEST_REQUIRE(processes.size() == 2U);
+  ::kill(processes.back(), SIGKILL);
+  BOOST_TEST(program.wait().exit_code != 0);
+  BOOST_TEST(run.processes().empty());
+  run.finish_soon();
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+#endif
