@@ -18,8 +18,6 @@ using vehd::FrozenState;
 using vehd::Matrix;
 using vehd::Vector;
 
-const std::filesystem::path fem_program = std::filesystem::path(VEHD_PROGRAM).parent_path() / "vehd_fem";
-
 /// Everything on, nothing symmetric, and a shape on which coarse elements have three digits.
 const std::string scene_text =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\ncentre = [100.0, 0.0, "
@@ -242,8 +240,14 @@ BOOST_AUTO_TEST_CASE(whatever_is_damaged_is_noticed) {
     vehd::write_check_input(directory / name, {n.frozen, n.contents, n.force, n.samples, n.bie, n.high});
     return directory / name;
   };
-  std::vector<std::string> command{fem_program.string(), "check",  write("right.h5", right), "--quick", "-o",
-                                   directory / "out",    "--json", directory / "result.json"};
+  std::vector<std::string> command{finite_element_program().string(),
+                                   "check",
+                                   write("right.h5", right),
+                                   "--quick",
+                                   "-o",
+                                   directory / "out",
+                                   "--json",
+                                   directory / "result.json"};
   const std::vector<Damage> damages = all_damages(0.01, 0.002);
   for (std::size_t i = 0; i < damages.size(); ++i) {
     Numbers wrong = right;

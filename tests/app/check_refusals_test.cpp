@@ -14,7 +14,7 @@ BOOST_AUTO_TEST_SUITE(check_refusals, *boost::unit_test::precondition(finite_ele
 
 namespace {
 
-const std::filesystem::path elements = std::filesystem::path(VEHD_PROGRAM).parent_path() / "vehd_fem";
+const std::filesystem::path elements = finite_element_program();
 
 vehd::Hdf5Handle open_for_damage(const std::string& path) {
   return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};

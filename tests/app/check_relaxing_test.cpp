@@ -15,8 +15,6 @@ namespace {
 using vehd::CheckFields;
 using vehd::FrozenState;
 
-const std::filesystem::path fem_program = std::filesystem::path(VEHD_PROGRAM).parent_path() / "vehd_fem";
-
 /// A shape without symmetry that stands still; the charges of both faces are far from steady when the pulse ends.
 const std::string scene_text =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
@@ -108,8 +106,9 @@ BOOST_AUTO_TEST_CASE(charges_of_a_run_have_the_same_field_by_both_methods_and_da
     vehd::write_check_input(run.directory / name, {n.frozen, n.contents, {}, n.samples, n.bie, n.high});
     return run.directory / name;
   };
-  std::vector<std::string> command{fem_program.string(),       "check",  written("right.h5", right),   "--quick", "-o",
-                                   run.directory / "elements", "--json", run.directory / "result.json"};
+  std::vector<std::string> command{
+      finite_element_program().string(), "check",  written("right.h5", right),   "--quick", "-o",
+      run.directory / "elements",        "--json", run.directory / "result.json"};
   const std::vector<Damage> damages = all_damages();
   for (std::size_t i = 0; i < damages.size(); ++i) {
     Numbers wrong = right;
