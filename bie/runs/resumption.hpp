@@ -19,7 +19,7 @@ void require_same_physics(const Scene& scene, const SceneSource& source, const C
                           const RunPaths& paths);
 
 /// The checkpoint from which a run goes on with the numerics of the scene, every change recorded. Where nothing has
-/// changed it is the same; where no step was taken yet the run starts anew, with the initial shape in its new degree;
+/// changed it is the same; without a row yet, or with a change and no step, the run starts anew from the scene;
 /// otherwise the state is cut or continued by zeros to the degree that is asked for, steps are chosen as at a start,
 /// and what solves have learned in another degree or symmetry is forgotten.
 Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "bie/files/run_reader.hpp"
+#include "bie/runs/checkpoint.hpp"
 #include "tests/hard/faults/faulty_run.hpp"
 
 namespace {
@@ -82,6 +83,25 @@ BOOST_AUTO_TEST_CASE(fixed_steps_lose_nothing_and_reproduce_every_bit) {
 
 BOOST_AUTO_TEST_CASE(chosen_steps_lose_nothing_and_reproduce_every_bit) {
   Killer(adaptive_scene()).kill(wanted_kills() / 3);
+}
+
+// Before the first row is there a run knows no more than its scene, and so does its companion.
+BOOST_AUTO_TEST_CASE(a_start_that_dies_before_its_first_row_is_made_again) {
+  std::string scene = adaptive_scene();
+  scene = scene.replace(scene.find("end_time = 6.0"), 14, "end_time = 0.5\nerror_bars = true");
+  const FaultyRun run(scene);
+  const std::string checkpoint = run.output + "/checkpoint.h5";
+  int resumed = 0;
+  for (int operation = 1;; ++operation) {
+    std::filesystem::remove_all(run.output);
+    (void)run_command(run.command_with("kill " + std::to_string(operation)));
+    run.check_files();
+    if (!std::filesystem::exists(checkpoint)) continue;
+    if (vehd::read_checkpoint(checkpoint).n_rows > 0) break;
+    run.finish();
+    ++resumed;
+  }
+  BOOST_TEST(resumed > 0);
 }
 
 // The session that finds another degree writes all snapshots anew before its first step.
