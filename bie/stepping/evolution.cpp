@@ -8,10 +8,9 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/evaluation/charge_difference.hpp"
+#include "bie/stepping/evaluation/growth.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
-#include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
@@ -43,10 +42,6 @@ double grid_spacing(const State& state) {
   return std::numbers::pi / (lowest + 1);
 }
 
-int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_order, setup.settings.order); }
-
-double truncation_target(const EvolutionSetup& setup) { return thresholds::truncation_share * setup.control.tolerance; }
-
 }  // namespace
 
 Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& start, Instruments& instruments)
@@ -76,42 +71,12 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       discretisation_(discretisation_of(setup_, state)),
       state_(std::move(state)) {}
 
-/// Of a start whose charge, which moves V_m, needs more than its shape and V_m do: a spectrum that is cut too early
-/// says little of how many degrees more. @returns whether any rose
-bool Evolution::raise_orders_for_charge() {
-  std::vector<int> orders;
-  bool raised = false;
-  for (std::size_t a = 0; a < start_.size(); ++a) {
-    orders.push_back(order(a));
-    if (!adapts() || !setup_.model.electric || order(a) >= setup_.settings.order) continue;
-    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
-    raised = true;
-  }
-  if (!raised) return false;
-  const Discretisation discretisation = discretisation_;
-  const State state = state_;
-  const Evaluation evaluation = std::move(evaluation_);
-  try {
-    start_at(orders, start_);
-    evaluation_ = {};
-    arrive(state_);
-    if (charge_difference(setup_.model, discretisation_, evaluation, evaluation_) > truncation_target(setup_))
-      return true;
-  } catch (const ConvergenceError&) {
-    // A higher degree that cannot be had now may be asked for again by a step.
-  }
-  discretisation_ = discretisation;
-  state_ = state;
-  evaluation_ = evaluation;
-  return false;
+double Evolution::truncation_target() const {
+  return thresholds::truncation_share * setup_.control.tolerance / growth_;
 }
 
-void Evolution::evaluate_start() {
-  arrive(state_);
-  while (raise_orders_for_charge()) {
-  }
-  start_.clear();
-  if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);
+void Evolution::expect_growth(double until) {
+  if (adapts()) growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, until);
 }
 
 double Evolution::truncation(const State& state) const {
@@ -122,34 +87,18 @@ double Evolution::truncation(const State& state) const {
 
 Resolution Evolution::resolution(const State& state, std::size_t a) const {
   const VesicleState& vesicle = state.vesicles[a];
-  if (!is_averaged(setup_.model) || evaluation_.vesicles.empty()) return {setup_.model, vesicle};
+  VisibleShare share;
+  if (adapts()) {
+    const int order = order_of(vesicle.position.rows());
+    // A state of a former degree is only looked at.
+    const Discretisation space =
+        order == this->order(a) ? discretisation_ : discretisation_.with(a, fineness_of(order, 0));
+    share = visible_share(space.vesicle(a).fine_transform(), vesicle);
+  }
+  if (!is_averaged(setup_.model) || evaluation_.vesicles.empty()) return {setup_.model, vesicle, share};
   // That of the last shape that was solved for.
   const Matrix& potential = evaluation_.fields.vesicles[a].potential_amplitude;
-  return {setup_.model, vesicle, resize_order(potential, order_of(vesicle.position.rows()))};
-}
-
-std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& start) const {
-  std::vector<int> orders;
-  for (const StartMembrane& membrane : start) {
-    if (!adapts()) {
-      orders.push_back(setup_.settings.order);
-      continue;
-    }
-    const Matrix& position = membrane.position;
-    const Vector& potential = membrane.potential.given;
-    VesicleState shape;
-    shape.position = position;
-    shape.material = membrane.material;
-    for_each_property(shape.material, [&](Vector& property) {
-      property = resize_order(Matrix(property), order_of(position.rows())).col(0);
-    });
-    if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
-    // Exact for a sphere, and only a scale.
-    shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
-    orders.push_back(Resolution(setup_.model, shape)
-                         .order_for(truncation_target(setup_), lowest_order(setup_), setup_.settings.order));
-  }
-  return orders;
+  return {setup_.model, vesicle, resize_order(potential, order_of(vesicle.position.rows())), share};
 }
 
 void Evolution::start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start) {
@@ -241,7 +190,7 @@ void Evolution::lower_quadrature_if_idle(std::size_t a) {
 
 /// Does the degree leave out little enough, or is there no higher one?
 bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
-  return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target(setup_);
+  return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target();
 }
 
 /// The least even degree for what is in the narrowest gap, of the two that it is between.
@@ -251,7 +200,7 @@ int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
 }
 
 int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
-  const int enough = resolution.order_for(truncation_target(setup_), order(a), order(a) + 8);
+  const int enough = resolution.order_for(truncation_target(), order(a), order(a) + 8);
   return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
 }
 
@@ -262,7 +211,7 @@ void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough
   } catch (const ConvergenceError& error) {
     throw ConvergenceError(fmt::format(
         "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(setup_), enough, error.what()));
+        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(), enough, error.what()));
   }
 }
 
@@ -281,10 +230,10 @@ bool Evolution::raise_orders_for(const State& reached) {
 }
 
 void Evolution::lower_order_if_idle(std::size_t a) {
-  const int lowest = std::max(lowest_order(setup_), order_of_gap(gap_, a));
+  const int lowest = std::max(lowest_order(), order_of_gap(gap_, a));
   if (!adapts() || order(a) <= lowest) return;
   const int enough =
-      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(setup_), lowest, order(a));
+      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(), lowest, order(a));
   if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 
@@ -304,6 +253,7 @@ void Evolution::economise() {
 StepGoal Evolution::goal_for(const EventTimes& events) const {
   StepGoal goal;
   goal.tolerance = setup_.control.tolerance;
+  goal.growth = growth_;
   goal.too_coarse = [this](const State& reached) {
     std::vector<std::size_t> result;
     for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
@@ -349,6 +299,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
   const std::optional<double> discontinuity = next_discontinuity(setup_.model, state_.time);
   if (discontinuity) ends.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
   StepPlan plan = plan_step(state_.time, state_.dt_next, ends);
+  expect_growth(events.end_time);
   const StepGoal goal = goal_for(events);
   double wanted = state_.dt_next;
   const double from = state_.time;
