@@ -1,5 +1,7 @@
 #include "bie/physics/coupled_equation.hpp"
 
+#include <algorithm>
+
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -94,7 +96,10 @@ SolveReport CoupledEquation::solve(const std::vector<Vector>& rhs, double tolera
   };
   RecycledGcr solver(map, preconditioner, stacked.size());
   const Vector start = stacked.stack(potentials).cwiseQuotient(scale);
-  const RecycledGcr::Solution solution = solver.solve(stacked.stack(rhs), start, {tolerance, 60});
+  // The inverse on a sphere knows the mean of a alone.
+  const bool varies =
+      std::any_of(storages_.begin(), storages_.end(), [](const Storage& one) { return one.varying.size() > 0; });
+  const RecycledGcr::Solution solution = solver.solve(stacked.stack(rhs), start, {tolerance, varies ? 120 : 60});
   potentials = stacked.parts(solution.x.cwiseProduct(scale));
   return solution.report;
 }

@@ -38,6 +38,12 @@ const std::string kRelaxingCharges =
     "[vesicle.electric]\nconductivity_in = 0.4\npermittivity_ratio = 1.5\n"
     "[numerics]\norder = 4\ntime_order = 2\ndt = 0.05\nend_time = 0.1\n";
 
+/// The same with pores that open.
+const std::string kPores = kRelaxingCharges.substr(0, kRelaxingCharges.find("initial_Vm")) +
+                           "[poration]\nmodel = \"pores\"\ncreation_rate = 0.5\ncreation_Vm = 0.04\nrest_density = "
+                           "2.0\npore_radius = 0.1\nmembrane_thickness = 0.2\n" +
+                           kRelaxingCharges.substr(kRelaxingCharges.find("[[vesicle]]"));
+
 /// Enough of them for multipole expansions and for inverses of their own.
 const std::string kSuspension =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
@@ -113,6 +119,16 @@ BOOST_AUTO_TEST_CASE(steps_with_a_tolerance_have_the_same_bits_on_any_number_of_
 
 BOOST_AUTO_TEST_CASE(displacement_currents_have_the_same_bits_on_any_number_of_ranks) {
   check_same_files(kRelaxingCharges, {2});
+}
+
+BOOST_AUTO_TEST_CASE(pores_have_the_same_bits_on_any_number_of_ranks_and_go_on) {
+  check_same_files(kPores, {2});
+  const auto until = [](const std::string& end) { return kPores.substr(0, kPores.find("end_time")) + end; };
+  const Run whole, resumed;
+  check_completed(whole.go_on(until("end_time = 0.15\n"), 1));
+  check_completed(resumed.go_on(until("end_time = 0.05\n"), 2));
+  check_completed(resumed.go_on(until("end_time = 0.15\n"), 1));
+  for (const char* name : {"history.csv", "vesicles.csv"}) BOOST_TEST((resumed.file(name) == whole.file(name)), name);
 }
 
 BOOST_AUTO_TEST_CASE(many_vesicles_have_the_same_bits_on_any_number_of_ranks) { check_same_files(kSuspension, {2, 3}); }

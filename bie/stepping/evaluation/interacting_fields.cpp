@@ -150,6 +150,7 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
                                                                : forces_of_densities(tasks, time, limit, solved);
     for (const std::size_t a : own) forcing[a].force -= forces[a];
   }
+  for (const std::size_t a : own) add_poration(tasks[a]);
   if (!tasks.front().model.mobile) return;
   if (tasks.front().model.contact) {
     const auto timer = instruments.time("contact");

@@ -79,6 +79,7 @@ void solve(const VesicleTask& task, double time, Limit limit, Instruments& instr
                      : relaxes_charge(task.model) ? forces_of_charges({task}, time, limit, solved).front()
                                                   : solve_electric(task, time, limit, solved.iterations_electric);
   }
+  add_poration(task);
   if (!task.model.mobile) return;
   const auto timer = instruments.time("tension solve");
   add_forces(task, {membrane, task.state.position, time, limit}, forcing);
@@ -117,7 +118,6 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
     tasks.push_back({model, model.vesicles[a], discretisation.settings(), discretisation.vesicle(a), state.vesicles[a],
                      *solved.vesicles[a].membrane, solved.fields.vesicles[a], solved.vesicles[a]});
   }
-  for (const VesicleTask& task : tasks) add_poration(task);
   if (n == 1) {
     solve(tasks.front(), state.time, limit, instruments, solved);
   } else {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "bie/physics/electric.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 
@@ -21,7 +23,12 @@ struct VesicleTask {
 /// quadrature sees only up to its error.
 Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric, const ElectricTraces& traces);
 
-/// What a membrane that porates conducts, which becomes one of the task's fields, and how fast that changes.
+/// The current through the membrane, outwards, values on the upsampled grid, where it is not G_m V with one G_m.
+std::optional<Vector> varying_current(const VesicleTask& task, const ElectricParameters& electric,
+                                      const Vector& potential);
+
+/// With V_m known: what a membrane that porates conducts, which becomes one of the task's fields, and how fast that
+/// changes.
 void add_poration(const VesicleTask& task);
 
 /// Adds the explicit effects and the bending force, which becomes one of the task's fields.
