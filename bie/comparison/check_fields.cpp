@@ -27,14 +27,6 @@ namespace {
 const VesicleState& membrane_of(const FrozenState& frozen) { return frozen.state.vesicles.front(); }
 const VesicleModel& vesicle_of(const FrozenState& frozen) { return frozen.model.vesicles.front(); }
 
-/// The parts of the model that are compared.
-Model compared_model(const FrozenState& frozen, const CheckContents& contents) {
-  Model model = frozen.model;
-  if (!contents.electric) model.electric.reset();
-  model.mobile = contents.flow;
-  return model;
-}
-
 /// All values in one call; where that fails each point on its own, and NaN where none is found.
 /// @param values  [n x components] of [n x 3] points; @throws ConvergenceError
 Matrix where_possible(const Matrix& points, Index components, const std::function<Matrix(const Matrix&)>& values) {
@@ -187,9 +179,16 @@ class FrozenSolver {
 
 }  // namespace
 
-NumericalSettings settings_at(const FrozenState& frozen, int order) {
+Model compared_model(const FrozenState& frozen, const CheckContents& contents) {
+  Model model = frozen.model;
+  if (!contents.electric) model.electric.reset();
+  model.mobile = contents.flow;
+  return model;
+}
+
+NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t vesicle) {
   NumericalSettings settings = frozen.settings;
-  if (order != order_of(membrane_of(frozen).position.rows())) {
+  if (order != order_of(frozen.state.vesicles[vesicle].position.rows())) {
     const NumericalSettings defaults;
     settings.flow_tolerance = std::min(settings.flow_tolerance, defaults.flow_tolerance);
     settings.electric_tolerance = std::min(settings.electric_tolerance, defaults.electric_tolerance);
@@ -202,21 +201,33 @@ CheckContents check_contents(const FrozenState& frozen) {
   const Model& model = frozen.model;
   CheckContents contents;
   contents.flow = model.mobile;
-  const double viscosity_ratio = vesicle_of(frozen).viscosity_ratio;
-  if (contents.flow && !(viscosity_ratio > 0.0)) {
-    throw InputError(fmt::format("{}: the viscosity inside is {:g}; the finite-element check needs it above zero",
-                                 frozen.source, viscosity_ratio * model.viscosity));
+  for (const VesicleModel& vesicle : model.vesicles) {
+    if (contents.flow && !(vesicle.viscosity_ratio > 0.0)) {
+      throw InputError(fmt::format("{}: the viscosity inside is {:g}; the finite-element check needs it above zero",
+                                   frozen.source, vesicle.viscosity_ratio * model.viscosity));
+    }
   }
   if (model.electric) {
-    for (const double sigma : {vesicle_of(frozen).inside.conductivity, model.electric->conductivity}) {
+    std::vector<double> conductivities;
+    for (const VesicleModel& vesicle : model.vesicles) conductivities.push_back(vesicle.inside.conductivity);
+    conductivities.push_back(model.electric->conductivity);
+    for (const double sigma : conductivities) {
       if (sigma > 0.0) continue;
       throw InputError(fmt::format("{}: a conductivity is {:g}; the finite-element check needs both above zero",
                                    frozen.source, sigma));
     }
     contents.steady = !applied_field(frozen).isZero(0.0);
-    const VesicleState& membrane = membrane_of(frozen);
-    contents.electric =
-        contents.steady || !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
+    contents.electric = contents.steady;
+    for (const VesicleState& membrane : frozen.state.vesicles) {
+      const bool charged = !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
+      contents.electric = contents.electric || charged;
+    }
+    if (model.vesicles.size() > 1 && relaxes_charge(model)) {
+      throw InputError(
+          fmt::format("{}: has displacement currents, which the finite-element check knows about one vesicle "
+                      "alone; accepted of two: \"displacement_current = false\"",
+                      frozen.source));
+    }
   }
   if (!contents.electric && !contents.flow) {
     throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",
@@ -235,20 +246,21 @@ Matrix3 flow_gradient(const FrozenState& frozen) {
   return frozen.model.flow->waveform.at(frozen.state.time, Limit::after) * frozen.model.flow->gradient;
 }
 
-Matrix total_force(const FrozenState& frozen, const VesicleFields& fields) {
-  const Matrix& position = membrane_of(frozen).position;
+Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::size_t vesicle) {
+  const Matrix& position = frozen.state.vesicles[vesicle].position;
   Matrix force = Matrix::Zero(position.rows(), 3);
   if (fields.force_bending.size() > 0) force += fields.force_bending;
   if (fields.force_tension.size() > 0) force += fields.force_tension;
   if (fields.force_electric.size() > 0) force -= fields.force_electric;
+  if (fields.force_contact.size() > 0) force += fields.force_contact;
   Model others = frozen.model;
   others.flow.reset();
-  const auto effects = explicit_effects(others);
+  const auto effects = explicit_effects(others, others.vesicles[vesicle]);
   if (effects.empty()) return force;
 
   // The run file stores no other forces: they follow from the shape and the time.
   Instruments instruments;
-  const MembraneSpace space(settings_at(frozen, order_of(position.rows())), frozen.symmetry);
+  const MembraneSpace space(settings_at(frozen, order_of(position.rows()), vesicle), frozen.symmetry);
   const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);
   for (const auto& effect : effects) {
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};

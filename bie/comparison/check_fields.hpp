@@ -14,7 +14,8 @@ struct CheckContents {
   bool flow = false;      ///< a membrane that moves
 };
 
-/// @throws InputError if the scene has something that the finite-element side does not know
+/// @throws InputError if the scene has something that the finite-element side does not know, or knows of one vesicle
+///                    alone
 CheckContents check_contents(const FrozenState& frozen);
 
 /// Boundary-integral solution at one order: coefficients of that order, empty where absent.
@@ -45,12 +46,17 @@ struct CheckFields {
 };
 
 /// f on the fluid, coefficients: f_b + f_λ − f_E of the fields, and whatever else acts on the shape.
-/// @param fields  of the degree of the frozen state, stored or computed anew
+/// @param fields   of the degree of the frozen state, stored or computed anew
+/// @param vesicle  whose they are
 /// @throws InputError for a background flow that the finite-element side does not know
-Matrix total_force(const FrozenState& frozen, const VesicleFields& fields);
+Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::size_t vesicle = 0);
+
+/// The parts of the model that are compared.
+Model compared_model(const FrozenState& frozen, const CheckContents& contents);
 
 /// Those of the run at its degree. At another one only an error is estimated: its solvers must add none of their own.
-NumericalSettings settings_at(const FrozenState& frozen, int order);
+/// @param vesicle  whose degree
+NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t vesicle = 0);
 
 /// E_∞ at the frozen time.
 Vector3 applied_field(const FrozenState& frozen);

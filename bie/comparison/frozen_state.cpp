@@ -17,6 +17,11 @@
 namespace vehd {
 namespace {
 
+void require_few_vesicles(std::size_t n, const std::filesystem::path& file, const std::string& who) {
+  if (n <= most_checked_vesicles) return;
+  throw InputError(fmt::format("{}: has {} vesicles; {} accepts one or two", file.string(), n, who));
+}
+
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
 
 /// Finite elements solve for one instant.
@@ -67,7 +72,7 @@ Symmetry symmetry_of(const Scene& scene, const FrozenState& frozen) {
 
 FrozenState start_of_scene(const SceneSource& source) {
   const Scene scene = read_scene(source);
-  require_one_vesicle(scene, source.file, "vehd check");
+  require_few_vesicles(n_vesicles(scene), source.file, "vehd check");
   require_instant(scene, source.file);
   require_no_reaction(scene, source.file);
   require_no_places(scene, source.file);
@@ -75,19 +80,51 @@ FrozenState start_of_scene(const SceneSource& source) {
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
   const Problem problem = problem_of(scene);
-  const Discretisation discretisation(problem.settings, problem.symmetry);
+  const Discretisation discretisation(problem.settings, problem.symmetry,
+                                      std::vector<Fineness>(problem.start.size(), {problem.settings.order, 1.0}));
   Instruments instruments;
   const State start = initial_state(problem.model, discretisation, problem.start, 0.0, instruments);
   frozen.fields = in_laboratory(problem.frame, solve_fields(problem.model, discretisation, start, instruments).fields);
   frozen.state = in_laboratory(problem.frame, start);
   frozen.symmetry = symmetry_of(scene, frozen);
   frozen.settings = settings_of(scene);
+  frozen.names = vesicle_names(scene);
   return frozen;
+}
+
+/// One vesicle of a snapshot.
+void read_vesicle(const RunReader& run, std::size_t snapshot, std::size_t number, FrozenState& frozen) {
+  const auto read = [&](const std::string& name, Index components) {
+    return run.has_field(snapshot, name) ? run.coefficients(snapshot, name, components, number) : Matrix();
+  };
+  VesicleState& vesicle = frozen.state.vesicles.emplace_back();
+  vesicle.position = run.coefficients(snapshot, "x", 3, number);
+  vesicle.area_strain = Vector::Zero(vesicle.position.rows());
+  const VesicleModel& of_model = frozen.model.vesicles[number];
+  if (of_model.inextensible) vesicle.tension = Vector::Zero(vesicle.position.rows());
+  VesicleFields& fields = frozen.fields.vesicles.emplace_back();
+  fields.velocity = read("velocity", 3);
+  fields.force_bending = read("force_bending", 3);
+  fields.force_tension = read("force_tension", 3);
+  fields.force_electric = read("force_electric", 3);
+  fields.force_contact = read("force_contact", 3);
+  fields.tension = read("tension", 1);
+  fields.charge = read("q", 1);
+  if (relaxes_charge(frozen.model)) {
+    fields.potential = run.coefficients(snapshot, "Vm", 1, number);
+    fields.free_charge_in = run.coefficients(snapshot, "free_charge_in", 1, number);
+    fields.free_charge_out = run.coefficients(snapshot, "free_charge_out", 1, number);
+    const double capacitance = of_model.charging.capacitance;
+    vesicle.transmembrane_potential = fields.free_charge_in / capacitance;
+    vesicle.free_charge = (fields.free_charge_in + fields.free_charge_out) / capacitance;
+  } else if (frozen.model.electric) {
+    vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1, number);
+  }
 }
 
 FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
   const RunReader run(file);
-  run.require_one_vesicle("vehd check");
+  require_few_vesicles(run.n_vesicles(), file, "vehd check");
   const SnapshotChoice choice = choice_of(run, file, time);
   const std::size_t snapshot = choice.snapshot;
   run.require_sealed(snapshot);
@@ -99,33 +136,9 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   frozen.source = file.string();
   frozen.note = choice.note;
   frozen.model = model_of(scene);
-  State& state = frozen.state;
-  state.time = run.times()[snapshot];
-  const auto read = [&](const std::string& name, Index components) {
-    return run.has_field(snapshot, name) ? run.coefficients(snapshot, name, components) : Matrix();
-  };
-  VesicleState& vesicle = state.vesicles.emplace_back();
-  vesicle.position = run.coefficients(snapshot, "x", 3);
-  vesicle.area_strain = Vector::Zero(vesicle.position.rows());
-  const VesicleModel& of_model = frozen.model.vesicles.front();
-  if (of_model.inextensible) vesicle.tension = Vector::Zero(vesicle.position.rows());
-  VesicleFields& fields = frozen.fields.vesicles.emplace_back();
-  fields.velocity = read("velocity", 3);
-  fields.force_bending = read("force_bending", 3);
-  fields.force_tension = read("force_tension", 3);
-  fields.force_electric = read("force_electric", 3);
-  fields.tension = read("tension", 1);
-  fields.charge = read("q", 1);
-  if (relaxes_charge(frozen.model)) {
-    fields.potential = run.coefficients(snapshot, "Vm", 1);
-    fields.free_charge_in = run.coefficients(snapshot, "free_charge_in", 1);
-    fields.free_charge_out = run.coefficients(snapshot, "free_charge_out", 1);
-    const double capacitance = of_model.charging.capacitance;
-    vesicle.transmembrane_potential = fields.free_charge_in / capacitance;
-    vesicle.free_charge = (fields.free_charge_in + fields.free_charge_out) / capacitance;
-  } else if (frozen.model.electric) {
-    vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1);
-  }
+  frozen.names = vesicle_names(scene);
+  frozen.state.time = run.times()[snapshot];
+  for (std::size_t a = 0; a < run.n_vesicles(); ++a) read_vesicle(run, snapshot, a, frozen);
   frozen.symmetry = symmetry_of(scene, frozen);
   frozen.settings = settings_of(scene);
   return frozen;
@@ -149,13 +162,20 @@ FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::opti
   if (is_scene(file)) {
     require_start(file, time);
     const Scene scene = read_scene(file);
-    require_one_vesicle(scene, file, "vehd mesh");
-    return {initial_position(scene), ""};
+    require_few_vesicles(n_vesicles(scene), file, "vehd mesh");
+    FrozenShape shape;
+    for (const Scene& one : each_alone(scene)) shape.positions.push_back(initial_position(one));
+    return shape;
   }
   const RunReader run(file);
-  run.require_one_vesicle("vehd mesh");
+  require_few_vesicles(run.n_vesicles(), file, "vehd mesh");
   const SnapshotChoice choice = choice_of(run, file, time);
-  return {run.coefficients(choice.snapshot, "x", 3), choice.note};
+  FrozenShape shape;
+  shape.note = choice.note;
+  for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
+    shape.positions.push_back(run.coefficients(choice.snapshot, "x", 3, a));
+  }
+  return shape;
 }
 
 }  // namespace vehd

@@ -108,6 +108,10 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
     throw InputError(
         fmt::format("{}: without [electric] there is no V_m; --from accepts runs in a field", file.string()));
   }
+  if (end.model.vesicles.size() > 1) {
+    throw InputError(
+        fmt::format("{}: has {} vesicles; --from accepts a run of one", file.string(), end.model.vesicles.size()));
+  }
   if (relaxes_charge(end.model)) {
     throw InputError(fmt::format("{}: has displacement currents; --from accepts runs without \"displacement_current\"",
                                  file.string()));

@@ -70,9 +70,10 @@ struct InTime {
   [[nodiscard]] bool moves() const { return positions.size() > 1; }
 };
 
-/// All that the file holds.
+/// All that the file holds of one vesicle.
 struct CheckInput {
   std::string source;
+  std::string name;  ///< of the vesicle; empty where there is only one
   double time = 0.0;
   Eigen::MatrixXd position;
   Physics physics;
@@ -91,10 +92,11 @@ struct CheckInput {
   [[nodiscard]] bool flow() const { return force.size() > 0; }
 };
 
+/// Of each vesicle; source, time, what is outside and the far field are those of all.
 /// @throws InputError if the file cannot be used or lacks a field that is compared
-CheckInput read_check_input(const std::filesystem::path& path);
+std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path);
 
-/// Coefficients of x alone. @throws InputError
-Eigen::MatrixXd read_position(const std::filesystem::path& path);
+/// Coefficients of x alone, of each vesicle. @throws InputError
+std::vector<Eigen::MatrixXd> read_positions(const std::filesystem::path& path);
 
 }  // namespace vehd::fem_check
