@@ -150,7 +150,7 @@ std::string verdict_of(const nlohmann::json& vesicle, const std::string& row) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(methods_agree_at_both_gaps) {
-  for (const double distance : {3.1, 2.3}) {
+  for (const double distance : {3.2, 2.25}) {
     const TemporaryDirectory directory;
     write_text(directory / "scene.toml", scene_text(distance));
     const ProgramResult result = run_vehd({"check", directory / "scene.toml", "--quick", "-o", directory / "out",
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(methods_agree_at_both_gaps) {
 
 BOOST_AUTO_TEST_CASE(whatever_is_damaged_on_either_vesicle_is_noticed) {
   const TemporaryDirectory directory;
-  const Numbers right(scene_text(3.1));
+  const Numbers right(scene_text(3.2));
   right.write(directory / "right.h5");
   std::vector<std::string> command{
       finite_element_program().string(), "check", directory / "right.h5", "--quick", "-o", directory / "out", "--json",
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_checked_is_refused_in_one_line) {
     BOOST_TEST(result.errors.find(message) != std::string::npos, result.errors);
   };
   const std::string scene = directory / "scene.toml";
-  const std::string start = scene_text(3.1),
+  const std::string start = scene_text(3.2),
                     third = "[[vesicle]]\nname = 'third'\n[vesicle.shape]\ncentre = [0, 6, 0]\n";
   write_text(scene, start + third);
   refused({"check", scene, "--quick"}, "scene.toml: has 3 vesicles; vehd check accepts one or two");
@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_checked_is_refused_in_one_line) {
 
 BOOST_AUTO_TEST_CASE(mesh_of_two_is_written_with_its_quality) {
   const TemporaryDirectory directory;
-  write_text(directory / "scene.toml", scene_text(2.3));
+  write_text(directory / "scene.toml", scene_text(2.25));
   const ProgramResult result =
       run_vehd({"mesh", directory / "scene.toml", "-o", directory / "mesh.msh", "--json", directory / "mesh.json"});
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
