@@ -15,7 +15,7 @@ using namespace vehd::testing;
 
 namespace {
 
-constexpr int kOrder = 12;
+constexpr int kCompressedOrder = 12;
 
 /// A field that flattens a prolate, as Figure 3 of the paper has it.
 Model compressed() {
@@ -24,12 +24,12 @@ Model compressed() {
   return model;
 }
 
-struct Start {
-  Discretisation discretisation = discretisation_of(kOrder);
+struct CompressedStart {
+  Discretisation discretisation = discretisation_of(kCompressedOrder);
   State state;
   Evaluation evaluation;
 
-  explicit Start(const Model& model) : state(start(model, discretisation, prolate(kOrder), 0.1)) {
+  explicit CompressedStart(const Model& model) : state(start(model, discretisation, prolate(kCompressedOrder), 0.1)) {
     Instruments instruments;
     evaluation = evaluate(model, discretisation, state, instruments);
   }
@@ -44,11 +44,11 @@ BOOST_AUTO_TEST_SUITE(growth)
 
 BOOST_AUTO_TEST_CASE(errors_of_a_compressed_membrane_grow_at_the_rate_of_its_wrinkles) {
   const Model model = compressed();
-  const Start found(model);
+  const CompressedStart found(model);
   const VesicleDiagnostics& now = found.evaluation.diagnostics.vesicles[0];
   const double radius = std::sqrt(found.state.vesicles[0].reference_area / (4.0 * std::numbers::pi));
-  const double rate =
-      wrinkling_rate(flow_parameters(model, model.vesicles[0]), now.tension_integral / now.area, radius, kOrder);
+  const double rate = wrinkling_rate(flow_parameters(model, model.vesicles[0]), now.tension_integral / now.area, radius,
+                                     kCompressedOrder);
   BOOST_TEST(rate > 0.3);
   for (const double time : {0.1, 1.0}) {
     BOOST_TEST(found.growth(model, time) == std::exp(rate * time), boost::test_tools::tolerance(1e-12));
@@ -62,10 +62,10 @@ BOOST_AUTO_TEST_CASE(errors_of_a_compressed_membrane_grow_at_the_rate_of_its_wri
 BOOST_AUTO_TEST_CASE(nothing_grows_on_membranes_that_are_stretched_or_frozen) {
   Model stretched = relaxation_model(0.1);
   stretched.flow = axisymmetric_extension(10.0);
-  BOOST_TEST(Start(stretched).growth(stretched, 1e3) == 1.0);
+  BOOST_TEST(CompressedStart(stretched).growth(stretched, 1e3) == 1.0);
   Model frozen = compressed();
   frozen.mobile = false;
-  BOOST_TEST(Start(frozen).growth(frozen, 1e3) == 1.0);
+  BOOST_TEST(CompressedStart(frozen).growth(frozen, 1e3) == 1.0);
 }
 
 // A flow that shortens the vesicle compresses it until it is short, not to the end of the run.
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(compression_lasts_until_the_shape_has_changed) {
   const auto growth_in = [](double rate) {
     Model model = relaxation_model(1.0);
     model.flow = axisymmetric_extension(-rate);
-    const Start found(model);
+    const CompressedStart found(model);
     return found.growth(model, 1e6);
   };
   const double growth = growth_in(20.0);
