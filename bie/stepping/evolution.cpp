@@ -13,6 +13,7 @@
 #include "bie/stepping/evaluation/poration_load.hpp"
 #include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
@@ -36,16 +37,18 @@ Discretisation discretisation_of(const EvolutionSetup& setup, const State& state
   return {setup.settings, setup.symmetry, finenesses, setup.ranks};
 }
 
+/// Images have the degrees of their originals.
+std::vector<int> with_images(const Exchange& exchange, std::vector<int> orders) {
+  for (std::size_t a = 0; a < orders.size(); ++a) orders[a] = orders[exchange.original(a)];
+  return orders;
+}
+
 /// Of the coarsest grid, over the radius.
 double grid_spacing(const State& state) {
   int lowest = order_of(state.vesicles.front().position.rows());
   for (const VesicleState& vesicle : state.vesicles) lowest = std::min(lowest, order_of(vesicle.position.rows()));
   return std::numbers::pi / (lowest + 1);
 }
-
-int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_order, setup.settings.order); }
-
-double truncation_target(const EvolutionSetup& setup) { return thresholds::truncation_share * setup.control.tolerance; }
 
 }  // namespace
 
@@ -54,7 +57,7 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
       instruments_(instruments),
       discretisation_(setup_.settings, setup_.symmetry, {}),
       start_(start) {
-  std::vector<int> orders = starting_orders(start);
+  std::vector<int> orders = with_images(setup_.symmetry.exchange, starting_orders(start));
   for (bool resolved = false; !resolved;) {
     start_at(orders, start);
     // The area, which is the scale, and V_m are known only now.
@@ -67,14 +70,15 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
       orders[a] = std::max(resolves(found, a) ? orders[a] : raised_order(found, a), of_gap);
       resolved = false;
     }
+    orders = with_images(setup_.symmetry.exchange, std::move(orders));
   }
 }
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)
     : setup_(std::move(setup)),
       instruments_(instruments),
-      discretisation_(discretisation_of(setup_, state)),
-      state_(std::move(state)) {}
+      discretisation_(discretisation_of(setup_, with_images(setup_.symmetry.exchange, state))),
+      state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
 /// Of a start whose charge, which moves V_m, needs more than its shape and V_m do: a spectrum that is cut too early
 /// says little of how many degrees more. @returns whether any rose
@@ -95,8 +99,7 @@ bool Evolution::raise_orders_for_charge() {
     start_at(orders, start_);
     evaluation_ = {};
     arrive(state_);
-    if (charge_difference(setup_.model, discretisation_, evaluation, evaluation_) > truncation_target(setup_))
-      return true;
+    if (charge_difference(setup_.model, discretisation_, evaluation, evaluation_) > truncation_target()) return true;
   } catch (const ConvergenceError&) {
     // A higher degree that cannot be had now may be asked for again by a step.
   }
@@ -146,8 +149,8 @@ std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& st
     if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
     // Exact for a sphere, and only a scale.
     shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
-    orders.push_back(Resolution(setup_.model, shape)
-                         .order_for(truncation_target(setup_), lowest_order(setup_), setup_.settings.order));
+    orders.push_back(
+        Resolution(setup_.model, shape).order_for(truncation_target(), lowest_order(), setup_.settings.order));
   }
   return orders;
 }
@@ -164,12 +167,16 @@ void Evolution::start_at(const std::vector<int>& orders, const std::vector<Start
       initial_state(setup_.model, discretisation_, membranes, adapts() ? 0.0 : setup_.control.largest, instruments_);
 }
 
-/// @throws ConvergenceError, and everything stays
+/// That of the images as well. @throws ConvergenceError, and everything stays
 void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_level) {
-  Discretisation discretisation = discretisation_.with(a, fineness_of(order, quadrature_level));
+  Discretisation discretisation = discretisation_;
   State state = state_;
-  state.vesicles[a] = resized(std::move(state.vesicles[a]), order);
-  state.vesicles[a].quadrature_level = quadrature_level;
+  for (std::size_t b = 0; b < state.vesicles.size(); ++b) {
+    if (setup_.symmetry.exchange.original(b) != a) continue;
+    discretisation = discretisation.with(b, fineness_of(order, quadrature_level));
+    state.vesicles[b] = resized(std::move(state.vesicles[b]), order);
+    state.vesicles[b].quadrature_level = quadrature_level;
+  }
   Evaluation evaluation = evaluate(setup_.model, discretisation, state, instruments_);
   // Less work that is not exact enough would have to be undone at the next step.
   const bool is_economy = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
@@ -231,83 +238,13 @@ void Evolution::arrive(State state) {
   before_jump_ = std::move(before);
 }
 
-void Evolution::lower_quadrature_if_idle(std::size_t a) {
-  const std::int64_t level = state_.vesicles[a].quadrature_level;
-  if (level == 0) return;
-  const double error = evaluation_.diagnostics.vesicles[a].quadrature_error;
-  if (error > thresholds::idle_quadrature * setup_.settings.quadrature_tolerance) return;
-  change_space(a, order(a), level - 1);
-}
-
-/// Does the degree leave out little enough, or is there no higher one?
-bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
-  return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target(setup_);
-}
-
-/// The least even degree for what is in the narrowest gap, of the two that it is between.
-int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
-  if (!adapts() || (a != gap.first && a != gap.second)) return 0;
-  return std::min(setup_.settings.order, 2 * static_cast<int>(std::ceil(std::min(gap.degree(), 1e3) / 2.0)));
-}
-
-int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
-  const int enough = resolution.order_for(truncation_target(setup_), order(a), order(a) + 8);
-  return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
-}
-
-/// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
-void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
-  try {
-    change_space(a, enough, state_.vesicles[a].quadrature_level);
-  } catch (const ConvergenceError& error) {
-    throw ConvergenceError(fmt::format(
-        "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(setup_), enough, error.what()));
-  }
-}
-
-/// @returns whether any was too low
-bool Evolution::raise_orders_for(const State& reached) {
-  bool raised = false;
-  const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
-  for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-    const Resolution found = resolution(reached, a);
-    const int of_gap = order_of_gap(gap, a);
-    if (resolves(found, a) && order(a) >= of_gap) continue;
-    raise_order(a, found, std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap));
-    raised = true;
-  }
-  return raised;
-}
-
-void Evolution::lower_order_if_idle(std::size_t a) {
-  const int lowest = std::max(lowest_order(setup_), order_of_gap(gap_, a));
-  if (!adapts() || order(a) <= lowest) return;
-  const int enough =
-      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(setup_), lowest, order(a));
-  if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
-}
-
-void Evolution::economise() {
-  if (state_.step % thresholds::economy_interval != 0) return;
-  for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
-    for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
-      try {
-        (this->*economy)(a);
-      } catch (const ConvergenceError&) {
-        // What cannot be had for less goes on as it is.
-      }
-    }
-  }
-}
-
 StepGoal Evolution::goal_for(const EventTimes& events) const {
   StepGoal goal;
   goal.tolerance = setup_.control.tolerance;
   goal.too_coarse = [this](const State& reached) {
     std::vector<std::size_t> result;
     for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-      if (!resolves(resolution(reached, a), a)) result.push_back(a);
+      if (!setup_.symmetry.exchange.is_image(a) && !resolves(resolution(reached, a), a)) result.push_back(a);
     }
     return result;
   };

@@ -38,7 +38,8 @@ using KeepFormer = std::function<void(State&&, Evaluation&&)>;
 /// and the step is taken again, where the degrees left out would matter, and falls where they have long ceased to. The
 /// singular quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves, parts of
 /// a membrane much closer to each other than the grid spacing, ends the way. So does contact of two vesicles, see
-/// require_gap; with a tolerance degrees rise with the inverse root of the gap.
+/// require_gap; with a tolerance degrees rise with the inverse root of the gap. Vesicles that are images of others
+/// under the symmetry have the degree and the quadrature of these.
 ///
 /// A lower degree or coarser quadrature that cannot be solved for is left aside. Where a higher degree is needed and
 /// cannot be solved for, the step is taken again with half the size, and the way ends where that becomes too small.
@@ -89,6 +90,8 @@ class Evolution {
 
  private:
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
+  [[nodiscard]] int lowest_order() const;
+  [[nodiscard]] double truncation_target() const;
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;

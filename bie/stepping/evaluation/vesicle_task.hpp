@@ -24,6 +24,9 @@ Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric
 /// What a membrane that porates conducts, which becomes one of the task's fields, and how fast that changes.
 void add_poration(const VesicleTask& task);
 
+/// Adds the explicit effects, whose force is noted.
+void add_effects(const VesicleTask& task, const EffectInput& input, Forcing& forcing);
+
 /// Adds the explicit effects and the bending force, which becomes one of the task's fields.
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing);
 
