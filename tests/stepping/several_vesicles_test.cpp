@@ -210,8 +210,9 @@ BOOST_AUTO_TEST_CASE(spheres_charge_in_time_as_their_multipoles_do) {
   run.advance_to(end);
   const Evaluation& evaluation = run.evolution().evaluation();
   const Membrane& lower = *evaluation.vesicles[0].membrane;
+  // f_E is minus the force on a membrane.
   const double found =
-      lower.fine.synthesize(evaluation.fields.vesicles[0].force_electric).col(2).dot(lower.surface.quadrature);
+      -lower.fine.synthesize(evaluation.fields.vesicles[0].force_electric).col(2).dot(lower.surface.quadrature);
   BOOST_TEST(std::abs(found / exact - 1.0) < 1e-5, found << " " << exact);
 }
 
