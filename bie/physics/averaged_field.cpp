@@ -214,7 +214,7 @@ class AmplitudeEquations {
     const std::vector<Matrix> single = single_fluxes_of_others(charges(potentials));
     const std::vector<Matrix> doubles = double_fluxes_of_others(potentials);
     for (const std::size_t a : own()) result[a] += times(equations_[a].conduction(), single[a] - doubles[a]);
-    interaction_->shares().gather(result);
+    interaction_->gather_potentials(result);
     return result;
   }
 

@@ -51,7 +51,7 @@ std::vector<Vector> CoupledEquation::left_side(const std::vector<Vector>& potent
   for_each_member(owned_, [&](std::size_t a) {
     result[a] = own_[a].conduction() * (result[a] - of_potentials[a]) + own_[a].own(potentials[a]);
   });
-  interaction_.shares().gather(result);
+  interaction_.gather_potentials(result);
   return result;
 }
 
@@ -59,7 +59,7 @@ std::vector<Vector> CoupledEquation::right_sides(const std::vector<Vector>& of_o
                                                  const std::vector<Vector>& charges) const {
   std::vector<Vector> result = interaction_.weighted_single_flux(charges);
   for (const std::size_t a : owned_) result[a] = own_[a].conduction() * result[a] + of_own[a];
-  interaction_.shares().gather(result);
+  interaction_.gather_potentials(result);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
@@ -49,7 +50,7 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
       instruments_(instruments),
       discretisation_(setup_.settings, setup_.symmetry, {}),
       start_(start) {
-  std::vector<int> orders = starting_orders(start);
+  std::vector<int> orders = with_images(setup_.symmetry.exchange, starting_orders(start));
   for (bool resolved = false; !resolved;) {
     start_at(orders, start);
     // The area, which is the scale, and V_m are known only now.
@@ -62,18 +63,15 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
       orders[a] = std::max(resolves(found, a) ? orders[a] : raised_order(found, a), of_gap);
       resolved = false;
     }
+    orders = with_images(setup_.symmetry.exchange, std::move(orders));
   }
 }
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)
     : setup_(std::move(setup)),
       instruments_(instruments),
-      discretisation_(discretisation_of(setup_, state)),
-      state_(std::move(state)) {}
-
-double Evolution::truncation_target() const {
-  return thresholds::truncation_share * setup_.control.tolerance / growth_;
-}
+      discretisation_(discretisation_of(setup_, with_images(setup_.symmetry.exchange, state))),
+      state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
 void Evolution::expect_growth(double until) {
   if (adapts()) growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, until);
@@ -113,12 +111,16 @@ void Evolution::start_at(const std::vector<int>& orders, const std::vector<Start
       initial_state(setup_.model, discretisation_, membranes, adapts() ? 0.0 : setup_.control.largest, instruments_);
 }
 
-/// @throws ConvergenceError, and everything stays
+/// That of the images as well. @throws ConvergenceError, and everything stays
 void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_level) {
-  Discretisation discretisation = discretisation_.with(a, fineness_of(order, quadrature_level));
+  Discretisation discretisation = discretisation_;
   State state = state_;
-  state.vesicles[a] = resized(std::move(state.vesicles[a]), order);
-  state.vesicles[a].quadrature_level = quadrature_level;
+  for (std::size_t b = 0; b < state.vesicles.size(); ++b) {
+    if (setup_.symmetry.exchange.original(b) != a) continue;
+    discretisation = discretisation.with(b, fineness_of(order, quadrature_level));
+    state.vesicles[b] = resized(std::move(state.vesicles[b]), order);
+    state.vesicles[b].quadrature_level = quadrature_level;
+  }
   Evaluation evaluation = evaluate(setup_.model, discretisation, state, instruments_);
   // Less work that is not exact enough would have to be undone at the next step.
   const bool is_economy = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
@@ -180,76 +182,6 @@ void Evolution::arrive(State state) {
   before_jump_ = std::move(before);
 }
 
-void Evolution::lower_quadrature_if_idle(std::size_t a) {
-  const std::int64_t level = state_.vesicles[a].quadrature_level;
-  if (level == 0) return;
-  const double error = evaluation_.diagnostics.vesicles[a].quadrature_error;
-  if (error > thresholds::idle_quadrature * setup_.settings.quadrature_tolerance) return;
-  change_space(a, order(a), level - 1);
-}
-
-/// Does the degree leave out little enough, or is there no higher one?
-bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
-  return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target();
-}
-
-/// The least even degree for what is in the narrowest gap, of the two that it is between.
-int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
-  if (!adapts() || (a != gap.first && a != gap.second)) return 0;
-  return std::min(setup_.settings.order, 2 * static_cast<int>(std::ceil(std::min(gap.degree(), 1e3) / 2.0)));
-}
-
-int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
-  const int enough = resolution.order_for(truncation_target(), order(a), order(a) + 8);
-  return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
-}
-
-/// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
-void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
-  try {
-    change_space(a, enough, state_.vesicles[a].quadrature_level);
-  } catch (const ConvergenceError& error) {
-    throw ConvergenceError(fmt::format(
-        "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(), enough, error.what()));
-  }
-}
-
-/// @returns whether any was too low
-bool Evolution::raise_orders_for(const State& reached) {
-  bool raised = false;
-  const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
-  for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-    const Resolution found = resolution(reached, a);
-    const int of_gap = order_of_gap(gap, a);
-    if (resolves(found, a) && order(a) >= of_gap) continue;
-    raise_order(a, found, std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap));
-    raised = true;
-  }
-  return raised;
-}
-
-void Evolution::lower_order_if_idle(std::size_t a) {
-  const int lowest = std::max(lowest_order(), order_of_gap(gap_, a));
-  if (!adapts() || order(a) <= lowest) return;
-  const int enough =
-      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(), lowest, order(a));
-  if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
-}
-
-void Evolution::economise() {
-  if (state_.step % thresholds::economy_interval != 0) return;
-  for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
-    for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
-      try {
-        (this->*economy)(a);
-      } catch (const ConvergenceError&) {
-        // What cannot be had for less goes on as it is.
-      }
-    }
-  }
-}
-
 StepGoal Evolution::goal_for(const EventTimes& events) const {
   StepGoal goal;
   goal.tolerance = setup_.control.tolerance;
@@ -257,7 +189,7 @@ StepGoal Evolution::goal_for(const EventTimes& events) const {
   goal.too_coarse = [this](const State& reached) {
     std::vector<std::size_t> result;
     for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-      if (!resolves(resolution(reached, a), a)) result.push_back(a);
+      if (!setup_.symmetry.exchange.is_image(a) && !resolves(resolution(reached, a), a)) result.push_back(a);
     }
     return result;
   };

@@ -5,6 +5,7 @@
 #include "bie/stepping/evaluation/charge_difference.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/first_step.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
@@ -84,7 +85,8 @@ bool Evolution::raise_orders_for_growth() {
     orders[a] = raised_order(found, a);
     raised = true;
   }
-  return raised && restart_at(orders, [](const Evaluation&) { return true; });
+  return raised &&
+         restart_at(with_images(setup_.symmetry.exchange, std::move(orders)), [](const Evaluation&) { return true; });
 }
 
 void Evolution::evaluate_start() {

@@ -9,6 +9,7 @@
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/support/errors.hpp"
 
@@ -63,7 +64,7 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     frozen.back().material = material_at(space, state.vesicles[a].material);
     interacting.push_back({position, space.targets(), electric_pair_selection(electric.back())});
   }
-  const Interaction interaction(interacting, {}, instruments, shares);
+  const Interaction interaction(interacting, {}, instruments, shares, discretisation.symmetry().exchange);
   std::vector<ElectricMembrane> membranes;
   std::vector<ChargingParameters> charging;
   std::vector<Vector> potentials;
@@ -114,7 +115,7 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     discretisation.shares().ranks().together(
         [&] { find_steady_potentials(model, discretisation, state, instruments); });
   }
-  return state;
+  return with_images(discretisation.symmetry().exchange, std::move(state));
 }
 
 }  // namespace vehd

@@ -122,9 +122,9 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
     solve(tasks.front(), state.time, limit, instruments, solved);
   } else {
     solved.interaction =
-        reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, shares, instruments);
+        reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, discretisation, instruments);
     solve_interacting(tasks, state.time, limit, instruments, solved);
-    gather_from_owners(shares, solved);
+    gather_from_owners(shares, discretisation.symmetry().exchange, solved);
   }
   return solved;
 }

@@ -46,12 +46,16 @@ void add_poration(const VesicleTask& task) {
       porous_conductance(reaction, task.vesicle.charging, task.membrane, task.state.poration));
 }
 
+void add_effects(const VesicleTask& task, const EffectInput& input, Forcing& forcing) {
+  const auto effects = explicit_effects(task.model, task.vesicle);
+  if (effects.empty()) return;
+  const Matrix without = forcing.force;
+  for (const auto& effect : effects) effect->add(input, forcing);
+  task.solution.force_of_effects = forcing.force - without;
+}
+
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing) {
-  if (const auto effects = explicit_effects(task.model, task.vesicle); !effects.empty()) {
-    const Matrix without = forcing.force;
-    for (const auto& effect : effects) effect->add(input, forcing);
-    task.solution.force_of_effects = forcing.force - without;
-  }
+  add_effects(task, input, forcing);
   if (!task.vesicle.bending) return;
   const Matrix bending = bends_by_place(task.membrane) ? elastic_force(task.membrane)
                                                        : bending_force(*task.vesicle.bending, task.membrane);

@@ -31,6 +31,9 @@ std::optional<Vector> varying_current(const VesicleTask& task, const ElectricPar
 /// changes.
 void add_poration(const VesicleTask& task);
 
+/// Adds the explicit effects, whose force is noted.
+void add_effects(const VesicleTask& task, const EffectInput& input, Forcing& forcing);
+
 /// Adds the explicit effects and the bending force, which becomes one of the task's fields.
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing);
 

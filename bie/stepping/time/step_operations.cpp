@@ -8,6 +8,7 @@
 #include "bie/physics/averaged_field.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/porous_step.hpp"
@@ -183,7 +184,7 @@ State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSoluti
         symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].*fields);
     vesicle.recycled = at_start_.vesicles[a].recycled;
   }
-  return state;
+  return with_images(discretisation_.symmetry().exchange, std::move(state));
 }
 
 State StepOperations::passed_state(const NodeSolution& node) const {
@@ -196,7 +197,8 @@ State StepOperations::end_state(const NodeSolution& node) const {
   State state = passed_state(node);
   std::vector<SentScalars> flow(state.vesicles.size());
   for (const std::size_t a : shares().own(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
-  shares().gather(flow);
+  // What is known of images serves nobody.
+  shares().gather(flow, [](const SentScalars&, std::size_t) { return SentScalars{}; });
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_flow_);
   }
