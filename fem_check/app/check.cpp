@@ -74,8 +74,8 @@ SolvedState solve_state(const CheckInput& input, const Meshes& meshes, const Dis
   if (!input.flow()) return solved;
   solved.flow = solve_flow_levels(input, meshes, refinement, report);
   if (solved.potential) add_own_force(input, meshes, refinement, *solved.potential, solved.flow->sequence, report);
-  solved.shape_flow = solve_shape_levels(input, solved.places.centre, meshes, refinement,
-                                         solved.potential ? &*solved.potential : nullptr, report);
+  solved.shape_flow =
+      solve_shape_levels(input, meshes, refinement, solved.potential ? &*solved.potential : nullptr, report);
   return solved;
 }
 

@@ -17,7 +17,8 @@ PotentialProblem base_problem(const CheckInput& input) {
   return problem;
 }
 
-/// V_m given; with displacement currents the free charge of both faces, from which V_m follows.
+}  // namespace
+
 PotentialProblem given_problem(const CheckInput& input) {
   PotentialProblem problem = base_problem(input);
   if (!input.charged_faces()) {
@@ -30,8 +31,6 @@ PotentialProblem given_problem(const CheckInput& input) {
   problem.current_jump = SurfaceSeries(input.free_charge_in + input.free_charge_out).scalar();
   return problem;
 }
-
-}  // namespace
 
 PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
                                        const Report& report) {

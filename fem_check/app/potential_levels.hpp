@@ -20,6 +20,10 @@ struct PotentialLevels {
   std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
 };
 
+/// V_m given; with displacement currents the free charge of both faces, from which V_m follows.
+/// @param input  must outlive it
+PotentialProblem given_problem(const CheckInput& input);
+
 /// Solves the potential with V_m or charges given, and under the membrane law where the input has that. @throws
 /// SolveError
 PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,

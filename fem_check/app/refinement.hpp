@@ -17,7 +17,7 @@ struct Refinement {
   /// carry the smooth rest at high degree.
   double shell_growth = 3.0;
   double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape
-  int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
+  int points_per_edge = 12;   ///< of the comparison, Gauss points on each face of γ
 
   int potential_first = 4, potential_last = 9;  ///< degrees
   int flow_first = 4, flow_last = 8;

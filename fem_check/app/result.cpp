@@ -10,17 +10,12 @@ namespace {
 nlohmann::json json_of(const Norms& norms) { return {{"l2", norms.l2}, {"max", norms.max}}; }
 
 nlohmann::json json_of(const FieldComparison& field) {
-  return {{"l2", field.difference.l2},
-          {"max", field.difference.max},
-          {"fem_error", field.fem_error()},
-          {"fem_levels_change", json_of(field.levels_change)},
-          {"fem_truncation", json_of(field.truncation)},
-          {"fem_solver", field.solver},
-          {"fem_time", field.time},
-          {"bie_error", field.bie_error()},
-          {"bie_change", json_of(field.bie_change)},
-          {"bie_further", field.bie_further},
-          {"verdict", name_of(field.verdict)}};
+  return {{"l2", field.difference.l2},        {"max", field.difference.max},
+          {"fem_error", field.fem_error()},   {"fem_levels_change", json_of(field.levels_change)},
+          {"fem_tail", field.tail},           {"fem_truncation", json_of(field.truncation)},
+          {"fem_solver", field.solver},       {"fem_time", field.time},
+          {"bie_error", field.bie_error()},   {"bie_change", json_of(field.bie_change)},
+          {"bie_further", field.bie_further}, {"verdict", name_of(field.verdict)}};
 }
 
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
@@ -64,7 +59,7 @@ std::string label_of(const FieldComparison& field) {
 
 std::string row_of(const FieldComparison& field) {
   const std::string fem = field.of_levels.empty() ? "-" : fmt::format("{:.1e}", field.fem_error());
-  return fmt::format("{:<18} {:>9.1e} {:>9.1e}   {:>9} {:>6}   {:>9.1e}   {}\n", label_of(field), field.difference.l2,
+  return fmt::format("{:<20} {:>9.1e} {:>9.1e}   {:>9} {:>6}   {:>9.1e}   {}\n", label_of(field), field.difference.l2,
                      field.difference.max, fem, field.order ? fmt::format("{:.1f}", *field.order) : "-",
                      field.bie_error(), name_of(field.verdict));
 }
@@ -92,7 +87,7 @@ std::string table_of(const CheckResult& result) {
       "{} at time {:g}: boundary integrals of degree {}, their error from degree {}, finite elements to R = "
       "{:.3g}\nrequired: errors below {:.3g} of each field\n",
       result.source, result.time, result.order, result.high_order, result.outer_radius, result.required);
-  text += fmt::format("{:<18} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
+  text += fmt::format("{:<20} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
                       "order", "BIE error", "verdict");
   for (const FieldComparison& field : result.fields) text += row_of(field);
   if (result.in_time) {
