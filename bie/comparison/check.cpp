@@ -79,7 +79,7 @@ void compare_one(const CheckTask& task, const std::filesystem::path& input) {
   std::optional<InTime> in_time;
   if (task.span) {
     in_time = InTime{*task.span, potential_in_time(frozen, *task.span, order, false),
-                     potential_in_time(frozen, *task.span, other, true)};
+                     potential_in_time(frozen, *task.span, other, true), change_by_finer_motion(frozen, *task.span)};
   }
   write_check_input(input, {frozen, contents, force, samples, at_order, for_error, in_time ? &*in_time : nullptr});
 }

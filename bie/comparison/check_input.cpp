@@ -206,6 +206,8 @@ void write_in_time(VesicleWriter& file, const InTime& in_time) {
   write(file, "/in_time/Vm_end", in_time.at_order, {"potential", "V_m at the end, shape held still, degree of /bie"});
   write(file, "/in_time/Vm_end_high", in_time.for_error,
         {"potential", "the same with finer steps, degree of /bie_high"});
+  write(file, "/in_time/Vm_change_by_motion", in_time.by_motion,
+        {"potential", "change of V_m by finer steps of the moving shape, degree of /bie"});
 }
 
 }  // namespace

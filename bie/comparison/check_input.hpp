@@ -17,8 +17,9 @@ constexpr std::int64_t check_schema_version = 2;
 /// What is asked about V_m in time.
 struct InTime {
   TimeSpan span;
-  Vector at_order;   ///< V_m at its end by potential_in_time(), with the steps of the run
-  Vector for_error;  ///< at estimate_order() with finer ones
+  Vector at_order;     ///< V_m at its end by potential_in_time(), with the steps of the run
+  Vector for_error;    ///< at estimate_order() with finer ones
+  Vector by_motion{};  ///< change_by_finer_motion()
 };
 
 /// All that the file holds of one vesicle.

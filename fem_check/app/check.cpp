@@ -77,8 +77,8 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& mes
   solved.flow = solve_flow_levels(inputs, meshes, refinement, report);
   if (solved.potential) add_own_force(inputs, meshes, refinement, *solved.potential, solved.flow->sequence, report);
   if (single) {
-    solved.shape_flow = solve_shape_levels(input, solved.places.centre, meshes, refinement,
-                                           solved.potential ? &*solved.potential : nullptr, report);
+    solved.shape_flow =
+        solve_shape_levels(input, meshes, refinement, solved.potential ? &*solved.potential : nullptr, report);
   }
   return solved;
 }

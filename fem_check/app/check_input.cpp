@@ -197,6 +197,7 @@ InTime read_in_time(const VesicleGroup& file, const CheckInput& input) {
   }
   result.bie = of_order("Vm_end", input.bie.order);
   result.bie_high = of_order("Vm_end_high", input.bie_high.order);
+  if (file.has(group + "/Vm_change_by_motion")) result.by_motion = of_order("Vm_change_by_motion", input.bie.order);
   return result;
 }
 

@@ -66,6 +66,7 @@ struct InTime {
   std::vector<Eigen::MatrixXd> positions;
   std::vector<Eigen::MatrixXd> velocities;  ///< of the membrane's material; empty if the shape stands still
   Eigen::MatrixXd bie, bie_high;            ///< V_m at the time of the file, by boundary integrals with two step sizes
+  Eigen::MatrixXd by_motion;                ///< what finer steps of the moving shape change; empty: it stands still
 
   [[nodiscard]] bool moves() const { return positions.size() > 1; }
 };

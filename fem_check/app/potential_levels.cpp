@@ -18,7 +18,19 @@ PotentialProblem base_problem(const std::vector<CheckInput>& inputs) {
   return problem;
 }
 
-/// V_m given; with displacement currents the free charge of both faces, from which V_m follows.
+/// σ_i E_i − σ_e E_e.
+Eigen::MatrixXd free_current(const PotentialTraces& traces, const PotentialProblem& materials,
+                             const SurfacePoints& points) {
+  Eigen::MatrixXd result(1, points.size());
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    result(0, i) = materials.conductivity_out * (traces.flux_in[i] - traces.charge[i]) -
+                   materials.conductivity_in[points.vesicle[i]] * traces.flux_in[i];
+  }
+  return result;
+}
+
+}  // namespace
+
 PotentialProblem given_problem(const std::vector<CheckInput>& inputs) {
   PotentialProblem problem = base_problem(inputs);
   if (!inputs.front().charged_faces()) {
@@ -36,19 +48,6 @@ PotentialProblem given_problem(const std::vector<CheckInput>& inputs) {
                          }).scalar();
   return problem;
 }
-
-/// σ_i E_i − σ_e E_e.
-Eigen::MatrixXd free_current(const PotentialTraces& traces, const PotentialProblem& materials,
-                             const SurfacePoints& points) {
-  Eigen::MatrixXd result(1, points.size());
-  for (Eigen::Index i = 0; i < points.size(); ++i) {
-    result(0, i) = materials.conductivity_out * (traces.flux_in[i] - traces.charge[i]) -
-                   materials.conductivity_in[points.vesicle[i]] * traces.flux_in[i];
-  }
-  return result;
-}
-
-}  // namespace
 
 PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, const Meshes& meshes,
                                        const Refinement& refinement, const Report& report) {

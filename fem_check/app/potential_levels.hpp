@@ -20,6 +20,10 @@ struct PotentialLevels {
   std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
 };
 
+/// V_m given; with displacement currents the free charge of both faces, from which V_m follows.
+/// @param inputs  of all vesicles of the meshes
+PotentialProblem given_problem(const std::vector<CheckInput>& inputs);
+
 /// Solves the potential with V_m or charges given, and under the membrane law where the inputs have that.
 /// @param inputs  of all vesicles of the meshes; samples are those of the first
 /// @throws SolveError

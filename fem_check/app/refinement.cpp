@@ -10,7 +10,7 @@ namespace vehd::fem_check {
 Refinement Refinement::quick() {
   Refinement refinement;
   refinement.cells_per_edge = 2;
-  refinement.points_per_edge = 8;
+  refinement.points_per_edge = 12;
   refinement.potential_first = 4;
   refinement.potential_last = 6;
   refinement.flow_first = 4;

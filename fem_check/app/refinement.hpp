@@ -23,7 +23,7 @@ struct Refinement {
   // Of two vesicles: between a membrane and its box, and from the boxes to the outer sphere.
   int box_layers = 2, outer_layers = 2;
   double box_growth = 2.0, outer_growth = 2.0;
-  int points_per_edge = 10;  ///< of the comparison, Gauss points on each face of γ
+  int points_per_edge = 12;  ///< of the comparison, Gauss points on each face of γ
 
   int potential_first = 4, potential_last = 9;  ///< degrees
   int flow_first = 4, flow_last = 8;

@@ -10,17 +10,12 @@ namespace {
 nlohmann::json json_of(const Norms& norms) { return {{"l2", norms.l2}, {"max", norms.max}}; }
 
 nlohmann::json json_of(const FieldComparison& field) {
-  return {{"l2", field.difference.l2},
-          {"max", field.difference.max},
-          {"fem_error", field.fem_error()},
-          {"fem_levels_change", json_of(field.levels_change)},
-          {"fem_truncation", json_of(field.truncation)},
-          {"fem_solver", field.solver},
-          {"fem_time", field.time},
-          {"bie_error", field.bie_error()},
-          {"bie_change", json_of(field.bie_change)},
-          {"bie_further", field.bie_further},
-          {"verdict", name_of(field.verdict)}};
+  return {{"l2", field.difference.l2},        {"max", field.difference.max},
+          {"fem_error", field.fem_error()},   {"fem_levels_change", json_of(field.levels_change)},
+          {"fem_tail", field.tail},           {"fem_truncation", json_of(field.truncation)},
+          {"fem_solver", field.solver},       {"fem_time", field.time},
+          {"bie_error", field.bie_error()},   {"bie_change", json_of(field.bie_change)},
+          {"bie_further", field.bie_further}, {"verdict", name_of(field.verdict)}};
 }
 
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
@@ -138,7 +133,7 @@ std::string CheckResult::rows_with(Verdict verdict) const {
 
 std::string table_of(const CheckResult& result) {
   const std::vector<Row> rows = rows_of(result);
-  std::size_t width = 18;
+  std::size_t width = 20;
   for (const Row& row : rows) width = std::max(width, row.label.size());
   std::string text = fmt::format(
       "{} at time {:g}: boundary integrals of {}, finite elements to R = {:.3g}\nrequired: errors below {:.3g} of each "

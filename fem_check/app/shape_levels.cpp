@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "fem_check/app/level_loop.hpp"
 #include "fem_check/bending.hpp"
 #include "fem_check/inextensible_flow.hpp"
+#include "meshes/frozen_shape.hpp"
 
 namespace vehd::fem_check {
 namespace {
@@ -12,9 +12,9 @@ namespace {
 /// Flows with the force of the shape, with or without a tension.
 class ShapeFlow {
  public:
-  ShapeFlow(const CheckInput& input, Vector3 centre, const Refinement& refinement)
+  ShapeFlow(const CheckInput& input, const Refinement& refinement)
       : physics_(input.physics),
-        centre_(std::move(centre)),
+        centre_(meshes::FrozenShape(input.position).centroid()),
         tension_is_free_(input.bie.tension_is_free),
         points_per_edge_(refinement.points_per_edge) {}
 
@@ -61,7 +61,7 @@ class ShapeFlow {
 
   [[nodiscard]] VectorOnSurface bending_of(const Discretisation& space, double spontaneous_curvature) const {
     // Four derivatives of x: with the degree of the velocity the force would be the largest error by far.
-    constexpr int further_degrees = 3;
+    constexpr int further_degrees = 6;
     return bending_force(space, {physics_.bending_modulus, spontaneous_curvature}, space.degree() + further_degrees);
   }
 
@@ -82,16 +82,21 @@ class ShapeFlow {
   }
 
   const Physics& physics_;
-  Vector3 centre_;
+  Vector3 centre_;  // the weight is taken about it, which changes the pressure inside alone
   bool tension_is_free_;
   int points_per_edge_;
 };
 
 }  // namespace
 
-LevelSequence solve_shape_levels(const CheckInput& input, const Vector3& centre, const Meshes& meshes,
-                                 const Refinement& refinement, const PotentialLevels* potential, const Report& report) {
-  const ShapeFlow flow(input, centre, refinement);
+Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, const Refinement& refinement,
+                        const VectorOnSurface& electric) {
+  return ShapeFlow(input, refinement).solve(space, refinement.flow_tolerance, electric);
+}
+
+LevelSequence solve_shape_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                                 const PotentialLevels* potential, const Report& report) {
+  const ShapeFlow flow(input, refinement);
   VectorOnSurface electric;
   if (potential != nullptr) {
     electric = [&](const SurfacePoints& at) { return potential->solutions.back().on_surface(at).force; };

@@ -90,6 +90,9 @@ FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& 
   question.time_error = charging.time_error;
   // Steps of first order leave a third more than a quarter of their size changes: twice the change is counted.
   question.further_error = (question.bie - question.bie_high).cwiseAbs();
+  if (in_time.by_motion.size() > 0) {
+    question.further_error += 2.0 * SurfaceSeries(in_time.by_motion)(places.surface).cwiseAbs();
+  }
   return question;
 }
 
