@@ -114,6 +114,7 @@ BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
     BOOST_TEST(number(equal[row], "error_there") <= number(equal[row], "error"));
     BOOST_TEST(equal[row]["order"].get<int>() <= 24);
     BOOST_TEST(number(equal[row], "seconds") > 0.0);
+    BOOST_TEST(number(equal[row], "first_seconds") > number(equal[row], "seconds"));
   }
   BOOST_TEST(equal[3]["order"].get<int>() < equal[5]["order"].get<int>());
   BOOST_TEST(fs::exists(bench.file("_equal.csv")));
