@@ -75,7 +75,7 @@ class FrozenSolver {
     const VesicleFields& fields = solved_.fields.vesicles.front();
     result.charge = fields.charge;
     result.force_electric = fields.force_electric;
-    result.potential_rate = solved_.vesicles.front().potential_rate;
+    result.potential_rate = charging_rate();
     const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields);
     result.potential_of_charges = fields.potential;
     result.free_charge_rate = solved_.vesicles.front().free_charge_rate;
@@ -115,6 +115,13 @@ class FrozenSolver {
   }
 
  private:
+  [[nodiscard]] Vector charging_rate() const {
+    const Vector& rate = solved_.vesicles.front().potential_rate;
+    const Vector& varies = membrane_.material.capacitance;
+    if (varies.size() == 0 || relaxes_charge(frozen_.model)) return rate;
+    const Vector current = varies.cwiseProduct(Vector(membrane_.fine.synthesize(rate)));
+    return membrane_.fine.analyze(current) / vesicle_of(frozen_).charging.capacitance;
+  }
   /// Values with a last column that is 1 inside and 0 outside.
   static Matrix with_sides(const Matrix& values, const std::vector<Side>& sides) {
     Matrix joined(values.rows(), values.cols() + 1);
@@ -213,10 +220,14 @@ CheckContents check_contents(const FrozenState& frozen) {
       throw InputError(fmt::format("{}: a conductivity is {:g}; the finite-element check needs both above zero",
                                    frozen.source, sigma));
     }
-    contents.steady = !applied_field(frozen).isZero(0.0);
+    const bool driven = !applied_field(frozen).isZero(0.0);
     const VesicleState& membrane = membrane_of(frozen);
-    contents.electric =
-        contents.steady || !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
+    const MembraneMaterial& material = membrane.material;
+    const bool conducts_alike =
+        !vesicle_of(frozen).reaction && material.conductance.size() == 0 && material.pump_current.size() == 0;
+    contents.steady = driven && conducts_alike;
+    contents.electric = driven || present_pump(frozen) != 0.0 || !membrane.transmembrane_potential.isZero(0.0) ||
+                        !membrane.free_charge.isZero(0.0);
   }
   if (!contents.electric && !contents.flow) {
     throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",
@@ -228,6 +239,11 @@ CheckContents check_contents(const FrozenState& frozen) {
 Vector3 applied_field(const FrozenState& frozen) {
   if (!frozen.model.electric) return Vector3::Zero();
   return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).field;
+}
+
+double present_pump(const FrozenState& frozen) {
+  if (!frozen.model.electric) return 0.0;
+  return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).pump;
 }
 
 Matrix3 flow_gradient(const FrozenState& frozen) {
