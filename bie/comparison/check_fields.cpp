@@ -67,7 +67,7 @@ class FrozenSolver {
     const VesicleFields& fields = solved_.fields.vesicles.front();
     result.charge = fields.charge;
     result.force_electric = fields.force_electric;
-    result.potential_rate = solved_.vesicles.front().potential_rate;
+    result.potential_rate = charging_rate();
     const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields);
     result.potential_of_charges = fields.potential;
     result.free_charge_rate = solved_.vesicles.front().free_charge_rate;
@@ -107,6 +107,13 @@ class FrozenSolver {
   }
 
  private:
+  [[nodiscard]] Vector charging_rate() const {
+    const Vector& rate = solved_.vesicles.front().potential_rate;
+    const Vector& varies = membrane_.material.capacitance;
+    if (varies.size() == 0 || relaxes_charge(frozen_.model)) return rate;
+    const Vector current = varies.cwiseProduct(Vector(membrane_.fine.synthesize(rate)));
+    return membrane_.fine.analyze(current) / vesicle_of(frozen_).charging.capacitance;
+  }
   /// Values with a last column that is 1 inside and 0 outside.
   static Matrix with_sides(const Matrix& values, const std::vector<Side>& sides) {
     Matrix joined(values.rows(), values.cols() + 1);
@@ -197,6 +204,26 @@ NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t 
   return settings;
 }
 
+namespace {
+
+/// What the finite elements know about one vesicle alone.
+void require_plain_charging(const FrozenState& frozen) {
+  const auto refuse = [&](const char* what) {
+    throw InputError(
+        fmt::format("{}: has {}, which the finite-element check knows about one vesicle alone; accepted: "
+                    "two without",
+                    frozen.source, what));
+  };
+  if (relaxes_charge(frozen.model)) refuse("displacement currents");
+  for (const VesicleModel& vesicle : frozen.model.vesicles) {
+    if (vesicle.reaction || vesicle.by_place || vesicle.pump) {
+      refuse("a membrane that porates or differs from place to place");
+    }
+  }
+}
+
+}  // namespace
+
 CheckContents check_contents(const FrozenState& frozen) {
   const Model& model = frozen.model;
   CheckContents contents;
@@ -217,17 +244,15 @@ CheckContents check_contents(const FrozenState& frozen) {
                                    frozen.source, sigma));
     }
     contents.steady = !applied_field(frozen).isZero(0.0);
-    contents.electric = contents.steady;
-    for (const VesicleState& membrane : frozen.state.vesicles) {
+    contents.electric = contents.steady || present_pump(frozen) != 0.0;
+    for (std::size_t a = 0; a < model.vesicles.size(); ++a) {
+      const VesicleState& membrane = frozen.state.vesicles[a];
+      const VesicleModel& vesicle = model.vesicles[a];
       const bool charged = !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
       contents.electric = contents.electric || charged;
+      if (vesicle.reaction || membrane.material.conductance.size() > 0 || vesicle.pump) contents.steady = false;
     }
-    if (model.vesicles.size() > 1 && relaxes_charge(model)) {
-      throw InputError(
-          fmt::format("{}: has displacement currents, which the finite-element check knows about one vesicle "
-                      "alone; accepted of two: \"displacement_current = false\"",
-                      frozen.source));
-    }
+    if (model.vesicles.size() > 1) require_plain_charging(frozen);
   }
   if (!contents.electric && !contents.flow) {
     throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",
@@ -239,6 +264,11 @@ CheckContents check_contents(const FrozenState& frozen) {
 Vector3 applied_field(const FrozenState& frozen) {
   if (!frozen.model.electric) return Vector3::Zero();
   return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).field;
+}
+
+double present_pump(const FrozenState& frozen) {
+  if (!frozen.model.electric) return 0.0;
+  return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).pump;
 }
 
 Matrix3 flow_gradient(const FrozenState& frozen) {

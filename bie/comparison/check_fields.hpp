@@ -10,7 +10,7 @@ namespace vehd {
 /// What the boundary-integral side is compared in.
 struct CheckContents {
   bool electric = false;  ///< some field or some V_m
-  bool steady = false;    ///< a field that determines a steady V_m
+  bool steady = false;    ///< a field that determines a steady V_m, on a membrane that conducts alike everywhere
   bool flow = false;      ///< a membrane that moves
 };
 
@@ -22,9 +22,11 @@ CheckContents check_contents(const FrozenState& frozen);
 struct CheckFields {
   int order = 0;
   // From x, V_m and the time alone, as a run computes them.
-  Vector charge;                 ///< q
-  Matrix force_electric;         ///< f_E
-  Vector potential_rate;         ///< dV_m/dt of material points, or with displacement currents D(q_i/C_m)/Dt
+  Vector charge;          ///< q
+  Matrix force_electric;  ///< f_E
+  /// Of material points: C_m dV_m/dt over the C_m of the membrane's parameters, or with displacement currents
+  /// D(q_i/C_m)/Dt.
+  Vector potential_rate;
   Vector potential_of_charges;   ///< V_m that follows from free charges; with displacement currents alone
   Vector free_charge_rate;       ///< D(q_i + q_e)/Dt over C_m; with displacement currents alone
   Matrix force_bending;          ///< f_b
@@ -60,6 +62,8 @@ NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t 
 
 /// E_∞ at the frozen time.
 Vector3 applied_field(const FrozenState& frozen);
+/// Factor of the pump current at the frozen time; 0 without a field.
+double present_pump(const FrozenState& frozen);
 /// ∂v_i/∂x_j of the background flow at the frozen time.
 Matrix3 flow_gradient(const FrozenState& frozen);
 

@@ -117,6 +117,11 @@ void write_given(VesicleWriter& file, const CheckInput& input) {
     const VesicleFields& fields = input.frozen.fields.vesicles[input.vesicle];
     write(file, "/given/Vm", transmembrane_potential(input.frozen.state.vesicles[input.vesicle], fields),
           {"potential", "V_m of the snapshot"});
+    const VesicleState& state = input.frozen.state.vesicles.front();
+    write(file, "/given/conductance", fields.conductance.size() > 0 ? fields.conductance : state.material.conductance,
+          {"conductance/area", "G_m where it varies"});
+    write(file, "/given/pump_current", present_pump(input.frozen) * state.material.pump_current,
+          {"current/area", "J_p at the time of the snapshot, outwards"});
     write(file, "/given/free_charge_in", fields.free_charge_in, {"charge/area", "q_i of the inner face"});
     write(file, "/given/free_charge_out", fields.free_charge_out, {"charge/area", "q_e of the outer face"});
   }
@@ -151,7 +156,8 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
   };
   field("q", fields.charge, {"potential/length", "q = [[d phi/d n]] of the given V_m"});
   field("force_electric", fields.force_electric, {"force/area", "f_E of the given V_m"});
-  field("Vm_rate", fields.potential_rate, {"potential/time", "dV_m/dt of the given V_m"});
+  field("Vm_rate", fields.potential_rate,
+        {"potential/time", "dV_m/dt of the given V_m, where C_m varies times it over the C_m of /physics"});
   field("Vm_of_charges", fields.potential_of_charges, {"potential", "V_m of the given free charges"});
   field("free_charge_rate", fields.free_charge_rate, {"potential/time", "rate of q_i + q_e over C_m"});
   field("force_bending", fields.force_bending, {"force/area", "f_b of the shape"});

@@ -32,21 +32,23 @@ void require_instant(const Scene& scene, const std::filesystem::path& file) {
       file.string()));
 }
 
-/// They do not know what a membrane conducts that porates.
-void require_no_reaction(const Scene& scene, const std::filesystem::path& file) {
-  if (!scene.poration || scene.poration->model == PorationModel::criterion) return;
-  throw InputError(
-      fmt::format("{}: has a membrane that porates; vehd check accepts scenes without [poration], or \"criterion\" as "
-                  "its \"model\"",
-                  file.string()));
-}
-
-/// Nor a membrane that is not the same everywhere.
-void require_no_places(const Scene& scene, const std::filesystem::path& file) {
-  if (!has_places(scene)) return;
-  throw InputError(fmt::format(
-      "{}: has a membrane that differs from place to place; vehd check accepts [membrane] without further tables",
-      file.string()));
+/// They know a membrane that bends alike everywhere, and one capacitance where V_m follows from charges.
+void require_known_places(const Scene& scene, const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(fmt::format("{}: {}", file.string(), problem));
+  };
+  for (const Scene& one : each_alone(scene)) {
+    if (one.membrane.bending_by_place || one.membrane.curvature_by_place) {
+      refuse(
+          "has a membrane that bends differently from place to place; vehd check accepts [membrane] without "
+          "\"bending_by_place\" and \"curvature_by_place\"");
+    }
+    if (one.membrane.capacitance_by_place && has_relaxing_charge(one)) {
+      refuse(
+          "has a capacitance that differs from place to place, with displacement currents; vehd check accepts one of "
+          "them");
+    }
+  }
 }
 
 void require_start(const std::filesystem::path& file, const std::optional<std::string>& time) {
@@ -74,8 +76,7 @@ FrozenState start_of_scene(const SceneSource& source) {
   const Scene scene = read_scene(source);
   require_few_vesicles(n_vesicles(scene), source.file, "vehd check");
   require_instant(scene, source.file);
-  require_no_reaction(scene, source.file);
-  require_no_places(scene, source.file);
+  require_known_places(scene, source.file);
   FrozenState frozen;
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
@@ -92,15 +93,33 @@ FrozenState start_of_scene(const SceneSource& source) {
   return frozen;
 }
 
+/// What differs from place to place, and the state of poration.
+/// @param read  coefficients of a field of the snapshot, empty where it has none
+template <typename Read>
+void take_membrane(const MembraneScene& scene, const Read& read, VesicleModel& of_model, VesicleState& vesicle,
+                   VesicleFields& fields) {
+  vesicle.material.capacitance = read("capacitance", 1);
+  vesicle.material.pump_current = read("pump_current", 1);
+  // The file has the sum of what porates and what conducts there anyway.
+  if (scene.conductance_by_place) of_model.reaction.reset();
+  if (of_model.reaction) {
+    vesicle.poration = read("poration", 1);
+    fields.conductance = read("conductance", 1);
+  } else {
+    vesicle.material.conductance = read("conductance", 1);
+  }
+}
+
 /// One vesicle of a snapshot.
-void read_vesicle(const RunReader& run, std::size_t snapshot, std::size_t number, FrozenState& frozen) {
+void read_vesicle(const RunReader& run, std::size_t snapshot, std::size_t number, const MembraneScene& scene,
+                  FrozenState& frozen) {
   const auto read = [&](const std::string& name, Index components) {
     return run.has_field(snapshot, name) ? run.coefficients(snapshot, name, components, number) : Matrix();
   };
   VesicleState& vesicle = frozen.state.vesicles.emplace_back();
   vesicle.position = run.coefficients(snapshot, "x", 3, number);
   vesicle.area_strain = Vector::Zero(vesicle.position.rows());
-  const VesicleModel& of_model = frozen.model.vesicles[number];
+  VesicleModel& of_model = frozen.model.vesicles[number];
   if (of_model.inextensible) vesicle.tension = Vector::Zero(vesicle.position.rows());
   VesicleFields& fields = frozen.fields.vesicles.emplace_back();
   fields.velocity = read("velocity", 3);
@@ -120,6 +139,7 @@ void read_vesicle(const RunReader& run, std::size_t snapshot, std::size_t number
   } else if (frozen.model.electric) {
     vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1, number);
   }
+  take_membrane(scene, read, of_model, vesicle, fields);
 }
 
 FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
@@ -130,15 +150,15 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   run.require_sealed(snapshot);
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   require_instant(scene, file);
-  require_no_reaction(scene, file);
-  require_no_places(scene, file);
+  require_known_places(scene, file);
   FrozenState frozen;
   frozen.source = file.string();
   frozen.note = choice.note;
   frozen.model = model_of(scene);
   frozen.names = vesicle_names(scene);
   frozen.state.time = run.times()[snapshot];
-  for (std::size_t a = 0; a < run.n_vesicles(); ++a) read_vesicle(run, snapshot, a, frozen);
+  const std::vector<Scene> alone = each_alone(scene);
+  for (std::size_t a = 0; a < run.n_vesicles(); ++a) read_vesicle(run, snapshot, a, alone[a].membrane, frozen);
   frozen.symmetry = symmetry_of(scene, frozen);
   frozen.settings = settings_of(scene);
   return frozen;

@@ -115,6 +115,12 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
     throw InputError(
         fmt::format("{}: has {} vesicles; --from accepts a run of one", file.string(), end.model.vesicles.size()));
   }
+  if (const VesicleModel& vesicle = vesicle_of_span(end); vesicle.reaction || vesicle.by_place || vesicle.pump) {
+    throw InputError(
+        fmt::format("{}: has a membrane that porates or differs from place to place; --from accepts runs with one that "
+                    "charges alike everywhere",
+                    file.string()));
+  }
   if (relaxes_charge(end.model)) {
     throw InputError(fmt::format("{}: has displacement currents; --from accepts runs without \"displacement_current\"",
                                  file.string()));

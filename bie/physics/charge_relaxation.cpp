@@ -19,18 +19,16 @@ double permittivity_in(const ElectricParameters& electric) {
   return electric.permittivity_ratio * electric.permittivity;
 }
 
-/// A factor times V, coefficients.
-/// @param varying  its values on the upsampled grid; empty where it is the same everywhere
-Vector times(const Membrane& membrane, const Vector& varying, double uniform, const Vector& potential) {
-  if (varying.size() == 0) return uniform * potential;
-  return membrane.fine.analyze(Vector(varying.cwiseProduct(Vector(membrane.fine.synthesize(potential)))));
+/// A factor of V, values on the upsampled grid, times V, coefficients.
+Vector product(const Membrane& membrane, const Vector& factor, const Vector& potential) {
+  return membrane.fine.analyze(Vector(factor.cwiseProduct(Vector(membrane.fine.synthesize(potential)))));
 }
 
 /// C_m V over the C_m that charges are divided by.
 Vector capacitive(const ChargingMembrane& of, const Vector& potential) {
   const Vector& varies = of.in_field.membrane.material.capacitance;
-  return varies.size() == 0 ? potential
-                            : Vector(times(of.in_field.membrane, varies, 1.0, potential) / of.charging.capacitance);
+  if (varies.size() == 0) return potential;
+  return product(of.in_field.membrane, varies, potential) / of.charging.capacitance;
 }
 
 /// G_m V + J_p, coefficients.
@@ -122,9 +120,15 @@ SolveReport solve_law(const ElectricMembrane& of, const FaceLaw& law, double tol
 FaceCharges charges_after(const ChargingMembrane& of, const FaceLaw& law, const Vector& potential) {
   const auto& [electric, membrane] = of.in_field;
   const double c = of.charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
-  const Vector stored = times(membrane, law.varying, law.a, potential);
-  const Vector field_in = (stored - law.s_in) / law.k_in;
-  const Vector field_out = (stored + law.s_out) / law.k_out;
+  Vector field_in, field_out;
+  if (law.varying.size() == 0) {
+    field_in = (law.a * potential - law.s_in) / law.k_in;
+    field_out = (law.a * potential + law.s_out) / law.k_out;
+  } else {
+    const Vector stored = product(membrane, law.varying, potential);
+    field_in = (stored - law.s_in) / law.k_in;
+    field_out = (stored + law.s_out) / law.k_out;
+  }
   return {capacitive(of, potential) - (in / c) * field_in, (out / c) * field_out - (in / c) * field_in};
 }
 

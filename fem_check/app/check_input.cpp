@@ -112,7 +112,8 @@ BieFields read_fields(const VesicleGroup& file, const std::string& group, const 
       fields.free_charge_rate = of.required("free_charge_rate", 1);
     }
     fields.steady_potential = of.optional("Vm_steady", 1);
-    if (input.physics.field.norm() > 0.0) fields.steady_potential = of.required("Vm_steady", 1);
+    if (input.physics.field.norm() > 0.0 && input.conducts_alike())
+      fields.steady_potential = of.required("Vm_steady", 1);
     if (fields.steady_potential.size() > 0) fields.steady_charge = of.required("q_steady", 1);
   }
   if (!input.flow()) return fields;
@@ -208,6 +209,8 @@ CheckInput read_vesicle(const VesicleGroup& file) {
   input.physics = read_physics(file);
   const Coefficients given(file, "/given", order);
   input.potential = given.optional("Vm", 1);
+  input.conductance = given.optional("conductance", 1);
+  input.pump_current = given.optional("pump_current", 1);
   input.free_charge_in = given.optional("free_charge_in", 1);
   if (input.charged_faces()) input.free_charge_out = given.required("free_charge_out", 1);
   input.force = given.optional("force", 3);

@@ -79,6 +79,7 @@ struct CheckInput {
   Eigen::MatrixXd position;
   Physics physics;
   Eigen::MatrixXd potential;                        ///< V_m of the snapshot
+  Eigen::MatrixXd conductance, pump_current;        ///< G_m where it varies, and J_p, outwards
   Eigen::MatrixXd free_charge_in, free_charge_out;  ///< q_i and q_e of its faces; with displacement currents alone
   Eigen::MatrixXd force;                            ///< f on the fluid
   StoredFields stored;
@@ -89,6 +90,7 @@ struct CheckInput {
 
   [[nodiscard]] bool electric() const { return potential.size() > 0; }
   [[nodiscard]] bool charged_faces() const { return free_charge_in.size() > 0; }
+  [[nodiscard]] bool conducts_alike() const { return conductance.size() == 0 && pump_current.size() == 0; }
   [[nodiscard]] bool steady() const { return bie.steady_potential.size() > 0; }
   [[nodiscard]] bool flow() const { return force.size() > 0; }
 };

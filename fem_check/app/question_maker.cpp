@@ -25,7 +25,9 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
   // Free charge that relaxes may be anything.
   sizes.charge = input.charged_faces() ? sizes.field : sizes.field * std::abs(inside - outside) / (inside + outside);
   sizes.electric_force = physics.permittivity_out * sizes.field * sizes.field;
-  sizes.current = inside * outside / (inside + outside) * sizes.field + physics.conductance * potential;
+  sizes.current = inside * outside / (inside + outside) * sizes.field + physics.conductance * potential +
+                  mean_size(input.conductance, places.surface) * potential +
+                  mean_size(input.pump_current, places.surface);
   const double shear = physics.flow_gradient.norm();
   sizes.force = physics.bending_modulus / (radius * radius * radius) + physics.viscosity_out * shear +
                 mean_size(input.force, places.surface);

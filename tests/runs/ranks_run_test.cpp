@@ -55,7 +55,7 @@ const std::string kRelaxingCharges =
 
 /// The same with pores that open.
 const std::string kPores = kRelaxingCharges.substr(0, kRelaxingCharges.find("initial_Vm")) +
-                           "[poration]\nmodel = \"pores\"\ncreation_rate = 0.5\ncreation_Vm = 0.04\nrest_density = "
+                           "[poration]\nmodel = \"pores\"\ncreation_rate = 0.5\ncreation_Vm = 0.1\nrest_density = "
                            "2.0\npore_radius = 0.1\nmembrane_thickness = 0.2\n" +
                            kRelaxingCharges.substr(kRelaxingCharges.find("[[vesicle]]"));
 
@@ -142,7 +142,9 @@ BOOST_AUTO_TEST_CASE(displacement_currents_have_the_same_bits_on_any_number_of_r
 
 BOOST_AUTO_TEST_CASE(pores_have_the_same_bits_on_any_number_of_ranks_and_go_on) {
   check_same_files(kPores, {2});
-  const auto until = [](const std::string& end) { return kPores.substr(0, kPores.find("end_time")) + end; };
+  const auto until = [](const std::string& end) {
+    return kPores.substr(0, kPores.find("end_time")) + end + "[output]\nevery = 0.05\n";
+  };
   const Run whole, resumed;
   check_completed(whole.go_on(until("end_time = 0.15\n"), 1));
   check_completed(resumed.go_on(until("end_time = 0.05\n"), 2));

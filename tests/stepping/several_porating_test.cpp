@@ -23,15 +23,6 @@ Model porating_model(bool relaxes) {
   return model;
 }
 
-/// Solvers that add nothing to what is compared; the constraints are held as in a run.
-NumericalSettings tight_settings(int time_order) {
-  NumericalSettings settings;
-  settings.time_order = time_order;
-  settings.flow_tolerance = 1e-11;
-  settings.electric_tolerance = 1e-12;
-  return settings;
-}
-
 /// Two that are near each other, with fluids and membranes of their own.
 struct TwoVesicles {
   Model model;

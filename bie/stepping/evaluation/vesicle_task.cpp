@@ -14,8 +14,7 @@ Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric
   const Vector& area = membrane.surface.quadrature;
   Vector current = electric.conductivity_in * traces.flux_in;
   current.array() -= current.dot(area) / area.sum();
-  if (const auto through = varying_current(task, electric, task.state.transmembrane_potential)) {
-    current += *through;
+  if (add_varying_current(task, electric, task.state.transmembrane_potential, current)) {
     if (!charges_by_place(membrane)) return membrane.fine.analyze(current) / -charging.capacitance;
     return -membrane.fine.analyze(current.cwiseQuotient(capacitance_of(charging, membrane)));
   }
@@ -23,18 +22,19 @@ Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric
          charging.capacitance;
 }
 
-std::optional<Vector> varying_current(const VesicleTask& task, const ElectricParameters& electric,
-                                      const Vector& potential) {
+bool add_varying_current(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential,
+                         Vector& current) {
   const Membrane& membrane = task.membrane;
   const ChargingParameters& charging = task.vesicle.charging;
-  if (!task.vesicle.reaction && !charges_by_place(membrane)) return std::nullopt;
-  Vector current =
-      task.vesicle.reaction
-          ? porous_current(*task.vesicle.reaction, charging, membrane, {potential, task.state.poration})
-          : Vector(conductance_of(charging, membrane).cwiseProduct(Vector(membrane.fine.synthesize(potential))));
+  if (!task.vesicle.reaction && !charges_by_place(membrane)) return false;
+  if (task.vesicle.reaction) {
+    current += porous_current(*task.vesicle.reaction, charging, membrane, {potential, task.state.poration});
+  } else {
+    current += conductance_of(charging, membrane).cwiseProduct(Vector(membrane.fine.synthesize(potential)));
+  }
   const Vector& pump = membrane.material.pump_current;
   if (pump.size() > 0) current += electric.pump * pump;
-  return current;
+  return true;
 }
 
 void add_poration(const VesicleTask& task) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "bie/physics/electric.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 
@@ -23,9 +21,10 @@ struct VesicleTask {
 /// quadrature sees only up to its error.
 Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric, const ElectricTraces& traces);
 
-/// The current through the membrane, outwards, values on the upsampled grid, where it is not G_m V with one G_m.
-std::optional<Vector> varying_current(const VesicleTask& task, const ElectricParameters& electric,
-                                      const Vector& potential);
+/// Adds the current through the membrane, outwards, where it is not G_m V with one G_m. Whether it is not.
+/// @param current  values on the upsampled grid
+bool add_varying_current(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential,
+                         Vector& current);
 
 /// With V_m known: what a membrane that porates conducts, which becomes one of the task's fields, and how fast that
 /// changes.
