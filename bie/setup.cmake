@@ -98,6 +98,7 @@ if(STEP STREQUAL "site")
   list(APPEND missing ${missing_site_tools})
 else()
   need_program(ninja-build ninja)
+  need_program(pkg-config pkg-config pkgconf)
   need_program(gnuplot-nox gnuplot)
   find_file(dejavu DejaVuSans.ttf PATHS /usr/share/fonts /usr/local/share/fonts PATH_SUFFIXES truetype/dejavu TTF dejavu
             dejavu-sans-fonts NO_CACHE)

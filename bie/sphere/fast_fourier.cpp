@@ -32,8 +32,7 @@ FastFourier::FastFourier(int n_phi, int order) : n_phi_(n_phi), order_(order) {
     fftw_destroy_plan(plan);
   };
   backward_ = Plan(fftw_plan_dft_c2r_1d(n_phi, data_of(spectrum), values.data(), flags), destroy);
-  forward_ =
-      Plan(fftw_plan_dft_r2c_1d(n_phi, values.data(), data_of(spectrum), flags | FFTW_PRESERVE_INPUT), destroy);
+  forward_ = Plan(fftw_plan_dft_r2c_1d(n_phi, values.data(), data_of(spectrum), flags | FFTW_PRESERVE_INPUT), destroy);
 }
 
 void FastFourier::synthesize(Index rows, const double* amplitudes, Index stride, double* values) const {

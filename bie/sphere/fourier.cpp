@@ -15,11 +15,22 @@ namespace {
 constexpr int kQuarterTurns = 4;
 /// Rows whose parts stay in the first-level cache.
 constexpr Index kRowsTogether = 16;
+/// Up to this order products take less than fast transforms: measured without AVX, and with it at all degrees up to 64,
+/// where they take half as long (docs/performance.md).
+#ifdef __AVX__
+constexpr int kMostByProducts = 128;
+#else
+constexpr int kMostByProducts = 32;
+#endif
 
 }  // namespace
 
 FourierSums::FourierSums(int n_phi, int order) : n_phi_(n_phi), order_(order), n_quarter_(n_phi / 4 + 1) {
   require_size("longitudes (even)", n_phi % 2, 0);
+  if (order > kMostByProducts) {
+    fast_.emplace(n_phi, order);
+    return;
+  }
   for (int i = 0; i < kFamilies; ++i) {
     Family& family = families_[static_cast<std::size_t>(i)];
     const bool sine = i >= 2;
@@ -95,6 +106,7 @@ void FourierSums::synthesize(Index rows, const double* amplitudes, Index stride,
     }
     return;
   }
+  if (fast_) return fast_->synthesize(rows, amplitudes, stride, values);
   const Index width = filled_up(n_quarter_);
   std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * width));
   const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * width; };
@@ -120,6 +132,7 @@ void FourierSums::analyze(Index rows, const double* values, double* amplitudes) 
     }
     return;
   }
+  if (fast_) return fast_->analyze(rows, values, amplitudes);
   std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * n_quarter_));
   std::vector<double> sums(static_cast<std::size_t>(kRowsTogether * filled_up(order_ / 2 + 1)));
   const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * n_quarter_; };

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "bie/sphere/fast_fourier.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -10,7 +12,7 @@ namespace vehd {
 /// Fourier sums over equispaced longitudes φ_k = 2πk/n_phi, of many rows at once:
 ///   f(φ) = Σ_m (C_m cos mφ + S_m sin mφ),  m = 0 … order,
 /// as products of small matrices over a quarter of the circle, since longitudes φ, π − φ, π + φ and −φ differ in signs
-/// alone. For so few orders they take a fraction of the time of fast Fourier transforms (docs/performance.md).
+/// alone, or of high orders by FastFourier, whichever takes less (docs/performance.md).
 /// Accuracy: rounding; round trips of the transform to 2e-13 (tests/sphere/transform_test.cpp)
 class FourierSums {
  public:
@@ -45,6 +47,7 @@ class FourierSums {
   int order_;
   Index n_quarter_;  ///< longitudes from 0 to π/2
   std::array<Family, kFamilies> families_;
+  std::optional<FastFourier> fast_;  ///< of high orders, in the place of the families
 };
 
 }  // namespace vehd

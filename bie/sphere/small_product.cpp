@@ -14,7 +14,11 @@ constexpr int kMostRows = 8;
 #else
 /// Doubles of one register. Rows and registers of C that stay in place: twelve sums, three pieces of B and one entry of
 /// A fill sixteen.
+#ifdef __AVX__
 constexpr int kWide = kLanes;
+#else
+constexpr int kWide = kLanes / 2;
+#endif
 constexpr int kMostRows = 4;
 #endif
 constexpr int kMostPieces = 3;
