@@ -9,6 +9,11 @@
 namespace vehd::fem_check {
 namespace {
 
+/// Of the bending elements above that of the velocity: four derivatives of x would make f_b the largest error by far.
+constexpr int further_degrees = 6;
+/// Of f_b as a field above that of the velocity: it is rougher than all that follows from it.
+constexpr int degrees_of_field = 3;
+
 /// Flows with the force of the shape, with or without a tension.
 class ShapeFlow {
  public:
@@ -24,9 +29,11 @@ class ShapeFlow {
     Solved solved;
     VectorOnSurface bending;
     if (physics_.bending_modulus > 0.0) {
-      bending = bending_of(space, 0.0);
-      solved.surface["bending"] = bending(points);
-      if (physics_.spontaneous_curvature != 0.0) bending = bending_of(space, physics_.spontaneous_curvature);
+      const double modulus = physics_.bending_modulus;
+      const int degree = space.degree() + further_degrees;
+      solved.surface["bending"] =
+          bending_field(space, {modulus, 0.0}, space.degree() + degrees_of_field, degree)(points);
+      bending = bending_force(space, {modulus, physics_.spontaneous_curvature}, degree);
     }
     FlowProblem problem = problem_with(tolerance);
     problem.gradient = physics_.flow_gradient;
@@ -57,12 +64,6 @@ class ShapeFlow {
     problem.viscosity_out = physics_.viscosity_out;
     problem.tolerance = tolerance;
     return problem;
-  }
-
-  [[nodiscard]] VectorOnSurface bending_of(const Discretisation& space, double spontaneous_curvature) const {
-    // Four derivatives of x: with the degree of the velocity the force would be the largest error by far.
-    constexpr int further_degrees = 6;
-    return bending_force(space, {physics_.bending_modulus, spontaneous_curvature}, space.degree() + further_degrees);
   }
 
   void add_flow(const Discretisation& space, const FlowProblem& problem, const SurfacePoints& points,
