@@ -7,20 +7,20 @@ namespace vehd {
 
 namespace {
 
-constexpr double panel_width = 255.0, panel_height = 172.0;
+constexpr double sweep_panel_width = 255.0, sweep_panel_height = 172.0;
 
 }  // namespace
 
 SweepPanels::SweepPanels(std::size_t count) : across_(count > 1 ? 2 : 1) {
   const std::size_t down = (count + across_ - 1) / across_;
-  page.width = panel_width * static_cast<double>(across_);
-  page.height = panel_height * static_cast<double>(down);
+  page.width = sweep_panel_width * static_cast<double>(across_);
+  page.height = sweep_panel_height * static_cast<double>(down);
 }
 
 Box SweepPanels::box(std::size_t panel) const {
-  const double left = panel_width * static_cast<double>(panel % across_);
-  const double top = page.height - panel_height * static_cast<double>(panel / across_);
-  return {left + 46.0, top - panel_height + 34.0, left + panel_width - 16.0, top - 24.0};
+  const double left = sweep_panel_width * static_cast<double>(panel % across_);
+  const double top = page.height - sweep_panel_height * static_cast<double>(panel / across_);
+  return {left + 46.0, top - sweep_panel_height + 34.0, left + sweep_panel_width - 16.0, top - 24.0};
 }
 
 PageArea sweep_dot(const PagePoint& at, const char* colour) {
