@@ -19,7 +19,7 @@ FieldError error_of(const SurfacePoints& points, const Eigen::MatrixXd& found, c
 }  // namespace
 
 ShapeFlowResult run_shape_flow(const LevelTask& task) {
-  const CheckInput input = read_check_input(task.input);
+  const CheckInput input = read_check_inputs(task.input).front();
   if (!input.flow() || !input.physics.inextensible) {
     throw InputError(task.input.string() + ": has no flow of an inextensible membrane");
   }
