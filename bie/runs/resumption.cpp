@@ -38,14 +38,6 @@ int order_of_state(const Scene& scene, const VesicleState& vesicle) {
       .order_for(thresholds::truncation_share * *numerics.tolerance, std::min(lowest, numerics.order), numerics.order);
 }
 
-/// From the scene again, by the same run.
-Checkpoint from_start(Checkpoint checkpoint) {
-  Checkpoint anew;
-  anew.changes = std::move(checkpoint.changes);
-  anew.totals = std::move(checkpoint.totals);
-  return anew;
-}
-
 State adapted(State state, const Scene& before, const Scene& scene) {
   for (VesicleState& vesicle : state.vesicles) {
     const int order = order_of_state(scene, vesicle);
@@ -95,13 +87,16 @@ Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& 
   const std::vector<SceneChange> changes =
       numerical_changes(before, scene, checkpoint.state.time, checkpoint.state.step);
   // Without a row the start has not been evaluated, which may raise the degrees that it begins with.
-  if (changes.empty()) return checkpoint.n_rows > 0 ? checkpoint : from_start(std::move(checkpoint));
+  if (changes.empty() && checkpoint.n_rows > 0) return checkpoint;
   checkpoint.changes.insert(checkpoint.changes.end(), changes.begin(), changes.end());
   if (checkpoint.state.step > 0) {
     checkpoint.state = adapted(std::move(checkpoint.state), before, scene);
     return checkpoint;
   }
-  return from_start(std::move(checkpoint));
+  Checkpoint anew;
+  anew.changes = std::move(checkpoint.changes);
+  anew.totals = std::move(checkpoint.totals);
+  return anew;
 }
 
 int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
