@@ -143,11 +143,41 @@ Vectors restricted(const Vectors& functional, const FaceNodes& from, const FaceN
   return result;
 }
 
+namespace {
+
+void require_holds(int degree, int field_degree) {
+  if (degree >= field_degree) return;
+  throw std::invalid_argument("bending of degree " + std::to_string(degree) + " does not hold functions of degree " +
+                              std::to_string(field_degree));
+}
+
+}  // namespace
+
+VectorOnSurface bending_field(const Discretisation& discretisation, const BendingEnergy& energy, int field_degree,
+                              int surface_degree) {
+  require_holds(surface_degree, field_degree);
+  const meshes::VolumeMesh& mesh = *discretisation.space()->mesh;
+  const BendingElements elements(mesh, surface_degree);
+  const SurfaceElements& surface = elements.surface();
+  const auto nodes = std::make_shared<const FaceNodes>(mesh, field_degree);
+  const Eigen::SimplicialLLT<SurfaceMatrix> mass(mass_matrix(surface, surface.positions(), *nodes));
+  if (mass.info() != Eigen::Success) throw SolveError("the mass matrix of the bending force is not positive definite");
+  const Vectors functional =
+      restricted(elements.force_functional(energy, surface.positions()), surface.nodes(), *nodes);
+  const Eigen::MatrixX3d solved = mass.solve(Eigen::MatrixX3d(functional.transpose()));
+  return [nodes, nodal = Vectors(solved.transpose())](const SurfacePoints& points) {
+    Vectors result(3, points.size());
+    for (const FaceRun& run : face_runs(points)) {
+      const Eigen::MatrixXd value =
+          face_shape(nodes->degree(), points.face_coordinates.middleCols(run.begin, run.size)).value;
+      result.middleCols(run.begin, run.size) = at_nodes(nodal, nodes->of_face(run.face)) * value.transpose();
+    }
+    return result;
+  };
+}
+
 VectorOnSurface bending_force(const Discretisation& discretisation, const BendingEnergy& energy, int degree) {
-  if (degree < discretisation.degree()) {
-    throw std::invalid_argument("bending of degree " + std::to_string(degree) + " does not hold trace functions of " +
-                                "degree " + std::to_string(discretisation.degree()));
-  }
+  require_holds(degree, discretisation.degree());
   const Space& space = *discretisation.space();
   const BendingElements elements(*space.mesh, degree);
   const FaceNodes trace_nodes(*space.mesh, discretisation.degree());

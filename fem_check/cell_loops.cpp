@@ -47,12 +47,14 @@ std::shared_ptr<const CellLoops> make_cell_loops(const Space& space, const std::
   return loops;
 }
 
-dealii::AlignedVector<Lanes> per_cell(const Space& space, const CellLoops& loops, double inside, double outside) {
+dealii::AlignedVector<Lanes> per_cell(const Space& space, const CellLoops& loops, const PerVesicle<double>& inside,
+                                      double outside) {
   dealii::AlignedVector<Lanes> result(loops.n_cell_batches());
   for (unsigned group = 0; group < loops.n_cell_batches(); ++group) {
     Lanes value = outside;
     for (unsigned lane = 0; lane < loops.n_active_entries_per_cell_batch(group); ++lane) {
-      if (space.inside(static_cast<unsigned>(loops.get_cell_iterator(group, lane)->index()))) value[lane] = inside;
+      const auto cell = static_cast<unsigned>(loops.get_cell_iterator(group, lane)->index());
+      if (space.inside(cell)) value[lane] = inside[space.vesicle(cell)];
     }
     result[group] = value;
   }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "fem_check/cell_kernels.hpp"
+#include "fem_check/per_vesicle.hpp"
 #include "fem_check/space.hpp"
 
 namespace vehd::fem_check {
@@ -33,7 +34,8 @@ std::shared_ptr<const CellLoops> make_cell_loops(const Space& space, const std::
                                                  int n_points);
 
 /// One number per cell, for every group of cells that the loops work on at once.
-dealii::AlignedVector<Lanes> per_cell(const Space& space, const CellLoops& loops, double inside, double outside);
+dealii::AlignedVector<Lanes> per_cell(const Space& space, const CellLoops& loops, const PerVesicle<double>& inside,
+                                      double outside);
 
 /// Diagonal of Σ_q value(q) φ_i(q)² or of Σ_q ∇φ_i · tensor(q) ∇φ_i over one group of cells, by sums over one
 /// direction after the other. Shape functions and points are numbered with the first direction fastest.

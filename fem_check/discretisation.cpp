@@ -141,6 +141,28 @@ Vector SurfacePoints::phi() const {
   return result;
 }
 
+std::vector<Eigen::Index> SurfacePoints::of_vesicle(int number) const {
+  std::vector<Eigen::Index> result;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (vesicle[static_cast<std::size_t>(i)] == number) result.push_back(i);
+  }
+  return result;
+}
+
+SurfacePoints SurfacePoints::picked(const std::vector<Eigen::Index>& numbers) const {
+  SurfacePoints result;
+  result.position = position(Eigen::all, numbers);
+  result.normal = normal(Eigen::all, numbers);
+  result.direction = direction(Eigen::all, numbers);
+  result.weight = weight(numbers);
+  result.face_coordinates = face_coordinates(Eigen::all, numbers);
+  for (const Eigen::Index i : numbers) {
+    result.face.push_back(face[i]);
+    result.vesicle.push_back(vesicle[i]);
+  }
+  return result;
+}
+
 double relative_l2(const SurfacePoints& points, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const auto norm = [&](const Eigen::MatrixXd& field) {
     const Vector squares = field.cols() == points.size() ? Vector(field.colwise().squaredNorm().transpose())

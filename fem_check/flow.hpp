@@ -3,16 +3,17 @@
 #include <memory>
 
 #include "fem_check/discretisation.hpp"
+#include "fem_check/per_vesicle.hpp"
 #include "fem_check/types.hpp"
 
 namespace vehd::fem_check {
 
-/// Stokes flow −∇p + μΔv = 0 on both sides of γ, v continuous, v → A x far away. Velocities have the degree of the
-/// discretisation, pressures one less; the pressure may jump across γ.
+/// Stokes flow −∇p + μΔv = 0 on both sides of γ, all membranes of the mesh, v continuous, v → A x far away. Velocities
+/// have the degree of the discretisation, pressures one less; the pressure may jump across γ.
 struct FlowProblem {
   VectorOnSurface force;               ///< f, force per area of the membrane on the fluid: f = [[T n]]
   Matrix3 gradient = Matrix3::Zero();  ///< A, v_i = A_ij x_j, without trace
-  double viscosity_in = 1.0;
+  PerVesicle<double> viscosity_in = 1.0;
   double viscosity_out = 1.0;
   double tolerance = 1e-10;  ///< of the linear solver, relative
 };

@@ -128,13 +128,16 @@ struct InextensiblePreconditioner {
 }  // namespace
 
 InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem) {
+  if (discretisation.space()->n_vesicles > 1) {
+    throw std::invalid_argument("tensions are found for one vesicle alone");
+  }
   Stopwatch watch;
   const StokesSystem stokes(discretisation, {problem.viscosity_in, problem.viscosity_out});
   const Space& space = stokes.space();
   const int degree = discretisation.degree();
   const auto elements = std::make_shared<const TensionElements>(*space.mesh, degree, degree - 1);
   const bool constant_is_determined = elements->variation_of_curvature() > least_variation;
-  const TensionPreconditioner tension_preconditioner(*elements, problem.viscosity_in, problem.viscosity_out,
+  const TensionPreconditioner tension_preconditioner(*elements, problem.viscosity_in[0], problem.viscosity_out,
                                                      !constant_is_determined);
   const InextensibleSystem system(stokes, *elements);
   const InextensiblePreconditioner preconditioner{stokes, system, tension_preconditioner};

@@ -40,14 +40,7 @@ SurfacePoints first_at_each_node(const SurfacePoints& lattice, const SheetPairs&
       ++point;
     }
   }
-  SurfacePoints result;
-  result.position = lattice.position(Eigen::all, kept);
-  result.normal = lattice.normal(Eigen::all, kept);
-  result.direction = lattice.direction(Eigen::all, kept);
-  result.weight = lattice.weight(kept);
-  result.face_coordinates = lattice.face_coordinates(Eigen::all, kept);
-  for (const Eigen::Index i : kept) result.face.push_back(lattice.face[i]);
-  return result;
+  return lattice.picked(kept);
 }
 
 /// Values of all trace functions at the points of one face of a rule: [points x nodes].

@@ -79,8 +79,8 @@ class CoarseSolver : public dealii::MGCoarseGridBase<Distributed> {
     for (const auto& cell : handler.active_cell_iterators()) {
       fe.reinit(cell);
       cell->get_dof_indices(dofs);
-      const bool inside = space.inside(static_cast<unsigned>(cell->index()));
-      const double coefficient = inside ? level.form().inside : level.form().outside;
+      const auto index = static_cast<unsigned>(cell->index());
+      const double coefficient = space.inside(index) ? level.form().inside[space.vesicle(index)] : level.form().outside;
       for (unsigned i = 0; i < dofs.size(); ++i) {
         for (unsigned j = 0; j < dofs.size(); ++j) {
           double sum = 0.0;

@@ -1,88 +1,36 @@
 #include "fem_check/potential.hpp"
 
 #include <cmath>
-#include <string>
 
 #include "fem_check/krylov.hpp"
+#include "fem_check/membrane_condition.hpp"
 #include "fem_check/multigrid.hpp"
 
 namespace vehd::fem_check {
 
 /// Inside the unknown is v = φ + E_∞·x_0 − c, outside the disturbance ψ = φ + E_∞·x, x_0 the centre of the outer sphere
-/// and c a constant close to the mean of the inside: the nearly constant field inside a good conductor, and the far
+/// and c a constant of each vesicle close to its mean: the nearly constant field inside a good conductor, and the far
 /// field, are then not differences of large discrete numbers. V_m = v − ψ + E_∞·(x − x_0) + c.
 struct PotentialSolution::Data {
   std::shared_ptr<const Space> space;
   PotentialProblem problem;
   dealii::Vector<double> nodal;
-  double constant = 0.0;  ///< c
-  Vector voltage;         ///< V_m at the nodes of γ, L2 projection
-  Vector current;         ///< σ_i ∂φ_i/∂n at the nodes of γ, L2 projection of the residual of one side
+  std::vector<double> constant;  ///< c
+  Vector voltage;                ///< V_m at the nodes of γ, L2 projection
+  Vector current;                ///< σ_i ∂φ_i/∂n at the nodes of γ, L2 projection of the residual of one side
   Cost cost;
 
   /// What V_m is more than v − ψ.
   [[nodiscard]] Vector background(const SurfacePoints& points) const {
-    return ((points.position.colwise() - space->centre).transpose() * problem.field).array() + constant;
+    Vector result = (points.position.colwise() - space->centre).transpose() * problem.field;
+    for (Eigen::Index i = 0; i < result.size(); ++i) result[i] += constant[points.vesicle[i]];
+    return result;
   }
 };
 
 namespace {
 
 using PotentialData = PotentialSolution::Data;
-
-void require(bool condition, const std::string& what) {
-  if (!condition) throw std::invalid_argument(what);
-}
-
-void require_valid(const PotentialProblem& problem) {
-  for (const double sigma : {problem.conductivity_in, problem.conductivity_out}) {
-    require(sigma > 0.0, "conductivity is " + std::to_string(sigma) + "; must be positive");
-  }
-  if (const auto* prescribed = std::get_if<PrescribedJump>(&problem.membrane)) {
-    require(bool(prescribed->potential_jump), "the prescribed transmembrane potential is missing");
-  } else if (const auto* steady = std::get_if<SteadyMembrane>(&problem.membrane)) {
-    require(steady->conductance >= 0.0, "membrane conductance is negative");
-  } else if (const auto* charged = std::get_if<ChargedMembrane>(&problem.membrane)) {
-    require(charged->capacitance > 0.0, "membrane capacitance must be positive");
-    require(bool(charged->inner_charge), "the charge of the inner face is missing");
-  } else {
-    const auto& charging = std::get<ChargingMembrane>(problem.membrane);
-    require(charging.capacitance > 0.0, "membrane capacitance must be positive");
-    require(charging.conductance >= 0.0, "membrane conductance is negative");
-    require(charging.time_step > 0.0 && charging.steps >= 1, "charging takes a positive time step and number of steps");
-    require(bool(charging.initial), "the initial transmembrane potential is missing");
-  }
-}
-
-/// Coefficient of [[u]][[w]] on γ.
-double membrane_coefficient(const PotentialProblem& problem) {
-  if (const auto* steady = std::get_if<SteadyMembrane>(&problem.membrane)) return steady->conductance;
-  if (const auto* charged = std::get_if<ChargedMembrane>(&problem.membrane)) return charged->capacitance;
-  if (const auto* charging = std::get_if<ChargingMembrane>(&problem.membrane)) {
-    return charging->conductance + charging->capacitance / charging->time_step;
-  }
-  return 0.0;
-}
-
-bool mean_is_free(const PotentialProblem& problem) {
-  const auto* steady = std::get_if<SteadyMembrane>(&problem.membrane);
-  return steady != nullptr && steady->conductance == 0.0;
-}
-
-/// The better conductor is given its own values on γ and the other side follows: the jump is then carried by the side
-/// whose energy is small.
-Fixed fixed_nodes(const PotentialProblem& problem) {
-  Fixed fixed;
-  if (std::holds_alternative<PrescribedJump>(problem.membrane)) {
-    fixed.tie =
-        problem.conductivity_in > problem.conductivity_out ? Tie::outer_follows_inner : Tie::inner_follows_outer;
-  }
-  fixed.outer = problem.outer.kind == OuterCondition::Kind::dirichlet;
-  // Given fluxes leave the constant outside free; the node is far from γ.
-  fixed.outer_value = problem.outer.kind == OuterCondition::Kind::neumann;
-  fixed.inner_value = mean_is_free(problem);
-  return fixed;
-}
 
 /// v − ψ at the nodes of γ.
 Vector sheet_difference(const Space& space, const dealii::Vector<double>& nodal) {
@@ -105,11 +53,10 @@ class PotentialEquations {
       : data_(data),
         space_(*data.space),
         trace_(*space_.trace),
-        membrane_(membrane_coefficient(data.problem)),
+        membrane_(membrane_coefficient(data.problem, space_.n_vesicles)),
         unit_(data.problem.conductivity_out * space_.length),
-        multigrid_(space_, fixed_nodes(data.problem),
-                   {data.problem.conductivity_in / data.problem.conductivity_out, 1.0,
-                    membrane_ * space_.length / data.problem.conductivity_out,
+        multigrid_(space_, fixed_nodes(data.problem, space_.n_vesicles),
+                   {over_outside(1.0, data.problem.conductivity_in), 1.0, over_outside(space_.length, membrane_),
                     data.problem.outer.kind == OuterCondition::Kind::radiation ? 2.0 : 0.0}) {
     take_field();
     multigrid_.finest().initialize(unknowns_);
@@ -124,36 +71,63 @@ class PotentialEquations {
   /// @param memory  added to the current −g V_m of the membrane law, at the rule's points
   void solve(const Vector& memory) {
     // A constant inside a good conductor has no energy, and what varies there is small against it.
-    const bool shifts = data_.problem.conductivity_in > data_.problem.conductivity_out && !mean_is_free(data_.problem);
-    const double tolerance = data_.problem.tolerance;
-    if (shifts && data_.constant == 0.0) {
-      solve_for(memory, std::sqrt(tolerance));
-      move_constant();
+    std::vector<int> shifted;
+    for (int vesicle = 0; vesicle < space_.n_vesicles; ++vesicle) {
+      if (conducts_better(vesicle) && !mean_is_free(data_.problem, vesicle) && data_.constant[vesicle] == 0.0) {
+        shifted.push_back(vesicle);
+      }
     }
+    const double tolerance = data_.problem.tolerance;
+    if (!shifted.empty()) solve_for(memory, std::sqrt(tolerance));
+    for (const int vesicle : shifted) move_constant(vesicle);
     solve_for(memory, tolerance);
   }
 
   /// j = σ_i ∂φ_i/∂n from the side that conducts worse: of the other one it would be a difference of large numbers.
   [[nodiscard]] Vector current() const {
-    const PotentialProblem& problem = data_.problem;
     const Stiffness& stiffness = multigrid_.finest();
-    if (problem.conductivity_in <= problem.conductivity_out) {
-      return trace_.project(problem.conductivity_in * space_.length *
-                            stiffness.flux_functional(data_.nodal, Side::inside));
+    const std::vector<int>& vesicle = trace_.pairs().vesicle;
+    Vector of_inside, of_outside;
+    for (int k = 0; k < space_.n_vesicles; ++k) {
+      if (conducts_better(k) && of_outside.size() == 0) {
+        of_outside = trace_.integrate(current_data_) - unit_ * stiffness.flux_functional(data_.nodal, Side::outside);
+      }
+      if (!conducts_better(k) && of_inside.size() == 0) {
+        of_inside = space_.length * stiffness.flux_functional(data_.nodal, Side::inside);
+      }
     }
-    return trace_.project(trace_.integrate(current_data_) -
-                          unit_ * stiffness.flux_functional(data_.nodal, Side::outside));
+    Vector functional(trace_.size());
+    for (Eigen::Index p = 0; p < functional.size(); ++p) {
+      const int k = vesicle[static_cast<std::size_t>(p)];
+      functional[p] = conducts_better(k) ? of_outside[p] : data_.problem.conductivity_in[k] * of_inside[p];
+    }
+    return trace_.project(functional);
   }
 
  private:
+  /// Whether the inside conducts better than the outside.
+  [[nodiscard]] bool conducts_better(int vesicle) const {
+    return data_.problem.conductivity_in[vesicle] > data_.problem.conductivity_out;
+  }
+  /// Coefficients of a form, over the conductivity outside.
+  [[nodiscard]] PerVesicle<double> over_outside(double factor, const PerVesicle<double>& of) const {
+    return per_vesicle(space_.n_vesicles,
+                       [&](int vesicle) { return factor * of[vesicle] / data_.problem.conductivity_out; });
+  }
+  /// At the points of the rule g times values there, g the coefficient of the membrane.
+  [[nodiscard]] Vector times_membrane(Vector values) const {
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] *= membrane_[trace_.rule().vesicle[i]];
+    return values;
+  }
+
   /// Values at the nodes that make the jump, and those on the outer sphere; zero at all others.
   [[nodiscard]] dealii::Vector<double> lifting() const {
     const PotentialProblem& problem = data_.problem;
     dealii::Vector<double> result(space_.dofs.n_dofs());
     if (const auto* prescribed = std::get_if<PrescribedJump>(&problem.membrane)) {
       const Vector jump = prescribed->potential_jump(trace_.nodes()) - data_.background(trace_.nodes());
-      const bool inner_follows = fixed_nodes(problem).tie == Tie::inner_follows_outer;
       for (Eigen::Index p = 0; p < trace_.size(); ++p) {
+        const bool inner_follows = !conducts_better(trace_.pairs().vesicle[static_cast<std::size_t>(p)]);
         const auto& pair = trace_.pairs().pairs[p];
         result[pair[inner_follows ? 0 : 1]] = inner_follows ? jump[p] : -jump[p];
       }
@@ -178,7 +152,7 @@ class PotentialEquations {
     }
     Distributed b;
     stiffness.initialize(b);
-    const Vector law = trace_.integrate(memory - membrane_ * data_.background(trace_.rule())) / unit_;
+    const Vector law = trace_.integrate(memory - times_membrane(data_.background(trace_.rule()))) / unit_;
     stiffness.add_at(b, inner, law);
     stiffness.add_at(b, outer, trace_.integrate(current_data_) / unit_ - law);
     const OuterCondition& condition = data_.problem.outer;
@@ -209,14 +183,15 @@ class PotentialEquations {
     data_.nodal += lift;
   }
 
-  /// Moves the value at one inner node into the constant.
-  void move_constant() {
-    const double step = data_.nodal[trace_.pairs().pairs.front()[0]];
-    data_.constant += step;
+  /// Moves the value at one inner node of a vesicle into its constant.
+  void move_constant(int vesicle) {
+    const double step = data_.nodal[trace_.pairs().first_of(vesicle)[0]];
+    data_.constant[vesicle] += step;
     std::vector<DofIndex> dofs(space_.element.n_dofs_per_cell());
     std::vector<bool> moved(space_.dofs.n_dofs(), false);
     for (const auto& cell : space_.dofs.active_cell_iterators()) {
-      if (!space_.inside(static_cast<unsigned>(cell->index()))) continue;
+      const auto index = static_cast<unsigned>(cell->index());
+      if (!space_.inside(index) || space_.vesicle(index) != vesicle) continue;
       cell->get_dof_indices(dofs);
       for (const DofIndex dof : dofs) {
         if (!moved[dof] && unknowns_.locally_owned_elements().is_element(dof)) unknowns_(dof) -= step;
@@ -228,8 +203,8 @@ class PotentialEquations {
   PotentialData& data_;
   const Space& space_;
   const MembraneTrace& trace_;
-  double membrane_;  // coefficient of [[u]][[w]]
-  double unit_;      // of functionals: σ_e R
+  PerVesicle<double> membrane_;  // coefficient of [[u]][[w]]
+  double unit_;                  // of functionals: σ_e R
   Multigrid multigrid_;
   Vector current_data_;  // c − σ_e E·n
   Distributed unknowns_;
@@ -242,10 +217,27 @@ std::shared_ptr<PotentialData> data_of(const Discretisation& discretisation, con
   auto data = std::make_shared<PotentialData>();
   data->space = discretisation.space();
   data->problem = problem;
+  data->constant.assign(static_cast<std::size_t>(data->space->n_vesicles), 0.0);
   data->cost.n_cells = discretisation.n_cells();
   data->cost.n_unknowns = discretisation.n_nodes();
   data->cost.seconds_setup = data->space->seconds_setup;
   return data;
+}
+
+/// Where nothing else fixes the mean of V_m on a vesicle.
+void set_free_means(PotentialData& data) {
+  const SurfacePoints& rule = data.space->trace->rule();
+  const Vector voltage = membrane_voltage(data, rule);
+  for (int vesicle = 0; vesicle < data.space->n_vesicles; ++vesicle) {
+    if (!mean_is_free(data.problem, vesicle)) continue;
+    double integral = 0.0, area = 0.0;
+    for (Eigen::Index i = 0; i < rule.size(); ++i) {
+      if (rule.vesicle[i] != vesicle) continue;
+      integral += rule.weight[i] * voltage[i];
+      area += rule.weight[i];
+    }
+    data.constant[vesicle] += std::get<SteadyMembrane>(data.problem.membrane).mean[vesicle] - integral / area;
+  }
 }
 
 }  // namespace
@@ -263,17 +255,14 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
   if (const auto* charging = std::get_if<ChargingMembrane>(&problem.membrane)) {
     Vector voltage = charging->initial(rule);
     for (int step = 0; step < charging->steps; ++step) {
-      equations.solve(charging->capacitance / charging->time_step * voltage);
+      equations.solve(stored_current(*charging, rule, voltage));
       voltage = membrane_voltage(*data, rule);
     }
   } else if (const auto* charged = std::get_if<ChargedMembrane>(&problem.membrane)) {
     equations.solve(charged->inner_charge(rule));
   } else {
     equations.solve(Vector::Zero(rule.size()));
-    if (mean_is_free(problem)) {
-      const double mean = rule.weight.dot(membrane_voltage(*data, rule)) / rule.weight.sum();
-      data->constant += std::get<SteadyMembrane>(problem.membrane).mean - mean;
-    }
+    set_free_means(*data);
   }
   // E_∞·x is no trace function. Where V_m is small against it, the projection leaves that error out of V_m.
   data->voltage = trace.project(trace.integrate(membrane_voltage(*data, rule)));
@@ -287,7 +276,6 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
 PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const {
   const Space& space = *data_->space;
   const PotentialProblem& problem = data_->problem;
-  const double sigma_in = problem.conductivity_in;
   const double sigma_out = problem.conductivity_out;
   const Vector jump = problem.current_jump ? problem.current_jump(points) : Vector(Vector::Zero(points.size()));
   const Vector current = space.trace->evaluate(data_->current, points);
@@ -297,12 +285,18 @@ PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const
   if (const auto* prescribed = std::get_if<PrescribedJump>(&problem.membrane)) {
     result.transmembrane_potential = prescribed->potential_jump(points);
   }
-  result.flux_in = current / sigma_in;
   const Vector flux_out = (current - jump) / sigma_out;
-  // Not flux_in − flux_out: that would not vanish to the last digit at equal conductivities.
-  result.charge = (1.0 / sigma_in - 1.0 / sigma_out) * current + jump / sigma_out;
+  result.flux_in.resize(points.size());
+  result.charge.resize(points.size());
+  for (Eigen::Index p = 0; p < points.size(); ++p) {
+    const double sigma_in = problem.conductivity_in[points.vesicle[p]];
+    result.flux_in[p] = current[p] / sigma_in;
+    // Not flux_in − flux_out: that would not vanish to the last digit at equal conductivities.
+    result.charge[p] = (1.0 / sigma_in - 1.0 / sigma_out) * current[p] + jump[p] / sigma_out;
+  }
 
   result.flux_in_from_gradient.resize(points.size());
+  result.charge_from_gradient.resize(points.size());
   result.force.resize(3, points.size());
   const auto normal_stress = [](double permittivity, const Vector3& tangential, double normal_field, const Vector3& n) {
     // n·Σ with E = E_t + E_n n: ε (E_n E_t + ½ (E_n² − E_t²) n).
@@ -323,11 +317,14 @@ PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const
       const Vector3 field_in = -inner.col(i);
       const Vector3 field_out = problem.field - outer.col(i);
       result.flux_in_from_gradient[p] = n.dot(inner.col(i));
-      result.force.col(p) = normal_stress(problem.permittivity_in, tangential(field_in), -result.flux_in[p], n) -
-                            normal_stress(problem.permittivity_out, tangential(field_out), -flux_out[p], n);
+      const int vesicle = points.vesicle[p];
+      result.charge_from_gradient[p] =
+          (1.0 - problem.conductivity_in[vesicle] / sigma_out) * result.flux_in_from_gradient[p] + jump[p] / sigma_out;
+      result.force.col(p) =
+          normal_stress(problem.permittivity_in[vesicle], tangential(field_in), -result.flux_in[p], n) -
+          normal_stress(problem.permittivity_out, tangential(field_out), -flux_out[p], n);
     }
   }
-  result.charge_from_gradient = (1.0 - sigma_in / sigma_out) * result.flux_in_from_gradient + jump / sigma_out;
   return result;
 }
 
@@ -341,7 +338,9 @@ Vector PotentialSolution::potential(const VolumePoints& points) const {
   }
   const Vector3& field = data_->problem.field;
   for (Eigen::Index i = 0; i < points.size(); ++i) {
-    result[i] += points.inside[i] ? data_->constant - field.dot(space.centre) : -field.dot(points.position.col(i));
+    const int vesicle = space.vesicle(static_cast<unsigned>(points.cell[i]));
+    result[i] +=
+        points.inside[i] ? data_->constant[vesicle] - field.dot(space.centre) : -field.dot(points.position.col(i));
   }
   return result;
 }
@@ -374,7 +373,7 @@ Vector ChargingSteps::step(const Vector& from, const Vector3& field) {
   Stopwatch watch;
   data.problem.field = field;
   implementation_->equations.take_field();
-  implementation_->equations.solve(charging.capacitance / charging.time_step * from);
+  implementation_->equations.solve(stored_current(charging, rule(), from));
   data.cost.seconds_solve += watch.lap();
   data.cost.peak_memory_bytes = peak_memory_bytes();
   return membrane_voltage(data, rule());

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "fem_check/discretisation.hpp"
+#include "fem_check/per_vesicle.hpp"
 #include "fem_check/types.hpp"
 
 namespace vehd::fem_check {
@@ -16,21 +17,21 @@ struct PrescribedJump {
 /// Steady membrane, −σ_i ∂φ_i/∂n = G_m V_m. With G_m = 0 the mean of V_m is free; `mean` fixes it, because charging
 /// conserves it. Otherwise `mean` is not used.
 struct SteadyMembrane {
-  double conductance = 0.0;
-  double mean = 0.0;
+  PerVesicle<double> conductance = 0.0;
+  PerVesicle<double> mean = 0.0;
 };
 
 /// Free charge of the inner face, −ε_i ∂φ_i/∂n = C_m V_m − q_i: the permittivities are the conductivities of the
 /// problem, and its current jump is q_i + q_e.
 struct ChargedMembrane {
-  double capacitance = 1.0;
+  PerVesicle<double> capacitance = 1.0;
   ScalarOnSurface inner_charge;  ///< q_i
 };
 
 /// Backward Euler steps of C_m dV_m/dt + G_m V_m = −σ_i ∂φ_i/∂n.
 struct ChargingMembrane {
-  double capacitance = 1.0;
-  double conductance = 0.0;
+  PerVesicle<double> capacitance = 1.0;
+  PerVesicle<double> conductance = 0.0;
   double time_step = 0.1;
   int steps = 1;
   ScalarOnSurface initial;  ///< V_m before the first step
@@ -51,12 +52,12 @@ struct OuterCondition {
   std::function<double(const Vector3&)> value;  ///< absent: zero
 };
 
-/// Δφ = 0 on both sides of γ, φ → −E_∞·x far away.
+/// Δφ = 0 on both sides of γ, φ → −E_∞·x far away. γ is all membranes of the mesh.
 struct PotentialProblem {
   Vector3 field = Vector3::Zero();  ///< E_∞
-  double conductivity_in = 1.0;
+  PerVesicle<double> conductivity_in = 1.0;
   double conductivity_out = 1.0;
-  double permittivity_in = 1.0;
+  PerVesicle<double> permittivity_in = 1.0;
   double permittivity_out = 1.0;
   MembraneCondition membrane = SteadyMembrane{};
   ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous

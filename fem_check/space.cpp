@@ -76,7 +76,11 @@ void fill_mapping(Space& space) {
 
 void find_faces(Space& space) {
   for (const meshes::InterfacePair& pair : space.mesh->interface()) {
-    MembraneFace face{static_cast<unsigned>(pair.inside_cell), static_cast<unsigned>(pair.outside_cell), {}, {}};
+    MembraneFace face{space.mesh->cell(pair.inside_cell).vesicle,
+                      static_cast<unsigned>(pair.inside_cell),
+                      static_cast<unsigned>(pair.outside_cell),
+                      {},
+                      {}};
     const auto inner = inverse(space.mesh_vertex[face.inner_cell]);
     const auto outer = inverse(space.mesh_vertex[face.outer_cell]);
     const auto& inner_vertices = meshes::face_vertices(CellShape::hexahedron, pair.inside_face);
@@ -122,7 +126,8 @@ Space::Space(std::shared_ptr<const meshes::VolumeMesh> volume_mesh, int degree, 
       triangulation(communicator, dealii::Triangulation<3>::none, false,
                     dealii::parallel::shared::Triangulation<3>::partition_metis),
       mapping(static_cast<unsigned>(degree + 1)),
-      element(static_cast<unsigned>(degree)) {
+      element(static_cast<unsigned>(degree)),
+      n_vesicles(mesh->n_vesicles()) {
   Stopwatch watch;
   require_supported(*mesh, degree);
   create_triangulation(*this);
@@ -177,6 +182,7 @@ SheetPairs sheet_pairs(const Space& space, const dealii::DoFHandler<3>& handler)
         if (result.index_of_inner[i] < 0) {
           result.index_of_inner[i] = static_cast<int>(result.pairs.size());
           result.pairs.push_back({i, e});
+          result.vesicle.push_back(face.vesicle);
         }
         of_face.push_back(result.index_of_inner[i]);
       }
@@ -319,6 +325,7 @@ SurfacePoints tensor_points(const Space& space, const std::vector<double>& nodes
     for (std::size_t b = 0; b < nodes.size(); ++b) {
       for (std::size_t a = 0; a < nodes.size(); ++a, ++i) {
         points.face.push_back(static_cast<int>(f));
+        points.vesicle.push_back(space.membrane[f].vesicle);
         points.face_coordinates.col(i) << nodes[a], nodes[b];
         points.weight[i] = weights.empty() ? 0.0 : weights[a] * weights[b];
       }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "fem_check/deal_ii.hpp"
@@ -16,6 +17,7 @@ using UnitPoint = dealii::Point<3>;
 
 /// One face of γ from both sides. Corner k has the face coordinates (k & 1, k >> 1), on both sides at the same place.
 struct MembraneFace {
+  int vesicle;
   unsigned inner_cell;
   unsigned outer_cell;
   std::array<UnitPoint, 4> inner_corners;
@@ -41,6 +43,8 @@ struct Space {
   }
   [[nodiscard]] Cell cell(unsigned index) const { return cell(dofs, index); }
   [[nodiscard]] bool inside(unsigned index) const { return mesh->cell(index).region == meshes::Region::inside; }
+  /// That a cell lies in, or outside belongs to.
+  [[nodiscard]] int vesicle(unsigned index) const { return mesh->cell(index).vesicle; }
   /// Place without unit of a place as users know it, and back.
   [[nodiscard]] Vector3 dimensionless(const Vector3& x) const { return (x - centre) / length; }
   [[nodiscard]] Vector3 physical(const Vector3& x) const { return centre + length * x; }
@@ -56,6 +60,7 @@ struct Space {
   dealii::FE_Q<3> element;
   dealii::DoFHandler<3> dofs;
   std::vector<std::array<int, 8>> mesh_vertex;  ///< vertex number in the mesh's cell at each vertex of deal.II's
+  int n_vesicles;
   std::vector<MembraneFace> membrane;
   std::vector<OuterFace> outer;
   std::vector<dealii::BoundingBox<3>> boxes;  ///< of the cells' mapping nodes
@@ -69,7 +74,12 @@ UnitPoint on_face(const std::array<UnitPoint, 4>& corners, double s, double t);
 /// Which degrees of freedom of a handler are the same node of γ on both sides.
 struct SheetPairs {
   std::vector<std::array<DofIndex, 2>> pairs;  ///< {inner, outer}
-  std::vector<int> index_of_inner;             ///< for each degree of freedom the number of its pair, or −1
+  std::vector<int> vesicle;                    ///< of each pair
+  /// The first pair on a membrane.
+  [[nodiscard]] const std::array<DofIndex, 2>& first_of(int of_vesicle) const {
+    return pairs[static_cast<std::size_t>(std::find(vesicle.begin(), vesicle.end(), of_vesicle) - vesicle.begin())];
+  }
+  std::vector<int> index_of_inner;        ///< for each degree of freedom the number of its pair, or −1
   std::vector<std::vector<int>> of_face;  ///< pairs on each face, Gauss–Lobatto lattice, first coordinate fastest
 };
 /// The pairs of a handler.

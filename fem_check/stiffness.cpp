@@ -1,5 +1,7 @@
 #include "fem_check/stiffness.hpp"
 
+#include <algorithm>
+
 namespace vehd::fem_check {
 
 namespace {
@@ -59,18 +61,21 @@ std::unique_ptr<SurfaceTerms> surface_terms(const Space& space, const dealii::Do
       }
     }
   };
-  if (form.membrane != 0.0) {
+  const std::vector<double>& membranes = form.membrane.values();
+  if (std::any_of(membranes.begin(), membranes.end(), [](double value) { return value != 0.0; })) {
     const auto n = static_cast<Eigen::Index>(pairs.pairs.size());
     for (const std::size_t side : {0, 1}) {
       for (const auto& pair : pairs.pairs) dofs.push_back(pair[side]);
     }
-    const Eigen::SparseMatrix<double> mass =
+    Eigen::SparseMatrix<double> mass =
         membrane_mass(space.trace->rule(), pairs, static_cast<int>(handler.get_fe().degree)) /
         (space.length * space.length);
-    add(mass, form.membrane, 0, 0);
-    add(mass, form.membrane, n, n);
-    add(mass, -form.membrane, 0, n);
-    add(mass, -form.membrane, n, 0);
+    // No entry has nodes of two membranes.
+    for (Eigen::Index j = 0; j < n; ++j) mass.col(j) *= form.membrane[pairs.vesicle[static_cast<std::size_t>(j)]];
+    add(mass, 1.0, 0, 0);
+    add(mass, 1.0, n, n);
+    add(mass, -1.0, 0, n);
+    add(mass, -1.0, n, 0);
   }
   if (form.robin != 0.0) {
     const auto begin = static_cast<Eigen::Index>(dofs.size());
@@ -88,19 +93,20 @@ Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPa
                              const std::vector<DofIndex>& outer_dofs, const Fixed& fixed) {
   Constraints constraints;
   constraints.reinit(dealii::complete_index_set(handler.n_dofs()));
-  if (fixed.tie != Tie::none) {
-    const bool inner_follows = fixed.tie == Tie::inner_follows_outer;
-    for (const auto& [inner, outer] : pairs.pairs) {
-      constraints.add_line(inner_follows ? inner : outer);
-      constraints.add_entry(inner_follows ? inner : outer, inner_follows ? outer : inner, 1.0);
-    }
+  for (std::size_t p = 0; p < pairs.pairs.size(); ++p) {
+    const Tie tie = fixed.tie[pairs.vesicle[p]];
+    if (tie == Tie::none) continue;
+    const auto& [inner, outer] = pairs.pairs[p];
+    const bool inner_follows = tie == Tie::inner_follows_outer;
+    constraints.add_line(inner_follows ? inner : outer);
+    constraints.add_entry(inner_follows ? inner : outer, inner_follows ? outer : inner, 1.0);
   }
   if (fixed.outer) {
     for (const DofIndex dof : outer_dofs) constraints.add_line(dof);
   }
   if (fixed.outer_value && !constraints.is_constrained(outer_dofs.front())) constraints.add_line(outer_dofs.front());
-  // The first pair is a corner of the first face, whatever the degree.
-  if (fixed.inner_value) constraints.add_line(pairs.pairs.front()[0]);
+  // The first pair of a membrane is a corner of its first face, whatever the degree.
+  for (const int vesicle : fixed.floating) constraints.add_line(pairs.first_of(vesicle)[0]);
   constraints.close();
   return constraints;
 }

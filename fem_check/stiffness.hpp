@@ -8,9 +8,9 @@ namespace vehd::fem_check {
 /// a(u, w) = Σ_side coefficient ∫ ∇u·∇w dV + membrane ∫_γ [[u]][[w]] dA + robin ∫_{r=R} u w dA, lengths in units of the
 /// space.
 struct ScalarForm {
-  double inside = 1.0;
+  PerVesicle<double> inside = 1.0;
   double outside = 1.0;
-  double membrane = 0.0;
+  PerVesicle<double> membrane = 0.0;
   double robin = 0.0;
 };
 
@@ -20,10 +20,10 @@ enum class Tie { none, inner_follows_outer, outer_follows_inner };
 /// Homogeneous constraints: ties on γ, values on the outer sphere that are given, and one value of a side that would
 /// float.
 struct Fixed {
-  Tie tie = Tie::none;
+  PerVesicle<Tie> tie = Tie::none;
   bool outer = false;
   bool outer_value = false;
-  bool inner_value = false;
+  std::vector<int> floating{};  ///< vesicles whose inside would float
 };
 Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
                              const std::vector<DofIndex>& outer_dofs, const Fixed& fixed);

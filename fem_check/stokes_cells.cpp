@@ -10,16 +10,22 @@ constexpr unsigned pressure_field = 1;
 }  // namespace
 
 StokesCells::StokesCells(const Space& space, const dealii::DoFHandler<3>& pressure_dofs,
-                         const Constraints& velocity_constraints, double viscosity_inside, double viscosity_outside)
+                         const Constraints& velocity_constraints, const PerVesicle<double>& viscosity_inside)
     : space_(space), degree_(static_cast<int>(space.element.degree)) {
   none_.reinit(dealii::complete_index_set(pressure_dofs.n_dofs()));
   none_.close();
   loops_ = make_cell_loops(space, {{&space.dofs, &velocity_constraints}, {&pressure_dofs, &none_}},
                            points_per_direction(degree_));
-  const double difference = viscosity_inside - viscosity_outside;
-  viscosity_ = per_cell(space, *loops_, viscosity_inside, viscosity_outside);
-  contrast_ = per_cell(space, *loops_, std::max(difference, 0.0), std::max(-difference, 0.0));
-  fluidity_ = per_cell(space, *loops_, 1.0 / viscosity_inside, 1.0 / viscosity_outside);
+  // Of a contrast that is the same everywhere only a part on the outer sphere would be left: differences count.
+  contrast_outside_ = 0.0;
+  for (const double inside : viscosity_inside.values()) contrast_outside_ = std::max(contrast_outside_, 1.0 - inside);
+  const auto on_each = [&](const auto& of_viscosity) {
+    return per_vesicle(space.n_vesicles, [&](int vesicle) { return double(of_viscosity(viscosity_inside[vesicle])); });
+  };
+  viscosity_ = per_cell(space, *loops_, viscosity_inside, 1.0);
+  contrast_ = per_cell(space, *loops_, on_each([&](double inside) { return inside - 1.0 + contrast_outside_; }),
+                       contrast_outside_);
+  fluidity_ = per_cell(space, *loops_, on_each([](double inside) { return 1.0 / inside; }), 1.0);
 }
 
 void StokesCells::apply(const Parts& to, const Parts& from) const {

@@ -8,9 +8,12 @@ namespace vehd::fem_check {
 /// pressure of one degree less in field 1.
 class StokesCells {
  public:
-  /// Viscosities of both sides; on the side of the larger one their difference multiplies ∇u:∇wᵀ.
+  /// Viscosities over that of the outside; what each is more than the smallest of them multiplies ∇u:∇wᵀ.
   StokesCells(const Space& space, const dealii::DoFHandler<3>& pressure_dofs, const Constraints& velocity_constraints,
-              double viscosity_inside, double viscosity_outside);
+              const PerVesicle<double>& viscosity_inside);
+
+  /// The part of the outside.
+  [[nodiscard]] double contrast_outside() const { return contrast_outside_; }
 
   /// u_x, u_y, u_z, p
   using Parts = std::vector<Distributed*>;
@@ -28,6 +31,7 @@ class StokesCells {
   int degree_;  // of the velocity
   Constraints none_;
   std::shared_ptr<const CellLoops> loops_;
+  double contrast_outside_;
   dealii::AlignedVector<Lanes> viscosity_;
   dealii::AlignedVector<Lanes> contrast_;
   dealii::AlignedVector<Lanes> fluidity_;  // 1/μ

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fem_check/krylov.hpp"
+#include "fem_check/rigid_part.hpp"
 #include "fem_check/stokes_cells.hpp"
 
 namespace vehd::fem_check {
@@ -12,7 +13,7 @@ namespace vehd::fem_check {
 namespace {
 
 /// The velocities of both sides are one.
-constexpr Fixed kSheetsTied{.tie = Tie::inner_follows_outer};
+Fixed sheets_tied() { return {.tie = Tie::inner_follows_outer}; }
 /// −p n + μ ∂u/∂r = −(4μ/R) u of a stresslet.
 constexpr double kOuterCoefficient = 4.0;
 
@@ -21,7 +22,9 @@ void require_valid(const Discretisation& discretisation, const Viscosities& visc
     throw std::invalid_argument("the flow takes elements of degree 2 at least, the discretisation has degree " +
                                 std::to_string(discretisation.degree()));
   }
-  for (const double viscosity : {viscosities.inside, viscosities.outside}) {
+  std::vector<double> all = viscosities.inside.values();
+  all.push_back(viscosities.outside);
+  for (const double viscosity : all) {
     if (!(viscosity > 0.0)) {
       throw std::invalid_argument("viscosity is " + std::to_string(viscosity) + "; must be positive");
     }
@@ -102,30 +105,12 @@ PressureInverse::AdditionalData pressure_data(const StokesCells& cells) {
   return data;
 }
 
-/// Places of all nodes of this rank's cells, without unit; zero for others.
-std::vector<Vector3> node_places(const Space& space) {
-  std::vector<Vector3> result(space.dofs.n_dofs(), Vector3::Zero());
-  dealii::FEValues<3> fe(space.mapping, space.element, dealii::Quadrature<3>(space.element.get_unit_support_points()),
-                         dealii::update_quadrature_points);
-  std::vector<DofIndex> dofs(fe.dofs_per_cell);
-  for (const auto& cell : space.dofs.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    fe.reinit(cell);
-    cell->get_dof_indices(dofs);
-    for (unsigned i = 0; i < dofs.size(); ++i) {
-      const auto& x = fe.quadrature_point(i);
-      result[dofs[i]] = Vector3(x[0], x[1], x[2]);
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 struct StokesSystem::Implementation {
   std::shared_ptr<const Space> space;
   Viscosities viscosity;
-  double ratio;  // μ_i/μ_e
+  PerVesicle<double> ratio;  // μ_i/μ_e
   std::shared_ptr<const dealii::DoFHandler<3>> pressure_dofs;
   Multigrid multigrid;
   StokesCells cells;
@@ -133,31 +118,37 @@ struct StokesSystem::Implementation {
   std::vector<unsigned> tied;  // local numbers
   PressureMass pressure_mass;
   PressureInverse pressure_inverse;
-  /// Rigid rotations of the inside, which a stiff inside does not resist but μ∇u:∇w does; and the inverse of their
-  /// energies. Empty where the inside is not the stiffer one.
+  /// Rigid rotations of every inside that is stiffer than the outside, which it does not resist but μ∇u:∇w does; and
+  /// the inverse of their energies.
   std::vector<std::array<Distributed, 3>> rotations;
-  Matrix3 rotation_inverse = Matrix3::Zero();
-  /// The pressure of one inside, whose share in the Schur complement is that of the stiffer outside.
-  Distributed inner_pressure;
-  double inner_pressure_factor = 0.0;
+  Eigen::MatrixXd rotation_inverse;
+  /// The pressure 1 in one inside, whose share in the Schur complement is that of the stiffer outside.
+  struct InnerPressure {
+    Distributed values;
+    double factor;
+  };
+  std::vector<InnerPressure> inner_pressures;
 
   Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities);
-  void find_rotations(const StokesSystem& system);
-  void find_inner_pressure();
+  /// Adds those of one vesicle.
+  void add_rotations(const StokesSystem& system, int vesicle);
+  void find_rotation_energies(const StokesSystem& system);
+  void add_inner_pressure(int vesicle);
 };
 
 StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities)
     : space(std::move(where)),
       viscosity(viscosities),
-      ratio(viscosities.inside / viscosities.outside),
+      ratio(per_vesicle(space->n_vesicles,
+                        [&](int vesicle) { return viscosities.inside[vesicle] / viscosities.outside; })),
       pressure_dofs([&] {
         auto handler = std::make_shared<dealii::DoFHandler<3>>(space->triangulation);
         handler->distribute_dofs(dealii::FE_Q<3>(space->element.degree - 1));
         return handler;
       }()),
-      multigrid(*space, kSheetsTied, {ratio, 1.0, 0.0, kOuterCoefficient}),
-      cells(*space, *pressure_dofs, multigrid.finest().constraints(), ratio, 1.0),
-      outer(outer_terms(multigrid.finest(), std::max(0.0, 1.0 - ratio))),
+      multigrid(*space, sheets_tied(), {ratio, 1.0, 0.0, kOuterCoefficient}),
+      cells(*space, *pressure_dofs, multigrid.finest().constraints(), ratio),
+      outer(outer_terms(multigrid.finest(), cells.contrast_outside())),
       pressure_mass(cells, pressure_dofs->n_dofs()) {
   Distributed velocity;
   cells.initialize_velocity(velocity);
@@ -169,62 +160,63 @@ StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where,
   pressure_inverse.initialize(pressure_mass, pressure_data(cells));
 }
 
-void StokesSystem::Implementation::find_rotations(const StokesSystem& system) {
-  // Rigid up to the sphere around the membrane, then with the decay of a rotlet.
-  double reach = 0.0;
-  const Vectors& nodes = space->trace->nodes().position;
-  for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
-    reach = std::max(reach, space->dimensionless(nodes.col(i)).norm());
-  }
+void StokesSystem::Implementation::add_rotations(const StokesSystem& system, int vesicle) {
   const std::vector<Vector3> places = node_places(*space);
-  std::vector<Blocks> products;
+  const RigidPart rigid = space->n_vesicles == 1 ? rigid_in_a_sphere(*space, places) : rigid_in_cells(*space, vesicle);
   for (unsigned axis = 0; axis < 3; ++axis) {
-    auto& rotation = rotations.emplace_back();
     Blocks unit = system.zero();
     for (unsigned d = 0; d < 3; ++d) {
       Distributed& component = unit.block(d);
       for (const DofIndex dof : component.locally_owned_elements()) {
         if (multigrid.finest().constraints().is_constrained(dof)) continue;
-        const Vector3& x = places[dof];
-        const double decay = std::pow(std::min(1.0, reach / x.norm()), 3);
-        component(dof) = decay * Vector3::Unit(axis).cross(x)[d];
+        component(dof) = rigid.share[dof] * Vector3::Unit(axis).cross(Vector3(places[dof] - rigid.centre))[d];
       }
-      rotation[d] = component;
     }
-    system.vmult(products.emplace_back(system.zero()), unit);
+    rotations.push_back({unit.block(0), unit.block(1), unit.block(2)});
   }
-  Matrix3 energies;
-  for (unsigned i = 0; i < 3; ++i) {
-    for (unsigned j = 0; j < 3; ++j) {
-      energies(i, j) = 0.0;
-      for (unsigned d = 0; d < 3; ++d) energies(i, j) += rotations[i][d] * products[j].block(d);
+}
+
+void StokesSystem::Implementation::find_rotation_energies(const StokesSystem& system) {
+  const auto n = static_cast<Eigen::Index>(rotations.size());
+  Eigen::MatrixXd energies = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    Blocks unit = system.zero(), product = system.zero();
+    for (unsigned d = 0; d < 3; ++d) unit.block(d) = rotations[static_cast<std::size_t>(j)][d];
+    system.vmult(product, unit);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (unsigned d = 0; d < 3; ++d) energies(i, j) += rotations[static_cast<std::size_t>(i)][d] * product.block(d);
     }
   }
   rotation_inverse = energies.inverse();
 }
 
-void StokesSystem::Implementation::find_inner_pressure() {
-  cells.initialize_pressure(inner_pressure);
+void StokesSystem::Implementation::add_inner_pressure(int vesicle) {
+  InnerPressure& pressure = inner_pressures.emplace_back();
+  cells.initialize_pressure(pressure.values);
   std::vector<DofIndex> dofs(pressure_dofs->get_fe().n_dofs_per_cell());
   for (const auto& cell : pressure_dofs->active_cell_iterators()) {
-    if (!space->inside(static_cast<unsigned>(cell->index()))) continue;
+    const auto index = static_cast<unsigned>(cell->index());
+    if (!space->inside(index) || space->vesicle(index) != vesicle) continue;
     cell->get_dof_indices(dofs);
     for (const DofIndex dof : dofs) {
-      if (inner_pressure.locally_owned_elements().is_element(dof)) inner_pressure(dof) = 1.0;
+      if (pressure.values.locally_owned_elements().is_element(dof)) pressure.values(dof) = 1.0;
     }
   }
   Distributed product;
   cells.initialize_pressure(product);
-  cells.apply_pressure_mass(product, inner_pressure);
-  const double volume = ratio * (product * inner_pressure);
-  inner_pressure_factor = 1.0 / volume;
+  cells.apply_pressure_mass(product, pressure.values);
+  const double volume = ratio[vesicle] * (product * pressure.values);
+  pressure.factor = 1.0 / volume;
 }
 
 StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity) {
   require_valid(discretisation, viscosity);
   implementation_ = std::make_unique<Implementation>(discretisation.space(), viscosity);
-  if (implementation_->ratio > 1.0) implementation_->find_rotations(*this);
-  if (implementation_->ratio < 1.0) implementation_->find_inner_pressure();
+  for (int vesicle = 0; vesicle < space().n_vesicles; ++vesicle) {
+    if (implementation_->ratio[vesicle] > 1.0) implementation_->add_rotations(*this, vesicle);
+    if (implementation_->ratio[vesicle] < 1.0) implementation_->add_inner_pressure(vesicle);
+  }
+  if (!implementation_->rotations.empty()) implementation_->find_rotation_energies(*this);
 }
 
 StokesSystem::~StokesSystem() = default;
@@ -249,8 +241,11 @@ FlowLoad StokesSystem::load(const VectorOnSurface& force, const Matrix3& gradien
     result.net_torque += rule.weight[i] * (rule.position.col(i) - place.centre).cross(Vector3(density.col(i)));
   }
   // The background flow has a traction jump of its own where viscosities differ.
-  const Matrix3 background = (viscosity.inside - viscosity.outside) * (gradient + gradient.transpose());
-  const Vectors traction = density - background * rule.normal;
+  Vectors traction = density;
+  for (Eigen::Index i = 0; i < rule.size(); ++i) {
+    const double difference = viscosity.inside[rule.vesicle[i]] - viscosity.outside;
+    traction.col(i) -= difference * (gradient + gradient.transpose()) * rule.normal.col(i);
+  }
   std::vector<DofIndex> nodes;
   for (const auto& pair : place.trace->pairs().pairs) nodes.push_back(pair[0]);
   const OuterSphere& sphere = diffusion().outer();
@@ -284,18 +279,18 @@ void StokesSystem::precondition(Blocks& to, const Blocks& from) const {
   const Implementation& system = *implementation_;
   for (unsigned d = 0; d < 3; ++d) system.multigrid.vmult(to.block(d), from.block(d));
   if (!system.rotations.empty()) {
-    Vector3 moments = Vector3::Zero();
-    for (unsigned i = 0; i < 3; ++i) {
-      for (unsigned d = 0; d < 3; ++d) moments[i] += system.rotations[i][d] * from.block(d);
+    Vector moments = Vector::Zero(static_cast<Eigen::Index>(system.rotations.size()));
+    for (std::size_t i = 0; i < system.rotations.size(); ++i) {
+      for (unsigned d = 0; d < 3; ++d) moments[static_cast<Eigen::Index>(i)] += system.rotations[i][d] * from.block(d);
     }
-    const Vector3 rates = system.rotation_inverse * moments;
-    for (unsigned i = 0; i < 3; ++i) {
-      for (unsigned d = 0; d < 3; ++d) to.block(d).add(rates[i], system.rotations[i][d]);
+    const Vector rates = system.rotation_inverse * moments;
+    for (std::size_t i = 0; i < system.rotations.size(); ++i) {
+      for (unsigned d = 0; d < 3; ++d) to.block(d).add(rates[static_cast<Eigen::Index>(i)], system.rotations[i][d]);
     }
   }
   system.pressure_inverse.vmult(to.block(3), from.block(3));
-  if (system.inner_pressure_factor > 0.0) {
-    to.block(3).add(system.inner_pressure_factor * (system.inner_pressure * from.block(3)), system.inner_pressure);
+  for (const auto& pressure : system.inner_pressures) {
+    to.block(3).add(pressure.factor * (pressure.values * from.block(3)), pressure.values);
   }
 }
 

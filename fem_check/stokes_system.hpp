@@ -11,7 +11,7 @@ using Blocks = dealii::LinearAlgebra::distributed::BlockVector<double>;
 
 /// Of the fluids on both sides.
 struct Viscosities {
-  double inside;
+  PerVesicle<double> inside;
   double outside;
 };
 
@@ -23,9 +23,9 @@ struct FlowLoad {
 };
 
 /// Taylor–Hood system of Stokes flow, blocks u_x, u_y, u_z, p. The velocity form is μ∇u:∇w; where viscosities differ,
-/// ∇u:∇wᵀ comes on the side of the larger one. Lengths in units R of the space, viscosities over that of the outside:
-/// the velocity has its own unit, the pressure is p R/μ_e, and functionals of forces are divided by μ_e R. No matrix:
-/// the cells are integrated in every product.
+/// what each is more than the smallest of them multiplies ∇u:∇wᵀ. Lengths in units R of the space, viscosities over
+/// that of the outside: the velocity has its own unit, the pressure is p R/μ_e, and functionals of forces are divided
+/// by μ_e R. No matrix: the cells are integrated in every product.
 class StokesSystem {
  public:
   /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive

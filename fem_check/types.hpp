@@ -37,11 +37,16 @@ struct SurfacePoints {
   Vectors direction;                  ///< r̂(θ, φ) of the parametrisation x(θ, φ)
   Vector weight;                      ///< ∫ f dA = Σ f weight; zero where the points are no quadrature rule
   std::vector<int> face;              ///< number of the membrane face
+  std::vector<int> vesicle;           ///< of each point
   Eigen::Matrix2Xd face_coordinates;  ///< in [0, 1]² of that face
 
   [[nodiscard]] Eigen::Index size() const { return position.cols(); }
   [[nodiscard]] Vector theta() const;
   [[nodiscard]] Vector phi() const;
+  /// Numbers of the points on one membrane.
+  [[nodiscard]] std::vector<Eigen::Index> of_vesicle(int number) const;
+  /// Some of the points.
+  [[nodiscard]] SurfacePoints picked(const std::vector<Eigen::Index>& numbers) const;
 };
 
 /// Points of the volume with the cell that each lies in.

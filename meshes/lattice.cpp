@@ -14,13 +14,6 @@ int interval_of(const std::vector<double>& breaks, double value) {
   return static_cast<int>(next - breaks.begin()) - 1;
 }
 
-/// n cells of equal width on [−1, 1].
-std::vector<double> even_breaks(int n) {
-  std::vector<double> result;
-  for (int k = 0; k <= n; ++k) result.push_back(2.0 * k / n - 1.0);
-  return result;
-}
-
 /// Builds the cells; nodes are known by whole numbers, so that neighbours share them exactly.
 class Builder {
  public:

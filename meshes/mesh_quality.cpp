@@ -89,29 +89,34 @@ double scaled_jacobian(CellShape shape, const Matrix3& j) {
 /// A collapsed edge gives 0/0, and every comparison with a NaN would pass it over.
 double worst_if_undefined(double value) { return std::isnan(value) ? -std::numeric_limits<double>::infinity() : value; }
 
-double membrane_area(const VolumeMesh& mesh, int n_gauss) {
+/// Adds the areas of the membrane faces.
+void add_areas(const VolumeMesh& mesh, int n_gauss, std::vector<VesicleMeasures>& vesicles) {
   const std::vector<FacePoint> rule = face_rule(mesh.cell_shape(), n_gauss);
-  double area = 0.0;
   for (const InterfacePair& pair : mesh.interface()) {
     const std::array<int, 4>& corners = face_vertices(mesh.cell_shape(), pair.inside_face);
     const Point origin = unit_vertex(mesh.cell_shape(), corners[0]);
     const Point first = unit_vertex(mesh.cell_shape(), corners[1]) - origin;
     const Point second = unit_vertex(mesh.cell_shape(), corners[2]) - origin;
+    double& area = vesicles[mesh.cell(pair.inside_cell).vesicle].area;
     for (const FacePoint& p : rule) {
       const Matrix3 j = mesh.jacobian(pair.inside_cell, origin + p.a * first + p.b * second);
       area += p.weight * (j * first).cross(j * second).norm();
     }
   }
-  return area;
 }
 
 }  // namespace
 
 MeshQuality quality(const VolumeMesh& mesh, const FrozenShape& shape, int n_gauss) {
+  return quality(mesh, std::vector{shape}, n_gauss);
+}
+
+MeshQuality quality(const VolumeMesh& mesh, const std::vector<FrozenShape>& shapes, int n_gauss) {
   const CellShape cell_shape = mesh.cell_shape();
   std::vector<WeightedPoint> points = cell_rule(cell_shape, n_gauss);
   for (int v = 0; v < vertices_per_cell(cell_shape); ++v) points.push_back({unit_vertex(cell_shape, v), 0.0});
   MeshQuality result;
+  result.vesicles.resize(shapes.size());
   result.smallest_scaled_jacobian = std::numeric_limits<double>::max();
   double smallest_volume = std::numeric_limits<double>::max();
   double largest_volume = 0.0;
@@ -134,15 +139,25 @@ MeshQuality quality(const VolumeMesh& mesh, const FrozenShape& shape, int n_gaus
       result.worst_region = mesh.cell(c).region;
       result.worst_position = mesh.physical(c, where);
     }
-    if (mesh.cell(c).region == Region::inside) result.volume_inside += volume;
+    if (mesh.cell(c).region == Region::inside) result.vesicles[mesh.cell(c).vesicle].volume += volume;
     smallest_volume = std::min(smallest_volume, volume);
     largest_volume = std::max(largest_volume, volume);
   }
   result.smallest_size = std::cbrt(smallest_volume);
   result.largest_size = std::cbrt(largest_volume);
-  result.area = membrane_area(mesh, n_gauss);
-  result.volume_error = result.volume_inside / shape.volume() - 1.0;
-  result.area_error = result.area / shape.area() - 1.0;
+  add_areas(mesh, n_gauss, result.vesicles);
+  double volume_of_shapes = 0.0, area_of_shapes = 0.0;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    VesicleMeasures& vesicle = result.vesicles[k];
+    vesicle.volume_error = vesicle.volume / shapes[k].volume() - 1.0;
+    vesicle.area_error = vesicle.area / shapes[k].area() - 1.0;
+    result.volume_inside += vesicle.volume;
+    result.area += vesicle.area;
+    volume_of_shapes += shapes[k].volume();
+    area_of_shapes += shapes[k].area();
+  }
+  result.volume_error = result.volume_inside / volume_of_shapes - 1.0;
+  result.area_error = result.area / area_of_shapes - 1.0;
   return result;
 }
 

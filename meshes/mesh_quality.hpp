@@ -7,6 +7,14 @@
 
 namespace vehd::meshes {
 
+/// How much of one vesicle a mesh has.
+struct VesicleMeasures {
+  double volume = 0.0;        ///< inside
+  double area = 0.0;          ///< of its membrane faces
+  double volume_error = 0.0;  ///< relative to the shape's own, signed
+  double area_error = 0.0;
+};
+
 /// Figures of a mesh, taken on its curved map at the vertices and at Gauss points.
 struct MeshQuality {
   double smallest_scaled_jacobian = 1.0;  ///< 1 for a cube or a regular tetrahedron, ≤ 0 if inverted
@@ -18,14 +26,18 @@ struct MeshQuality {
   double smallest_size = 0.0;  ///< cube root of the smallest and of the largest cell volume
   double largest_size = 0.0;
 
+  // Of all vesicles together.
   double volume_inside = 0.0;  ///< of the mesh
   double area = 0.0;           ///< of its membrane faces
-  double volume_error = 0.0;   ///< relative to the shape's own, signed
+  double volume_error = 0.0;   ///< relative to the shapes' own, signed
   double area_error = 0.0;
+  std::vector<VesicleMeasures> vesicles;
 };
 
 /// @param n_gauss  points per direction of the quadrature that gives volume and area
 /// Accuracy: volume and area of a fine block mesh to 2e-6 (tests/meshes/block_mesh_test.cpp)
+/// @param shapes   of its vesicles
+MeshQuality quality(const VolumeMesh& mesh, const std::vector<FrozenShape>& shapes, int n_gauss = 4);
 MeshQuality quality(const VolumeMesh& mesh, const FrozenShape& shape, int n_gauss = 4);
 
 /// @throws MeshError naming position, region, value and threshold unless every cell reaches the threshold

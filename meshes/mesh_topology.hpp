@@ -22,6 +22,7 @@ struct MeshCell {
   std::array<int, 8> vertices;
   Region region;
   std::array<FaceKind, 6> faces;
+  int vesicle = 0;  ///< that it lies in, or outside, that it belongs to
 };
 
 /// One face of the membrane seen from both sides.

@@ -84,14 +84,15 @@ void add_region(int volume, const std::string& name, CellShape shape, const Regi
   gmsh::model::setPhysicalName(3, volume, name);
 }
 
-/// The faces of the membrane as elements of their own, on the nodes that the cells of one region have there.
-void add_membrane(int surface, const std::string& name, const VolumeMesh& mesh, Region region, NodeNumbers& numbers,
-                  std::size_t& last_tag) {
+/// The faces of one membrane as elements of their own, on the nodes that the cells of one region have there.
+void add_membrane(int surface, const std::string& name, const VolumeMesh& mesh, Region region, int vesicle,
+                  NodeNumbers& numbers, std::size_t& last_tag) {
   constexpr int kQuadrangle9 = 10;  // gmsh's element types
   constexpr int kTriangle6 = 9;
   const bool is_hexahedron = mesh.cell_shape() == CellShape::hexahedron;
   std::vector<std::size_t> tags, nodes;
   for (const InterfacePair& pair : mesh.interface()) {
+    if (mesh.cell(pair.inside_cell).vesicle != vesicle) continue;
     const int cell = region == Region::inside ? pair.inside_cell : pair.outside_cell;
     const std::array<int, 4>& inner = face_vertices(mesh.cell_shape(), pair.inside_face);
     // Corners around the face, outwards from the inside: deal.II's own order of a quadrangle crosses it.
@@ -138,17 +139,25 @@ void write_msh(const std::filesystem::path& file, const VolumeMesh& mesh, const 
     throw MeshError(fmt::format("cannot write {}: there is no folder {}", file.string(), folder.string()));
   }
   NodeNumbers numbers;
-  std::array<RegionElements, 2> regions;
+  const int n_vesicles = mesh.n_vesicles();
+  std::vector<RegionElements> inside(n_vesicles);
+  RegionElements outside;
   for (int c = 0; c < mesh.n_cells(); ++c) {
-    add_element(mesh, c, numbers, regions[static_cast<int>(mesh.cell(c).region)]);
+    const MeshCell& cell = mesh.cell(c);
+    add_element(mesh, c, numbers, cell.region == Region::inside ? inside[cell.vesicle] : outside);
   }
+  const auto of_vesicle = [&](const std::string& name, int vesicle) {
+    return n_vesicles == 1 ? name : fmt::format("{}_{}", name, vesicle);
+  };
   const GmshSession session;
   try {
-    add_region(1, "inside", mesh.cell_shape(), regions[0]);
-    add_region(2, "outside", mesh.cell_shape(), regions[1]);
+    for (int k = 0; k < n_vesicles; ++k) add_region(k + 1, of_vesicle("inside", k), mesh.cell_shape(), inside[k]);
+    add_region(n_vesicles + 1, "outside", mesh.cell_shape(), outside);
     auto last_tag = static_cast<std::size_t>(mesh.n_cells());
-    add_membrane(1, "membrane", mesh, Region::inside, numbers, last_tag);
-    add_membrane(2, "membrane_outside", mesh, Region::outside, numbers, last_tag);
+    for (int k = 0; k < n_vesicles; ++k) {
+      add_membrane(2 * k + 1, of_vesicle("membrane", k), mesh, Region::inside, k, numbers, last_tag);
+      add_membrane(2 * k + 2, of_vesicle("membrane_outside", k), mesh, Region::outside, k, numbers, last_tag);
+    }
     const int view = add_quality_view(quality);
     gmsh::write(file.string());
     // A view brings its own copy of the mesh unless told otherwise: every element would be there twice.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "meshes/block_map.hpp"
+#include "meshes/breaks.hpp"
 #include "meshes/relaxation.hpp"
 
 namespace vehd::meshes {
@@ -13,15 +14,6 @@ namespace {
 /// the energy falls much more slowly.
 constexpr int kCellsPerEdge = 2;
 constexpr int kDegree = 4;
-
-/// Layers from 0 to 1, each `growth` times as thick as the one before.
-std::vector<double> layer_breaks(int layers, double growth) {
-  std::vector<double> result{0.0};
-  double thickness = 1.0;
-  for (int k = 0; k < layers; ++k, thickness *= growth) result.push_back(result.back() + thickness);
-  for (double& value : result) value /= result.back();
-  return result;
-}
 
 /// Direction V g/|g| of a place outside the core.
 Point direction_of(const BlockPlace& place, const BlockAxes& axes) {

@@ -1,6 +1,14 @@
 #include "meshes/volume_mesh.hpp"
 
+#include <algorithm>
+
 namespace vehd::meshes {
+
+int VolumeMesh::n_vesicles() const {
+  int result = 0;
+  for (const MeshCell& cell : topology_.cells) result = std::max(result, cell.vesicle + 1);
+  return result;
+}
 
 std::vector<Point> VolumeMesh::vertex_positions() const {
   std::vector<Point> result(topology_.vertices.size(), Point::Zero());

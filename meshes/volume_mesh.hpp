@@ -10,7 +10,8 @@
 
 namespace vehd::meshes {
 
-/// Curved volume mesh of the inside of a membrane γ and of the shell between γ and a sphere of radius R.
+/// Curved volume mesh of the inside of a membrane γ and of the shell between γ and a sphere of radius R. γ may be the
+/// membranes of several vesicles.
 ///
 /// The geometry is a smooth map of every unit cell. Both cells at a face map it to the same points, up to rounding; the
 /// outer boundary and, for block meshes, γ lie exactly where they should. Immutable, threads may share it.
@@ -23,6 +24,7 @@ class VolumeMesh {
   [[nodiscard]] int n_cells() const { return static_cast<int>(topology_.cells.size()); }
   [[nodiscard]] const MeshCell& cell(int index) const { return topology_.cells[index]; }
   [[nodiscard]] const std::vector<InterfacePair>& interface() const { return topology_.interface; }
+  [[nodiscard]] int n_vesicles() const;
 
   /// Centre and radius R of the outer sphere.
   [[nodiscard]] const Point& centre() const { return centre_; }

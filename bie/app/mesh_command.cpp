@@ -24,7 +24,7 @@ ExitCode mesh(const MeshOptions& options) {
   const FrozenShape shape = read_frozen_shape(options.file, options.time);
   if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
   const FemProgram::Result result =
-      write_volume_mesh(fem, {shape.position, options.output, options.family, options.refine});
+      write_volume_mesh(fem, {shape.positions, options.output, options.family, options.refine});
   if (result.code != ExitCode::done) return result.code;
   fmt::print("mesh: {}\n", options.output);
   write_json(options.common, result.json);
@@ -34,7 +34,7 @@ ExitCode mesh(const MeshOptions& options) {
 }  // namespace
 
 void add_mesh_command(CLI::App& program, ExitCode& exit_code) {
-  CLI::App* command = program.add_subcommand("mesh", "Write the gmsh volume mesh of a frozen shape");
+  CLI::App* command = program.add_subcommand("mesh", "Write the gmsh volume mesh of a frozen shape, or of two");
   const auto options = std::make_shared<MeshOptions>();
   command->add_option("FILE", options->file, "run.h5 of a run, or a scene (.toml) for its initial shape")->required();
   add_snapshot_time(*command, options->time);

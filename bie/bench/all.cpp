@@ -92,18 +92,23 @@ class AllBenches {
   void keep(const BenchResult& result) {
     record_[result.name] = write_bench(result, task_.output, observer_);
     for (std::size_t i = 0; i < result.tables.size(); ++i) {
-      const std::string name = i == 0 ? result.name : result.name + "_" + result.tables[i].name;
+      const std::string name = name_of_table(result, i);
       const std::string text =
           fmt::format("{}\n*{}{}; medians of up to {} repeats.*\n", markdown_of(result.tables[i]),
                       text_of(result.machine), task_.quick ? "; a trial, not for comparison" : "", result.repeats);
       if (put_table(task_.docs, name, text) > 0) wanted_.erase(name);
+      keep_picture(name);
     }
-    const std::string picture = "bench_" + result.name + ".png";
+  }
+
+  /// Where a page shows it.
+  void keep_picture(const std::string& name) {
+    const std::string picture = "bench_" + name + ".png";
     if (!task_.output.plot || !pages_mention(task_.docs, "images/" + picture)) return;
     std::error_code error;
-    fs::copy_file(task_.output.directory / (result.name + ".png"), task_.docs / "images" / picture,
+    fs::copy_file(task_.output.directory / (name + ".png"), task_.docs / "images" / picture,
                   fs::copy_options::overwrite_existing, error);
-    if (error) observer_.warn(fmt::format("no new picture of {}: {}", result.name, error.message()));
+    if (error) observer_.warn(fmt::format("no new picture of {}: {}", name, error.message()));
   }
 
   void scenes() {
@@ -166,7 +171,7 @@ class AllBenches {
                      {"time", fmt::format("the end of the scene, halved until the reference is predicted to take less "
                                           "than {:g} s",
                                           longest_run)},
-                     {"predicted", "seconds of the cost table"}},
+                     {"predicted", "seconds of the cost table without files, which these runs do not write"}},
                     {{"rows",
                       {{"scene", "scene", "{}", false, 24},
                        {"time", "t", "{:g}"},
@@ -199,7 +204,7 @@ class AllBenches {
           cells.push_back(cell(row, key));
         }
         cells.emplace_back();
-        if (!asked.costs.empty()) cells.back() = asked.costs[row].seconds;
+        if (!asked.costs.empty()) cells.back() = asked.costs[row].seconds - asked.costs[row].file_seconds;
         all.tables.front().rows.push_back(std::move(cells));
       }
     }

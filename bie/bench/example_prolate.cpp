@@ -34,7 +34,9 @@ Matrix linear_image_of_sphere(int order, const Matrix3& map) {
 ProlateResult solve_translating_prolate(int order) {
   NumericalSettings settings;
   settings.order = order;
+  const auto begin = std::chrono::steady_clock::now();
   const MembraneSpace space(settings, {});
+  const std::chrono::duration<double> tables = std::chrono::steady_clock::now() - begin;
   const Matrix3 frame = rotated_frame();
   const Matrix3 stretch = Vector3(1.0, 1.0, 2.0).asDiagonal();
   const Matrix position = linear_image_of_sphere(order, frame * stretch * frame.transpose());
@@ -55,6 +57,7 @@ ProlateResult solve_translating_prolate(int order) {
   pull(frame.col(2), exact.along);
   pull(frame.col(0), exact.across);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.first_seconds = tables.count() + result.seconds;
   return result;
 }
 

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
+#include <functional>
+#include <utility>
 
+#include "bie/bench/equal_error.hpp"
 #include "bie/bench/example1.hpp"
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/fem_program.hpp"
@@ -30,43 +34,81 @@ constexpr double near_radius = 8.0, far_radius = 16.0;
 constexpr int highest_far_degree = 5;
 
 struct LevelPlan {
-  std::vector<int> orders;          ///< p
-  std::vector<int> element_degree;  ///< k on the coarse mesh
-  std::vector<int> cells_per_edge;  ///< at the lowest of these degrees
+  std::vector<int> orders;                ///< p
+  std::vector<int> element_degree;        ///< k on the coarse mesh
+  std::vector<int> cells_per_edge;        ///< at the lowest of these degrees
+  std::vector<int> element_degree_shape;  ///< k where everything is found from the shape
+  int reference_order;                    ///< of that
 };
 
 LevelPlan plan_of(bool quick) {
-  if (quick) return {{8, 12}, {2, 3}, {3, 4}};
-  return {{8, 12, 16, 20, 24, 32}, {2, 3, 4, 5, 6, 7}, {2, 3, 4, 6, 8, 12}};
+  if (quick) return {{8, 12}, {2, 3}, {3, 4}, {2, 3}, 16};
+  return {{8, 12, 16, 20, 24, 32}, {2, 3, 4, 5, 6, 7}, {2, 3, 4, 6, 8, 12}, {3, 4, 5, 6, 7}, 48};
 }
 
-MethodLevel bie_level(int order, int repeats) {
+/// What either method solves.
+struct MethodsProblem {
+  const char* name;            ///< subcommand of the finite elements
+  const char *first, *second;  ///< names of the fields in their result
+};
+constexpr MethodsProblem sources_problem{"sources", "q", "force"}, shape_problem{"shape-flow", "velocity", "tension"};
+
+double processor_seconds(const std::function<void()>& work) {
+  const std::clock_t start = std::clock();
+  work();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+MethodLevel level_of_order(int order, int n_scalars) {
   MethodLevel level;
   level.curve = bie;
   level.degree = order;
-  level.unknowns = std::int64_t{order + 1} * (order + 1);
+  level.unknowns = std::int64_t{n_scalars} * (order + 1) * (order + 1);
+  return level;
+}
+
+MethodLevel sources_level(int order, int repeats) {
+  MethodLevel level = level_of_order(order, 1);
   const int upsampling = NumericalSettings().upsampling;
+  PointSourceErrors errors;
   while (wants_repeat(level.seconds, repeats)) {
-    const std::clock_t start = std::clock();
-    const PointSourceErrors errors = solve_example1(order, upsampling).errors;
-    level.seconds.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-    level.charge_l2 = errors.charge_l2;
-    level.charge_max = errors.charge;
-    level.force_l2 = errors.force_l2;
-    level.force_max = errors.force;
+    level.seconds.push_back(processor_seconds([&] { errors = solve_example1(order, upsampling).errors; }));
   }
+  level.first = {errors.charge_l2, errors.charge};
+  level.second = {errors.force_l2, errors.force};
   level.peak_memory_bytes = peak_memory_bytes();
+  return level;
+}
+
+/// The unknowns of its solves are q and λ.
+MethodLevel shape_level(const ShapeFlowProblem& problem, int order, int repeats) {
+  MethodLevel level = level_of_order(order, 2);
+  ShapeFlowErrors errors;
+  while (wants_repeat(level.seconds, repeats)) {
+    std::optional<SolvedFields> solved;
+    level.seconds.push_back(processor_seconds([&] { solved = problem.solve(order); }));
+    errors = problem.errors_of(*solved);
+  }
+  level.first = errors.velocity;
+  level.second = errors.tension;
+  level.peak_memory_bytes = memory_of({"shape",
+                                       [&](int degree) {
+                                         static_cast<void>(problem.solve(degree));
+                                         return SolvedProblem{};
+                                       }},
+                                      order);
   return level;
 }
 
 /// Runs the levels of finite elements; each is a process of its own.
 class FemLevels {
  public:
-  FemLevels(const std::filesystem::path& directory, int shape_order) : input_(directory / "sources.h5") {
-    write_sources_input(input_.path(), example1_position(shape_order), example1_electric(), example1_sources());
-  }
+  /// @param input  file of the problem, gone at the end
+  FemLevels(const MethodsProblem& problem, std::filesystem::path input) : problem_(problem), input_(std::move(input)) {}
 
   double outer_radius = 0.0;
+
+  [[nodiscard]] const std::filesystem::path& input() const { return input_.path(); }
 
   MethodLevel operator()(const MethodCurve& curve, int degree, int cells_per_edge, int repeats,
                          double radius = near_radius) {
@@ -76,30 +118,35 @@ class FemLevels {
     level.cells_per_edge = cells_per_edge;
     while (wants_repeat(level.seconds, repeats)) {
       const FemProgram::Result result =
-          program_.run({"sources", input_.path().string(), "--degree", std::to_string(degree), "--cells",
+          program_.run({problem_.name, input_.path().string(), "--degree", std::to_string(degree), "--cells",
                         std::to_string(cells_per_edge), "--radius", fmt::format("{}", radius)});
       if (result.code != ExitCode::done) throw std::runtime_error("the finite elements stopped, see above");
       const nlohmann::json& json = result.json;
+      const auto error = [&](const char* field) {
+        return MethodError{json["fields"][field]["l2"], json["fields"][field]["max"]};
+      };
       level.seconds.push_back(json["seconds"]);
       level.unknowns = json["dofs"];
-      level.peak_memory_bytes = json["memory_bytes"];
-      level.charge_l2 = json["fields"]["q"]["l2"];
-      level.charge_max = json["fields"]["q"]["max"];
-      level.force_l2 = json["fields"]["force"]["l2"];
-      level.force_max = json["fields"]["force"]["max"];
+      level.peak_memory_bytes = json["memory_bytes"].get<std::int64_t>();
+      level.first = error(problem_.first);
+      level.second = error(problem_.second);
       outer_radius = json["truncation_radius"];
     }
     return level;
   }
 
  private:
+  MethodsProblem problem_;
   FemProgram program_;
   TemporaryFile input_;
 };
 
-BenchTable empty_methods_table() {
+/// @param headings  of both errors
+BenchTable empty_methods_table(const std::string& name, const MethodsProblem& problem,
+                               const std::array<const char*, 2>& headings) {
   constexpr const char* kError = "{:.1e}";
-  return {"rows",
+  const std::string first = std::string("error_") + problem.first, second = std::string("error_") + problem.second;
+  return {name,
           {{"method", ""},
            {"label", "method", "{}", false, 25},
            {"degree", "degree"},
@@ -108,27 +155,51 @@ BenchTable empty_methods_table() {
            {"seconds", "seconds", "{:.2g}", true},
            {"memory_bytes", ""},
            {"megabytes", "MB", "{:.0f}"},
-           {"error_q", "error of q", kError},
-           {"error_q_max", ""},
-           {"error_force", "error of f_E", kError},
-           {"error_force_max", ""}}};
+           {first, headings[0], kError},
+           {first + "_max", ""},
+           {second, headings[1], kError},
+           {second + "_max", ""}}};
 }
 
 std::vector<BenchCell> row_of(const MethodLevel& level) {
-  BenchCell cells;
+  BenchCell cells, bytes, megabytes;
   if (level.cells_per_edge > 0) cells = std::int64_t{level.cells_per_edge};
+  if (level.peak_memory_bytes) {
+    bytes = *level.peak_memory_bytes;
+    megabytes = static_cast<double>(*level.peak_memory_bytes) / 1e6;
+  }
   return {level.curve.name,
           level.curve.label,
           std::int64_t{level.degree},
           cells,
           level.unknowns,
           spread_of(level.seconds),
-          level.peak_memory_bytes,
-          static_cast<double>(level.peak_memory_bytes) / 1e6,
-          level.charge_l2,
-          level.charge_max,
-          level.force_l2,
-          level.force_max};
+          bytes,
+          megabytes,
+          level.first.l2,
+          level.first.max,
+          level.second.l2,
+          level.second.max};
+}
+
+/// What everything that a step solves for costs, from the shape.
+BenchTable from_shape_table(const LevelPlan& plan, int repeats, const std::filesystem::path& folder, BenchTasks& tasks,
+                            BenchObserver& observer) {
+  tasks.next(fmt::format("boundary integrals, p = {}, as the exact solution", plan.reference_order));
+  const ShapeFlowProblem problem(plan.reference_order);
+  FemLevels fem(shape_problem, folder / "shape_flow.h5");
+  problem.write_input(fem.input());
+  BenchTable table = empty_methods_table("from_shape", shape_problem, {"error of v", "error of λ"});
+  observer.heading(table);
+  for (const int order : plan.orders) {
+    tasks.next(fmt::format("boundary integrals from the shape, p = {}", order));
+    add_row(table, row_of(shape_level(problem, order, repeats)), observer);
+  }
+  for (const int degree : plan.element_degree_shape) {
+    tasks.next(fmt::format("finite elements from the shape, k = {}", degree));
+    add_row(table, row_of(fem(fem_degree, degree, coarse_cells, repeats)), observer);
+  }
+  return table;
 }
 
 }  // namespace
@@ -138,20 +209,26 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
   const ThreadCount one_thread(1);
   const LevelPlan plan = plan_of(task.quick);
   const int shape_order = plan.orders.back();
-  FemLevels fem(folder, shape_order);
+  FemLevels fem(sources_problem, folder / "sources.h5");
+  write_sources_input(fem.input(), example1_position(shape_order), example1_electric(), example1_sources());
 
   observer.note(
       fmt::format("Example 1 on shape (33), seconds of one core, up to {} repeats; errors: relative L2", task.repeats));
-  BenchResult result{"methods", machine_record(), task.repeats, {}, {empty_methods_table()}};
+  BenchResult result{"methods",
+                     machine_record(),
+                     task.repeats,
+                     {},
+                     {empty_methods_table("rows", sources_problem, {"error of q", "error of f_E"})}};
   BenchTable& table = result.tables.front();
-  BenchTasks tasks(static_cast<int>(plan.orders.size() + plan.element_degree.size() + plan.cells_per_edge.size() + 1),
+  BenchTasks tasks(static_cast<int>(2 * plan.orders.size() + plan.element_degree.size() + plan.cells_per_edge.size() +
+                                    plan.element_degree_shape.size() + 2),
                    observer);
   observer.heading(table);
   const auto keep = [&](const MethodLevel& level) { add_row(table, row_of(level), observer); };
   // Peak memory is that of the process so far: ascending orders make it that of the level.
   for (const int order : plan.orders) {
     tasks.next(fmt::format("boundary integrals, p = {}", order));
-    keep(bie_level(order, task.repeats));
+    keep(sources_level(order, task.repeats));
   }
   MethodLevel compared;
   for (const int degree : plan.element_degree) {
@@ -168,15 +245,20 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
   const double radius = fem.outer_radius;
   tasks.next("finite elements in a larger sphere");
   const MethodLevel far = fem(fem_degree, compared.degree, coarse_cells, 1, far_radius);
-  const double change = std::abs(far.charge_l2 - compared.charge_l2);
+  const double change = std::abs(far.first.l2 - compared.first.l2);
   observer.note(fmt::format("outer sphere at R = {:.3g}; at {:.3g} the error of q at k = {} changes by {:.0e}", radius,
                             fem.outer_radius, far.degree, change));
-  result.facts = {{"problem", "Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources"},
-                  {"seconds_are", "of one core, from the shape to q and f_E: tables, mesh, matrices, solve"},
-                  {"shape_order", shape_order},
-                  {"truncation_radius", radius},
-                  {"truncation_radius_second", fem.outer_radius},
-                  {"truncation_change_q", change}};
+  result.facts = {
+      {"problem", "Example 1: shape (33), sigma_i = 2, sigma_e = 1, six point sources"},
+      {"seconds_are", "of one core, from the shape to q and f_E: tables, mesh, matrices, solve"},
+      {"shape_order", shape_order},
+      {"truncation_radius", radius},
+      {"truncation_radius_second", fem.outer_radius},
+      {"truncation_change_q", change},
+      {"from_shape_problem",
+       "q, f_E, f_b, lambda and v of shape (33) in a field and a shear from x and V_m; errors of v and lambda"},
+      {"from_shape_reference_order", plan.reference_order}};
+  result.tables.push_back(from_shape_table(plan, task.repeats, folder, tasks, observer));
   return result;
 }
 

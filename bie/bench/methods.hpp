@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bie/bench/result.hpp"
+#include "bie/bench/shape_flow_problem.hpp"
 
 namespace vehd {
 
@@ -14,15 +16,15 @@ struct MethodCurve {
   std::string label;  ///< in the table and the picture
 };
 
-/// One solution: the point-source problem of Example 1 on shape (33), on one core.
+/// One solution on one core.
 struct MethodLevel {
   MethodCurve curve;
   int degree = 0;          ///< of the harmonics, or of the elements
   int cells_per_edge = 0;  ///< of a block of the mesh; 0 without a mesh
   std::int64_t unknowns = 0;
-  std::vector<double> seconds;  ///< of the processor, from the shape to q and f_E: tables, mesh, matrices; each repeat
-  std::int64_t peak_memory_bytes = 0;
-  double charge_l2 = 0.0, charge_max = 0.0, force_l2 = 0.0, force_max = 0.0;  ///< relative errors
+  std::vector<double> seconds;  ///< of the processor, from the shape to the fields on γ; each repeat
+  std::optional<std::int64_t> peak_memory_bytes;
+  MethodError first, second;  ///< of q and f_E, or of v and λ
 };
 
 /// How much is measured.
@@ -31,7 +33,8 @@ struct MethodsTask {
   int repeats = 3;
 };
 
-/// Boundary integrals against finite elements, both on one thread.
+/// Boundary integrals against finite elements, both on one thread: the point sources of Example 1 on shape (33), whose
+/// solution is known, and as a further table all that a step solves for, ShapeFlowProblem.
 /// @param folder  for files that are gone at the end
 /// @throws InputError if the finite-element program is not there
 BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder, BenchObserver& observer);

@@ -48,6 +48,8 @@ bool has_points(const BenchCurve& curve) {
 }
 
 std::vector<BenchPanel> time_panels(const BenchRecord& record) {
+  // Its further tables are no curves.
+  if (!record.has("steps")) return {};
   // Errors of the steps alone: files of earlier programs do not have them.
   const bool apart = record.has("error_in_time");
   const std::string error = apart ? "error_in_time" : "error";
@@ -124,24 +126,37 @@ std::vector<BenchPanel> symmetry_panels(const BenchRecord& record) {
   return {panel};
 }
 
-std::vector<BenchPanel> methods_panels(const BenchRecord& record) {
+/// Errors of two fields by each method.
+struct MethodFields {
+  std::string first, first_label, second, second_label;
+};
+
+std::vector<BenchPanel> panels_of_methods(const BenchRecord& record, const MethodFields& fields) {
   BenchPanel seconds{"seconds of one core", "relative error, L2 over the membrane"}, unknowns{"unknowns", ""};
   int colour = 0;
   for (const std::string& method : record.different("method")) {
     const std::string label = record.texts("label", "method", method).front();
-    for (const bool force : {false, true}) {
-      const std::string error = force ? "error_force" : "error_q";
-      const std::string name = label + (force ? ": f_E" : ": q");
-      const CurveKind kind = force ? CurveKind::dashed : CurveKind::line;
+    for (const bool is_second : {false, true}) {
+      const std::string error = "error_" + (is_second ? fields.second : fields.first);
+      const std::string name = label + ": " + (is_second ? fields.second_label : fields.first_label);
+      const CurveKind kind = is_second ? CurveKind::dashed : CurveKind::line;
       seconds.curves.push_back(curve_of(record, name, {"seconds", error, "method", method}, colour, kind));
       unknowns.curves.push_back(curve_of(record, name, {"unknowns", error, "method", method}, colour, kind));
-      if (method == "fem_mesh" && force) {
+      if (method == "fem_mesh" && is_second) {
         unknowns.slopes.push_back(slope_beside(unknowns.curves.back(), -0.75, "N^{\u22120.75}", 3.0));
       }
     }
     ++colour;
   }
   return {seconds, unknowns};
+}
+
+std::vector<BenchPanel> methods_panels(const BenchRecord& record) {
+  return panels_of_methods(record, {"q", "q", "force", "f_E"});
+}
+
+std::vector<BenchPanel> from_shape_panels(const BenchRecord& record) {
+  return panels_of_methods(record, {"velocity", "v", "tension", "λ"});
 }
 
 std::vector<BenchPanel> tolerances_panels(const BenchRecord& record) {
@@ -158,10 +173,10 @@ struct Maker {
   const char* bench;
   std::vector<BenchPanel> (*panels)(const BenchRecord& record);
 };
-constexpr std::array makers = {Maker{"space", space_panels},          Maker{"time", time_panels},
-                               Maker{"parts", parts_panels},          Maker{"threads", threads_panels},
-                               Maker{"symmetry", symmetry_panels},    Maker{"methods", methods_panels},
-                               Maker{"tolerances", tolerances_panels}};
+constexpr std::array makers = {Maker{"space", space_panels},           Maker{"time", time_panels},
+                               Maker{"parts", parts_panels},           Maker{"threads", threads_panels},
+                               Maker{"symmetry", symmetry_panels},     Maker{"methods", methods_panels},
+                               Maker{"tolerances", tolerances_panels}, Maker{"methods_from_shape", from_shape_panels}};
 
 }  // namespace
 

@@ -12,6 +12,10 @@ void add_row(BenchTable& table, std::vector<BenchCell> row, BenchObserver& obser
   table.rows.push_back(std::move(row));
 }
 
+std::string name_of_table(const BenchResult& result, std::size_t table) {
+  return table == 0 ? result.name : result.name + "_" + result.tables[table].name;
+}
+
 nlohmann::ordered_json json_of(const BenchResult& result) {
   nlohmann::ordered_json json = {
       {"bench", result.name}, {"machine", json_of(result.machine)}, {"repeats", result.repeats}};
@@ -26,14 +30,16 @@ nlohmann::ordered_json write_bench(const BenchResult& result, const BenchOutput&
   nlohmann::ordered_json json = json_of(result);
   replace_file(file(".json"), json.dump(2) + "\n");
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
-    replace_file(file(i == 0 ? ".csv" : "_" + result.tables[i].name + ".csv"), csv_of(result.tables[i]));
+    replace_file(output.directory / (name_of_table(result, i) + ".csv"), csv_of(result.tables[i]));
   }
   observer.note("files: " + file(".*").string());
-  if (!output.plot || result.tables.empty()) return json;
-  try {
-    draw_record(file(".csv"));
-  } catch (const std::exception& problem) {
-    observer.warn(fmt::format("no picture: {}", problem.what()));
+  if (!output.plot) return json;
+  for (std::size_t i = 0; i < result.tables.size(); ++i) {
+    try {
+      draw_record(output.directory / (name_of_table(result, i) + ".csv"));
+    } catch (const std::exception& problem) {
+      observer.warn(fmt::format("no picture: {}", problem.what()));
+    }
   }
   return json;
 }

@@ -10,6 +10,7 @@
 
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/check_samples.hpp"
+#include "bie/comparison/coupled_check_fields.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/file_system.hpp"
@@ -51,7 +52,17 @@ int estimate_order(int order, bool quick) {
   return order + 2 <= highest_order ? highest_order : 3 * order / 4;
 }
 
-FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task) {
+namespace {
+
+/// Lets the finite elements solve what the file has, and compare.
+FemProgram::Result run_elements(const FemProgram& fem, const CheckTask& task, const std::filesystem::path& input) {
+  std::vector<std::string> arguments{"check", input.string(), "-o", task.directory.string()};
+  if (task.quick) arguments.emplace_back("--quick");
+  if (task.required) arguments.insert(arguments.end(), {"--require", fmt::format("{}", *task.required)});
+  return fem.run(arguments, task.n_ranks);
+}
+
+void compare_one(const CheckTask& task, const std::filesystem::path& input) {
   const FrozenState& frozen = task.frozen;
   const CheckContents contents = check_contents(frozen);
   const Matrix force = contents.flow ? total_force(frozen, frozen.fields.vesicles.front()) : Matrix();
@@ -65,18 +76,50 @@ FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task)
   const int order = order_of(frozen.state.vesicles.front().position.rows()), other = estimate_order(order, task.quick);
   CheckFields at_order = solved_at(order), for_error = solved_at(other);
   keep_known(samples, at_order, for_error);
-  const std::filesystem::path input = task.directory / "check_input.h5";
   std::optional<InTime> in_time;
   if (task.span) {
     in_time = InTime{*task.span, potential_in_time(frozen, *task.span, order, false),
-                     potential_in_time(frozen, *task.span, other, true)};
+                     potential_in_time(frozen, *task.span, other, true), change_by_finer_motion(frozen, *task.span)};
   }
   write_check_input(input, {frozen, contents, force, samples, at_order, for_error, in_time ? &*in_time : nullptr});
+}
 
-  std::vector<std::string> arguments{"check", input.string(), "-o", task.directory.string()};
-  if (task.quick) arguments.emplace_back("--quick");
-  if (task.required) arguments.insert(arguments.end(), {"--require", fmt::format("{}", *task.required)});
-  return fem.run(arguments, task.n_ranks);
+void compare_several(const CheckTask& task, const std::filesystem::path& input) {
+  const FrozenState& frozen = task.frozen;
+  const CheckContents contents = check_contents(frozen);
+  const std::size_t n = frozen.state.vesicles.size();
+  std::vector<Matrix> forces(n);
+  std::vector<int> orders, others;
+  for (std::size_t a = 0; a < n; ++a) {
+    if (contents.flow) forces[a] = total_force(frozen, frozen.fields.vesicles[a], a);
+    orders.push_back(order_of(frozen.state.vesicles[a].position.rows()));
+    others.push_back(estimate_order(orders[a], task.quick));
+  }
+  make_directory(task.directory);
+  const auto solved_at = [&](const std::vector<int>& of_each) {
+    std::vector<CheckFields> fields = coupled_check_fields(frozen, contents, forces, of_each);
+    if (task.tell) task.tell(fields.front());
+    return fields;
+  };
+  const std::vector<CheckFields> at_order = solved_at(orders), for_error = solved_at(others);
+  const CheckSamples none;
+  std::vector<CheckInput> inputs;
+  for (std::size_t a = 0; a < n; ++a) {
+    inputs.push_back({frozen, contents, forces[a], none, at_order[a], for_error[a], nullptr, a});
+  }
+  write_check_inputs(input, inputs);
+}
+
+}  // namespace
+
+FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task) {
+  const std::filesystem::path input = task.directory / "check_input.h5";
+  if (task.frozen.state.vesicles.size() == 1) {
+    compare_one(task, input);
+  } else {
+    compare_several(task, input);
+  }
+  return run_elements(fem, task, input);
 }
 
 }  // namespace vehd

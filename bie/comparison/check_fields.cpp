@@ -27,14 +27,6 @@ namespace {
 const VesicleState& membrane_of(const FrozenState& frozen) { return frozen.state.vesicles.front(); }
 const VesicleModel& vesicle_of(const FrozenState& frozen) { return frozen.model.vesicles.front(); }
 
-/// The parts of the model that are compared.
-Model compared_model(const FrozenState& frozen, const CheckContents& contents) {
-  Model model = frozen.model;
-  if (!contents.electric) model.electric.reset();
-  model.mobile = contents.flow;
-  return model;
-}
-
 /// All values in one call; where that fails each point on its own, and NaN where none is found.
 /// @param values  [n x components] of [n x 3] points; @throws ConvergenceError
 Matrix where_possible(const Matrix& points, Index components, const std::function<Matrix(const Matrix&)>& values) {
@@ -75,7 +67,7 @@ class FrozenSolver {
     const VesicleFields& fields = solved_.fields.vesicles.front();
     result.charge = fields.charge;
     result.force_electric = fields.force_electric;
-    result.potential_rate = solved_.vesicles.front().potential_rate;
+    result.potential_rate = charging_rate();
     const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields);
     result.potential_of_charges = fields.potential;
     result.free_charge_rate = solved_.vesicles.front().free_charge_rate;
@@ -115,6 +107,13 @@ class FrozenSolver {
   }
 
  private:
+  [[nodiscard]] Vector charging_rate() const {
+    const Vector& rate = solved_.vesicles.front().potential_rate;
+    const Vector& varies = membrane_.material.capacitance;
+    if (varies.size() == 0 || relaxes_charge(frozen_.model)) return rate;
+    const Vector current = varies.cwiseProduct(Vector(membrane_.fine.synthesize(rate)));
+    return membrane_.fine.analyze(current) / vesicle_of(frozen_).charging.capacitance;
+  }
   /// Values with a last column that is 1 inside and 0 outside.
   static Matrix with_sides(const Matrix& values, const std::vector<Side>& sides) {
     Matrix joined(values.rows(), values.cols() + 1);
@@ -187,9 +186,16 @@ class FrozenSolver {
 
 }  // namespace
 
-NumericalSettings settings_at(const FrozenState& frozen, int order) {
+Model compared_model(const FrozenState& frozen, const CheckContents& contents) {
+  Model model = frozen.model;
+  if (!contents.electric) model.electric.reset();
+  model.mobile = contents.flow;
+  return model;
+}
+
+NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t vesicle) {
   NumericalSettings settings = frozen.settings;
-  if (order != order_of(membrane_of(frozen).position.rows())) {
+  if (order != order_of(frozen.state.vesicles[vesicle].position.rows())) {
     const NumericalSettings defaults;
     settings.flow_tolerance = std::min(settings.flow_tolerance, defaults.flow_tolerance);
     settings.electric_tolerance = std::min(settings.electric_tolerance, defaults.electric_tolerance);
@@ -198,25 +204,55 @@ NumericalSettings settings_at(const FrozenState& frozen, int order) {
   return settings;
 }
 
+namespace {
+
+/// What the finite elements know about one vesicle alone.
+void require_plain_charging(const FrozenState& frozen) {
+  const auto refuse = [&](const char* what) {
+    throw InputError(
+        fmt::format("{}: has {}, which the finite-element check knows about one vesicle alone; accepted: "
+                    "two without",
+                    frozen.source, what));
+  };
+  if (relaxes_charge(frozen.model)) refuse("displacement currents");
+  for (const VesicleModel& vesicle : frozen.model.vesicles) {
+    if (vesicle.reaction || vesicle.by_place || vesicle.pump) {
+      refuse("a membrane that porates or differs from place to place");
+    }
+  }
+}
+
+}  // namespace
+
 CheckContents check_contents(const FrozenState& frozen) {
   const Model& model = frozen.model;
   CheckContents contents;
   contents.flow = model.mobile;
-  const double viscosity_ratio = vesicle_of(frozen).viscosity_ratio;
-  if (contents.flow && !(viscosity_ratio > 0.0)) {
-    throw InputError(fmt::format("{}: the viscosity inside is {:g}; the finite-element check needs it above zero",
-                                 frozen.source, viscosity_ratio * model.viscosity));
+  for (const VesicleModel& vesicle : model.vesicles) {
+    if (contents.flow && !(vesicle.viscosity_ratio > 0.0)) {
+      throw InputError(fmt::format("{}: the viscosity inside is {:g}; the finite-element check needs it above zero",
+                                   frozen.source, vesicle.viscosity_ratio * model.viscosity));
+    }
   }
   if (model.electric) {
-    for (const double sigma : {vesicle_of(frozen).inside.conductivity, model.electric->conductivity}) {
+    std::vector<double> conductivities;
+    for (const VesicleModel& vesicle : model.vesicles) conductivities.push_back(vesicle.inside.conductivity);
+    conductivities.push_back(model.electric->conductivity);
+    for (const double sigma : conductivities) {
       if (sigma > 0.0) continue;
       throw InputError(fmt::format("{}: a conductivity is {:g}; the finite-element check needs both above zero",
                                    frozen.source, sigma));
     }
     contents.steady = !applied_field(frozen).isZero(0.0);
-    const VesicleState& membrane = membrane_of(frozen);
-    contents.electric =
-        contents.steady || !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
+    contents.electric = contents.steady || present_pump(frozen) != 0.0;
+    for (std::size_t a = 0; a < model.vesicles.size(); ++a) {
+      const VesicleState& membrane = frozen.state.vesicles[a];
+      const VesicleModel& vesicle = model.vesicles[a];
+      const bool charged = !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
+      contents.electric = contents.electric || charged;
+      if (vesicle.reaction || membrane.material.conductance.size() > 0 || vesicle.pump) contents.steady = false;
+    }
+    if (model.vesicles.size() > 1) require_plain_charging(frozen);
   }
   if (!contents.electric && !contents.flow) {
     throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",
@@ -230,25 +266,31 @@ Vector3 applied_field(const FrozenState& frozen) {
   return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).field;
 }
 
+double present_pump(const FrozenState& frozen) {
+  if (!frozen.model.electric) return 0.0;
+  return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).pump;
+}
+
 Matrix3 flow_gradient(const FrozenState& frozen) {
   if (!frozen.model.flow) return Matrix3::Zero();
   return frozen.model.flow->waveform.at(frozen.state.time, Limit::after) * frozen.model.flow->gradient;
 }
 
-Matrix total_force(const FrozenState& frozen, const VesicleFields& fields) {
-  const Matrix& position = membrane_of(frozen).position;
+Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::size_t vesicle) {
+  const Matrix& position = frozen.state.vesicles[vesicle].position;
   Matrix force = Matrix::Zero(position.rows(), 3);
   if (fields.force_bending.size() > 0) force += fields.force_bending;
   if (fields.force_tension.size() > 0) force += fields.force_tension;
   if (fields.force_electric.size() > 0) force -= fields.force_electric;
+  if (fields.force_contact.size() > 0) force += fields.force_contact;
   Model others = frozen.model;
   others.flow.reset();
-  const auto effects = explicit_effects(others);
+  const auto effects = explicit_effects(others, others.vesicles[vesicle]);
   if (effects.empty()) return force;
 
   // The run file stores no other forces: they follow from the shape and the time.
   Instruments instruments;
-  const MembraneSpace space(settings_at(frozen, order_of(position.rows())), frozen.symmetry);
+  const MembraneSpace space(settings_at(frozen, order_of(position.rows()), vesicle), frozen.symmetry);
   const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);
   for (const auto& effect : effects) {
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};

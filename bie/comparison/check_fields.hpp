@@ -10,20 +10,23 @@ namespace vehd {
 /// What the boundary-integral side is compared in.
 struct CheckContents {
   bool electric = false;  ///< some field or some V_m
-  bool steady = false;    ///< a field that determines a steady V_m
+  bool steady = false;    ///< a field that determines a steady V_m, on a membrane that conducts alike everywhere
   bool flow = false;      ///< a membrane that moves
 };
 
-/// @throws InputError if the scene has something that the finite-element side does not know
+/// @throws InputError if the scene has something that the finite-element side does not know, or knows of one vesicle
+///                    alone
 CheckContents check_contents(const FrozenState& frozen);
 
 /// Boundary-integral solution at one order: coefficients of that order, empty where absent.
 struct CheckFields {
   int order = 0;
   // From x, V_m and the time alone, as a run computes them.
-  Vector charge;                 ///< q
-  Matrix force_electric;         ///< f_E
-  Vector potential_rate;         ///< dV_m/dt of material points, or with displacement currents D(q_i/C_m)/Dt
+  Vector charge;          ///< q
+  Matrix force_electric;  ///< f_E
+  /// Of material points: C_m dV_m/dt over the C_m of the membrane's parameters, or with displacement currents
+  /// D(q_i/C_m)/Dt.
+  Vector potential_rate;
   Vector potential_of_charges;   ///< V_m that follows from free charges; with displacement currents alone
   Vector free_charge_rate;       ///< D(q_i + q_e)/Dt over C_m; with displacement currents alone
   Matrix force_bending;          ///< f_b
@@ -45,15 +48,22 @@ struct CheckFields {
 };
 
 /// f on the fluid, coefficients: f_b + f_λ − f_E of the fields, and whatever else acts on the shape.
-/// @param fields  of the degree of the frozen state, stored or computed anew
+/// @param fields   of the degree of the frozen state, stored or computed anew
+/// @param vesicle  whose they are
 /// @throws InputError for a background flow that the finite-element side does not know
-Matrix total_force(const FrozenState& frozen, const VesicleFields& fields);
+Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::size_t vesicle = 0);
+
+/// The parts of the model that are compared.
+Model compared_model(const FrozenState& frozen, const CheckContents& contents);
 
 /// Those of the run at its degree. At another one only an error is estimated: its solvers must add none of their own.
-NumericalSettings settings_at(const FrozenState& frozen, int order);
+/// @param vesicle  whose degree
+NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t vesicle = 0);
 
 /// E_∞ at the frozen time.
 Vector3 applied_field(const FrozenState& frozen);
+/// Factor of the pump current at the frozen time; 0 without a field.
+double present_pump(const FrozenState& frozen);
 /// ∂v_i/∂x_j of the background flow at the frozen time.
 Matrix3 flow_gradient(const FrozenState& frozen);
 

@@ -1,5 +1,12 @@
 #include "bie/comparison/check_input.hpp"
 
+#include <fmt/format.h>
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "bie/files/hdf5_writer.hpp"
 #include "bie/physics/gravity.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
@@ -8,16 +15,53 @@
 namespace vehd {
 namespace {
 
+/// Where one vesicle is written: at the top of the file if it is the only one, else in a group of its own.
+class VesicleWriter {
+ public:
+  VesicleWriter(Hdf5Writer& file, std::string group) : file_(file), group_(std::move(group)) {}
+
+  void group(const std::string& path) { file_.group(group_ + path); }
+  void numbers(const std::string& path, std::span<const double> values, const std::vector<hsize_t>& extents,
+               const DatasetLabel& label) {
+    file_.numbers(group_ + path, values, extents, label);
+  }
+  void integers(const std::string& path, std::span<const std::int64_t> values, const std::vector<hsize_t>& extents,
+                const DatasetLabel& label) {
+    file_.integers(group_ + path, values, extents, label);
+  }
+  template <typename Value>
+  void attribute(const std::string& object, const std::string& name, const Value& value) {
+    file_.attribute(group_.empty() ? object : object == "/" ? group_ : group_ + object, name, value);
+  }
+
+ private:
+  Hdf5Writer& file_;
+  std::string group_;
+};
+
+/// Makes the group of each of several vesicles.
+std::vector<VesicleWriter> writers_of(Hdf5Writer& file, std::size_t n_vesicles) {
+  if (n_vesicles == 1) return {{file, ""}};
+  file.group("/vesicles");
+  file.attribute("/vesicles", "count", static_cast<std::int64_t>(n_vesicles));
+  std::vector<VesicleWriter> writers;
+  for (std::size_t a = 0; a < n_vesicles; ++a) {
+    const std::string group = fmt::format("/vesicles/{:02}", a);
+    file.group(group);
+    writers.emplace_back(file, group);
+  }
+  return writers;
+}
+
 /// The column-major memory of [n x components] is the file's row-major [components, n].
-void write(Hdf5Writer& file, const std::string& path, const Matrix& values, const DatasetLabel& label) {
+void write(VesicleWriter& file, const std::string& path, const Matrix& values, const DatasetLabel& label) {
   if (values.size() == 0) return;
   std::vector<hsize_t> extents{static_cast<hsize_t>(values.rows())};
   if (values.cols() > 1) extents.insert(extents.begin(), static_cast<hsize_t>(values.cols()));
   file.numbers(path, {values.data(), static_cast<std::size_t>(values.size())}, extents, label);
 }
 
-void write_header(Hdf5Writer& file, const Matrix& position) {
-  file.attribute("/", "schema_version", check_schema_version);
+void write_shape(VesicleWriter& file, const Matrix& position) {
   file.attribute("/", "order", std::int64_t{order_of(position.rows())});
   write(file, "/x", position, {"length", "coefficients of the membrane position"});
 }
@@ -41,11 +85,11 @@ FurtherForces further_forces(const VesicleModel& vesicle) {
   return result;
 }
 
-void write_physics(Hdf5Writer& file, const CheckInput& input) {
+void write_physics(VesicleWriter& file, const CheckInput& input) {
   const Model& model = input.frozen.model;
   file.group("/physics");
   const auto number = [&](const std::string& name, double value) { file.attribute("/physics", name, value); };
-  const VesicleModel& vesicle = model.vesicles.front();
+  const VesicleModel& vesicle = model.vesicles[input.vesicle];
   file.attribute("/physics", "inextensible", std::int64_t{vesicle.inextensible});
   number("bending_modulus", vesicle.bending ? vesicle.bending->modulus : 0.0);
   const FurtherForces further = further_forces(vesicle);
@@ -67,12 +111,17 @@ void write_physics(Hdf5Writer& file, const CheckInput& input) {
   number("conductance", vesicle.charging.conductance);
 }
 
-void write_given(Hdf5Writer& file, const CheckInput& input) {
+void write_given(VesicleWriter& file, const CheckInput& input) {
   file.group("/given");
   if (input.contents.electric) {
-    const VesicleFields& fields = input.frozen.fields.vesicles.front();
-    write(file, "/given/Vm", transmembrane_potential(input.frozen.state.vesicles.front(), fields),
+    const VesicleFields& fields = input.frozen.fields.vesicles[input.vesicle];
+    write(file, "/given/Vm", transmembrane_potential(input.frozen.state.vesicles[input.vesicle], fields),
           {"potential", "V_m of the snapshot"});
+    const VesicleState& state = input.frozen.state.vesicles.front();
+    write(file, "/given/conductance", fields.conductance.size() > 0 ? fields.conductance : state.material.conductance,
+          {"conductance/area", "G_m where it varies"});
+    write(file, "/given/pump_current", present_pump(input.frozen) * state.material.pump_current,
+          {"current/area", "J_p at the time of the snapshot, outwards"});
     write(file, "/given/free_charge_in", fields.free_charge_in, {"charge/area", "q_i of the inner face"});
     write(file, "/given/free_charge_out", fields.free_charge_out, {"charge/area", "q_e of the outer face"});
   }
@@ -81,9 +130,9 @@ void write_given(Hdf5Writer& file, const CheckInput& input) {
 }
 
 /// The numbers of the snapshot that are judged.
-void write_stored(Hdf5Writer& file, const CheckInput& input) {
+void write_stored(VesicleWriter& file, const CheckInput& input) {
   file.group("/stored");
-  const VesicleFields& fields = input.frozen.fields.vesicles.front();
+  const VesicleFields& fields = input.frozen.fields.vesicles[input.vesicle];
   const auto field = [&](const std::string& name, const Matrix& values, const DatasetLabel& label) {
     write(file, "/stored/" + name, values, label);
   };
@@ -98,7 +147,7 @@ void write_stored(Hdf5Writer& file, const CheckInput& input) {
   field("velocity", fields.velocity, {"velocity", "dx/dt"});
 }
 
-void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields& fields) {
+void write_fields(VesicleWriter& file, const std::string& group, const CheckFields& fields) {
   file.group(group);
   file.attribute(group, "order", std::int64_t{fields.order});
   file.attribute(group, "seconds", fields.seconds);
@@ -107,7 +156,8 @@ void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields&
   };
   field("q", fields.charge, {"potential/length", "q = [[d phi/d n]] of the given V_m"});
   field("force_electric", fields.force_electric, {"force/area", "f_E of the given V_m"});
-  field("Vm_rate", fields.potential_rate, {"potential/time", "dV_m/dt of the given V_m"});
+  field("Vm_rate", fields.potential_rate,
+        {"potential/time", "dV_m/dt of the given V_m, where C_m varies times it over the C_m of /physics"});
   field("Vm_of_charges", fields.potential_of_charges, {"potential", "V_m of the given free charges"});
   field("free_charge_rate", fields.free_charge_rate, {"potential/time", "rate of q_i + q_e over C_m"});
   field("force_bending", fields.force_bending, {"force/area", "f_b of the shape"});
@@ -125,7 +175,7 @@ void write_fields(Hdf5Writer& file, const std::string& group, const CheckFields&
   field("sample_velocity", fields.sample_velocity, {"velocity", "v at /samples/points, force given"});
 }
 
-void write_samples(Hdf5Writer& file, const CheckInput& input) {
+void write_samples(VesicleWriter& file, const CheckInput& input) {
   const std::vector<bool>& inside = input.at_order.is_inside;
   if (inside.empty() || input.samples.points.rows() == 0) return;
   file.group("/samples");
@@ -137,12 +187,12 @@ void write_samples(Hdf5Writer& file, const CheckInput& input) {
                 {"1", "1 inside, 0 outside"});
 }
 
-void write_numbers(Hdf5Writer& file, const std::string& path, const std::vector<double>& values,
+void write_numbers(VesicleWriter& file, const std::string& path, const std::vector<double>& values,
                    const DatasetLabel& label) {
   file.numbers(path, values, {values.size()}, label);
 }
 
-void write_in_time(Hdf5Writer& file, const InTime& in_time) {
+void write_in_time(VesicleWriter& file, const InTime& in_time) {
   const TimeSpan& span = in_time.span;
   file.group("/in_time");
   file.attribute("/in_time", "begin", span.begin);
@@ -162,28 +212,44 @@ void write_in_time(Hdf5Writer& file, const InTime& in_time) {
   write(file, "/in_time/Vm_end", in_time.at_order, {"potential", "V_m at the end, shape held still, degree of /bie"});
   write(file, "/in_time/Vm_end_high", in_time.for_error,
         {"potential", "the same with finer steps, degree of /bie_high"});
+  write(file, "/in_time/Vm_change_by_motion", in_time.by_motion,
+        {"potential", "change of V_m by finer steps of the moving shape, degree of /bie"});
 }
 
 }  // namespace
 
 void write_check_input(const std::filesystem::path& path, const CheckInput& input) {
+  write_check_inputs(path, {input});
+}
+
+void write_check_inputs(const std::filesystem::path& path, const std::vector<CheckInput>& inputs) {
   Hdf5Writer file(path, Hdf5Writer::Mode::create);
-  write_header(file, input.frozen.state.vesicles.front().position);
-  file.attribute("/", "source", input.frozen.source);
-  file.attribute("/", "time", input.frozen.state.time);
-  write_physics(file, input);
-  write_given(file, input);
-  write_stored(file, input);
-  write_fields(file, "/bie", input.at_order);
-  write_fields(file, "/bie_high", input.for_error);
-  write_samples(file, input);
-  if (input.in_time != nullptr) write_in_time(file, *input.in_time);
+  const FrozenState& frozen = inputs.front().frozen;
+  file.attribute("/", "schema_version", check_schema_version);
+  file.attribute("/", "source", frozen.source);
+  file.attribute("/", "time", frozen.state.time);
+  std::vector<VesicleWriter> writers = writers_of(file, inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const CheckInput& input = inputs[i];
+    VesicleWriter& writer = writers[i];
+    if (inputs.size() > 1) writer.attribute("/", "name", frozen.names.at(input.vesicle));
+    write_shape(writer, frozen.state.vesicles[input.vesicle].position);
+    write_physics(writer, input);
+    write_given(writer, input);
+    write_stored(writer, input);
+    write_fields(writer, "/bie", input.at_order);
+    write_fields(writer, "/bie_high", input.for_error);
+    write_samples(writer, input);
+    if (input.in_time != nullptr) write_in_time(writer, *input.in_time);
+  }
   file.close();
 }
 
-void write_shape_input(const std::filesystem::path& path, const Matrix& position) {
+void write_shape_input(const std::filesystem::path& path, const std::vector<Matrix>& positions) {
   Hdf5Writer file(path, Hdf5Writer::Mode::create);
-  write_header(file, position);
+  file.attribute("/", "schema_version", check_schema_version);
+  std::vector<VesicleWriter> writers = writers_of(file, positions.size());
+  for (std::size_t a = 0; a < positions.size(); ++a) write_shape(writers[a], positions[a]);
   file.close();
 }
 
@@ -198,8 +264,10 @@ void write_sources_input(const std::filesystem::path& path, const Matrix& positi
     strength(i, 0) = source.strength;
     inside.push_back(source.inside ? 1 : 0);
   }
-  Hdf5Writer file(path, Hdf5Writer::Mode::create);
-  write_header(file, position);
+  Hdf5Writer whole(path, Hdf5Writer::Mode::create);
+  whole.attribute("/", "schema_version", check_schema_version);
+  VesicleWriter file(whole, "");
+  write_shape(file, position);
   file.group("/physics");
   file.attribute("/physics", "conductivity_in", electric.conductivity_in);
   file.attribute("/physics", "conductivity_out", electric.conductivity_out);
@@ -207,7 +275,7 @@ void write_sources_input(const std::filesystem::path& path, const Matrix& positi
   write(file, "/sources/position", points, {"length", "point sources"});
   write(file, "/sources/strength", strength, {"potential*length", "s of s/(4 pi r)"});
   file.integers("/sources/inside", inside, {inside.size()}, {"1", "1 inside, 0 outside"});
-  file.close();
+  whole.close();
 }
 
 }  // namespace vehd

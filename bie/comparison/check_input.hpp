@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "bie/comparison/check_fields.hpp"
 #include "bie/comparison/check_samples.hpp"
@@ -16,11 +17,12 @@ constexpr std::int64_t check_schema_version = 2;
 /// What is asked about V_m in time.
 struct InTime {
   TimeSpan span;
-  Vector at_order;   ///< V_m at its end by potential_in_time(), with the steps of the run
-  Vector for_error;  ///< at estimate_order() with finer ones
+  Vector at_order;     ///< V_m at its end by potential_in_time(), with the steps of the run
+  Vector for_error;    ///< at estimate_order() with finer ones
+  Vector by_motion{};  ///< change_by_finer_motion()
 };
 
-/// All that the file holds.
+/// All that the file holds of one vesicle.
 struct CheckInput {
   const FrozenState& frozen;
   const CheckContents& contents;
@@ -29,13 +31,16 @@ struct CheckInput {
   const CheckFields& at_order;
   const CheckFields& for_error;     ///< at estimate_order()
   const InTime* in_time = nullptr;  ///< null: not asked for
+  std::size_t vesicle = 0;          ///< its number in the frozen state
 };
 
-/// @throws OutputError
+/// Of one vesicle. @throws OutputError
 void write_check_input(const std::filesystem::path& file, const CheckInput& input);
+/// Of several, in groups of their own. @throws OutputError
+void write_check_inputs(const std::filesystem::path& file, const std::vector<CheckInput>& inputs);
 
-/// The same file with the shape alone. @throws OutputError
-void write_shape_input(const std::filesystem::path& file, const Matrix& position);
+/// The same file with the shapes alone. @throws OutputError
+void write_shape_input(const std::filesystem::path& file, const std::vector<Matrix>& positions);
 
 /// The shape and the point sources that make the exact solution on it. @throws OutputError
 void write_sources_input(const std::filesystem::path& file, const Matrix& position, const ElectricParameters& electric,

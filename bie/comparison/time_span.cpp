@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "bie/comparison/check_fields.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/files/snapshot_choice.hpp"
+#include "bie/geometry/surface.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
+#include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/support/errors.hpp"
 
@@ -108,6 +111,16 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
     throw InputError(
         fmt::format("{}: without [electric] there is no V_m; --from accepts runs in a field", file.string()));
   }
+  if (end.model.vesicles.size() > 1) {
+    throw InputError(
+        fmt::format("{}: has {} vesicles; --from accepts a run of one", file.string(), end.model.vesicles.size()));
+  }
+  if (const VesicleModel& vesicle = vesicle_of_span(end); vesicle.reaction || vesicle.by_place || vesicle.pump) {
+    throw InputError(
+        fmt::format("{}: has a membrane that porates or differs from place to place; --from accepts runs with one that "
+                    "charges alike everywhere",
+                    file.string()));
+  }
   if (relaxes_charge(end.model)) {
     throw InputError(fmt::format("{}: has displacement currents; --from accepts runs without \"displacement_current\"",
                                  file.string()));
@@ -131,26 +144,54 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   return span;
 }
 
-Vector potential_in_time(const FrozenState& end, const TimeSpan& span, int order, bool finer) {
-  EvolutionSetup setup{end.model, settings_at(end, order), end.symmetry, span.control};
-  setup.model.mobile = false;
+namespace {
+
+/// The membrane at the end of a span.
+/// @param start   x to begin with; V_m is that of the span
+/// @param finer   see potential_in_time()
+VesicleState advanced(const FrozenState& end, const TimeSpan& span, const Matrix& start, Model model, int order,
+                      bool finer) {
+  EvolutionSetup setup{std::move(model), settings_at(end, order), end.symmetry, span.control};
   constexpr double smaller_step = 0.25, smaller_tolerance = 0.1;
   if (finer && setup.control.tolerance > 0.0) {
     setup.control.tolerance *= smaller_tolerance;
   } else if (finer) {
     setup.control = fixed_steps(smaller_step * setup.control.largest);
   }
-  const StartMembrane start{resize_order(end.state.vesicles.front().position, order),
-                            {.steady = false, .given = span.potential}};
   Instruments instruments;
-  State state = initial_state(setup.model, Discretisation(setup.settings, setup.symmetry), {start},
+  State state = initial_state(setup.model, Discretisation(setup.settings, setup.symmetry),
+                              {{resize_order(start, order), {.steady = false, .given = span.potential}}},
                               setup.control.tolerance > 0.0 ? 0.0 : setup.control.largest, instruments);
   state.time = span.begin;
   Evolution evolution(std::move(setup), std::move(state), instruments);
   evolution.evaluate_start();
   const EventTimes events{{}, span.end};
   while (evolution.state().time < span.end) evolution.step(events);
-  return resize_order(evolution.state().vesicles.front().transmembrane_potential, order);
+  return resized(evolution.state().vesicles.front(), order);
+}
+
+}  // namespace
+
+Vector potential_in_time(const FrozenState& end, const TimeSpan& span, int order, bool finer) {
+  Model held = end.model;
+  held.mobile = false;
+  return advanced(end, span, end.state.vesicles.front().position, std::move(held), order, finer)
+      .transmembrane_potential;
+}
+
+Vector change_by_finer_motion(const FrozenState& end, const TimeSpan& span) {
+  if (span.positions.size() == 1) return {};
+  const int order = order_of(end.state.vesicles.front().position.rows());
+  const VesicleState as_run = advanced(end, span, span.positions.front(), end.model, order, false),
+                     finer = advanced(end, span, span.positions.front(), end.model, order, true);
+  Instruments instruments;
+  const Membrane membrane =
+      membrane_at(MembraneSpace(settings_at(end, order), {}), finer.position, {}, 1.0, instruments);
+  const Matrix slope =
+      surface_gradient(membrane.surface, membrane.fine.synthesize_gradient(finer.transmembrane_potential));
+  const Matrix way = membrane.fine.synthesize(as_run.position - finer.position);
+  const Vector moved = membrane.fine.analyze(way.cwiseProduct(slope).rowwise().sum());
+  return finer.transmembrane_potential + moved - as_run.transmembrane_potential;
 }
 
 }  // namespace vehd

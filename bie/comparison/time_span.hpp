@@ -47,4 +47,10 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
 /// Accuracy: that of the steps of a run (bie/stepping/evolution.hpp)
 Vector potential_in_time(const FrozenState& end, const TimeSpan& span, int order, bool finer);
 
+/// What finer steps, as above, change of V_m at the end when the run is repeated from the first snapshot at its degree:
+/// V' + (x − x')·∇_γ V' − V, dashed with finer steps, so that points that slide along the membrane count for nothing.
+/// Coefficients; empty if the shape stands still.
+/// @throws ConvergenceError
+Vector change_by_finer_motion(const FrozenState& end, const TimeSpan& span);
+
 }  // namespace vehd

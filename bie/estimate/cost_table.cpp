@@ -37,7 +37,8 @@ std::string identity_of(const Scene& scene, const std::vector<double>& tolerance
 nlohmann::json json_of(const std::vector<CostRow>& rows) {
   nlohmann::json json = nlohmann::json::array();
   for (const CostRow& row : rows) {
-    json.push_back({row.tolerance, row.order, row.steps, row.seconds, row.memory_bytes, row.measured, row.stops});
+    json.push_back({row.tolerance, row.order, row.steps, row.seconds, row.file_seconds, row.memory_bytes, row.measured,
+                    row.stops});
   }
   return json;
 }
@@ -47,7 +48,7 @@ std::vector<CostRow> rows_of(const nlohmann::json& entry, std::size_t count) {
   std::vector<CostRow> rows;
   try {
     for (const auto& row : entry) {
-      rows.push_back({row.at(0), row.at(1), row.at(2), row.at(3), row.at(4), row.at(5), row.at(6)});
+      rows.push_back({row.at(0), row.at(1), row.at(2), row.at(3), row.at(4), row.at(5), row.at(6), row.at(7)});
     }
   } catch (const nlohmann::json::exception&) {
     return {};
@@ -252,7 +253,9 @@ std::vector<CostRow> measured_table(const Scene& scene, const std::vector<double
     rows.push_back(row);
   }
   for (CostRow& row : rows) {
-    if (row.stops.empty()) row.seconds += file_seconds(scene, row);
+    if (!row.stops.empty()) continue;
+    row.file_seconds = file_seconds(scene, row);
+    row.seconds += row.file_seconds;
   }
   return rows;
 }

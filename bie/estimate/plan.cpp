@@ -65,18 +65,22 @@ std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
   return (all + symmetry.group_order() - 1) / symmetry.group_order();
 }
 
-/// How many vesicles need an operator.
-std::size_t vesicles_with(const OperatorFlag& op, const Model& model) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      model.vesicles, [&](const VesicleModel& vesicle) { return needed_layers(model, vesicle, true).*op.flag; }));
+/// How many vesicles need an operator; images of others need none.
+std::size_t vesicles_with(const OperatorFlag& op, const Model& model, const Exchange& exchange) {
+  std::size_t count = 0;
+  for (std::size_t a = 0; a < model.vesicles.size(); ++a) {
+    if (!exchange.is_image(a) && needed_layers(model, model.vesicles[a], true).*op.flag) ++count;
+  }
+  return count;
 }
 
-/// Fields that the solves of a step find, of all vesicles.
-std::size_t count_unknown_fields(const Model& model) {
+/// Fields that the solves of a step find, of all vesicles but images.
+std::size_t count_unknown_fields(const Model& model, const Exchange& exchange) {
   std::size_t count = 0;
-  for (const VesicleModel& vesicle : model.vesicles) {
+  for (std::size_t a = 0; a < model.vesicles.size(); ++a) {
+    if (exchange.is_image(a)) continue;
     Model one = model;
-    one.vesicles = {vesicle};
+    one.vesicles = {model.vesicles[a]};
     for (const EffectDescription& effect : effects_of(one)) count += effect.unknowns.size();
   }
   return count;
@@ -89,7 +93,7 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
   std::vector<std::string> parts;
   std::vector<std::string> saved;
   for (const OperatorFlag& op : kOperators) {
-    if (vesicles_with(op, model) > 0 && vesicles_with(op, reduced) == 0) saved.emplace_back(op.name);
+    if (vesicles_with(op, model, {}) > 0 && vesicles_with(op, reduced, {}) == 0) saved.emplace_back(op.name);
   }
   if (!saved.empty()) parts.push_back(fmt::format("no {}", fmt::join(saved, ", ")));
   if (n_unknowns > 0) parts.push_back(fmt::format("{} fewer unknown field{}", n_unknowns, n_unknowns > 1 ? "s" : ""));
@@ -109,7 +113,9 @@ std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, con
   std::vector<InteractingMembrane> membranes;
   for (const Matrix& position : positions) membranes.push_back({position, space.targets(), {}});
   Instruments instruments;
-  const Interaction sorted(membranes, pair_settings(problem.settings), instruments);
+  const Exchange& exchange = problem.symmetry.exchange;
+  const Interaction sorted(membranes, pair_settings(problem.settings), instruments,
+                           Shares({}, std::vector<double>(membranes.size(), 1.0), exchange.originals()), exchange);
   return instruments.pair_targets();
 }
 
@@ -144,7 +150,7 @@ RunPlan plan_of(const Scene& scene) {
     if (std::none_of(effects.begin(), effects.end(), present)) plan.absent.emplace_back(name);
   }
   for (const OperatorFlag& op : kOperators) {
-    const std::size_t n_vesicles = vesicles_with(op, model);
+    const std::size_t n_vesicles = vesicles_with(op, model, symmetry.exchange);
     if (n_vesicles == 0) continue;
     std::vector<std::string> reasons;
     for (const EffectDescription& effect : effects) {
@@ -160,8 +166,8 @@ RunPlan plan_of(const Scene& scene) {
   plan.pair_targets = pair_targets_of(problem, space);
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
   plan.n_jumps = jumps_until(model, scene.numerics.end_time);
-  plan.unknowns =
-      static_cast<std::int64_t>(count_unknown_fields(model)) * independent_coefficients(symmetry, scene.numerics.order);
+  plan.unknowns = static_cast<std::int64_t>(count_unknown_fields(model, symmetry.exchange)) *
+                  independent_coefficients(symmetry, scene.numerics.order);
   double time = 0.0;
   EventTimes events = events_of(scene);
   while (!scene.numerics.tolerance && time < scene.numerics.end_time) {

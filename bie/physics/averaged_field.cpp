@@ -5,6 +5,7 @@
 
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
+#include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/complex_columns.hpp"
 #include "bie/support/errors.hpp"
@@ -47,17 +48,29 @@ std::vector<Matrix> of_parts(const Map& map, const std::vector<Matrix>& fields) 
   return result;
 }
 
+/// Product at every point.
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix result(a.rows(), 2);
+  result << a.col(0).cwiseProduct(b.col(0)) - a.col(1).cwiseProduct(b.col(1)),
+      a.col(0).cwiseProduct(b.col(1)) + a.col(1).cwiseProduct(b.col(0));
+  return result;
+}
+
 /// ChargingEquation for complex amplitudes: y in place of a, and b = 0.
 class AmplitudeEquation {
  public:
   AmplitudeEquation(const ElectricMembrane& of, const ChargingParameters& charging)
       : electric_(of.electric), membrane_(of.membrane), conductivities_(complex_conductivities(of.electric)) {
     contrast_ = carries_charge(electric_) ? conductivities_.contrast() : 0.0;
-    const Complex admittance = membrane_admittance(charging, *electric_.averaged_frequency);
+    const bool varies = membrane_.material.capacitance.size() > 0 || membrane_.material.conductance.size() > 0;
+    Matrix admittances;
+    if (varies) admittances = admittances_of(charging);
+    const Complex admittance = varies ? mean(admittances) : membrane_admittance(charging, frequency());
     const Complex series = conductivities_.series();
     const double size = std::abs(admittance) + std::abs(series) / membrane_.radius;
     storage_ = admittance / size;
     conduction_ = series / size;
+    if (varies) varying_storage_ = admittances / size;
   }
 
   [[nodiscard]] const Membrane& membrane() const { return membrane_; }
@@ -70,7 +83,8 @@ class AmplitudeEquation {
 
   /// J g = J y V/κ, coefficients; not where a fluid insulates.
   [[nodiscard]] Matrix weighted_density(const Matrix& potential) const {
-    return times(storage_ / conduction_, membrane_.weighted(membrane_.fine.synthesize(potential)));
+    const auto [factor, weighted] = stored(potential);
+    return times(factor / conduction_, weighted);
   }
   /// J ηg, empty where there is none.
   [[nodiscard]] Matrix weighted_charge(const Matrix& potential) const {
@@ -80,13 +94,13 @@ class AmplitudeEquation {
   /// What V does on its own membrane, coefficients.
   [[nodiscard]] Matrix own(const Matrix& potential) const {
     const SphereTransform& fine = membrane_.fine;
-    const Matrix weighted = membrane_.weighted(fine.synthesize(potential));
+    const auto [factor, weighted] = stored(potential);
     Matrix second_kind = 0.5 * weighted;
     if (contrast_ != 0.0) second_kind += times(contrast_, membrane_.layers.laplace_adjoint.apply(weighted));
-    Matrix result = times(storage_, second_kind);
+    Matrix result = times(factor, second_kind);
     result -= times(conduction_, fine.analyze(weighted_hypersingular_of(membrane_, potential)));
     // No net current: ∫ yV dA = 0.
-    result.row(0) = times(storage_, weighted.topRows(1));
+    result.row(0) = times(factor, weighted.topRows(1));
     return result;
   }
 
@@ -115,10 +129,37 @@ class AmplitudeEquation {
   [[nodiscard]] Vector flux_of_field() const { return weighted_field_flux(membrane_, electric_.field); }
 
  private:
+  [[nodiscard]] double frequency() const { return *electric_.averaged_frequency; }
+
+  /// y of every point of the upsampled grid.
+  [[nodiscard]] Matrix admittances_of(const ChargingParameters& charging) const {
+    Matrix result(membrane_.surface.n_points(), 2);
+    result << conductance_of(charging, membrane_), angular_frequency(frequency()) * capacitance_of(charging, membrane_);
+    return result;
+  }
+
+  /// Over the area.
+  [[nodiscard]] Complex mean(const Matrix& values) const {
+    const Vector& area = membrane_.surface.quadrature;
+    return Complex(values.col(0).dot(area), values.col(1).dot(area)) / area.sum();
+  }
+
+  /// A factor and coefficients: their product is that of J yV over the size.
+  struct Stored {
+    Complex factor;
+    Matrix weighted;
+  };
+  [[nodiscard]] Stored stored(const Matrix& potential) const {
+    const Matrix values = membrane_.fine.synthesize(potential);
+    if (varying_storage_.size() == 0) return {storage_, membrane_.weighted(values)};
+    return {1.0, membrane_.weighted(product(varying_storage_, values))};
+  }
+
   const ElectricParameters& electric_;
   const Membrane& membrane_;
   ComplexConductivities conductivities_;
   Complex contrast_, storage_, conduction_;
+  Matrix varying_storage_;  // of every point, and storage_ its mean; empty where it is the same everywhere
 };
 
 /// The equations of all membranes.
@@ -173,7 +214,7 @@ class AmplitudeEquations {
     const std::vector<Matrix> single = single_fluxes_of_others(charges(potentials));
     const std::vector<Matrix> doubles = double_fluxes_of_others(potentials);
     for (const std::size_t a : own()) result[a] += times(equations_[a].conduction(), single[a] - doubles[a]);
-    interaction_->shares().gather(result);
+    interaction_->gather_potentials(result);
     return result;
   }
 

@@ -39,7 +39,8 @@ struct AveragedFields {
 
 /// Solves for the complex amplitudes of all membranes together,
 ///   (½ + ηS′) y V − κ D′[V] = κ E·n,   y = G_m + iωC_m,   η and κ of K = σ + iωε,
-/// the layers being those of all membranes, and takes the mean of the force over a period,
+/// the layers being those of all membranes and y that of every point where C_m or G_m differ from place to place, and
+/// takes the mean of the force over a period,
 ///   ⟨f_E⟩ = [[½ ε Re(E* (E·n)) − ¼ ε |E|² n]].
 /// @param membranes    each with the averaged frequency
 /// @param interaction  of the membranes; null where there is one

@@ -15,20 +15,29 @@ Vector half_and_adjoint(const Membrane& membrane, double side, const Vector& fie
   return 0.5 * weighted + side * Vector(membrane.layers.laplace_adjoint.apply(weighted));
 }
 
-/// ½(E_i + E_e) + S′[E_e − E_i] − D′[V] = E·n with both fields in terms of V, times κ = k_i k_e/(k_i + k_e).
-SolveReport solve_law(const ElectricParameters& electric, const Membrane& membrane, const FaceLaw& law,
-                      double tolerance, Vector& potential) {
-  const ElectricParameters of_law = conducting(electric, law);
-  const ChargingEquation equation(of_law, membrane, law.a);
-  const Vector rhs = right_side_of(of_law, membrane, equation, law);
-  if (potential.size() != rhs.size()) potential = Vector::Zero(rhs.size());
-  const LinearMap map = [&](const Vector& v) { return equation.own(v); };
-  const LinearMap preconditioner = [&](const Vector& r) { return equation.sphere_inverse(r); };
-  return solve_within(membrane.subspace.potentials(), map, preconditioner, rhs, potential, {tolerance, 60});
-}
-
 double permittivity_in(const ElectricParameters& electric) {
   return electric.permittivity_ratio * electric.permittivity;
+}
+
+/// A factor of V, values on the upsampled grid, times V, coefficients.
+Vector product(const Membrane& membrane, const Vector& factor, const Vector& potential) {
+  return membrane.fine.analyze(Vector(factor.cwiseProduct(Vector(membrane.fine.synthesize(potential)))));
+}
+
+/// C_m V over the C_m that charges are divided by.
+Vector capacitive(const ChargingMembrane& of, const Vector& potential) {
+  const Vector& varies = of.in_field.membrane.material.capacitance;
+  if (varies.size() == 0) return potential;
+  return product(of.in_field.membrane, varies, potential) / of.charging.capacitance;
+}
+
+/// G_m V + J_p, coefficients.
+Vector current_through(const ElectricParameters& electric, const ChargingParameters& charging, const Membrane& membrane,
+                       const Vector& potential) {
+  if (!charges_by_place(membrane)) return charging.conductance * potential;
+  const MembraneCurrent current = membrane_current(electric, charging, membrane);
+  return membrane.fine.analyze(
+      Vector(current.conductance.cwiseProduct(Vector(membrane.fine.synthesize(potential))) + current.constant));
 }
 
 Vector without_mean(const Membrane& membrane, Vector values) {
@@ -39,17 +48,40 @@ Vector without_mean(const Membrane& membrane, Vector values) {
 
 }  // namespace
 
-FaceLaw law_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
-                       const FaceCharges& charges) {
-  const double c = charging.capacitance;
-  return {c, permittivity_in(electric), electric.permittivity, c * charges.inner, c * (charges.sum - charges.inner)};
+FaceLaw law_of_charges(const ChargingMembrane& of, const FaceCharges& charges) {
+  const auto& [electric, membrane] = of.in_field;
+  const double c = of.charging.capacitance;
+  FaceLaw law{c, permittivity_in(electric), electric.permittivity, c * charges.inner,
+              c * (charges.sum - charges.inner)};
+  if (const Vector& varies = membrane.material.capacitance; varies.size() > 0) {
+    law.a = varies.maxCoeff();
+    law.varying = varies;
+  }
+  return law;
 }
 
-FaceLaw law_of_step(const ElectricParameters& electric, const ChargingParameters& charging, double dt,
-                    const FaceCharges& charges) {
-  const double c = charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
-  return {c / dt + charging.conductance, electric.conductivity_in + in / dt, electric.conductivity_out + out / dt,
+FaceLaw law_of_step(const ChargingMembrane& of, double dt, const FaceCharges& charges) {
+  const auto& [electric, membrane] = of.in_field;
+  if (charges_by_place(membrane)) {
+    return law_of_step(of, membrane_current(electric, of.charging, membrane), dt, charges);
+  }
+  const double c = of.charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
+  return {c / dt + of.charging.conductance, electric.conductivity_in + in / dt, electric.conductivity_out + out / dt,
           (c / dt) * charges.inner, (c / dt) * (charges.sum - charges.inner)};
+}
+
+FaceLaw law_of_step(const ChargingMembrane& of, const MembraneCurrent& current, double dt, const FaceCharges& charges) {
+  const auto& [electric, membrane] = of.in_field;
+  const double c = of.charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
+  Vector a = capacitance_of(of.charging, membrane) / dt + current.conductance;
+  const Vector constant = membrane.fine.analyze(current.constant);
+  const double largest = a.maxCoeff();
+  return {largest,
+          electric.conductivity_in + in / dt,
+          electric.conductivity_out + out / dt,
+          (c / dt) * charges.inner - constant,
+          (c / dt) * (charges.sum - charges.inner) + constant,
+          std::move(a)};
 }
 
 ElectricParameters conducting(const ElectricParameters& electric, const FaceLaw& law) {
@@ -71,19 +103,40 @@ Vector right_side_of(const ElectricParameters& of_law, const Membrane& membrane,
   return rhs;
 }
 
-FaceCharges charges_after(const ElectricParameters& electric, const ChargingParameters& charging, const FaceLaw& law,
-                          const Vector& potential) {
-  const double c = charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
-  const Vector field_in = (law.a * potential - law.s_in) / law.k_in;
-  const Vector field_out = (law.a * potential + law.s_out) / law.k_out;
-  return {potential - (in / c) * field_in, (out / c) * field_out - (in / c) * field_in};
+SolveReport solve_law(const ElectricMembrane& of, const FaceLaw& law, double tolerance, Vector& potential) {
+  const Membrane& membrane = of.membrane;
+  const ElectricParameters of_law = conducting(of.electric, law);
+  const bool varies = law.varying.size() > 0;
+  const ChargingEquation equation =
+      varies ? ChargingEquation(of_law, membrane, law.varying) : ChargingEquation(of_law, membrane, law.a);
+  const Vector rhs = right_side_of(of_law, membrane, equation, law);
+  if (potential.size() != rhs.size()) potential = Vector::Zero(rhs.size());
+  const LinearMap map = [&](const Vector& v) { return equation.own(v); };
+  const LinearMap preconditioner = [&](const Vector& r) { return equation.sphere_inverse(r); };
+  return solve_within(membrane.subspace.potentials(), map, preconditioner, rhs, potential,
+                      {tolerance, varies ? 120 : 60});
 }
 
-Vector weighted_field_jump(const ElectricParameters& electric, const ChargingParameters& charging,
-                           const Membrane& membrane, const FaceCharges& charges, const Vector& potential) {
-  const double c = charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
-  const Vector difference =
-      (c / out) * (potential + charges.sum - charges.inner) - (c / in) * (potential - charges.inner);
+FaceCharges charges_after(const ChargingMembrane& of, const FaceLaw& law, const Vector& potential) {
+  const auto& [electric, membrane] = of.in_field;
+  const double c = of.charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
+  Vector field_in, field_out;
+  if (law.varying.size() == 0) {
+    field_in = (law.a * potential - law.s_in) / law.k_in;
+    field_out = (law.a * potential + law.s_out) / law.k_out;
+  } else {
+    const Vector stored = product(membrane, law.varying, potential);
+    field_in = (stored - law.s_in) / law.k_in;
+    field_out = (stored + law.s_out) / law.k_out;
+  }
+  return {capacitive(of, potential) - (in / c) * field_in, (out / c) * field_out - (in / c) * field_in};
+}
+
+Vector weighted_field_jump(const ChargingMembrane& of, const FaceCharges& charges, const Vector& potential) {
+  const auto& [electric, membrane] = of.in_field;
+  const double c = of.charging.capacitance, in = permittivity_in(electric), out = electric.permittivity;
+  const Vector stored = capacitive(of, potential);
+  const Vector difference = (c / out) * (stored + charges.sum - charges.inner) - (c / in) * (stored - charges.inner);
   return membrane.weighted(membrane.fine.synthesize(difference));
 }
 
@@ -115,37 +168,50 @@ ElectricTraces traces_of_charges(const ElectricParameters& electric, const Charg
 RelaxingField field_of_charges(const ElectricParameters& electric, const ChargingParameters& charging,
                                const Membrane& membrane, const FaceCharges& charges, double tolerance,
                                const Vector& start) {
+  const ChargingMembrane of{{electric, membrane}, charging};
   RelaxingField field;
   field.potential = start;
-  field.report = solve_law(electric, membrane, law_of_charges(electric, charging, charges), tolerance, field.potential);
-  const Vector jump = weighted_field_jump(electric, charging, membrane, charges, field.potential);
+  field.report = solve_law(of.in_field, law_of_charges(of, charges), tolerance, field.potential);
+  const Vector jump = weighted_field_jump(of, charges, field.potential);
   field.traces = traces_of_charges(electric, charging, membrane, charges, field.potential, jump);
   return field;
 }
 
 FaceCharges charge_rates(const ElectricParameters& electric, const ChargingParameters& charging,
                          const Membrane& membrane, const RelaxingField& field) {
+  return charge_rates(electric, charging, membrane, field,
+                      current_through(electric, charging, membrane, field.potential));
+}
+
+FaceCharges charge_rates(const ElectricParameters& electric, const ChargingParameters& charging,
+                         const Membrane& membrane, const RelaxingField& field, const Vector& current) {
   const Vector in = without_mean(membrane, -electric.conductivity_in * field.traces.flux_in);
   const Vector out = without_mean(membrane, -electric.conductivity_out * field.traces.flux_out);
-  const Vector leak = charging.conductance * field.potential;
-  return {(Vector(membrane.fine.analyze(in)) - leak) / charging.capacitance,
+  return {(Vector(membrane.fine.analyze(in)) - current) / charging.capacitance,
           Vector(membrane.fine.analyze(Vector(in - out))) / charging.capacitance};
 }
 
 SolveReport relax_charges(const ElectricParameters& electric, const ChargingParameters& charging,
                           const Membrane& membrane, double dt, double tolerance, FaceCharges& charges) {
-  const FaceLaw law = law_of_step(electric, charging, dt, charges);
+  const ChargingMembrane of{{electric, membrane}, charging};
+  const FaceLaw law = law_of_step(of, dt, charges);
   Vector potential = charges.inner;
-  const SolveReport report = solve_law(electric, membrane, law, tolerance, potential);
-  charges = charges_after(electric, charging, law, potential);
+  const SolveReport report = solve_law(of.in_field, law, tolerance, potential);
+  charges = charges_after(of, law, potential);
   return report;
 }
 
 FaceCharges steady_charges(const ElectricParameters& electric, const ChargingParameters& charging,
-                           const Vector& potential) {
+                           const Membrane& membrane, const Vector& potential) {
   if (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0) {
     throw InputError(
         "a steady V_m with displacement currents needs fluids that both conduct; one conductivity is zero");
+  }
+  if (charges_by_place(membrane)) {
+    const Vector current = current_through(electric, charging, membrane, potential) / charging.capacitance;
+    const double in = permittivity_in(electric) / electric.conductivity_in;
+    const double out = electric.permittivity / electric.conductivity_out;
+    return {capacitive({{electric, membrane}, charging}, potential) - in * current, (out - in) * current};
   }
   const double leak = charging.conductance / charging.capacitance;
   const double in = permittivity_in(electric) / electric.conductivity_in * leak;

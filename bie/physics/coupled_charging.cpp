@@ -60,6 +60,13 @@ SolveReport charge_membranes(const std::vector<ElectricMembrane>& membranes, con
   return solve_charging(membranes, interaction, all, tolerance, potentials);
 }
 
+SolveReport solve_varying_charging(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
+                                   std::vector<ChargingStep> steps, double tolerance, std::vector<Vector>& potentials) {
+  Charging all;
+  for (ChargingStep& step : steps) all.add_varying(std::move(step));
+  return solve_charging(membranes, interaction, all, tolerance, potentials);
+}
+
 SolveReport steady_potentials(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                               const std::vector<ChargingParameters>& charging, double tolerance,
                               std::vector<Vector>& potentials) {

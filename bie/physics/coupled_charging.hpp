@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bie/physics/coupled_electric.hpp"
+#include "bie/physics/membrane_charging.hpp"
 
 namespace vehd {
 
@@ -18,6 +19,13 @@ namespace vehd {
 SolveReport charge_membranes(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                              const std::vector<ChargingParameters>& charging, double dt, double tolerance,
                              std::vector<Vector>& potentials);
+
+/// solve_varying_charging for several membranes at once.
+/// @throws InputError as charge_membranes
+/// @param steps       a and b of each
+/// @param potentials  where the solve starts on input, V of each on output
+SolveReport solve_varying_charging(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
+                                   std::vector<ChargingStep> steps, double tolerance, std::vector<Vector>& potentials);
 
 /// steady_potential for several membranes at once.
 /// @throws InputError if nothing determines it, or as charge_membranes

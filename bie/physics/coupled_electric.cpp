@@ -64,7 +64,7 @@ CoupledDensities solve_second_kind(const std::vector<ElectricMembrane>& membrane
     areas.push_back(membrane.radius * membrane.radius);
   }
   for (const std::size_t a : own) right_sides[a] = second_kind_right_side(membranes[a].membrane, weighted_rhs[a]);
-  shares.gather(right_sides);
+  interaction.gather_potentials(right_sides);
   const StackedEntries stacked(std::move(sizes), std::move(entries));
   const Vector scale = stacked.spread(areas);
   const auto densities_of = [&](const Vector& unknowns) { return stacked.parts(unknowns.cwiseProduct(scale)); };
@@ -73,7 +73,7 @@ CoupledDensities solve_second_kind(const std::vector<ElectricMembrane>& membrane
     std::vector<Vector> result = fluxes_of_others(membranes, interaction, weighted);
     for_each_member(
         own, [&](std::size_t a) { result[a] += second_kind_operator(membranes[a].membrane, etas[a], weighted[a]); });
-    shares.gather(result);
+    interaction.gather_potentials(result);
     return stacked.stack(result);
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {

@@ -7,12 +7,6 @@
 
 namespace vehd {
 
-/// One of several membranes in a field. The parameters outside are those of all.
-struct ElectricMembrane {
-  ElectricParameters electric;
-  const Membrane& membrane;
-};
-
 /// Which layers of this membrane the electric problem of the others needs.
 PairSelection electric_pair_selection(const ElectricParameters& electric);
 

@@ -1,5 +1,7 @@
 #include "bie/physics/coupled_equation.hpp"
 
+#include <algorithm>
+
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -49,7 +51,7 @@ std::vector<Vector> CoupledEquation::left_side(const std::vector<Vector>& potent
   for_each_member(owned_, [&](std::size_t a) {
     result[a] = own_[a].conduction() * (result[a] - of_potentials[a]) + own_[a].own(potentials[a]);
   });
-  interaction_.shares().gather(result);
+  interaction_.gather_potentials(result);
   return result;
 }
 
@@ -57,7 +59,7 @@ std::vector<Vector> CoupledEquation::right_sides(const std::vector<Vector>& of_o
                                                  const std::vector<Vector>& charges) const {
   std::vector<Vector> result = interaction_.weighted_single_flux(charges);
   for (const std::size_t a : owned_) result[a] = own_[a].conduction() * result[a] + of_own[a];
-  interaction_.shares().gather(result);
+  interaction_.gather_potentials(result);
   return result;
 }
 
@@ -94,7 +96,10 @@ SolveReport CoupledEquation::solve(const std::vector<Vector>& rhs, double tolera
   };
   RecycledGcr solver(map, preconditioner, stacked.size());
   const Vector start = stacked.stack(potentials).cwiseQuotient(scale);
-  const RecycledGcr::Solution solution = solver.solve(stacked.stack(rhs), start, {tolerance, 60});
+  // The inverse on a sphere knows the mean of a alone.
+  const bool varies =
+      std::any_of(storages_.begin(), storages_.end(), [](const Storage& one) { return one.varying.size() > 0; });
+  const RecycledGcr::Solution solution = solver.solve(stacked.stack(rhs), start, {tolerance, varies ? 120 : 60});
   potentials = stacked.parts(solution.x.cwiseProduct(scale));
   return solution.report;
 }

@@ -52,7 +52,7 @@ CoupledFlow::CoupledFlow(const std::vector<FlowMembrane>& membranes, const Inter
     std::vector<Matrix> of_others = interaction.stokes_double(jumps);
     for_each_member(interaction.shares().own(of_others.size()),
                     [&](std::size_t a) { of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a])); });
-    interaction.shares().gather(of_others);
+    interaction.gather_vectors(of_others);
     return v - stacked.stack(columns(of_others));
   };
   solver_ = std::make_unique<RecycledGcr>(
@@ -74,7 +74,7 @@ std::vector<Matrix> CoupledFlow::velocities(const std::vector<Matrix>& weighted,
     result[a] = membrane.velocity(std::move(result[a]));
   });
   if (!contrast_) return result;
-  interaction_.shares().gather(result);
+  interaction_.gather_vectors(result);
   const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(columns(result)), {}, kWithinSolve);
   require_converged(solution.report, "velocities of membranes with a viscosity contrast");
   return matrices(stacked_.parts(solution.x));

@@ -37,6 +37,8 @@ class CoupledFlow {
 
   /// Which membranes are whose: of forces and velocities those of this rank count, see Interaction.
   [[nodiscard]] const Shares& shares() const { return interaction_.shares(); }
+  /// Which membranes are images of others.
+  [[nodiscard]] const Exchange& exchange() const { return interaction_.exchange(); }
   /// Velocities of the membranes under forces on the fluid, coefficients.
   /// @param weighted    of J f, [n_coefficients x 3]; empty ones are zero
   /// @param background  v_∞ on each, or nothing

@@ -8,7 +8,15 @@ namespace vehd {
 
 namespace {
 
-/// V of all membranes under the laws of their faces.
+/// Of the double layers less the single layers of all other membranes, on those of this rank.
+std::vector<Vector> difference(const std::vector<std::size_t>& own, std::vector<Vector> doubles,
+                               const std::vector<Vector>& singles) {
+  for (const std::size_t a : own) doubles[a] -= singles[a];
+  return doubles;
+}
+
+}  // namespace
+
 SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
                        const std::vector<FaceLaw>& laws, double tolerance, std::vector<Vector>& potentials) {
   std::vector<ElectricMembrane> of_laws;
@@ -16,7 +24,7 @@ SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Int
   for (std::size_t b = 0; b < membranes.size(); ++b) {
     const auto& [electric, membrane] = membranes[b].in_field;
     of_laws.push_back({conducting(electric, laws[b]), membrane});
-    storages.push_back({laws[b].a});
+    storages.push_back({laws[b].a, laws[b].varying});
   }
   const CoupledEquation equation(of_laws, interaction, storages);
   std::vector<Vector> of_own(membranes.size()), charges(membranes.size());
@@ -29,29 +37,19 @@ SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Int
   return equation.solve(equation.right_sides(of_own, charges), tolerance, potentials);
 }
 
-/// Of the double layers less the single layers of all other membranes, on those of this rank.
-std::vector<Vector> difference(const std::vector<std::size_t>& own, std::vector<Vector> doubles,
-                               const std::vector<Vector>& singles) {
-  for (const std::size_t a : own) doubles[a] -= singles[a];
-  return doubles;
-}
-
-}  // namespace
-
 std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>& membranes,
                                              const Interaction& interaction, const std::vector<FaceCharges>& charges,
                                              double tolerance, std::vector<Vector> start) {
   std::vector<FaceLaw> laws;
   for (std::size_t b = 0; b < membranes.size(); ++b) {
-    laws.push_back(law_of_charges(membranes[b].in_field.electric, membranes[b].charging, charges[b]));
+    laws.push_back(law_of_charges(membranes[b], charges[b]));
   }
   std::vector<Vector> potentials = std::move(start);
   const SolveReport report = solve_laws(membranes, interaction, laws, tolerance, potentials);
   const std::vector<std::size_t> own = interaction.shares().own(membranes.size());
   std::vector<Vector> jumps(membranes.size());
   for (const std::size_t b : own) {
-    const auto& [electric, membrane] = membranes[b].in_field;
-    jumps[b] = weighted_field_jump(electric, membranes[b].charging, membrane, charges[b], potentials[b]);
+    jumps[b] = weighted_field_jump(membranes[b], charges[b], potentials[b]);
   }
   const std::vector<Vector> fluxes =
       difference(own, interaction.weighted_double_flux(potentials), interaction.weighted_single_flux(jumps));
@@ -72,12 +70,12 @@ SolveReport relax_charges(const std::vector<ChargingMembrane>& membranes, const 
   std::vector<FaceLaw> laws;
   std::vector<Vector> potentials;
   for (std::size_t b = 0; b < membranes.size(); ++b) {
-    laws.push_back(law_of_step(membranes[b].in_field.electric, membranes[b].charging, dt, charges[b]));
+    laws.push_back(law_of_step(membranes[b], dt, charges[b]));
     potentials.push_back(charges[b].inner);
   }
   const SolveReport report = solve_laws(membranes, interaction, laws, tolerance, potentials);
   for (std::size_t b = 0; b < membranes.size(); ++b) {
-    charges[b] = charges_after(membranes[b].in_field.electric, membranes[b].charging, laws[b], potentials[b]);
+    charges[b] = charges_after(membranes[b], laws[b], potentials[b]);
   }
   return report;
 }

@@ -7,12 +7,6 @@
 
 namespace vehd {
 
-/// One of several membranes with charges on its faces.
-struct ChargingMembrane {
-  ElectricMembrane in_field;
-  ChargingParameters charging;
-};
-
 /// field_of_charges of all membranes together: with E_k of every membrane b in terms of its own V_b and charges,
 ///   ½(E_i + E_e)_a + Σ_b S′_ab[(E_e − E_i)_b] − Σ_b D′_ab[V_b] = E·n on every membrane a.
 /// @param start  first guesses of V
@@ -23,6 +17,11 @@ struct ChargingMembrane {
 std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>& membranes,
                                              const Interaction& interaction, const std::vector<FaceCharges>& charges,
                                              double tolerance, std::vector<Vector> start);
+
+/// solve_law for all membranes at once.
+/// @param potentials  where the solve starts on input, V of each on output
+SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
+                       const std::vector<FaceLaw>& laws, double tolerance, std::vector<Vector>& potentials);
 
 /// relax_charges for all membranes at once: the same equations with K_k = σ_k + ε_k/dt and C_m/dt + G_m of each.
 /// @param charges  before the step on input, after it on output

@@ -57,6 +57,8 @@ class ExplicitEffect {
   [[nodiscard]] virtual bool is_invariant_under_rotations() const { return is_axisymmetric(); }
   /// Does it do the same to a membrane wherever that is?
   [[nodiscard]] virtual bool is_same_everywhere() const { return false; }
+  /// Does the other one do the same to any membrane? Of effects on one vesicle alone this may tell equal ones.
+  [[nodiscard]] virtual bool is_same_as(const ExplicitEffect& other) const { return this == &other; }
   /// The same effect rotated by the rotation R.
   [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const = 0;
   /// Where to look for an axis about which it is axisymmetric; none where every axis is one.

@@ -7,6 +7,12 @@
 
 namespace vehd {
 
+/// One membrane in a field. Of several the parameters outside are those of all.
+struct ElectricMembrane {
+  ElectricParameters electric;
+  const Membrane& membrane;
+};
+
 /// (σ_i − σ_e)/(σ_i + σ_e), Eq. (11).
 /// In [−1, 1]; conductivities in one unit.
 double conductivity_contrast(const ElectricParameters& electric);

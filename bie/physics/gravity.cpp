@@ -28,6 +28,11 @@ bool GravityEffect::is_axisymmetric() const {
   return parameters_.acceleration.x() == 0.0 && parameters_.acceleration.y() == 0.0;
 }
 
+bool GravityEffect::is_same_as(const ExplicitEffect& other) const {
+  const auto* gravity = dynamic_cast<const GravityEffect*>(&other);
+  return gravity != nullptr && gravity->parameters_ == parameters_;
+}
+
 std::shared_ptr<const ExplicitEffect> GravityEffect::rotated(const Matrix3& rotation) const {
   return std::make_shared<GravityEffect>(
       GravityParameters{parameters_.density_difference, rotated_vector(rotation, parameters_.acceleration)});

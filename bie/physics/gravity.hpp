@@ -10,6 +10,7 @@ namespace vehd {
 struct GravityParameters {
   double density_difference = 0.0;  ///< ρ_i − ρ_e
   Vector3 acceleration = Vector3::Zero();
+  bool operator==(const GravityParameters&) const = default;
 };
 
 /// The force f_g of GravityParameters, per area, [n_points x 3].
@@ -25,6 +26,7 @@ class GravityEffect : public ExplicitEffect {
   void add(const EffectInput& input, Forcing& forcing) const override;
   [[nodiscard]] bool is_invariant_under(const Reflection& g) const override;
   [[nodiscard]] bool is_axisymmetric() const override;
+  [[nodiscard]] bool is_same_as(const ExplicitEffect& other) const override;
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const override;
   [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
 

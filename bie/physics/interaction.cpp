@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <optional>
 
 #include "bie/potentials/far_expansions.hpp"
@@ -26,15 +27,25 @@ TargetNodes target_nodes(const InteractingMembrane& membrane) {
   return result;
 }
 
-/// With fewer membranes a sum over the nodes of each other one takes less time than moments of all.
-constexpr std::size_t kFewMembranes = 8;
+/// Where a value that a source takes at the nodes of a membrane counts: as it is at these nodes, or as what the image
+/// of the source does to another membrane, which is its image.
+struct Use {
+  std::size_t target, source;
+};
+
+/// Nodes of a membrane near to a source, with what their values are for.
+struct NearNodes {
+  std::size_t at;
+  std::vector<Use> uses;
+};
 
 }  // namespace
 
 struct Interaction::Parts {
   Shares shares;
-  std::vector<SphereTransform> targets;        ///< of each membrane
-  std::vector<std::vector<std::size_t>> near;  ///< of each membrane the others that its layers serve
+  Exchange exchange;
+  std::vector<SphereTransform> targets;      ///< of each membrane
+  std::vector<std::vector<NearNodes>> near;  ///< of each membrane the others that its layers serve
   /// Of each membrane of this rank at the nodes of these, one after the other.
   std::vector<std::optional<PairLayers>> layers;
   std::optional<FarExpansions> expansions;  ///< for all others, where there are any
@@ -64,48 +75,93 @@ struct Interaction::Parts {
     for_each_membrane([&](std::size_t b) {
       if (densities[b].size() > 0 && !near[b].empty()) from[b] = layer(*layers[b], densities[b]);
     });
-    add_near(from, values);
+    std::vector<Matrix> of_images(n());
+    add_near(from, values, of_images);
     std::vector<Field> result(n());
-    for_each_membrane([&](std::size_t a) { result[a] = targets[a].analyze(values[a]); });
+    for_each_membrane([&](std::size_t a) {
+      result[a] = targets[a].analyze(values[a]);
+      if (of_images[a].size() > 0) result[a] += of_images[a];
+    });
     return result;
   }
 
-  /// Adds what each membrane does to those near to it, in the order of the sources. @param from  of those of this rank
-  void add_near(const std::vector<Matrix>& from, std::vector<Matrix>& values) const {
+  /// Adds what each membrane does to those near to it, in the order of the sources.
+  /// @param from       of the membranes of this rank
+  /// @param values     there it is added at nodes
+  /// @param of_images  there, in coefficients, what images do
+  void add_near(const std::vector<Matrix>& from, std::vector<Matrix>& values, std::vector<Matrix>& of_images) const {
+    const auto add = [&](std::size_t a, bool by_image, const auto& block) {
+      if (!by_image) {
+        values[a] += block;
+      } else if (of_images[a].size() == 0) {
+        of_images[a] = block;
+      } else {
+        of_images[a] += block;
+      }
+    };
     std::vector<Packing> to(static_cast<std::size_t>(shares.ranks().size()));
-    for_each_block(from, [&](std::size_t a, const auto& block) {
-      if (!shares.owns(a)) to[static_cast<std::size_t>(shares.owner(a))](a, Matrix(block));
+    for_each_block(from, [&](std::size_t a, bool by_image, const auto& block) {
+      if (!shares.owns(a)) to[static_cast<std::size_t>(shares.owner(a))](a, by_image, Matrix(block));
     });
     std::vector<std::string> parcels;
     for (Packing& parcel : to) parcels.push_back(parcel.take());
     parcels = shares.ranks().exchange(parcels);
     for (int rank = 0; rank < shares.ranks().size(); ++rank) {
       if (rank == shares.ranks().rank()) {
-        for_each_block(from, [&](std::size_t a, const auto& block) {
-          if (shares.owns(a)) values[a] += block;
+        for_each_block(from, [&](std::size_t a, bool by_image, const auto& block) {
+          if (shares.owns(a)) add(a, by_image, block);
         });
       }
       Unpacking parcel(parcels[static_cast<std::size_t>(rank)]);
       while (!parcel.is_empty()) {
         std::size_t a = 0;
+        bool by_image = false;
         Matrix block;
-        parcel(a, block);
-        values[a] += block;
+        parcel(a, by_image, block);
+        add(a, by_image, block);
       }
     }
   }
 
-  /// body(target, values there) for all targets near to all sources, in the order of the sources.
+  /// body(target, false, values there) for all targets near to all sources, in the order of the sources, and
+  /// body(target, true, coefficients there) for what their images do to targets.
   template <class Body>
   void for_each_block(const std::vector<Matrix>& from, const Body& body) const {
     for (std::size_t b = 0; b < n(); ++b) {
       if (from[b].size() == 0) continue;
       Index first = 0;
-      for (const std::size_t a : near[b]) {
-        const Index count = targets[a].grid().n_points();
-        body(a, from[b].middleRows(first, count));
+      for (const NearNodes& nodes : near[b]) {
+        const Index count = targets[nodes.at].grid().n_points();
+        const auto block = from[b].middleRows(first, count);
+        for (const Use& use : nodes.uses) {
+          if (use.source == b) {
+            body(use.target, false, block);
+            continue;
+          }
+          const ImageOfFields& image = exchange.image(use.source);
+          const Matrix there = targets[nodes.at].analyze(block);
+          body(use.target, true, there.cols() == 1 ? image.potential(there) : image.vector(there));
+        }
         first += count;
       }
+    }
+  }
+
+  /// What the membranes of this rank have to be known for at the nodes of others.
+  /// @param is_far  (target, source): others serve that pair
+  template <class IsFar>
+  void find_near(const IsFar& is_far) {
+    near.resize(n());
+    for (std::size_t b = 0; b < n(); ++b) {
+      if (!shares.owns(b)) continue;
+      std::map<std::size_t, std::vector<Use>> uses;
+      for (std::size_t c = 0; c < n(); ++c) {
+        if (exchange.original(c) != b) continue;
+        for (std::size_t a = 0; a < n(); ++a) {
+          if (a != c && !exchange.is_image(a) && !is_far(a, c)) uses[exchange.preimage(c, a)].push_back({a, c});
+        }
+      }
+      for (auto& [at, all] : uses) near[b].push_back({at, std::move(all)});
     }
   }
 
@@ -121,18 +177,19 @@ struct Interaction::Parts {
 };
 
 Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
-                         Instruments& instruments, Shares shares) {
+                         Instruments& instruments, Shares shares, Exchange exchange) {
   auto parts = std::make_unique<Parts>();
   parts->shares = std::move(shares);
+  parts->exchange = std::move(exchange);
   SharedTransforms transforms;
   PairSettings of_one = settings;
-  of_one.row_bytes /= static_cast<double>(membranes.size());
+  of_one.row_bytes /= static_cast<double>(parts->exchange.n_originals(membranes.size()));
   std::vector<TargetNodes> nodes;
   for (const InteractingMembrane& membrane : membranes) {
     parts->targets.push_back(membrane.nodes);
     nodes.push_back(target_nodes(membrane));
   }
-  if (membranes.size() > kFewMembranes) {
+  if (membranes.size() > most_summed_membranes) {
     const auto timer = instruments.time("pair layers");
     std::vector<ExpandedMembrane> expanded;
     for (std::size_t a = 0; a < membranes.size(); ++a) {
@@ -140,22 +197,19 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     }
     parts->expansions.emplace(expanded, settings.tolerance, transforms, parts->shares);
   }
+  parts->find_near([&](std::size_t a, std::size_t b) { return parts->expansions && parts->expansions->is_far(a, b); });
   for (std::size_t b = 0; b < membranes.size(); ++b) {
-    std::vector<std::size_t>& near = parts->near.emplace_back();
     std::optional<PairLayers>& layers = parts->layers.emplace_back();
     if (!parts->shares.owns(b)) continue;
     Index n_near = 0;
-    for (std::size_t a = 0; a < membranes.size(); ++a) {
-      if (a == b || (parts->expansions && parts->expansions->is_far(a, b))) continue;
-      near.push_back(a);
-      n_near += nodes[a].points.rows();
-    }
+    for (const NearNodes& near : parts->near[b]) n_near += nodes[near.at].points.rows();
     TargetNodes others{Matrix(n_near, 3), Matrix(n_near, 3)};
     Index first = 0;
-    for (const std::size_t a : near) {
-      others.points.middleRows(first, nodes[a].points.rows()) = nodes[a].points;
-      others.area_vectors.middleRows(first, nodes[a].points.rows()) = nodes[a].area_vectors;
-      first += nodes[a].points.rows();
+    for (const NearNodes& near : parts->near[b]) {
+      const TargetNodes& there = nodes[near.at];
+      others.points.middleRows(first, there.points.rows()) = there.points;
+      others.area_vectors.middleRows(first, there.points.rows()) = there.area_vectors;
+      first += there.points.rows();
     }
     try {
       layers.emplace(membranes[b].position, others.points, others.area_vectors, membranes[b].selection, of_one,
@@ -178,6 +232,8 @@ Interaction::Interaction(Interaction&&) noexcept = default;
 std::size_t Interaction::n_membranes() const { return parts_->n(); }
 
 const Shares& Interaction::shares() const { return parts_->shares; }
+
+const Exchange& Interaction::exchange() const { return parts_->exchange; }
 
 std::vector<Vector> Interaction::weighted_single_flux(const std::vector<Vector>& weighted) const {
   return parts_->fluxes(

@@ -4,10 +4,15 @@
 #include <vector>
 
 #include "bie/potentials/pair_layers.hpp"
+#include "bie/sphere/exchange.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/ranks/shares.hpp"
 
 namespace vehd {
+
+/// With more membranes distant pairs are served by multipole expansions: with fewer a sum over the nodes of each other
+/// one takes less time than moments of all.
+constexpr std::size_t most_summed_membranes = 8;
 
 /// One of several membranes.
 struct InteractingMembrane {
@@ -22,6 +27,9 @@ struct InteractingMembrane {
 ///
 /// Of several ranks each has the layers of its own membranes: of densities it needs theirs, and of results it gets
 /// theirs, the others stay empty. All calls are collective then. The sums have the same bits for any number of ranks.
+///
+/// Where membranes with all that is on them are images of others nothing is computed for the images: of densities it
+/// needs those of the originals, and of results it gives theirs.
 /// Accuracy: that of PairLayers at the nodes, and what the degree of the target leaves out of the sums; Green's
 /// identity between two shapes without symmetry, nine membranes as the sums of their pairs to 1e-9
 /// (tests/physics/interaction_test.cpp)
@@ -30,9 +38,10 @@ class Interaction {
  public:
   /// @param settings     memory for rows is that of all
   /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
+  /// @param exchange     which membranes are images of others, as the shares have it; most_summed_membranes then
   /// @throws ConvergenceError if two membranes intersect or are too near for any rule, on the rank of one of them
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings, Instruments& instruments,
-              Shares shares = {});
+              Shares shares = {}, Exchange exchange = {});
 
   ~Interaction();
   Interaction(Interaction&&) noexcept;
@@ -40,6 +49,19 @@ class Interaction {
   [[nodiscard]] std::size_t n_membranes() const;
   /// Which membranes are whose.
   [[nodiscard]] const Shares& shares() const;
+  /// Which membranes are images of others.
+  [[nodiscard]] const Exchange& exchange() const;
+  /// Gives all ranks what each has for its membranes, and images what follows from their originals: coefficients of
+  /// scalars with the sign of V_m, each column one of them. Collective.
+  template <typename Field>
+  void gather_potentials(std::vector<Field>& fields) const {
+    shares().gather(fields,
+                    [this](const Field& f, std::size_t a) -> Field { return exchange().image(a).potential(f); });
+  }
+  /// The same of vectors, [n_coefficients x 3]. Collective.
+  void gather_vectors(std::vector<Matrix>& fields) const {
+    shares().gather(fields, [this](const Matrix& f, std::size_t a) { return exchange().image(a).vector(f); });
+  }
 
   // Each throws std::logic_error for a layer that was not selected.
 

@@ -112,6 +112,13 @@ bool charges_by_place(const Membrane& membrane) {
   return material.capacitance.size() > 0 || material.conductance.size() > 0 || material.pump_current.size() > 0;
 }
 
+MembraneCurrent membrane_current(const ElectricParameters& electric, const ChargingParameters& charging,
+                                 const Membrane& membrane) {
+  const Vector& pump = membrane.material.pump_current;
+  return {conductance_of(charging, membrane),
+          pump.size() > 0 ? Vector(electric.pump * pump) : Vector(Vector::Zero(membrane.surface.n_points()))};
+}
+
 ChargingStep charging_step(const ElectricParameters& electric, const ChargingParameters& charging,
                            const Membrane& membrane, double dt, const Vector& potential) {
   const Vector storage = capacitance_of(charging, membrane) / dt;

@@ -5,6 +5,12 @@
 
 namespace vehd {
 
+/// A membrane in a field that charges.
+struct ChargingMembrane {
+  ElectricMembrane in_field;
+  ChargingParameters charging;
+};
+
 /// The equation (½ + ηS′)(a V − b) − κ D′[V] = κ E·n of one membrane, weighted by J and divided by a + κ/R, which may
 /// be of any size; κ = σ_i σ_e/(σ_i + σ_e). Degree 0 holds ∫(a V − b) dA = 0, as no net current leaves a membrane, and
 /// where a = 0 that V has no mean.
@@ -50,6 +56,15 @@ Vector conductance_of(const ChargingParameters& charging, const Membrane& membra
 
 /// Do C_m or G_m differ from place to place, or is there a pump? Then C_m V̇ + G_m V + J_p = −σ_i ∂φ_i/∂n.
 bool charges_by_place(const Membrane& membrane);
+
+/// The current through a membrane at every point, outwards and linear in V there: G V + J, values on the upsampled
+/// grid.
+struct MembraneCurrent {
+  Vector conductance, constant;
+};
+/// G_m V + J_p.
+MembraneCurrent membrane_current(const ElectricParameters& electric, const ChargingParameters& charging,
+                                 const Membrane& membrane);
 
 /// What an implicit step of charging asks for: a = C_m/dt + G_m and b = (C_m/dt) V − J_p, values on the upsampled grid.
 struct ChargingStep {

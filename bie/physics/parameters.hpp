@@ -12,6 +12,7 @@ namespace vehd {
 /// Source: paper Eq. (2)
 struct BendingParameters {
   double modulus = 0.0;  ///< kappa_B
+  bool operator==(const BendingParameters&) const = default;
 };
 
 /// What the velocity of one membrane depends on besides its shape and the forces.
@@ -38,6 +39,7 @@ struct AppliedField {
 struct InnerDielectric {
   double conductivity = 1.0;        ///< sigma_i
   double permittivity_ratio = 1.0;  ///< epsilon inside over outside
+  bool operator==(const InnerDielectric&) const = default;
 };
 
 /// Leaky-dielectric bulk fluids on both sides of one membrane in a uniform applied field, Eq. (4).
@@ -71,6 +73,7 @@ struct ElectricParameters {
 struct ChargingParameters {
   double capacitance = 1.0;  ///< C_m
   double conductance = 0.0;  ///< G_m
+  bool operator==(const ChargingParameters&) const = default;
 };
 
 }  // namespace vehd

@@ -8,6 +8,7 @@ namespace vehd {
 struct PorationCriterion {
   std::optional<double> potential{};  ///< V_c of |V_m|
   std::optional<double> tension{};    ///< λ_c of λ + ½ C_m V_m²
+  bool operator==(const PorationCriterion&) const = default;
 };
 
 }  // namespace vehd

@@ -16,4 +16,9 @@ void SpontaneousCurvatureEffect::add(const EffectInput& input, Forcing& forcing)
   forcing.force += magnitude.asDiagonal() * s.normal;
 }
 
+bool SpontaneousCurvatureEffect::is_same_as(const ExplicitEffect& other) const {
+  const auto* curvature = dynamic_cast<const SpontaneousCurvatureEffect*>(&other);
+  return curvature != nullptr && curvature->parameters_ == parameters_;
+}
+
 }  // namespace vehd

@@ -10,6 +10,7 @@ namespace vehd {
 struct SpontaneousCurvatureParameters {
   double bending_modulus = 0.0;  ///< κ_B
   double curvature = 0.0;        ///< c
+  bool operator==(const SpontaneousCurvatureParameters&) const = default;
 };
 
 /// The force f_c of SpontaneousCurvatureParameters, per area.
@@ -25,6 +26,7 @@ class SpontaneousCurvatureEffect : public ExplicitEffect {
   [[nodiscard]] bool is_invariant_under(const Reflection&) const override { return true; }
   [[nodiscard]] bool is_axisymmetric() const override { return true; }
   [[nodiscard]] bool is_same_everywhere() const override { return true; }
+  [[nodiscard]] bool is_same_as(const ExplicitEffect& other) const override;
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3&) const override {
     return std::make_shared<SpontaneousCurvatureEffect>(parameters_);
   }

@@ -34,6 +34,8 @@ class Waveform {
   [[nodiscard]] bool jumps_at(double time) const;
   /// Is the factor zero from `time` up to the next discontinuity?
   [[nodiscard]] bool is_quiet(double time) const;
+  /// Are all parameters the same?
+  bool operator==(const Waveform&) const = default;
 
  private:
   enum class Kind { constant, alternating, pulse, pulse_train, table };

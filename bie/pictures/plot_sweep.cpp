@@ -9,6 +9,8 @@
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/sweep_axis.hpp"
 #include "bie/pictures/sweep_map.hpp"
+#include "bie/pictures/sweep_means.hpp"
+#include "bie/pictures/sweep_panels.hpp"
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/support/errors.hpp"
@@ -17,7 +19,6 @@
 namespace vehd {
 namespace {
 
-constexpr double lines_width = 255.0, lines_height = 172.0;
 constexpr const char *line_colour = "#1f5fa8", *stopped_colour = "#9a9a9a";
 
 std::vector<std::string> plain_names(const SweepRows& rows) {
@@ -47,17 +48,6 @@ std::vector<double> numbers_of_column(const SweepRows& rows, std::size_t column)
   std::vector<double> numbers;
   for (std::size_t row = 0; row < rows.n_rows(); ++row) numbers.push_back(rows.number(row, column));
   return numbers;
-}
-
-/// A point as an octagon.
-PageArea dot(const PagePoint& at, const char* colour) {
-  constexpr double radius = 1.7;
-  PageArea area{{}, colour};
-  for (int i = 0; i < 8; ++i) {
-    const double angle = std::numbers::pi / 4.0 * (i + 0.5);
-    area.points.push_back({at[0] + radius * std::cos(angle), at[1] + radius * std::sin(angle)});
-  }
-  return area;
 }
 
 /// Where the meaning of a column changes within its values.
@@ -101,7 +91,7 @@ void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, cons
     }
     const PagePoint at{box.left + x.places[row] * box.width(), box.bottom + y.places[row] * box.height()};
     line.points.push_back(at);
-    page.areas.push_back(dot(at, rows.is_completed(row) ? line_colour : stopped_colour));
+    page.areas.push_back(sweep_dot(at, rows.is_completed(row) ? line_colour : stopped_colour));
   }
   end_line();
 }
@@ -113,15 +103,11 @@ void draw_sweep_lines(const SweepPlotTask& task, const SweepRows& rows, const st
   const SweepRows::Key& key = rows.keys().front();
   const SweepAxis x = axis_of_values(key.name, values, key.is_logarithmic);
   if (columns.empty()) throw InputError(fmt::format("{}: has no column to draw", task.paths.table().string()));
-  const std::size_t across = columns.size() > 1 ? 2 : 1, down = (columns.size() + across - 1) / across;
-  Page page{lines_width * static_cast<double>(across), lines_height * static_cast<double>(down)};
+  SweepPanels panels(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double left = lines_width * static_cast<double>(i % across);
-    const double top = page.height - lines_height * static_cast<double>(i / across);
-    draw_line_panel(page, rows, columns[i], x,
-                    {left + 46.0, top - lines_height + 34.0, left + lines_width - 16.0, top - 24.0}, task.border);
+    draw_line_panel(panels.page, rows, columns[i], x, panels.box(i), task.border);
   }
-  draw_page(page, picture);
+  draw_page(panels.page, picture);
 }
 
 }  // namespace
@@ -134,11 +120,14 @@ std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task) {
     return PictureFile{task.output / fmt::format("{}.{}", stem, name_of(task.format)), task.format};
   };
   std::vector<std::filesystem::path> pictures;
-  if (rows.keys().size() == 1 || !rows.is_grid()) {
+  const std::optional<std::size_t> seed = seed_key(rows);
+  const bool has_means = seed && rows.keys().size() > 1;
+  if (rows.keys().size() == 1 || !rows.is_grid() || has_means) {
     if (!task.curves.empty()) {
       throw InputError(fmt::format("--curve {}: {} is of one key, curves are drawn over maps of two",
                                    task.curves.string(), task.paths.table().string()));
     }
+    if (has_means) return draw_sweep_means(rows, *seed, columns, file("lines"));
     draw_sweep_lines(task, rows, columns, file("lines"));
     return {file("lines").path};
   }

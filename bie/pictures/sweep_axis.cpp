@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bie/pictures/shown_numbers.hpp"
+#include "bie/pictures/sweep_panels.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/units.hpp"
 
@@ -33,23 +34,16 @@ std::optional<KeyNumbers> numbers_of(const std::vector<std::string>& texts) {
   return numbers;
 }
 
-/// Gnuplot would lower what follows an underscore.
-std::string printed_key(const std::string& key) {
-  std::string text;
-  for (const char letter : key) text += letter == '_' ? std::string("\\_") : std::string(1, letter);
-  return text;
-}
-
 std::string tick_text(const std::string& value) {
   const auto quantity = parse_quantity(value);
-  return quantity ? fmt::format("{:.3g}", quantity->number) : printed_key(value);
+  return quantity ? fmt::format("{:.3g}", quantity->number) : printed_sweep_text(value);
 }
 
 /// Few enough to be read.
 constexpr std::size_t most_ticks = 6;
 
 std::string label_of(const std::string& key, const std::optional<KeyNumbers>& numbers) {
-  return with_unit(printed_key(key), numbers ? numbers->unit : "");
+  return with_unit(printed_sweep_text(key), numbers ? numbers->unit : "");
 }
 
 SweepAxis side_by_side(const std::string& label, const std::vector<std::string>& values) {

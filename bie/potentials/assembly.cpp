@@ -5,9 +5,9 @@
 
 #include "bie/potentials/layer_operators.hpp"
 #include "bie/potentials/longitude_sums.hpp"
-#include "bie/potentials/small_product.hpp"
 #include "bie/potentials/target_sweep.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/small_product.hpp"
 
 namespace vehd {
 
@@ -43,7 +43,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const Index n = active.count();
   const Index n_modes = longitudes.n_modes();
   const Index n_columns = kernels.count * n;
-  const Index width = (n_columns + kLanes - 1) / kLanes * kLanes;
+  const Index width = filled_up(n_columns);
   const auto order_of_mode = [&](Index mode) {
     return static_cast<int>(mode <= transform.azimuthal_order() ? mode : transform.azimuthal_order() - mode);
   };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/potentials/small_product.hpp"
+#include "bie/sphere/small_product.hpp"
 
 namespace vehd {
 

@@ -98,20 +98,31 @@ Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& e
 }
 
 Matrix StokesOperator::apply_blocks(const Matrix& density) const {
+  const Index n_in = transposed_[0].rows();
   Matrix result(transposed_[0].cols(), 3);
-  const auto x = density.col(0);
-  const auto y = density.col(1);
-  const auto z = density.col(2);
+  const double* x = density.col(0).data();
+  const double* y = density.col(1).data();
+  const double* z = density.col(2).data();
   for_each_index(transposed_[0].cols(), 6 * transposed_[0].size() > kParallelEntries, [&](Index out) {
-    const auto xx = transposed_[0].col(out);
-    const auto xy = transposed_[1].col(out);
-    const auto xz = transposed_[2].col(out);
-    const auto yy = transposed_[3].col(out);
-    const auto yz = transposed_[4].col(out);
-    const auto zz = transposed_[5].col(out);
-    result(out, 0) = xx.dot(x) + xy.dot(y) + xz.dot(z);
-    result(out, 1) = xy.dot(x) + yy.dot(y) + yz.dot(z);
-    result(out, 2) = xz.dot(x) + yz.dot(y) + zz.dot(z);
+    const auto block = [&](std::size_t i) { return transposed_[i].col(out).data(); };
+    const double *xx = block(0), *xy = block(1), *xz = block(2), *yy = block(3), *yz = block(4), *zz = block(5);
+    // Nine sums hide the latency of one another, and every entry is read once.
+    double xx_x = 0.0, xy_y = 0.0, xz_z = 0.0, xy_x = 0.0, yy_y = 0.0, yz_z = 0.0, xz_x = 0.0, yz_y = 0.0, zz_z = 0.0;
+#pragma omp simd reduction(+ : xx_x, xy_y, xz_z, xy_x, yy_y, yz_z, xz_x, yz_y, zz_z)
+    for (Index i = 0; i < n_in; ++i) {
+      xx_x += xx[i] * x[i];
+      xy_y += xy[i] * y[i];
+      xz_z += xz[i] * z[i];
+      xy_x += xy[i] * x[i];
+      yy_y += yy[i] * y[i];
+      yz_z += yz[i] * z[i];
+      xz_x += xz[i] * x[i];
+      yz_y += yz[i] * y[i];
+      zz_z += zz[i] * z[i];
+    }
+    result(out, 0) = xx_x + xy_y + xz_z;
+    result(out, 1) = xy_x + yy_y + yz_z;
+    result(out, 2) = xz_x + yz_y + zz_z;
   });
   return result;
 }

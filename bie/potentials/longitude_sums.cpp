@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bie/potentials/small_product.hpp"
+#include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

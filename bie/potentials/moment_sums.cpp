@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bie/potentials/small_product.hpp"
 #include "bie/potentials/solid_harmonics.hpp"
 
 namespace vehd {
@@ -10,14 +9,16 @@ namespace vehd {
 namespace {
 
 constexpr int kDoubleDegree = 9;
+/// Nodes that stand side by side.
+constexpr Index kNodesTogether = 4;
 /// Columns of R and of q whose sums stay in registers.
 constexpr Index kHarmonics = 2, kDensities = 4;
 
-using FourDoubles [[gnu::vector_size(kLanes * sizeof(double))]] = double;
-using FourDoublesAnywhere [[gnu::vector_size(kLanes * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] =
-    double;
-using FourFloatsAnywhere [[gnu::vector_size(kLanes * sizeof(float)), gnu::aligned(alignof(float)), gnu::may_alias]] =
-    float;
+using FourDoubles [[gnu::vector_size(kNodesTogether * sizeof(double))]] = double;
+using FourDoublesAnywhere
+    [[gnu::vector_size(kNodesTogether * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] = double;
+using FourFloatsAnywhere
+    [[gnu::vector_size(kNodesTogether * sizeof(float)), gnu::aligned(alignof(float)), gnu::may_alias]] = float;
 
 FourDoubles four(const double* at) { return *reinterpret_cast<const FourDoublesAnywhere*>(at); }
 FourDoubles four(const float* at) {
@@ -34,7 +35,7 @@ void moment_block(const EntryColumns<Entry>& r, Index first_r, const Matrix& q, 
   const Entry* of_r = r.col(first_r).data();
   const double* of_q = q.col(first_q).data();
   FourDoubles sum[kR][kQ] = {};
-  for (Index i = 0; i < n; i += kLanes) {
+  for (Index i = 0; i < n; i += kNodesTogether) {
     FourDoubles piece[kR];
 #pragma GCC unroll 4
     for (Index a = 0; a < kR; ++a) piece[a] = four(of_r + a * n + i);
@@ -73,7 +74,7 @@ Matrix moment_products(const EntryColumns<Entry>& r, const Matrix& q) {
 }  // namespace
 
 MomentSums::MomentSums(const Matrix& regular) : n_nodes_(regular.rows()) {
-  const Index n = (n_nodes_ + kLanes - 1) / kLanes * kLanes;
+  const Index n = (n_nodes_ + kNodesTogether - 1) / kNodesTogether * kNodesTogether;
   const Index n_low = std::min(n_solid(kDoubleDegree), regular.cols()), n_high = regular.cols() - n_low;
   low_ = Matrix::Zero(n, n_low);
   low_.topRows(n_nodes_) = regular.leftCols(n_low);

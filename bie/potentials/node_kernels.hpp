@@ -33,6 +33,10 @@ class NodeKernels {
   void evaluate(const double* node, double weight, double* values) const;
 
  private:
+  /// The same for targets from that one on.
+  template <int kWidth>
+  void evaluate_lanes(int first, const double* node, double weight, double* values) const;
+
   const KernelColumns& kernels_;
   int chunk_;
   std::vector<double> targets_;  ///< [6 x chunk], position and area vector

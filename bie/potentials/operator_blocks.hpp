@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "bie/potentials/kernel_columns.hpp"
-#include "bie/potentials/small_product.hpp"
 #include "bie/potentials/target_rows.hpp"
+#include "bie/sphere/small_product.hpp"
 #include "bie/sphere/symmetry.hpp"
 
 namespace vehd {
@@ -25,7 +25,7 @@ struct OperatorBlock {
   [[nodiscard]] Index n_in() const { return static_cast<Index>(in.size()); }
   [[nodiscard]] Index n_columns() const { return static_cast<Index>(kernels.size()) * n_in(); }
   /// In the rows, a multiple of kLanes.
-  [[nodiscard]] Index width() const { return (n_columns() + kLanes - 1) / kLanes * kLanes; }
+  [[nodiscard]] Index width() const { return filled_up(n_columns()); }
 };
 
 /// What the operators on symmetric fields consist of. Blocks between the same sets of coefficients are one, so that a

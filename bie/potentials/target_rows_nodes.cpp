@@ -1,8 +1,8 @@
 // What TargetRows does on the rotated grid: Legendre and Fourier sums, kernels, and the sums of these.
 #include <array>
 
-#include "bie/potentials/small_product.hpp"
 #include "bie/potentials/target_rows.hpp"
+#include "bie/sphere/small_product.hpp"
 
 namespace vehd {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <span>
 
-#include "bie/potentials/small_product.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

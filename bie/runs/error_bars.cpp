@@ -125,7 +125,9 @@ std::vector<Vector> ErrorBars::follow(bool to_end) {
     while (!lost_) {
       const std::optional<double> end = next_end(to_end);
       if (!end) break;
-      while (now() < *end && !is_same_time(now(), *end)) companion_.step({{}, *end});
+      // A row is no end: what errors may grow by is that until the end of both.
+      const EventTimes row{{}, scene_.numerics.end_time, *end};
+      while (now() < *end && !is_same_time(now(), *end)) companion_.step(row);
       compare(known);
     }
   } catch (const ConvergenceError&) {

@@ -181,6 +181,14 @@ const std::vector<HistoryColumn>& columns_of_each() {
   return all;
 }
 
+/// Of a membrane that differs from place to place alone, behind those of one that porates.
+std::vector<HistoryColumn> place_columns() {
+  return {{"elastic_energy", "energy", of_vesicle<&D::elastic_energy>},
+          {"net_force_x", "force", of_vesicle<&D::net_force_x>},
+          {"net_force_y", "force", of_vesicle<&D::net_force_y>},
+          {"net_force_z", "force", of_vesicle<&D::net_force_z>}};
+}
+
 }  // namespace
 
 std::vector<HistoryColumn> poration_columns(PorationModel model) {
@@ -211,34 +219,29 @@ std::size_t first_columns(HistoryKind kind) {
 
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
   static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
-  if (kind.by_place) {
-    // No scene has both.
-    static const auto of_places = [] {
-      std::array<std::vector<HistoryColumn>, 3> all;
-      for (std::size_t rows = 0; rows < usual.size(); ++rows) {
-        all.at(rows) = *usual.at(rows);
-        all.at(rows).insert(all.at(rows).end(), {{"elastic_energy", "energy", of_vesicle<&D::elastic_energy>},
-                                                 {"net_force_x", "force", of_vesicle<&D::net_force_x>},
-                                                 {"net_force_y", "force", of_vesicle<&D::net_force_y>},
-                                                 {"net_force_z", "force", of_vesicle<&D::net_force_z>}});
-      }
-      return all;
-    }();
-    return of_places.at(kind.rows);
-  }
-  if (!kind.poration) return *usual.at(kind.rows);
-  static const auto with_poration = [] {
-    std::array<std::array<std::vector<HistoryColumn>, 3>, n_poration_models> all;
+  if (!kind.poration && !kind.by_place) return *usual.at(kind.rows);
+  // Without poration and with each of its models, without places and with them.
+  using OfRows = std::array<std::vector<HistoryColumn>, usual.size()>;
+  static const auto further = [] {
+    std::array<std::array<OfRows, 2>, n_poration_models + 1> all;
     for (std::size_t model = 0; model < all.size(); ++model) {
-      const std::vector<HistoryColumn> further = poration_columns(static_cast<PorationModel>(model));
-      for (std::size_t rows = 0; rows < usual.size(); ++rows) {
-        std::vector<HistoryColumn>& columns = all.at(model).at(rows) = *usual.at(rows);
-        columns.insert(columns.end(), further.begin(), further.end());
+      for (std::size_t places = 0; places < 2; ++places) {
+        for (std::size_t rows = 0; rows < usual.size(); ++rows) {
+          std::vector<HistoryColumn>& columns = all.at(model).at(places).at(rows) = *usual.at(rows);
+          const auto append = [&](const std::vector<HistoryColumn>& more) {
+            columns.insert(columns.end(), more.begin(), more.end());
+          };
+          const bool reacts = model > 1, of_whole = rows == HistoryKind::of_all;
+          // What each membrane of several has is told of each.
+          if (model > 0 && !(reacts && of_whole)) append(poration_columns(static_cast<PorationModel>(model - 1)));
+          if (places > 0 && !of_whole) append(place_columns());
+        }
       }
     }
     return all;
   }();
-  return with_poration.at(static_cast<std::size_t>(*kind.poration)).at(kind.rows);
+  const std::size_t model = kind.poration ? static_cast<std::size_t>(*kind.poration) + 1 : 0;
+  return further.at(model).at(kind.by_place ? 1 : 0).at(kind.rows);
 }
 
 HistoryKind history_kind(const Scene& scene) {

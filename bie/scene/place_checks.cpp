@@ -57,17 +57,9 @@ class PlaceChecks {
     const std::string name = fmt::format("[{}]", property.table);
     if (property.is_electric) {
       if (!scene_.electric) refuse_table("kind", name + " has no effect without [electric]");
-      if (has_averaged_field(scene_)) {
-        refuse_table("kind", fmt::format("\"average\" in [electric.waveform] is true with {}; accepted: false", name));
-      }
-      if (has_relaxing_charge(scene_)) {
-        refuse_table("kind",
-                     fmt::format("\"displacement_current\" in [electric] is true with {}; accepted: false", name));
-      }
     } else if (!membrane_.mobile) {
       refuse_table("kind", name + " has no effect while \"mobile\" in [membrane] is false");
     }
-    if (scene_.poration) refuse_table("kind", fmt::format("{} with [poration]; accepted: one of them", name));
     check_shape(property, name);
   }
 
@@ -128,6 +120,11 @@ class PlaceChecks {
   }
 
   void check_pump() const {
+    if (has_averaged_field(scene_)) {
+      refuse("membrane.pump", "current",
+             "\"average\" in [electric.waveform] is true with [membrane.pump], whose current has a time of its own; "
+             "accepted: false");
+    }
     if (membrane_.pump->current == 0.0) {
       refuse("membrane.pump", "current", "\"current\" in [membrane.pump] is 0: it has no effect; accepted: any other");
     }

@@ -22,9 +22,6 @@ class PorationChecks {
           "\"average\" in [electric.waveform] is true with [poration], which asks for V_m at every moment; accepted: "
           "false");
     }
-    if (has_relaxing_charge(scene_)) {
-      refuse("model", "\"displacement_current\" in [electric] is true with [poration]; accepted: false");
-    }
     if (poration_.model == PorationModel::criterion) {
       check_criterion();
     } else {

@@ -1,5 +1,7 @@
 #include "bie/scene/problem.hpp"
 
+#include <numeric>
+
 #include "bie/scene/initial_material.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
@@ -48,7 +50,7 @@ Problem problem_of(const Scene& scene, const Model& model) {
   problem.settings = settings_of(scene);
   const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   problem.control = step_control_of(scene);
-  problem.settings.longitude_fold = found.fold;
+  problem.settings.longitude_fold = std::lcm(found.fold, found.exchange.fold());
   if (scene.numerics.symmetry != SymmetryUse::off) problem.symmetry = found;
   for (VesicleState& found_at : start.vesicles) {
     problem.start.push_back({std::move(found_at.position),

@@ -39,10 +39,6 @@ class VesicleChecks {
     if (scene_.contact) check_contact();
     if (scene_.vesicles.empty()) return;
     if (scene_.electric) check_electric();
-    if (scene_.poration && scene_.poration->model != PorationModel::criterion) {
-      refuse(0,
-             "\"model\" in [poration] is porosity or pores with several vesicles; accepted: criterion, or one vesicle");
-    }
     check_places();
   }
 

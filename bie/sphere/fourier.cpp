@@ -1,76 +1,157 @@
 #include "bie/sphere/fourier.hpp"
 
-#include <mutex>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bie/sphere/small_product.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
 
-/// FFTW's planner is the one part of it that is not thread safe.
-std::mutex& planner_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-/// Longitudes of axisymmetric fields. Sines and cosines are 0 and ±1 there, and the calls of a library would cost more
-/// than the sums.
+/// Longitudes of axisymmetric fields, where sines and cosines are 0 and ±1.
 constexpr int kQuarterTurns = 4;
-
-void sum_quarter_turns(const Eigen::Ref<Eigen::MatrixXcd>& spectrum, double* values) {
-  for (Index j = 0; j < spectrum.rows(); ++j, values += kQuarterTurns) {
-    const double mean = spectrum(j, 0).real(), alternating = spectrum(j, 2).real();
-    const double cosine = spectrum(j, 1).real(), sine = -spectrum(j, 1).imag();
-    values[0] = (mean + alternating) + cosine;
-    values[1] = (mean - alternating) + sine;
-    values[2] = (mean + alternating) - cosine;
-    values[3] = (mean - alternating) - sine;
-  }
-}
-
-void find_quarter_turns(const double* values, Eigen::MatrixXcd& spectrum) {
-  for (Index j = 0; j < spectrum.rows(); ++j, values += kQuarterTurns) {
-    const double even = values[0] + values[2], odd = values[1] + values[3];
-    spectrum(j, 0) = 0.25 * (even + odd);
-    spectrum(j, 1) = {0.5 * (values[0] - values[2]), -0.5 * (values[1] - values[3])};
-    spectrum(j, 2) = 0.25 * (even - odd);
-  }
-}
+/// Rows whose parts stay in the first-level cache.
+constexpr Index kRowsTogether = 16;
+/// Up to this order products take less than fast transforms: measured without AVX, and with it at all degrees up to 64,
+/// where they take half as long (docs/performance.md).
+#ifdef __AVX__
+constexpr int kMostByProducts = 128;
+#else
+constexpr int kMostByProducts = 32;
+#endif
 
 }  // namespace
 
-FourierPlan::FourierPlan(int n_theta, int n_phi) : n_theta_(n_theta), n_phi_(n_phi) {
-  if (n_phi == kQuarterTurns) return;
-  const std::scoped_lock lock(planner_mutex());
-  Eigen::MatrixXcd spectrum(n_theta, n_phi / 2 + 1);
-  Vector values(Index{n_theta} * n_phi);
-  auto* complex = reinterpret_cast<fftw_complex*>(spectrum.data());
-  const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
-  backward_.reset(fftw_plan_many_dft_c2r(1, &n_phi, n_theta, complex, nullptr, n_theta, 1, values.data(), nullptr, 1,
-                                         n_phi, flags));
-  forward_.reset(fftw_plan_many_dft_r2c(1, &n_phi, n_theta, values.data(), nullptr, 1, n_phi, complex, nullptr, n_theta,
-                                        1, flags | FFTW_PRESERVE_INPUT));
-}
-
-void FourierPlan::synthesize(Eigen::Ref<Eigen::MatrixXcd> spectrum, double* values) const {
-  if (n_phi_ == kQuarterTurns) {
-    sum_quarter_turns(spectrum, values);
+FourierSums::FourierSums(int n_phi, int order) : n_phi_(n_phi), order_(order), n_quarter_(n_phi / 4 + 1) {
+  require_size("longitudes (even)", n_phi % 2, 0);
+  if (order > kMostByProducts) {
+    fast_.emplace(n_phi, order);
     return;
   }
-  spectrum.middleCols(1, n_phi_ / 2 - 1) *= 0.5;
-  fftw_execute_dft_c2r(backward_.get(), reinterpret_cast<fftw_complex*>(spectrum.data()), values);
+  for (int i = 0; i < kFamilies; ++i) {
+    Family& family = families_[static_cast<std::size_t>(i)];
+    const bool sine = i >= 2;
+    const int parity = i % 2;
+    const int first = sine && parity == 0 ? 2 : parity;  // sin 0φ takes no part
+    family.first_mode = sine ? sine_mode(first) : cosine_mode(first);
+    family.n_modes = first > order ? 0 : (order - first) / 2 + 1;
+    family.synthesis = RowMatrix::Zero(family.n_modes, filled_up(n_quarter_));
+    family.analysis = RowMatrix::Zero(n_quarter_, filled_up(family.n_modes));
+    for (Index j = 0; j < family.n_modes; ++j) {
+      const auto m = first + 2 * static_cast<int>(j);
+      for (Index k = 0; k < n_quarter_; ++k) {
+        const double phi = 2.0 * std::numbers::pi * static_cast<double>(k) / n_phi;
+        const bool vanishes = 4 * k == n_phi && sine == (m % 2 == 0);  // at π/2
+        const double wave = vanishes ? 0.0 : sine ? std::sin(m * phi) : std::cos(m * phi);
+        family.synthesis(j, k) = wave;
+        family.analysis(k, j) = (m == 0 ? 1.0 : 2.0) / n_phi * wave;
+      }
+    }
+  }
 }
 
-Eigen::MatrixXcd FourierPlan::analyze(const double* values) const {
-  Eigen::MatrixXcd spectrum(n_theta_, n_phi_ / 2 + 1);
-  if (n_phi_ == kQuarterTurns) {
-    find_quarter_turns(values, spectrum);
-    return spectrum;
+/// One row at longitudes φ, π − φ, π + φ and −φ. Those that coincide get the same value twice.
+void FourierSums::unfold(const std::array<const double*, kFamilies>& parts, double* values) const {
+  const double *ce = parts[0], *co = parts[1], *se = parts[2], *so = parts[3];
+  double *here = values, *opposite = values + n_phi_ / 2;
+  double *across = opposite - n_quarter_ + 1, *below = values + n_phi_ - n_quarter_ + 1;
+  const Index last = n_quarter_ - 1;
+#pragma omp simd
+  for (Index k = 0; k <= last; ++k) {
+    here[k] = (ce[k] + co[k]) + (se[k] + so[k]);
+    opposite[k] = (ce[k] - co[k]) + (se[k] - so[k]);
   }
-  fftw_execute_dft_r2c(forward_.get(), const_cast<double*>(values), reinterpret_cast<fftw_complex*>(spectrum.data()));
-  spectrum *= 2.0 / n_phi_;
-  spectrum.col(0) *= 0.5;
-  spectrum.col(n_phi_ / 2) *= 0.5;
-  return spectrum;
+#pragma omp simd
+  for (Index k = 0; k < last; ++k) {
+    across[k] = (ce[last - k] - co[last - k]) - (se[last - k] - so[last - k]);
+    below[k] = (ce[last - k] + co[last - k]) - (se[last - k] + so[last - k]);
+  }
+}
+
+/// The other way for the sums of a row.
+void FourierSums::fold(const double* values, const std::array<double*, kFamilies>& parts) const {
+  double *ce = parts[0], *co = parts[1], *se = parts[2], *so = parts[3];
+  const Index half = n_phi_ / 2;
+  const double *here = values, *opposite = values + half, *across = values + half, *below = values + n_phi_;
+  // Where two of the four longitudes coincide, what these would cancel from meets zeros in the tables.
+  const auto fold_pair = [&](Index k) {
+    ce[k] = se[k] = here[k] + opposite[k];
+    co[k] = so[k] = here[k] - opposite[k];
+  };
+  const Index end = n_phi_ % 4 == 0 ? n_quarter_ - 1 : n_quarter_;
+  fold_pair(0);
+  if (end < n_quarter_) fold_pair(end);
+#pragma omp simd
+  for (Index k = 1; k < end; ++k) {
+    const double even = here[k] + opposite[k], odd = here[k] - opposite[k];
+    const double even_image = across[-k] + below[-k], odd_image = across[-k] - below[-k];
+    ce[k] = even + even_image;
+    co[k] = odd - odd_image;
+    se[k] = even - even_image;
+    so[k] = odd + odd_image;
+  }
+}
+
+void FourierSums::synthesize(Index rows, const double* amplitudes, Index stride, double* values) const {
+  if (n_phi_ == kQuarterTurns && order_ == 1) {
+    const double *mean = amplitudes, *cosine = amplitudes + stride, *sine = amplitudes + 2 * stride;
+    for (Index i = 0; i < rows; ++i, values += kQuarterTurns) {
+      values[0] = mean[i] + cosine[i];
+      values[1] = mean[i] + sine[i];
+      values[2] = mean[i] - cosine[i];
+      values[3] = mean[i] - sine[i];
+    }
+    return;
+  }
+  if (fast_) return fast_->synthesize(rows, amplitudes, stride, values);
+  const Index width = filled_up(n_quarter_);
+  std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * width));
+  const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * width; };
+  for (Index first = 0; first < rows; first += kRowsTogether) {
+    const Index count = std::min(kRowsTogether, rows - first);
+    for (int i = 0; i < kFamilies; ++i) {
+      const Family& family = families_[static_cast<std::size_t>(i)];
+      small_product(count, family.n_modes, width, {amplitudes + family.first_mode * stride + first, 1, 2 * stride},
+                    family.synthesis.data(), width, part(i, 0), width);
+    }
+    for (Index row = 0; row < count; ++row) {
+      unfold({part(0, row), part(1, row), part(2, row), part(3, row)}, values + (first + row) * n_phi_);
+    }
+  }
+}
+
+void FourierSums::analyze(Index rows, const double* values, double* amplitudes) const {
+  if (n_phi_ == kQuarterTurns && order_ == 1) {
+    for (Index i = 0; i < rows; ++i, values += kQuarterTurns, amplitudes += 3) {
+      amplitudes[0] = 0.25 * ((values[0] + values[2]) + (values[1] + values[3]));
+      amplitudes[1] = 0.5 * (values[0] - values[2]);
+      amplitudes[2] = 0.5 * (values[1] - values[3]);
+    }
+    return;
+  }
+  if (fast_) return fast_->analyze(rows, values, amplitudes);
+  std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * n_quarter_));
+  std::vector<double> sums(static_cast<std::size_t>(kRowsTogether * filled_up(order_ / 2 + 1)));
+  const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * n_quarter_; };
+  for (Index first = 0; first < rows; first += kRowsTogether) {
+    const Index count = std::min(kRowsTogether, rows - first);
+    for (Index row = 0; row < count; ++row) {
+      fold(values + (first + row) * n_phi_, {part(0, row), part(1, row), part(2, row), part(3, row)});
+    }
+    for (int i = 0; i < kFamilies; ++i) {
+      const Family& family = families_[static_cast<std::size_t>(i)];
+      const Index width = family.analysis.cols();
+      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums.data(),
+                    width);
+      for (Index row = 0; row < count; ++row) {
+        double* to = amplitudes + (first + row) * n_modes() + family.first_mode;
+        for (Index j = 0; j < family.n_modes; ++j) to[2 * j] = sums[static_cast<std::size_t>(row * width + j)];
+      }
+    }
+  }
 }
 
 }  // namespace vehd

@@ -1,41 +1,53 @@
 #pragma once
 
-#include <fftw3.h>
+#include <array>
+#include <optional>
+#include <vector>
 
-#include <memory>
-
+#include "bie/sphere/fast_fourier.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
 
-/// Fourier sums in φ for all latitudes of one field at once: f(φ) = Σ_m (C_m cos mφ + S_m sin mφ). A spectrum is a
-/// [n_theta x (n_phi/2 + 1)] complex matrix with entries C_m − i S_m.
-/// Plans are made with FFTW_ESTIMATE: a measured plan may differ from run to run, and so would the last bits.
+/// Fourier sums over equispaced longitudes φ_k = 2πk/n_phi, of many rows at once:
+///   f(φ) = Σ_m (C_m cos mφ + S_m sin mφ),  m = 0 … order,
+/// as products of small matrices over a quarter of the circle, since longitudes φ, π − φ, π + φ and −φ differ in signs
+/// alone, or of high orders by FastFourier, whichever takes less (docs/performance.md).
 /// Accuracy: rounding; round trips of the transform to 2e-13 (tests/sphere/transform_test.cpp)
-/// Source: FFTW (Frigo and Johnson 2005)
-class FourierPlan {
+class FourierSums {
  public:
-  /// @param n_theta  rows that are transformed together
-  /// @param n_phi    even
-  FourierPlan(int n_theta, int n_phi);
+  /// @param n_phi  even, at least 2 order + 2
+  FourierSums(int n_phi, int order);
 
-  /// @param spectrum  overwritten; sines at m = 0 and m = n_phi/2 must be zero
-  /// @param values    [n_theta * n_phi], φ fastest
-  void synthesize(Eigen::Ref<Eigen::MatrixXcd> spectrum, double* values) const;
-  /// The spectrum of values.
-  /// @param values  left intact
-  [[nodiscard]] Eigen::MatrixXcd analyze(const double* values) const;
+  /// C_0 … C_order, then S_1 … S_order.
+  [[nodiscard]] Index n_modes() const { return 2 * order_ + 1; }
+  [[nodiscard]] Index cosine_mode(int m) const { return m; }
+  [[nodiscard]] Index sine_mode(int m) const { return order_ + m; }
+
+  /// @param amplitudes  that of a mode in a row at [mode * stride + row]
+  /// @param values      [rows x n_phi], φ fastest
+  void synthesize(Index rows, const double* amplitudes, Index stride, double* values) const;
+  /// The other way: exact for waves up to the order.
+  /// @param amplitudes  [rows x n_modes], modes fastest
+  void analyze(Index rows, const double* values, double* amplitudes) const;
 
  private:
-  struct Destroy {
-    void operator()(fftw_plan plan) const { fftw_destroy_plan(plan); }
+  /// Cosines of even, of odd, sines of even, of odd orders.
+  static constexpr int kFamilies = 4;
+  struct Family {
+    Index first_mode = 0, n_modes = 0;  ///< every other mode
+    RowMatrix synthesis;                ///< [modes x quarter], filled up with zeros
+    RowMatrix analysis;                 ///< [quarter x modes], likewise
   };
-  using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, Destroy>;
 
-  int n_theta_;
+  void unfold(const std::array<const double*, kFamilies>& parts, double* values) const;
+  void fold(const double* values, const std::array<double*, kFamilies>& parts) const;
+
   int n_phi_;
-  Plan backward_;
-  Plan forward_;
+  int order_;
+  Index n_quarter_;  ///< longitudes from 0 to π/2
+  std::array<Family, kFamilies> families_;
+  std::optional<FastFourier> fast_;  ///< of high orders, in the place of the families
 };
 
 }  // namespace vehd

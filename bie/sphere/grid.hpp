@@ -24,8 +24,8 @@ SphereGrid make_grid(int order);
 /// The latitudes of make_grid(order) with n_phi longitudes, for fields of few Fourier modes in φ.
 SphereGrid make_grid(int order, int n_phi);
 
-/// The least multiple of `step` from `least` on whose Fourier transform is fast: a prime above 13, for which FFTW has
-/// no code of its own, costs its square. Measured: 82 = 2·41 longitudes take four times as long as 84.
+/// Longitudes of upsampled grids: the least multiple of `step` from `least`, without a prime above 13 in the other
+/// factor, on which the Fourier transform of any library is fast as well.
 int fast_longitudes(int least, int step = 2);
 
 /// Gauss-Legendre rule on [-1, 1], nodes ascending.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "bie/sphere/legendre.hpp"
+#include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
 
@@ -27,6 +29,70 @@ Matrix resize_order(const Matrix& coefficients, int order) {
   return result;
 }
 
+namespace {
+
+/// Points that stand side by side.
+constexpr Index kBlock = 64;
+
+/// What is summed over the degrees of one order.
+struct OrderSeries {
+  std::vector<LegendreRecurrence> recurrence;  ///< of the degrees above the order
+  RowMatrix coefficients;                      ///< [cosines of all fields, then sines x degrees]
+
+  OrderSeries(const Matrix& all, int order, int m) {
+    const Index n_fields = all.cols();
+    coefficients.resize((m == 0 ? 1 : 2) * n_fields, order + 1 - m);
+    for (int n = m; n <= order; ++n) {
+      if (n > m) recurrence.push_back(legendre_recurrence(n, m));
+      coefficients.col(n - m).head(n_fields) = all.row(coefficient_index(n, m)).transpose();
+      if (m > 0) coefficients.col(n - m).tail(n_fields) = all.row(coefficient_index(n, -m)).transpose();
+    }
+  }
+};
+
+/// Values of all fields at a block of points, [fields x points].
+RowMatrix values_at(const std::vector<OrderSeries>& series, const Vector& theta, const Vector& phi) {
+  using Block = Eigen::Array<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kBlock>;
+  const Index n_points = theta.size(), n_fields = series.front().coefficients.rows();
+  const Index width = filled_up(n_points);
+  const auto filled = [&](const Vector& values) {
+    Block block = Block::Zero(width);
+    block.head(n_points) = values.array().transpose();
+    return block;
+  };
+  const Block cos_theta = filled(theta.array().cos()), sin_theta = filled(theta.array().sin());
+  const Block cos_phi = filled(phi.array().cos()), sin_phi = filled(phi.array().sin());
+  Block cos_m = Block::Ones(width), sin_m = Block::Zero(width);
+  Block sectoral = Block::Constant(width, 1.0 / std::sqrt(4.0 * std::numbers::pi));
+  RowMatrix legendre(series.front().coefficients.cols(), width), sums(2 * n_fields, width);
+  RowMatrix values = RowMatrix::Zero(n_fields, width);
+  for (std::size_t m = 0; m < series.size(); ++m) {
+    const auto& [recurrence, coefficients] = series[m];
+    if (m > 0) {
+      sectoral *= legendre_sectoral_factor(static_cast<int>(m)) * sin_theta;
+      const Block next = cos_m * cos_phi - sin_m * sin_phi;
+      sin_m = sin_m * cos_phi + cos_m * sin_phi;
+      cos_m = next;
+    }
+    legendre.row(0) = sectoral.matrix();
+    for (Index i = 1; i < coefficients.cols(); ++i) {
+      const LegendreRecurrence& r = recurrence[static_cast<std::size_t>(i - 1)];
+      auto next = legendre.row(i).array();
+      next = r.a * cos_theta * legendre.row(i - 1).array();
+      if (i > 1) next -= r.a * r.b * legendre.row(i - 2).array();
+    }
+    small_product(coefficients.rows(), coefficients.cols(), width, {coefficients.data(), coefficients.cols(), 1},
+                  legendre.data(), width, sums.data(), width);
+    for (Index f = 0; f < n_fields; ++f) {
+      values.row(f).array() += sums.row(f).array() * cos_m;
+      if (m > 0) values.row(f).array() += sums.row(n_fields + f).array() * sin_m;
+    }
+  }
+  return values.leftCols(n_points);
+}
+
+}  // namespace
+
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi) {
   return evaluate_harmonics(coefficients, theta, phi, order_of(coefficients.rows()));
 }
@@ -35,55 +101,16 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
   require_size("phi", phi.size(), theta.size());
   const int order = order_of(coefficients.rows());
   const Index n_points = theta.size();
-  const Index n_fields = coefficients.cols();
-  constexpr Index kBlock = 64;
-  using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, kBlock, 1>;
-  using BlockFields = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic>;
-
-  Matrix values(n_points, n_fields);
-  const Index n_blocks = (n_points + kBlock - 1) / kBlock;
+  std::vector<OrderSeries> series;
+  for (int m = 0; m <= std::min(order, azimuthal_order); ++m) series.emplace_back(coefficients, order, m);
+  Matrix values(n_points, coefficients.cols());
   // Terms below which waking a second thread costs more than it saves.
   constexpr Index kParallelTerms = 30000;
   const Index terms = n_points * (order + 1) * (azimuthal_order + 1);
-  for_each_index(n_blocks, terms > kParallelTerms, [&](Index block) {
-    const Index start = block * kBlock;
-    const Index size = std::min(kBlock, n_points - start);
-    const Block cos_theta = theta.segment(start, size).array().cos();
-    const Block sin_theta = theta.segment(start, size).array().sin();
-    const Block cos_phi = phi.segment(start, size).array().cos();
-    const Block sin_phi = phi.segment(start, size).array().sin();
-    Block cos_m = Block::Ones(size);
-    Block sin_m = Block::Zero(size);
-    Block sectoral = Block::Constant(size, 1.0 / std::sqrt(4.0 * std::numbers::pi));
-    BlockFields sum = BlockFields::Zero(size, n_fields);
-    BlockFields cos_sum(size, n_fields);
-    BlockFields sin_sum(size, n_fields);
-    for (int m = 0; m <= std::min(order, azimuthal_order); ++m) {
-      if (m > 0) {
-        sectoral *= legendre_sectoral_factor(m) * sin_theta;
-        const Block next = cos_m * cos_phi - sin_m * sin_phi;
-        sin_m = sin_m * cos_phi + cos_m * sin_phi;
-        cos_m = next;
-      }
-      Block previous = Block::Zero(size);
-      Block current = sectoral;
-      cos_sum.setZero();
-      sin_sum.setZero();
-      for (int n = m; n <= order; ++n) {
-        if (n > m) {
-          const LegendreRecurrence r = legendre_recurrence(n, m);
-          const Block next = r.a * (cos_theta * current - r.b * previous);
-          previous = current;
-          current = next;
-        }
-        for (Index f = 0; f < n_fields; ++f) {
-          cos_sum.col(f) += coefficients(coefficient_index(n, m), f) * current;
-          if (m > 0) sin_sum.col(f) += coefficients(coefficient_index(n, -m), f) * current;
-        }
-      }
-      for (Index f = 0; f < n_fields; ++f) sum.col(f) += cos_sum.col(f) * cos_m + sin_sum.col(f) * sin_m;
-    }
-    values.middleRows(start, size) = sum;
+  for_each_index((n_points + kBlock - 1) / kBlock, terms > kParallelTerms, [&](Index block) {
+    const Index start = block * kBlock, size = std::min(kBlock, n_points - start);
+    values.middleRows(start, size) =
+        values_at(series, theta.segment(start, size), phi.segment(start, size)).transpose();
   });
   return values;
 }

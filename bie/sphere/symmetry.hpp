@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "bie/sphere/exchange.hpp"
 #include "bie/sphere/reflection.hpp"
 #include "bie/support/types.hpp"
 
@@ -19,8 +20,10 @@ struct Symmetry {
   std::vector<int> potential_signs{1};
   /// Turns by 2π/fold about z are symmetries as well; 1 where there is none beyond the half turn of the reflections.
   int fold = 1;
+  /// Which of several bodies are images of others; all else is said of each body by itself.
+  Exchange exchange{};
 
-  /// Is there any symmetry?
+  /// Is there any symmetry of each body by itself?
   [[nodiscard]] bool any() const { return axisymmetric || reflections.size() > 1 || fold > 1; }
   /// Number of images that a point in general position has, itself included; not for axisymmetric ones.
   [[nodiscard]] int group_order() const;

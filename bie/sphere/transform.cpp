@@ -6,128 +6,208 @@
 #include "bie/sphere/fourier.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/legendre.hpp"
+#include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
 
-/// Which latitude table a derivative needs, and whether ∂/∂φ exchanges cosine and sine.
+/// Which latitude table a derivative needs, whether ∂/∂φ exchanges cosine and sine, and whether what is symmetric about
+/// the equator becomes antisymmetric.
 constexpr int kKinds = 6;
 constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, true, false};
+constexpr std::array<bool, kKinds> kThetaDerivative{false, true, false, false, true, false};
 
 /// Grid values below which waking a second thread costs more than it saves.
 constexpr Index kParallelValues = 60000;
 
-/// Fields that are analyzed together, so that the sums over latitudes are products of matrices, and columns below which
-/// such a product takes longer than one by one.
-constexpr Index kTogether = 4, kFewColumns = 3;
-
 }  // namespace
 
+/// Latitudes θ and π − θ differ in signs alone, so that tables hold one hemisphere, of degrees with n + m even and odd
+/// apart.
 struct SphereTransform::Tables {
   int order;
   int azimuthal_order;
   SphereGrid grid;
-  FourierPlan fourier;
-  /// Per m the tables of value, d1, d2, d11, d12, d22 stacked: [6 n_theta x (order + 1 − m)].
-  std::vector<Matrix> synthesis;
-  /// Per m the transposed value table times Gauss weight and φ spacing: [(order + 1 − m) x n_theta].
-  std::vector<Matrix> analysis;
+  FourierSums fourier;
+  Index n_half;  ///< latitudes of a hemisphere, the equator among them
+  Index width;   ///< as many, filled up
+  /// Per m and parity of n + m the values of value, d1, d2, d11, d12, d22 side by side: [degrees x 6 width].
+  std::vector<std::array<RowMatrix, 2>> synthesis;
+  /// Likewise the value times Gauss weight and φ spacing: [n_half x degrees filled up].
+  std::vector<std::array<RowMatrix, 2>> analysis;
 
   Tables(int order_, SphereGrid grid_, int azimuthal_order_)
       : order(order_),
         azimuthal_order(azimuthal_order_),
         grid(std::move(grid_)),
-        fourier(grid.n_theta, grid.n_phi),
+        fourier(grid.n_phi, azimuthal_order),
+        n_half((grid.n_theta + 1) / 2),
+        width(filled_up(n_half)),
         synthesis(azimuthal_order + 1),
         analysis(azimuthal_order + 1) {
-    const LegendreTables legendre = legendre_tables(order, grid.theta);
-    const Index rows = grid.n_theta;
+    const LegendreTables legendre = legendre_tables(order, grid.theta.head(n_half));
+    // The amplitudes of FourierSums are those of the function itself: ∫ 1 dφ is n_phi spacings, ∫ cos² mφ dφ half of
+    // it.
+    Vector weight = grid.weight.head(n_half);
     for (int m = 0; m <= azimuthal_order; ++m) {
-      Matrix& stack = synthesis[m];
-      stack.resize(kKinds * rows, order + 1 - m);
-      stack.middleRows(0, rows) = legendre.value[m];
-      stack.middleRows(rows, rows) = legendre.d_theta[m];
-      stack.middleRows(2 * rows, rows) = legendre.m_over_sin[m];
-      stack.middleRows(3 * rows, rows) = legendre.d2_theta[m];
-      stack.middleRows(4 * rows, rows) = legendre.d_m_over_sin[m];
-      for (int n = m; n <= order; ++n) {
-        // The Hessian's trace is the Laplacian, −n(n+1) T.
-        stack.col(n - m).tail(rows) =
-            -(double(n) * (n + 1)) * legendre.value[m].col(n - m) - legendre.d2_theta[m].col(n - m);
+      const double circle = grid.n_phi * (m == 0 ? 1.0 : 0.5);
+      for (const int parity : {0, 1}) {
+        const Index count = n_degrees(m, parity);
+        RowMatrix& table = synthesis[m][parity];
+        RowMatrix& adjoint = analysis[m][parity];
+        table = RowMatrix::Zero(count, kKinds * width);
+        adjoint = RowMatrix::Zero(n_half, filled_up(count));
+        for (Index i = 0; i < count; ++i) {
+          const Index column = parity + 2 * i;
+          const double n = static_cast<double>(m + column);
+          const auto put = [&](int kind, const Vector& values) {
+            table.row(i).segment(kind * width, n_half) = values.transpose();
+          };
+          const Vector value = legendre.value[m].col(column), d11 = legendre.d2_theta[m].col(column);
+          put(0, value);
+          put(1, legendre.d_theta[m].col(column));
+          put(2, legendre.m_over_sin[m].col(column));
+          put(3, d11);
+          put(4, legendre.d_m_over_sin[m].col(column));
+          // The Hessian's trace is the Laplacian, −n(n+1) T.
+          put(5, -n * (n + 1.0) * value - d11);
+          adjoint.col(i) = circle * weight.cwiseProduct(value);
+        }
       }
-      // ∫ cos² mφ dφ is half of ∫ 1 dφ; the amplitudes of FourierPlan are those of the function itself.
-      const Vector scaled = grid.weight * (grid.n_phi * (m == 0 ? 1.0 : 0.5));
-      analysis[m] = (scaled.asDiagonal() * legendre.value[m]).transpose();
     }
   }
 
+  /// Degrees m + parity, m + parity + 2, … up to the order.
+  [[nodiscard]] Index n_degrees(int m, int parity) const { return (order - m - parity + 2) / 2; }
+  [[nodiscard]] bool is_parallel(Index n_values) const { return n_values > kParallelValues; }
   [[nodiscard]] std::vector<Matrix> run(const Matrix& coefficients, int kinds) const;
+  [[nodiscard]] Matrix analyze(const Matrix& values) const;
+
+ private:
+  /// Amplitudes of the modes of one m along all latitudes.
+  void sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const;
+  /// Coefficients of one m from [field, latitude] rows of amplitudes.
+  void find_degrees(const RowMatrix& amplitudes, int m, Matrix& coefficients) const;
 };
+
+void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const {
+  const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
+  const Index rows = (m == 0 ? 1 : 2) * n_fields;  // cosines of all fields, then sines
+  std::array<RowMatrix, 2> sums;
+  for (const int parity : {0, 1}) {
+    const Index count = n_degrees(m, parity);
+    RowMatrix gathered(rows, count);
+    for (Index i = 0; i < count; ++i) {
+      const int n = m + parity + 2 * static_cast<int>(i);
+      gathered.col(i).head(n_fields) = coefficients.row(coefficient_index(n, m)).transpose();
+      if (m > 0) gathered.col(i).tail(n_fields) = coefficients.row(coefficient_index(n, -m)).transpose();
+    }
+    sums[parity].resize(rows, kinds * width);
+    small_product(rows, count, kinds * width, {gathered.data(), count, 1}, synthesis[m][parity].data(), kKinds * width,
+                  sums[parity].data(), kinds * width);
+  }
+  for (Index row = 0; row < rows; ++row) {
+    const Index field = row % n_fields;
+    const bool sine = row >= n_fields;
+    for (int kind = 0; kind < kinds; ++kind) {
+      // ∂/∂φ takes cosines to minus sines, sines to cosines; of m = 0 it leaves nothing.
+      const bool into_sine = sine != kPhiDerivative[kind] && m > 0;
+      const double sign = kPhiDerivative[kind] && !sine ? -1.0 : 1.0;
+      const double south_sign = kThetaDerivative[kind] ? -sign : sign;
+      const double* even = sums[0].row(row).data() + kind * width;
+      const double* odd = sums[1].row(row).data() + kind * width;
+      double* north = amplitudes.row(into_sine ? fourier.sine_mode(m) : fourier.cosine_mode(m)).data() +
+                      (kind * n_fields + field) * n_theta;
+      double* south = north + n_theta - 1;
+      for (Index i = 0; i < n_theta - n_half; ++i) south[-i] = south_sign * (even[i] - odd[i]);
+      for (Index i = 0; i < n_half; ++i) north[i] = sign * (even[i] + odd[i]);
+    }
+  }
+}
 
 std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int kinds) const {
   require_size("coefficient array", coefficients.rows(), n_coefficients(order));
-  const Index n_fields = coefficients.cols();
-  const Index n_theta = grid.n_theta;
-  const Index n_modes = grid.n_phi / 2 + 1;
-  // Spectrum of kind k, field f: columns (k * n_fields + f) * n_modes + m.
-  Eigen::MatrixXcd spectrum = Eigen::MatrixXcd::Zero(n_theta, kinds * n_fields * n_modes);
+  const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
   std::vector<Matrix> values(kinds, Matrix(grid.n_points(), n_fields));
-
-  struct Work {
-    Matrix gathered;
-    Matrix product;
-  };
-  const auto sum_degrees = [&](int m, Work& work) {
-    const Index columns = (m == 0 ? 1 : 2) * n_fields;
-    work.gathered.resize(order + 1 - m, columns);
-    for (Index f = 0; f < n_fields; ++f) {
-      for (int n = m; n <= order; ++n) {
-        work.gathered(n - m, f) = coefficients(coefficient_index(n, m), f);
-        if (m > 0) work.gathered(n - m, n_fields + f) = coefficients(coefficient_index(n, -m), f);
-      }
-    }
-    work.product.noalias() = synthesis[m].topRows(kinds * n_theta) * work.gathered;
-    for (int kind = 0; kind < kinds; ++kind) {
-      for (Index f = 0; f < n_fields; ++f) {
-        const Index target = (kind * n_fields + f) * n_modes + m;
-        const auto from_cosine = work.product.col(f).segment(kind * n_theta, n_theta);
-        if (m == 0) {
-          if (!kPhiDerivative[kind]) spectrum.col(target).real() = from_cosine;
-          continue;
-        }
-        const auto from_sine = work.product.col(n_fields + f).segment(kind * n_theta, n_theta);
-        if (kPhiDerivative[kind]) {
-          spectrum.col(target).real() = from_sine;
-          spectrum.col(target).imag() = from_cosine;
-        } else {
-          spectrum.col(target).real() = from_cosine;
-          spectrum.col(target).imag() = -from_sine;
-        }
-      }
-    }
-  };
+  // Columns: kinds, fields, latitudes.
+  RowMatrix amplitudes(fourier.n_modes(), kinds * n_fields * n_theta);
   const auto sum_orders = [&](Index i) {
-    fourier.synthesize(spectrum.middleCols(i * n_modes, n_modes), values[i / n_fields].col(i % n_fields).data());
+    fourier.synthesize(n_theta, amplitudes.data() + i * n_theta, amplitudes.cols(),
+                       values[i / n_fields].col(i % n_fields).data());
   };
-
   // Even a team of one makes system calls: small transforms stay out of OpenMP altogether.
-  if (kinds * n_fields * grid.n_points() <= kParallelValues) {
-    Work work;
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(m, work);
+  if (!is_parallel(kinds * n_fields * grid.n_points())) {
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, amplitudes);
     for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
     return values;
   }
 #pragma omp parallel
   {
-    Work work;
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(m, work);
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, amplitudes);
 #pragma omp for schedule(static)
     for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
   }
   return values;
+}
+
+void SphereTransform::Tables::find_degrees(const RowMatrix& amplitudes, int m, Matrix& coefficients) const {
+  const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
+  RowMatrix folded[2], sums;
+  for (auto& of_parity : folded) of_parity.resize((m == 0 ? 1 : 2) * n_fields, n_half);
+  for (const bool sine : {false, true}) {
+    if (sine && m == 0) continue;
+    const Index mode = sine ? fourier.sine_mode(m) : fourier.cosine_mode(m);
+    for (Index f = 0; f < n_fields; ++f) {
+      const Index row = sine ? n_fields + f : f;
+      for (Index i = 0; i < n_half; ++i) {
+        const Index mirror_image = n_theta - 1 - i;
+        const double north = amplitudes(f * n_theta + i, mode);
+        // The equator is its own image.
+        const double south = mirror_image > i ? amplitudes(f * n_theta + mirror_image, mode) : 0.0;
+        folded[0](row, i) = north + south;
+        folded[1](row, i) = north - south;
+      }
+    }
+  }
+  for (const int parity : {0, 1}) {
+    const RowMatrix& table = analysis[m][parity];
+    const Index rows = folded[parity].rows();
+    sums.resize(rows, table.cols());
+    small_product(rows, n_half, table.cols(), {folded[parity].data(), n_half, 1}, table.data(), table.cols(),
+                  sums.data(), table.cols());
+    for (Index i = 0; i < n_degrees(m, parity); ++i) {
+      const int n = m + parity + 2 * static_cast<int>(i);
+      coefficients.row(coefficient_index(n, m)) = sums.col(i).head(n_fields).transpose();
+      if (m > 0) coefficients.row(coefficient_index(n, -m)) = sums.col(i).tail(n_fields).transpose();
+    }
+  }
+}
+
+Matrix SphereTransform::Tables::analyze(const Matrix& values) const {
+  require_size("field on the grid", values.rows(), grid.n_points());
+  const Index n_fields = values.cols(), n_theta = grid.n_theta;
+  Matrix coefficients(n_coefficients(order), n_fields);
+  if (azimuthal_order < order) coefficients.setZero();
+  RowMatrix amplitudes(n_fields * n_theta, fourier.n_modes());
+  const auto find_orders = [&](Index f) {
+    fourier.analyze(n_theta, values.col(f).data(), amplitudes.row(f * n_theta).data());
+  };
+  if (!is_parallel(values.size())) {
+    for (Index f = 0; f < n_fields; ++f) find_orders(f);
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(amplitudes, m, coefficients);
+    return coefficients;
+  }
+#pragma omp parallel
+  {
+#pragma omp for schedule(static)
+    for (Index f = 0; f < n_fields; ++f) find_orders(f);
+#pragma omp for schedule(dynamic, 1)
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(amplitudes, m, coefficients);
+  }
+  return coefficients;
 }
 
 SphereTransform::SphereTransform(int order, SphereGrid grid) : SphereTransform(order, std::move(grid), order) {}
@@ -158,44 +238,6 @@ SphereDerivatives SphereTransform::synthesize_hessian(const Matrix& coefficients
   return {std::move(v[0]), std::move(v[1]), std::move(v[2]), std::move(v[3]), std::move(v[4]), std::move(v[5])};
 }
 
-Matrix SphereTransform::analyze(const Matrix& values) const {
-  const Tables& t = *tables_;
-  require_size("field on the grid", values.rows(), t.grid.n_points());
-  const Index n_fields = values.cols();
-  Matrix coefficients(n_coefficients(t.order), n_fields);
-  if (t.azimuthal_order < t.order) coefficients.setZero();
-  const auto analyze_fields = [&](Index first) {
-    const Index count = std::min(kTogether, n_fields - first);
-    std::vector<Eigen::MatrixXcd> spectra;
-    for (Index f = 0; f < count; ++f) spectra.push_back(t.fourier.analyze(values.col(first + f).data()));
-    Matrix gathered, product;
-    for (int m = 0; m <= t.azimuthal_order; ++m) {
-      gathered.resize(t.grid.n_theta, m == 0 ? count : 2 * count);
-      for (Index f = 0; f < count; ++f) {
-        gathered.col(f) = spectra[f].col(m).real();
-        if (m > 0) gathered.col(count + f) = -spectra[f].col(m).imag();
-      }
-      product.resize(t.order + 1 - m, gathered.cols());
-      if (gathered.cols() < kFewColumns) {
-        for (Index i = 0; i < gathered.cols(); ++i) product.col(i).noalias() = t.analysis[m] * gathered.col(i);
-      } else {
-        product.noalias() = t.analysis[m] * gathered;
-      }
-      for (Index f = 0; f < count; ++f) {
-        for (int n = m; n <= t.order; ++n) {
-          coefficients(coefficient_index(n, m), first + f) = product(n - m, f);
-          if (m > 0) coefficients(coefficient_index(n, -m), first + f) = product(n - m, count + f);
-        }
-      }
-    }
-  };
-  if (values.size() <= kParallelValues) {
-    for (Index f = 0; f < n_fields; f += kTogether) analyze_fields(f);
-    return coefficients;
-  }
-#pragma omp parallel for schedule(static)
-  for (Index f = 0; f < n_fields; f += kTogether) analyze_fields(f);
-  return coefficients;
-}
+Matrix SphereTransform::analyze(const Matrix& values) const { return tables_->analyze(values); }
 
 }  // namespace vehd

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/evaluation/charge_difference.hpp"
+#include "bie/stepping/evaluation/growth.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
-#include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
@@ -43,10 +43,6 @@ double grid_spacing(const State& state) {
   return std::numbers::pi / (lowest + 1);
 }
 
-int lowest_order(const EvolutionSetup& setup) { return std::min(lowest_adaptive_order, setup.settings.order); }
-
-double truncation_target(const EvolutionSetup& setup) { return thresholds::truncation_share * setup.control.tolerance; }
-
 }  // namespace
 
 Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& start, Instruments& instruments)
@@ -54,7 +50,7 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
       instruments_(instruments),
       discretisation_(setup_.settings, setup_.symmetry, {}),
       start_(start) {
-  std::vector<int> orders = starting_orders(start);
+  std::vector<int> orders = with_images(setup_.symmetry.exchange, starting_orders(start));
   for (bool resolved = false; !resolved;) {
     start_at(orders, start);
     // The area, which is the scale, and V_m are known only now.
@@ -67,51 +63,18 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
       orders[a] = std::max(resolves(found, a) ? orders[a] : raised_order(found, a), of_gap);
       resolved = false;
     }
+    orders = with_images(setup_.symmetry.exchange, std::move(orders));
   }
 }
 
 Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments)
     : setup_(std::move(setup)),
       instruments_(instruments),
-      discretisation_(discretisation_of(setup_, state)),
-      state_(std::move(state)) {}
+      discretisation_(discretisation_of(setup_, with_images(setup_.symmetry.exchange, state))),
+      state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
-/// Of a start whose charge, which moves V_m, needs more than its shape and V_m do: a spectrum that is cut too early
-/// says little of how many degrees more. @returns whether any rose
-bool Evolution::raise_orders_for_charge() {
-  std::vector<int> orders;
-  bool raised = false;
-  for (std::size_t a = 0; a < start_.size(); ++a) {
-    orders.push_back(order(a));
-    if (!adapts() || !setup_.model.electric || order(a) >= setup_.settings.order) continue;
-    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
-    raised = true;
-  }
-  if (!raised) return false;
-  const Discretisation discretisation = discretisation_;
-  const State state = state_;
-  const Evaluation evaluation = std::move(evaluation_);
-  try {
-    start_at(orders, start_);
-    evaluation_ = {};
-    arrive(state_);
-    if (charge_difference(setup_.model, discretisation_, evaluation, evaluation_) > truncation_target(setup_))
-      return true;
-  } catch (const ConvergenceError&) {
-    // A higher degree that cannot be had now may be asked for again by a step.
-  }
-  discretisation_ = discretisation;
-  state_ = state;
-  evaluation_ = evaluation;
-  return false;
-}
-
-void Evolution::evaluate_start() {
-  arrive(state_);
-  while (raise_orders_for_charge()) {
-  }
-  start_.clear();
-  if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);
+void Evolution::expect_growth(double until) {
+  if (adapts()) growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, until);
 }
 
 double Evolution::truncation(const State& state) const {
@@ -122,34 +85,18 @@ double Evolution::truncation(const State& state) const {
 
 Resolution Evolution::resolution(const State& state, std::size_t a) const {
   const VesicleState& vesicle = state.vesicles[a];
-  if (!is_averaged(setup_.model) || evaluation_.vesicles.empty()) return {setup_.model, vesicle};
+  VisibleShare share;
+  if (adapts()) {
+    const int order = order_of(vesicle.position.rows());
+    // A state of a former degree is only looked at.
+    const Discretisation space =
+        order == this->order(a) ? discretisation_ : discretisation_.with(a, fineness_of(order, 0));
+    share = visible_share(space.vesicle(a).fine_transform(), vesicle);
+  }
+  if (!is_averaged(setup_.model) || evaluation_.vesicles.empty()) return {setup_.model, vesicle, share};
   // That of the last shape that was solved for.
   const Matrix& potential = evaluation_.fields.vesicles[a].potential_amplitude;
-  return {setup_.model, vesicle, resize_order(potential, order_of(vesicle.position.rows()))};
-}
-
-std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& start) const {
-  std::vector<int> orders;
-  for (const StartMembrane& membrane : start) {
-    if (!adapts()) {
-      orders.push_back(setup_.settings.order);
-      continue;
-    }
-    const Matrix& position = membrane.position;
-    const Vector& potential = membrane.potential.given;
-    VesicleState shape;
-    shape.position = position;
-    shape.material = membrane.material;
-    for_each_property(shape.material, [&](Vector& property) {
-      property = resize_order(Matrix(property), order_of(position.rows())).col(0);
-    });
-    if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
-    // Exact for a sphere, and only a scale.
-    shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
-    orders.push_back(Resolution(setup_.model, shape)
-                         .order_for(truncation_target(setup_), lowest_order(setup_), setup_.settings.order));
-  }
-  return orders;
+  return {setup_.model, vesicle, resize_order(potential, order_of(vesicle.position.rows())), share};
 }
 
 void Evolution::start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start) {
@@ -164,12 +111,16 @@ void Evolution::start_at(const std::vector<int>& orders, const std::vector<Start
       initial_state(setup_.model, discretisation_, membranes, adapts() ? 0.0 : setup_.control.largest, instruments_);
 }
 
-/// @throws ConvergenceError, and everything stays
+/// That of the images as well. @throws ConvergenceError, and everything stays
 void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_level) {
-  Discretisation discretisation = discretisation_.with(a, fineness_of(order, quadrature_level));
+  Discretisation discretisation = discretisation_;
   State state = state_;
-  state.vesicles[a] = resized(std::move(state.vesicles[a]), order);
-  state.vesicles[a].quadrature_level = quadrature_level;
+  for (std::size_t b = 0; b < state.vesicles.size(); ++b) {
+    if (setup_.symmetry.exchange.original(b) != a) continue;
+    discretisation = discretisation.with(b, fineness_of(order, quadrature_level));
+    state.vesicles[b] = resized(std::move(state.vesicles[b]), order);
+    state.vesicles[b].quadrature_level = quadrature_level;
+  }
   Evaluation evaluation = evaluate(setup_.model, discretisation, state, instruments_);
   // Less work that is not exact enough would have to be undone at the next step.
   const bool is_economy = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
@@ -231,83 +182,14 @@ void Evolution::arrive(State state) {
   before_jump_ = std::move(before);
 }
 
-void Evolution::lower_quadrature_if_idle(std::size_t a) {
-  const std::int64_t level = state_.vesicles[a].quadrature_level;
-  if (level == 0) return;
-  const double error = evaluation_.diagnostics.vesicles[a].quadrature_error;
-  if (error > thresholds::idle_quadrature * setup_.settings.quadrature_tolerance) return;
-  change_space(a, order(a), level - 1);
-}
-
-/// Does the degree leave out little enough, or is there no higher one?
-bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
-  return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target(setup_);
-}
-
-/// The least even degree for what is in the narrowest gap, of the two that it is between.
-int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
-  if (!adapts() || (a != gap.first && a != gap.second)) return 0;
-  return std::min(setup_.settings.order, 2 * static_cast<int>(std::ceil(std::min(gap.degree(), 1e3) / 2.0)));
-}
-
-int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
-  const int enough = resolution.order_for(truncation_target(setup_), order(a), order(a) + 8);
-  return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
-}
-
-/// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
-void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
-  try {
-    change_space(a, enough, state_.vesicles[a].quadrature_level);
-  } catch (const ConvergenceError& error) {
-    throw ConvergenceError(fmt::format(
-        "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(setup_), enough, error.what()));
-  }
-}
-
-/// @returns whether any was too low
-bool Evolution::raise_orders_for(const State& reached) {
-  bool raised = false;
-  const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
-  for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-    const Resolution found = resolution(reached, a);
-    const int of_gap = order_of_gap(gap, a);
-    if (resolves(found, a) && order(a) >= of_gap) continue;
-    raise_order(a, found, std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap));
-    raised = true;
-  }
-  return raised;
-}
-
-void Evolution::lower_order_if_idle(std::size_t a) {
-  const int lowest = std::max(lowest_order(setup_), order_of_gap(gap_, a));
-  if (!adapts() || order(a) <= lowest) return;
-  const int enough =
-      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(setup_), lowest, order(a));
-  if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
-}
-
-void Evolution::economise() {
-  if (state_.step % thresholds::economy_interval != 0) return;
-  for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
-    for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
-      try {
-        (this->*economy)(a);
-      } catch (const ConvergenceError&) {
-        // What cannot be had for less goes on as it is.
-      }
-    }
-  }
-}
-
 StepGoal Evolution::goal_for(const EventTimes& events) const {
   StepGoal goal;
   goal.tolerance = setup_.control.tolerance;
+  goal.growth = growth_;
   goal.too_coarse = [this](const State& reached) {
     std::vector<std::size_t> result;
     for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-      if (!resolves(resolution(reached, a), a)) result.push_back(a);
+      if (!setup_.symmetry.exchange.is_image(a) && !resolves(resolution(reached, a), a)) result.push_back(a);
     }
     return result;
   };
@@ -349,6 +231,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
   const std::optional<double> discontinuity = next_discontinuity(setup_.model, state_.time);
   if (discontinuity) ends.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
   StepPlan plan = plan_step(state_.time, state_.dt_next, ends);
+  expect_growth(events.end_time);
   const StepGoal goal = goal_for(events);
   double wanted = state_.dt_next;
   const double from = state_.time;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -35,10 +36,12 @@ struct EvolutionSetup {
 using KeepFormer = std::function<void(State&&, Evaluation&&)>;
 
 /// Vesicles on their way through time. With a tolerance the degree of each follows the spectrum of its state: it rises,
-/// and the step is taken again, where the degrees left out would matter, and falls where they have long ceased to. The
-/// singular quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves, parts of
-/// a membrane much closer to each other than the grid spacing, ends the way. So does contact of two vesicles, see
-/// require_gap; with a tolerance degrees rise with the inverse root of the gap.
+/// and the step is taken again, where the degrees left out would matter, and falls where they have long ceased to.
+/// Where a membrane is compressed errors of steps and of degrees may be so much smaller as they are expected to grow.
+/// The singular quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves,
+/// parts of a membrane much closer to each other than the grid spacing, ends the way. So does contact of two vesicles,
+/// see require_gap; with a tolerance degrees rise with the inverse root of the gap. Vesicles that are images of others
+/// under the symmetry have the degree and the quadrature of these.
 ///
 /// A lower degree or coarser quadrature that cannot be solved for is left aside. Where a higher degree is needed and
 /// cannot be solved for, the step is taken again with half the size, and the way ends where that becomes too small.
@@ -89,12 +92,17 @@ class Evolution {
 
  private:
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
+  [[nodiscard]] int lowest_order() const;
+  [[nodiscard]] double truncation_target() const;
+  void expect_growth(double until);
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
   bool raise_orders_for_charge();
+  bool raise_orders_for_growth();
+  bool restart_at(const std::vector<int>& orders, const std::function<bool(const Evaluation& former)>& is_needed);
   void start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start);
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);
@@ -114,6 +122,7 @@ class Evolution {
   State state_;
   SmallestGap gap_;
   Evaluation evaluation_;
+  double growth_ = 1.0;               // expected of what is wrong now, with a tolerance
   std::vector<StartMembrane> start_;  // until it is evaluated
   std::optional<Evaluation> before_jump_;
   std::vector<Moment> passed_;

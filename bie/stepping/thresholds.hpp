@@ -70,6 +70,9 @@ constexpr double most_step_factor = 4.0;
 constexpr double most_after_rejection = 0.9;
 /// Share of the tolerance that one step may leave: the errors of about three steps are felt at a time. Measured.
 constexpr double step_share = 0.3;
+/// What is wrong with a compressed membrane is expected to grow by this at most until the run ends: so much less is
+/// allowed. Measured.
+constexpr double most_growth = 5.0;
 /// Share of the tolerance that what is found within a step may be wrong by. Measured.
 constexpr double moment_share = 0.7;
 /// Corrections that seem to contract more than this are not believed. One ratio is one number, and the next may be

@@ -61,33 +61,73 @@ Refinement refined_for(Refinement refinement, double required) {
 
 }  // namespace
 
-SolvedState solve_state(const CheckInput& input, const Meshes& meshes, const Discretisation& geometry,
+SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Discretisation& geometry,
                         const Refinement& refinement, const Report& report) {
+  const CheckInput& input = inputs.front();
   const meshes::FrozenShape shape(input.position);
   SolvedState solved;
   // Fields are taken at the same points of γ on every level: those of the finest geometry that any level has.
   solved.places = {geometry.quadrature_points(refinement.points_per_edge), shape.radius(), shape.centroid()};
   solved.outer_radius = meshes.outer_radius();
   solved.far_outer_radius = meshes.far_outer_radius();
-  if (input.electric()) solved.potential = solve_potential_levels(input, meshes, refinement, report);
-  if (input.in_time) solved.charging = solve_charging_levels(input, meshes, refinement, report);
+  const bool single = inputs.size() == 1;
+  if (input.electric()) solved.potential = solve_potential_levels(inputs, meshes, refinement, report);
+  if (input.in_time && single) solved.charging = solve_charging_levels(input, meshes, refinement, report);
   if (!input.flow()) return solved;
-  solved.flow = solve_flow_levels(input, meshes, refinement, report);
-  if (solved.potential) add_own_force(input, meshes, refinement, *solved.potential, solved.flow->sequence, report);
-  solved.shape_flow = solve_shape_levels(input, solved.places.centre, meshes, refinement,
-                                         solved.potential ? &*solved.potential : nullptr, report);
+  solved.flow = solve_flow_levels(inputs, meshes, refinement, report);
+  if (solved.potential) add_own_force(inputs, meshes, refinement, *solved.potential, solved.flow->sequence, report);
+  if (single) {
+    solved.shape_flow =
+        solve_shape_levels(input, meshes, refinement, solved.potential ? &*solved.potential : nullptr, report);
+  }
   return solved;
 }
 
-CheckResult judge(const CheckInput& input, const SolvedState& solved, double required) {
+namespace {
+
+/// What was found on the membrane of one vesicle.
+class OneVesicle {
+ public:
+  OneVesicle(const SolvedState& solved, const CheckInput& input, int number)
+      : points_(solved.places.surface.of_vesicle(number)), part_(solved) {
+    const meshes::FrozenShape shape(input.position);
+    part_.places = {solved.places.surface.picked(points_), shape.radius(), shape.centroid()};
+    if (part_.potential) keep(part_.potential->sequence);
+    if (part_.flow) keep(part_.flow->sequence);
+  }
+  [[nodiscard]] const SolvedState& part() const { return part_; }
+
+ private:
+  void keep(LevelSequence& sequence) const {
+    for (Level& level : sequence.levels) keep(level);
+    keep(sequence.far);
+    keep(sequence.rough);
+  }
+  void keep(Level& level) const {
+    for (auto& [name, values] : level.surface) values = Eigen::MatrixXd(values(Eigen::all, points_));
+  }
+
+  std::vector<Eigen::Index> points_;
+  SolvedState part_;
+};
+
+/// Without any row.
+CheckResult result_of(const CheckInput& input, const SolvedState& solved, double required) {
   CheckResult result;
   result.source = input.source;
   result.time = input.time;
-  result.order = input.bie.order;
-  result.high_order = input.bie_high.order;
   result.required = required;
   result.outer_radius = solved.outer_radius;
   result.far_outer_radius = solved.far_outer_radius;
+  return result;
+}
+
+/// @param solved  on the membrane of this vesicle alone
+CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, double required) {
+  CheckResult result = result_of(input, solved, required);
+  result.name = input.name;
+  result.order = input.bie.order;
+  result.high_order = input.bie_high.order;
   const ComparisonPlaces& places = solved.places;
   if (solved.potential) {
     const LevelSequence& sequence = solved.potential->sequence;
@@ -106,31 +146,47 @@ CheckResult judge(const CheckInput& input, const SolvedState& solved, double req
     result.levels.insert(result.levels.end(), sequence.levels.begin(), sequence.levels.end());
     add(result, flow_questions(input, places, sequence), sequence, required);
     add(result, stored_flow_questions(input, places), sequence, required);
-    add(result, shape_questions(input, places), *solved.shape_flow, required);
-    result.levels.insert(result.levels.end(), solved.shape_flow->levels.begin(), solved.shape_flow->levels.end());
+    if (solved.shape_flow) {
+      add(result, shape_questions(input, places), *solved.shape_flow, required);
+      result.levels.insert(result.levels.end(), solved.shape_flow->levels.begin(), solved.shape_flow->levels.end());
+    }
     result.divergence = divergence_of(input, sequence, places);
     result.stored_velocity = stored_velocity_difference(input, places.surface);
   }
   return result;
 }
 
+}  // namespace
+
+CheckResult judge(const std::vector<CheckInput>& inputs, const SolvedState& solved, double required) {
+  if (inputs.size() == 1) return judge_vesicle(inputs.front(), solved, required);
+  CheckResult result = result_of(inputs.front(), solved, required);
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const OneVesicle vesicle(solved, inputs[k], static_cast<int>(k));
+    result.vesicles.push_back(judge_vesicle(inputs[k], vesicle.part(), required));
+  }
+  return result;
+}
+
 std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
-  const CheckInput input = read_check_input(task.input);
-  std::vector<CheckInput> further;
-  for (const std::filesystem::path& path : task.further_inputs) further.push_back(read_check_input(path));
+  const std::vector<CheckInput> inputs = read_check_inputs(task.input);
+  std::vector<std::vector<CheckInput>> further;
+  for (const std::filesystem::path& path : task.further_inputs) further.push_back(read_check_inputs(path));
   if (task.writes) require_directory(task.directory);
   const Refinement refinement = refined_for(task.refinement, task.required);
-  const Meshes meshes(meshes::FrozenShape(input.position), refinement);
+  std::vector<meshes::FrozenShape> shapes;
+  for (const CheckInput& input : inputs) shapes.emplace_back(input.position);
+  const Meshes meshes(shapes, refinement);
   const Discretisation geometry = meshes.discretise(refinement.potential_last);
-  const SolvedState solved = solve_state(input, meshes, geometry, refinement, report);
+  const SolvedState solved = solve_state(inputs, meshes, geometry, refinement, report);
 
-  std::vector<CheckResult> results{judge(input, solved, task.required)};
-  for (const CheckInput& other : further) results.push_back(judge(other, solved, task.required));
+  std::vector<CheckResult> results{judge(inputs, solved, task.required)};
+  for (const std::vector<CheckInput>& other : further) results.push_back(judge(other, solved, task.required));
   if (task.writes) {
     const FinestSolutions finest{solved.potential ? &*solved.potential : nullptr,
                                  solved.flow ? &*solved.flow : nullptr};
-    write_field_files(task.directory, input, finest, geometry);
+    write_field_files(task.directory, inputs, finest, geometry);
   }
   results.front().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return results;

@@ -25,7 +25,7 @@ struct CheckTask {
 
 /// What the finite elements find for one state: everything that boundary-integral numbers are compared with.
 struct SolvedState {
-  ComparisonPlaces places;
+  ComparisonPlaces places;  ///< radius and centre are those of the first vesicle
   std::optional<PotentialLevels> potential;
   std::optional<FlowLevels> flow;
   std::optional<LevelSequence> shape_flow;
@@ -33,14 +33,15 @@ struct SolvedState {
   double outer_radius = 0.0, far_outer_radius = 0.0;
 };
 
-/// Solves the problems that the input has, at rising degree. @throws SolveError
+/// Solves the problems that the inputs of all vesicles have, at rising degree: of several vesicles those in which V_m
+/// and the force are given. @throws SolveError
 /// @param geometry  mesh of the finest geometry, on which fields are compared
-SolvedState solve_state(const CheckInput& input, const Meshes& meshes, const Discretisation& geometry,
+SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Discretisation& geometry,
                         const Refinement& refinement, const Report& report);
 
 /// Compares; nothing is solved. The rows of the table are made here.
-/// @param input  of the state that was solved; its boundary-integral and stored numbers are the ones judged
-CheckResult judge(const CheckInput& input, const SolvedState& solved, double required);
+/// @param inputs  of the state that was solved; their boundary-integral and stored numbers are the ones judged
+CheckResult judge(const std::vector<CheckInput>& inputs, const SolvedState& solved, double required);
 
 /// Solves, compares and writes the files of fields.
 /// @return the result of the input, then that of each further one, judged by the solutions of the first

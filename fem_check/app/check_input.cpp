@@ -18,17 +18,46 @@ void require_schema(const Hdf5Input& file) {
   }
 }
 
-Eigen::MatrixXd matrix_of_size(const Hdf5Input& file, const std::string& dataset, Eigen::Index rows,
+/// What a file has of one vesicle, by the same names whether it is the only one, at the top, or has a group of its own.
+class VesicleGroup {
+ public:
+  VesicleGroup(const Hdf5Input& file, std::string group) : file_(file), group_(std::move(group)) {}
+
+  [[nodiscard]] bool has(const std::string& object) const { return file_.has(path(object)); }
+  [[nodiscard]] Eigen::MatrixXd matrix(const std::string& dataset) const { return file_.matrix(path(dataset)); }
+  [[nodiscard]] double number(const std::string& object, const std::string& attribute) const {
+    return file_.number(path(object), attribute);
+  }
+  [[noreturn]] void refuse(const std::string& problem) const { file_.refuse(problem); }
+  [[nodiscard]] std::string path(const std::string& object) const {
+    return group_.empty() ? object : object == "/" ? group_ : group_ + object;
+  }
+
+ private:
+  const Hdf5Input& file_;
+  std::string group_;
+};
+
+/// Of all vesicles.
+std::vector<VesicleGroup> vesicle_groups(const Hdf5Input& file) {
+  if (!file.has("/vesicles")) return {{file, ""}};
+  std::vector<VesicleGroup> groups;
+  const int n = static_cast<int>(file.number("/vesicles", "count"));
+  for (int k = 0; k < n; ++k) groups.emplace_back(file, fmt::format("/vesicles/{:02}", k));
+  return groups;
+}
+
+Eigen::MatrixXd matrix_of_size(const VesicleGroup& file, const std::string& dataset, Eigen::Index rows,
                                Eigen::Index columns) {
   Eigen::MatrixXd values = file.matrix(dataset);
   if (values.rows() != rows || values.cols() != columns) {
-    file.refuse(fmt::format("dataset {} is {} x {}, but must be {} x {}", dataset, values.cols(), values.rows(),
-                            columns, rows));
+    file.refuse(fmt::format("dataset {} is {} x {}, but must be {} x {}", file.path(dataset), values.cols(),
+                            values.rows(), columns, rows));
   }
   return values;
 }
 
-Physics read_physics(const Hdf5Input& file) {
+Physics read_physics(const VesicleGroup& file) {
   Physics physics;
   physics.field = matrix_of_size(file, "/physics/field", 3, 1);
   physics.viscosity_in = file.number("/physics", "viscosity_in");
@@ -54,7 +83,7 @@ Eigen::Index n_coefficients(int order) { return Eigen::Index{order + 1} * (order
 /// What every file with this problem has, and what only some have: [n_coefficients x components].
 class Coefficients {
  public:
-  Coefficients(const Hdf5Input& file, std::string group, int order)
+  Coefficients(const VesicleGroup& file, std::string group, int order)
       : file_(file), group_(std::move(group)), rows_(n_coefficients(order)) {}
 
   [[nodiscard]] Eigen::MatrixXd required(const std::string& name, Eigen::Index components) const {
@@ -65,12 +94,12 @@ class Coefficients {
   }
 
  private:
-  const Hdf5Input& file_;
+  const VesicleGroup& file_;
   std::string group_;
   Eigen::Index rows_;
 };
 
-BieFields read_fields(const Hdf5Input& file, const std::string& group, const CheckInput& input) {
+BieFields read_fields(const VesicleGroup& file, const std::string& group, const CheckInput& input) {
   BieFields fields;
   fields.order = static_cast<int>(file.number(group, "order"));
   const Coefficients of(file, group, fields.order);
@@ -83,7 +112,8 @@ BieFields read_fields(const Hdf5Input& file, const std::string& group, const Che
       fields.free_charge_rate = of.required("free_charge_rate", 1);
     }
     fields.steady_potential = of.optional("Vm_steady", 1);
-    if (input.physics.field.norm() > 0.0) fields.steady_potential = of.required("Vm_steady", 1);
+    if (input.physics.field.norm() > 0.0 && input.conducts_alike())
+      fields.steady_potential = of.required("Vm_steady", 1);
     if (fields.steady_potential.size() > 0) fields.steady_charge = of.required("q_steady", 1);
   }
   if (!input.flow()) return fields;
@@ -99,7 +129,7 @@ BieFields read_fields(const Hdf5Input& file, const std::string& group, const Che
   return fields;
 }
 
-StoredFields read_stored(const Hdf5Input& file, const CheckInput& input) {
+StoredFields read_stored(const VesicleGroup& file, const CheckInput& input) {
   StoredFields stored;
   const Coefficients of(file, "/stored", static_cast<int>(file.number("/", "order")));
   if (input.electric()) {
@@ -116,7 +146,7 @@ StoredFields read_stored(const Hdf5Input& file, const CheckInput& input) {
 }
 
 /// With the values of both orders at the points.
-void read_samples(const Hdf5Input& file, CheckInput& input) {
+void read_samples(const VesicleGroup& file, CheckInput& input) {
   if (!file.has("/samples")) return;
   Samples& samples = input.samples;
   const Eigen::MatrixXd points = file.matrix("/samples/points");
@@ -144,7 +174,7 @@ void read_samples(const Hdf5Input& file, CheckInput& input) {
   }
 }
 
-InTime read_in_time(const Hdf5Input& file, const CheckInput& input) {
+InTime read_in_time(const VesicleGroup& file, const CheckInput& input) {
   InTime result;
   const std::string group = "/in_time";
   const auto of_order = [&](const std::string& name, int order) {
@@ -168,22 +198,19 @@ InTime read_in_time(const Hdf5Input& file, const CheckInput& input) {
   }
   result.bie = of_order("Vm_end", input.bie.order);
   result.bie_high = of_order("Vm_end_high", input.bie_high.order);
+  if (file.has(group + "/Vm_change_by_motion")) result.by_motion = of_order("Vm_change_by_motion", input.bie.order);
   return result;
 }
 
-}  // namespace
-
-CheckInput read_check_input(const std::filesystem::path& path) {
-  const Hdf5Input file(path);
-  require_schema(file);
+CheckInput read_vesicle(const VesicleGroup& file) {
   CheckInput input;
-  input.source = file.text("/", "source");
-  input.time = file.number("/", "time");
   const int order = static_cast<int>(file.number("/", "order"));
   input.position = Coefficients(file, "", order).required("x", 3);
   input.physics = read_physics(file);
   const Coefficients given(file, "/given", order);
   input.potential = given.optional("Vm", 1);
+  input.conductance = given.optional("conductance", 1);
+  input.pump_current = given.optional("pump_current", 1);
   input.free_charge_in = given.optional("free_charge_in", 1);
   if (input.charged_faces()) input.free_charge_out = given.required("free_charge_out", 1);
   input.force = given.optional("force", 3);
@@ -196,10 +223,31 @@ CheckInput read_check_input(const std::filesystem::path& path) {
   return input;
 }
 
-Eigen::MatrixXd read_position(const std::filesystem::path& path) {
+}  // namespace
+
+std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path) {
   const Hdf5Input file(path);
   require_schema(file);
-  return file.matrix("/x");
+  std::vector<CheckInput> inputs;
+  const std::vector<VesicleGroup> groups = vesicle_groups(file);
+  for (const VesicleGroup& group : groups) {
+    CheckInput& input = inputs.emplace_back(read_vesicle(group));
+    input.source = file.text("/", "source");
+    input.time = file.number("/", "time");
+    if (groups.size() > 1) input.name = file.text(group.path("/"), "name");
+    if (input.electric() != inputs.front().electric() || input.flow() != inputs.front().flow()) {
+      file.refuse("vesicles differ in what is compared");
+    }
+  }
+  return inputs;
+}
+
+std::vector<Eigen::MatrixXd> read_positions(const std::filesystem::path& path) {
+  const Hdf5Input file(path);
+  require_schema(file);
+  std::vector<Eigen::MatrixXd> positions;
+  for (const VesicleGroup& group : vesicle_groups(file)) positions.push_back(group.matrix("/x"));
+  return positions;
 }
 
 }  // namespace vehd::fem_check

@@ -66,17 +66,20 @@ struct InTime {
   std::vector<Eigen::MatrixXd> positions;
   std::vector<Eigen::MatrixXd> velocities;  ///< of the membrane's material; empty if the shape stands still
   Eigen::MatrixXd bie, bie_high;            ///< V_m at the time of the file, by boundary integrals with two step sizes
+  Eigen::MatrixXd by_motion;                ///< what finer steps of the moving shape change; empty: it stands still
 
   [[nodiscard]] bool moves() const { return positions.size() > 1; }
 };
 
-/// All that the file holds.
+/// All that the file holds of one vesicle.
 struct CheckInput {
   std::string source;
+  std::string name;  ///< of the vesicle; empty where there is only one
   double time = 0.0;
   Eigen::MatrixXd position;
   Physics physics;
   Eigen::MatrixXd potential;                        ///< V_m of the snapshot
+  Eigen::MatrixXd conductance, pump_current;        ///< G_m where it varies, and J_p, outwards
   Eigen::MatrixXd free_charge_in, free_charge_out;  ///< q_i and q_e of its faces; with displacement currents alone
   Eigen::MatrixXd force;                            ///< f on the fluid
   StoredFields stored;
@@ -87,14 +90,16 @@ struct CheckInput {
 
   [[nodiscard]] bool electric() const { return potential.size() > 0; }
   [[nodiscard]] bool charged_faces() const { return free_charge_in.size() > 0; }
+  [[nodiscard]] bool conducts_alike() const { return conductance.size() == 0 && pump_current.size() == 0; }
   [[nodiscard]] bool steady() const { return bie.steady_potential.size() > 0; }
   [[nodiscard]] bool flow() const { return force.size() > 0; }
 };
 
+/// Of each vesicle; source, time, what is outside and the far field are those of all.
 /// @throws InputError if the file cannot be used or lacks a field that is compared
-CheckInput read_check_input(const std::filesystem::path& path);
+std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path);
 
-/// Coefficients of x alone. @throws InputError
-Eigen::MatrixXd read_position(const std::filesystem::path& path);
+/// Coefficients of x alone, of each vesicle. @throws InputError
+std::vector<Eigen::MatrixXd> read_positions(const std::filesystem::path& path);
 
 }  // namespace vehd::fem_check

@@ -9,6 +9,7 @@
 #include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/mesh.hpp"
 #include "fem_check/app/point_sources.hpp"
+#include "fem_check/app/shape_flow.hpp"
 #include "fem_check/session.hpp"
 #include "meshes/types.hpp"
 
@@ -95,13 +96,18 @@ int run_program(int argc, char** argv) {
   mesh_command->add_option("--refine", mesh_task.refine, "How often the element size is divided by 1.5");
   mesh_command->add_option("--json", json_file, "Also write the result as JSON");
 
-  PointSourceTask sources_task;
-  CLI::App* sources_command = program.add_subcommand("sources", "Solve for point sources, whose solution is known");
-  sources_command->add_option("INPUT", sources_task.input, "File with the shape and the sources")->required();
-  sources_command->add_option("--degree", sources_task.degree, "Of the elements");
-  sources_command->add_option("--cells", sources_task.cells_per_edge, "Cells per edge of a block");
-  sources_command->add_option("--radius", sources_task.outer_radius, "Of the outer sphere, over that of the shape");
-  sources_command->add_option("--json", json_file, "Where the result goes")->required();
+  LevelTask level_task;
+  const auto add_level = [&](const char* name, const char* what) {
+    CLI::App* command = program.add_subcommand(name, what);
+    command->add_option("INPUT", level_task.input, "File with the shape and the problem")->required();
+    command->add_option("--degree", level_task.degree, "Of the elements");
+    command->add_option("--cells", level_task.cells_per_edge, "Cells per edge of a block");
+    command->add_option("--radius", level_task.outer_radius, "Of the outer sphere, over that of the shape");
+    command->add_option("--json", json_file, "Where the result goes")->required();
+    return command;
+  };
+  const CLI::App* sources_command = add_level("sources", "Solve for point sources, whose solution is known");
+  const CLI::App* shape_command = add_level("shape-flow", "Find the flow from a shape, V_m and the physics alone");
 
   try {
     program.parse(argc, argv);
@@ -113,7 +119,11 @@ int run_program(int argc, char** argv) {
   try {
     if (mesh_command->parsed()) return mesh(mesh_task, json_file);
     if (sources_command->parsed()) {
-      write_json(json_file, json_of(run_point_sources(sources_task)));
+      write_json(json_file, json_of(run_point_sources(level_task)));
+      return done;
+    }
+    if (shape_command->parsed()) {
+      write_json(json_file, json_of(run_shape_flow(level_task)));
       return done;
     }
     check_task.refinement = quick ? Refinement::quick() : Refinement::finest();

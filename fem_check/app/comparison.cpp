@@ -16,11 +16,20 @@ constexpr double rounding = 1e-9;
 constexpr double solver_share = 10.0 / rough_factor;
 /// Slowest power of the radius with which the error of the outer sphere falls: with u = 0 there.
 constexpr double slowest_truncation_order = 3.0;
+/// Slowest power of the mesh size that levels are taken to converge with.
+constexpr double slowest_order = 1.0;
 
 /// The whole error of the nearer sphere over what moving it out changes.
 double truncation_tail(const LevelSequence& sequence) {
   const double ratio = sequence.levels[sequence.repeated].outer_radius / sequence.far.outer_radius;
   return 1.0 / (1.0 - std::pow(ratio, slowest_truncation_order));
+}
+
+/// What the last level leaves over the change to it, if errors are a power of the mesh size N^(−1/3); never less than
+/// all of that change, as a high order is known from two changes alone.
+/// @param growth  of the unknowns from the level before
+double order_tail(double order, double growth) {
+  return std::max(1.0, 1.0 / (std::pow(growth, std::max(order, slowest_order) / 3.0) - 1.0));
 }
 
 /// Of a level, as the question wants them; empty where the level has none.
@@ -95,6 +104,7 @@ void compare_with_levels(const FieldQuestion& question, const LevelSequence& seq
   if (result.levels_change.l2 > 0.0 && before > 0.0) {
     result.order =
         3.0 * std::log(before / result.levels_change.l2) / std::log(n_unknowns[last - 1] / n_unknowns[last - 2]);
+    result.tail = order_tail(*result.order, n_unknowns[last] / n_unknowns[last - 1]);
   }
 }
 

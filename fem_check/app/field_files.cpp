@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "fem_check/app/hdf5_input.hpp"
-#include "fem_check/app/surface_series.hpp"
+#include "fem_check/app/vesicle_fields.hpp"
 #include "fem_check/app/vtu_file.hpp"
 
 namespace vehd::fem_check {
@@ -23,23 +23,24 @@ struct BothFields {
   Eigen::MatrixXd fem, bie;  ///< [components x points]
 };
 
-std::vector<BothFields> fields_on_surface(const CheckInput& input, const FinestSolutions& finest,
+std::vector<BothFields> fields_on_surface(const std::vector<CheckInput>& inputs, const FinestSolutions& finest,
                                           const SurfacePoints& points) {
   std::vector<BothFields> fields;
-  const auto add = [&](const std::string& name, Eigen::MatrixXd fem, const Eigen::MatrixXd& bie) {
-    fields.push_back({name, std::move(fem), SurfaceSeries(bie)(points)});
+  const auto add = [&](const std::string& name, Eigen::MatrixXd fem, Eigen::MatrixXd BieFields::*bie) {
+    const SurfaceSeries series = series_of(inputs, [bie](const CheckInput& input) { return input.bie.*bie; });
+    fields.push_back({name, std::move(fem), series(points)});
   };
   if (finest.potential != nullptr) {
     const PotentialTraces traces = finest.potential->solutions.back().on_surface(points);
-    add("q", traces.charge.transpose(), input.bie.charge);
+    add("q", traces.charge.transpose(), &BieFields::charge);
     if (finest.potential->steady) {
       add("Vm", finest.potential->steady->on_surface(points).transmembrane_potential.transpose(),
-          input.bie.steady_potential);
+          &BieFields::steady_potential);
     }
-    add("force", traces.force, input.bie.force_electric);
+    add("force", traces.force, &BieFields::force_electric);
   }
   if (finest.flow != nullptr) {
-    add("velocity", finest.flow->solutions.back().on_surface(points).velocity, input.bie.velocity);
+    add("velocity", finest.flow->solutions.back().on_surface(points).velocity, &BieFields::velocity);
   }
   return fields;
 }
@@ -87,10 +88,10 @@ void write_surface(const std::filesystem::path& directory, const SurfacePoints& 
 
 }  // namespace
 
-void write_field_files(const std::filesystem::path& directory, const CheckInput& input, const FinestSolutions& finest,
-                       const Discretisation& discretisation) {
+void write_field_files(const std::filesystem::path& directory, const std::vector<CheckInput>& inputs,
+                       const FinestSolutions& finest, const Discretisation& discretisation) {
   const SurfacePoints points = discretisation.lattice_points(surface_intervals);
-  write_surface(directory, points, fields_on_surface(input, finest, points));
+  write_surface(directory, points, fields_on_surface(inputs, finest, points));
 
   const VolumePoints volume = discretisation.volume_lattice(volume_intervals);
   Eigen::MatrixXd inside(1, volume.size());

@@ -15,9 +15,10 @@ struct FinestSolutions {
 
 /// Writes surface.vtu (both methods' fields on γ and their differences), volume.vtu (φ, v and pressure of the finite
 /// elements) and differences.dat for the picture.
+/// @param inputs  of all vesicles
 /// @param discretisation  whose mesh the solutions live on
 /// @throws InputError if a file cannot be written
-void write_field_files(const std::filesystem::path& directory, const CheckInput& input, const FinestSolutions& finest,
-                       const Discretisation& discretisation);
+void write_field_files(const std::filesystem::path& directory, const std::vector<CheckInput>& inputs,
+                       const FinestSolutions& finest, const Discretisation& discretisation);
 
 }  // namespace vehd::fem_check

@@ -4,26 +4,27 @@
 
 #include "fem_check/app/level_loop.hpp"
 #include "fem_check/app/sample_values.hpp"
-#include "fem_check/app/surface_series.hpp"
+#include "fem_check/app/vesicle_fields.hpp"
 
 namespace vehd::fem_check {
 namespace {
 
-FlowProblem problem_of(const CheckInput& input, const Refinement& refinement) {
+FlowProblem problem_of(const std::vector<CheckInput>& inputs, const Refinement& refinement) {
   FlowProblem problem;
-  problem.viscosity_in = input.physics.viscosity_in;
-  problem.viscosity_out = input.physics.viscosity_out;
+  problem.viscosity_in = number_of(inputs, &Physics::viscosity_in);
+  problem.viscosity_out = inputs.front().physics.viscosity_out;
   problem.tolerance = refinement.flow_tolerance;
   return problem;
 }
 
 }  // namespace
 
-FlowLevels solve_flow_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Refinement& refinement,
                              const Report& report) {
-  FlowProblem problem = problem_of(input, refinement);
+  const CheckInput& input = inputs.front();
+  FlowProblem problem = problem_of(inputs, refinement);
   problem.gradient = input.physics.flow_gradient;
-  const SurfaceSeries force(input.force);
+  const SurfaceSeries force = series_of(inputs, [](const CheckInput& of) { return of.force; });
   problem.force = [&](const SurfacePoints& points) { return Vectors(force(points)); };
 
   FlowLevels result;
@@ -56,8 +57,9 @@ namespace {
 /// Velocity on γ of forces alone, without a background flow, at any degree.
 class ForceFlows {
  public:
-  ForceFlows(const CheckInput& input, const Meshes& meshes, const Refinement& refinement, const Report& report)
-      : meshes_(meshes), refinement_(refinement), report_(report), problem_(problem_of(input, refinement)) {}
+  ForceFlows(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Refinement& refinement,
+             const Report& report)
+      : meshes_(meshes), refinement_(refinement), report_(report), problem_(problem_of(inputs, refinement)) {}
 
   [[nodiscard]] Eigen::MatrixXd velocity(int degree, VectorOnSurface force) {
     problem_.force = std::move(force);
@@ -79,15 +81,15 @@ class ForceFlows {
 
 }  // namespace
 
-void add_own_force(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+void add_own_force(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Refinement& refinement,
                    const PotentialLevels& potential, LevelSequence& sequence, const Report& report) {
   // An error of this share of the flow's own hides behind it.
   constexpr double negligible_share = 0.25;
   Level &last = sequence.levels.back(), &before = sequence.levels[sequence.levels.size() - 2];
-  const SurfaceSeries given(input.stored.force_electric);
+  const SurfaceSeries given = series_of(inputs, [](const CheckInput& input) { return input.stored.force_electric; });
   const PotentialSolution &electric = potential.solutions.back(),
                           &electric_before = potential.solutions[potential.solutions.size() - 2];
-  ForceFlows flows(input, meshes, refinement, report);
+  ForceFlows flows(inputs, meshes, refinement, report);
   // f = … − f_E: what the elements' own f_E does in place of the snapshot's.
   const VectorOnSurface change = [&](const SurfacePoints& at) {
     return Vectors(given(at) - electric.on_surface(at).force);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "meshes/mesh_quality.hpp"
 
@@ -10,7 +11,7 @@ namespace vehd::fem_check {
 
 /// Which mesh is made, and where it goes.
 struct MeshTask {
-  std::filesystem::path input;   ///< file with the shape
+  std::filesystem::path input;   ///< file with the shapes, one or two
   std::filesystem::path output;  ///< MSH 4.1
   std::string family = "hex";    ///< or "tet"
   int refine = 0;                ///< how often the element size is divided by 1.5
@@ -21,11 +22,11 @@ struct MeshResult {
   std::string family;
   int n_cells = 0, n_faces = 0;  ///< faces: on the membrane
   double outer_radius = 0.0;
-  double shape_volume = 0.0, shape_area = 0.0;
+  std::vector<double> shape_volumes, shape_areas;  ///< of each vesicle
   meshes::MeshQuality quality;
 };
 
-/// Meshes the shape and writes the mesh. @throws InputError, meshes::MeshError
+/// Meshes the shapes and writes the mesh. @throws InputError, meshes::MeshError
 MeshResult run_mesh(const MeshTask& task);
 
 /// The figures for people.

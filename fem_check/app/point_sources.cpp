@@ -1,15 +1,11 @@
 #include "fem_check/app/point_sources.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <memory>
 #include <numbers>
 
 #include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/refinement.hpp"
 #include "fem_check/potential.hpp"
-#include "meshes/volume_mesh.hpp"
 
 namespace vehd::fem_check {
 namespace {
@@ -78,69 +74,36 @@ PointSources read_sources(const Hdf5Input& file) {
   return sources;
 }
 
-/// Layers of cells for each cell along an edge of a block, in the shell for the default outer radius.
-constexpr double blend_layers = 1.0 / 3.0, shell_layers = 4.0 / 3.0;
-
-meshes::BlockMeshOptions mesh_options(const PointSourceTask& task, double radius) {
-  const auto layers = [&](double share) {
-    return std::max(1, static_cast<int>(std::lround(share * task.cells_per_edge)));
-  };
-  const double further = std::log(task.outer_radius) / std::log(PointSourceTask().outer_radius);
-  meshes::BlockMeshOptions options;
-  options.cells_per_edge = task.cells_per_edge;
-  options.blend_layers = layers(blend_layers);
-  options.shell_layers = layers(shell_layers * further);
-  options.outer_radius = task.outer_radius * radius;
-  return options;
-}
-
 }  // namespace
 
-PointSourceResult run_point_sources(const PointSourceTask& task) {
+PointSourceResult run_point_sources(const LevelTask& task) {
   const Hdf5Input file(task.input);
   const Eigen::MatrixXd position = file.matrix("/x");
   const PointSources sources = read_sources(file);
 
-  const std::clock_t start = std::clock();
-  const auto elapsed = [&] { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; };
-  const meshes::FrozenShape shape(position);
-  const auto mesh =
-      std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, mesh_options(task, shape.radius())));
-  PointSourceResult result;
-  result.seconds_mesh = elapsed();
-  const Discretisation discretisation(mesh, task.degree);
+  const LevelSpace space(meshes::FrozenShape(position), task);
+  const Discretisation& discretisation = space.discretisation();
   const SurfacePoints points = discretisation.quadrature_points(Refinement::finest().points_per_edge);
   const PotentialSolution solution = solve_potential(discretisation, problem_of(sources));
   const PotentialTraces traces = solution.on_surface(points);
-  result.seconds = elapsed();
+  PointSourceResult result{space.cost_so_far(), {}, {}};
+  result.cost.n_unknowns = solution.cost().n_unknowns;
+  result.cost.peak_memory_bytes = solution.cost().peak_memory_bytes;
 
-  result.degree = task.degree;
-  result.n_cells = discretisation.n_cells();
-  result.n_unknowns = solution.cost().n_unknowns;
-  result.outer_radius = mesh->outer_radius();
-  result.peak_memory_bytes = solution.cost().peak_memory_bytes;
   const ExactTraces exact = exact_traces(sources, points);
+  const Eigen::MatrixXd found = traces.charge.transpose();
   const Eigen::MatrixXd charge =
       (normal_part(exact.gradient_in, points) - normal_part(exact.gradient_out, points)).transpose();
   const Vectors force = maxwell_traction(exact.gradient_in, points) - maxwell_traction(exact.gradient_out, points);
-  result.charge_l2 = relative_l2(points, traces.charge.transpose(), charge);
-  result.charge_max = relative_max(traces.charge.transpose(), charge);
-  result.force_l2 = relative_l2(points, traces.force, force);
-  result.force_max = relative_max(traces.force, force);
+  result.charge = {relative_l2(points, found, charge), relative_max(found, charge)};
+  result.force = {relative_l2(points, traces.force, force), relative_max(traces.force, force)};
   return result;
 }
 
 nlohmann::json json_of(const PointSourceResult& result) {
-  return {{"degree", result.degree},
-          {"cells", result.n_cells},
-          {"dofs", result.n_unknowns},
-          {"truncation_radius", result.outer_radius},
-          {"seconds", result.seconds},
-          {"seconds_mesh", result.seconds_mesh},
-          {"memory_bytes", result.peak_memory_bytes},
-          {"fields",
-           {{"q", {{"l2", result.charge_l2}, {"max", result.charge_max}}},
-            {"force", {{"l2", result.force_l2}, {"max", result.force_max}}}}}};
+  nlohmann::json json = json_of(result.cost);
+  json["fields"] = {{"q", json_of(result.charge)}, {"force", json_of(result.force)}};
+  return json;
 }
 
 }  // namespace vehd::fem_check

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "fem_check/app/level_task.hpp"
 #include "fem_check/types.hpp"
 
 namespace vehd::fem_check {
@@ -18,29 +18,17 @@ struct PointSources {
   double conductivity_in = 1.0, conductivity_out = 1.0;
 };
 
-/// One level of the problem.
-struct PointSourceTask {
-  std::filesystem::path input;  ///< shape, conductivities and sources
-  int degree = 4;
-  int cells_per_edge = 3;     ///< layers of cells in proportion
-  double outer_radius = 8.0;  ///< over the radius of the shape
-};
-
-/// What the level costs, and its errors.
+/// What a level costs, and its errors.
 struct PointSourceResult {
-  int degree = 0, n_cells = 0;
-  long n_unknowns = 0;
-  double outer_radius = 0.0;
-  double seconds = 0.0;  ///< of the processor, from the shape to q and f_E on γ: mesh, matrices, solve
-  double seconds_mesh = 0.0;
-  std::size_t peak_memory_bytes = 0;                                          ///< of the process
-  double charge_l2 = 0.0, charge_max = 0.0, force_l2 = 0.0, force_max = 0.0;  ///< relative errors
+  LevelCost cost;
+  FieldError charge, force;
 };
 
 /// Solves for the jumps of the sources and compares q and f_E with the exact ones at the points of the mesh. At the
 /// outer sphere the condition is that of the check: of the exact solution it knows nothing.
+/// @param task  its input has shape, conductivities and sources
 /// @throws InputError, meshes::MeshError, SolveError
-PointSourceResult run_point_sources(const PointSourceTask& task);
+PointSourceResult run_point_sources(const LevelTask& task);
 
 /// The result for programs.
 nlohmann::json json_of(const PointSourceResult& result);

@@ -2,41 +2,58 @@
 
 #include "fem_check/app/level_loop.hpp"
 #include "fem_check/app/sample_values.hpp"
-#include "fem_check/app/surface_series.hpp"
+#include "fem_check/app/vesicle_fields.hpp"
 
 namespace vehd::fem_check {
 namespace {
 
-PotentialProblem base_problem(const CheckInput& input) {
+PotentialProblem base_problem(const std::vector<CheckInput>& inputs) {
+  const Physics& physics = inputs.front().physics;
   PotentialProblem problem;
-  problem.field = input.physics.field;
-  problem.conductivity_in = input.physics.conductivity_in;
-  problem.conductivity_out = input.physics.conductivity_out;
-  problem.permittivity_in = input.physics.permittivity_in;
-  problem.permittivity_out = input.physics.permittivity_out;
+  problem.field = physics.field;
+  problem.conductivity_in = number_of(inputs, &Physics::conductivity_in);
+  problem.conductivity_out = physics.conductivity_out;
+  problem.permittivity_in = number_of(inputs, &Physics::permittivity_in);
+  problem.permittivity_out = physics.permittivity_out;
   return problem;
 }
 
-/// V_m given; with displacement currents the free charge of both faces, from which V_m follows.
-PotentialProblem given_problem(const CheckInput& input) {
-  PotentialProblem problem = base_problem(input);
-  if (!input.charged_faces()) {
-    problem.membrane = PrescribedJump{SurfaceSeries(input.potential).scalar()};
-    return problem;
+/// σ_i E_i − σ_e E_e.
+Eigen::MatrixXd free_current(const PotentialTraces& traces, const PotentialProblem& materials,
+                             const SurfacePoints& points) {
+  Eigen::MatrixXd result(1, points.size());
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    result(0, i) = materials.conductivity_out * (traces.flux_in[i] - traces.charge[i]) -
+                   materials.conductivity_in[points.vesicle[i]] * traces.flux_in[i];
   }
-  problem.conductivity_in = input.physics.permittivity_in;
-  problem.conductivity_out = input.physics.permittivity_out;
-  problem.membrane = ChargedMembrane{input.physics.capacitance, SurfaceSeries(input.free_charge_in).scalar()};
-  problem.current_jump = SurfaceSeries(input.free_charge_in + input.free_charge_out).scalar();
-  return problem;
+  return result;
 }
 
 }  // namespace
 
-PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
-                                       const Report& report) {
-  PotentialProblem given = given_problem(input), steady = base_problem(input);
-  steady.membrane = SteadyMembrane{input.physics.conductance, 0.0};
+PotentialProblem given_problem(const std::vector<CheckInput>& inputs) {
+  PotentialProblem problem = base_problem(inputs);
+  if (!inputs.front().charged_faces()) {
+    problem.membrane =
+        PrescribedJump{series_of(inputs, [](const CheckInput& input) { return input.potential; }).scalar()};
+    return problem;
+  }
+  problem.conductivity_in = problem.permittivity_in;
+  problem.conductivity_out = problem.permittivity_out;
+  problem.membrane =
+      ChargedMembrane{number_of(inputs, &Physics::capacitance),
+                      series_of(inputs, [](const CheckInput& input) { return input.free_charge_in; }).scalar()};
+  problem.current_jump = series_of(inputs, [](const CheckInput& input) {
+                           return Eigen::MatrixXd(input.free_charge_in + input.free_charge_out);
+                         }).scalar();
+  return problem;
+}
+
+PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, const Meshes& meshes,
+                                       const Refinement& refinement, const Report& report) {
+  const CheckInput& input = inputs.front();
+  PotentialProblem given = given_problem(inputs), steady = base_problem(inputs);
+  steady.membrane = SteadyMembrane{number_of(inputs, &Physics::conductance), 0.0};
 
   PotentialLevels result;
   std::vector<PotentialSolution> steady_solutions;
@@ -50,9 +67,7 @@ PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& me
                   {}};
     if (input.charged_faces()) {
       solved.surface["Vm_of_charges"] = traces.transmembrane_potential.transpose();
-      solved.surface["free_current"] = (input.physics.conductivity_out * (traces.flux_in - traces.charge) -
-                                        input.physics.conductivity_in * traces.flux_in)
-                                           .transpose();
+      solved.surface["free_current"] = free_current(traces, steady, points);
     }
     if (input.bie.sample_potential.size() > 0) {
       solved.samples["potential"] = at_samples(discretisation, input.samples.points, [&](const VolumePoints& places) {

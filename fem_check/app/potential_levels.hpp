@@ -20,9 +20,14 @@ struct PotentialLevels {
   std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
 };
 
-/// Solves the potential with V_m or charges given, and under the membrane law where the input has that. @throws
-/// SolveError
-PotentialLevels solve_potential_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
-                                       const Report& report);
+/// V_m given; with displacement currents the free charge of both faces, from which V_m follows.
+/// @param inputs  of all vesicles of the meshes
+PotentialProblem given_problem(const std::vector<CheckInput>& inputs);
+
+/// Solves the potential with V_m or charges given, and under the membrane law where the inputs have that.
+/// @param inputs  of all vesicles of the meshes; samples are those of the first
+/// @throws SolveError
+PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, const Meshes& meshes,
+                                       const Refinement& refinement, const Report& report);
 
 }  // namespace vehd::fem_check

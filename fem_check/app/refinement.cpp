@@ -1,5 +1,8 @@
 #include "fem_check/app/refinement.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace vehd::fem_check {
@@ -7,7 +10,7 @@ namespace vehd::fem_check {
 Refinement Refinement::quick() {
   Refinement refinement;
   refinement.cells_per_edge = 2;
-  refinement.points_per_edge = 8;
+  refinement.points_per_edge = 12;
   refinement.potential_first = 4;
   refinement.potential_last = 6;
   refinement.flow_first = 4;
@@ -35,7 +38,38 @@ meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double
   return options;
 }
 
-Meshes::Meshes(const meshes::FrozenShape& shape, const Refinement& refinement) {
+meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
+                                              const std::array<meshes::FrozenShape, 2>& shapes, bool far) {
+  constexpr double far_ratio = 2.5;
+  meshes::TwoVesicleOptions options;
+  options.cells_per_edge = refinement.cells_per_edge;
+  options.blend_layers = refinement.blend_layers;
+  options.box_layers = refinement.box_layers;
+  options.box_growth = refinement.box_growth;
+  options.outer_layers = refinement.outer_layers;
+  options.outer_growth = refinement.outer_growth;
+  const meshes::Point middle = 0.5 * (shapes[0].centroid() + shapes[1].centroid());
+  const double reach = std::max(shapes[0].largest_distance(middle), shapes[1].largest_distance(middle));
+  // Two that are far from one another fill the sphere more than a single one does.
+  const double size = std::max(std::hypot(shapes[0].radius(), shapes[1].radius()), 0.5 * reach);
+  options.boxes.outer_radius = refinement.outer_radius * size;
+  if (far) options.boxes.far_radius = far_ratio * options.boxes.outer_radius;
+  return options;
+}
+
+Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement) {
+  if (shapes.size() == 2) {
+    const std::array pair{shapes[0], shapes[1]};
+    const auto make = [&](bool far) {
+      return std::make_shared<meshes::TwoVesicleMesh>(
+          meshes::make_two_vesicle_mesh(pair, two_vesicle_options(refinement, pair, far)));
+    };
+    near_ = make(false);
+    far_ = make(true);
+    return;
+  }
+  if (shapes.size() != 1) throw meshes::MeshError(fmt::format("has {} vesicles; accepted: one or two", shapes.size()));
+  const meshes::FrozenShape& shape = shapes.front();
   std::vector<meshes::HexMesh> both = meshes::make_block_meshes(
       shape,
       {block_mesh_options(refinement, shape.radius(), false), block_mesh_options(refinement, shape.radius(), true)});

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "fem_check/discretisation.hpp"
 #include "meshes/frozen_shape.hpp"
+#include "meshes/two_vesicle_mesh.hpp"
 #include "meshes/volume_mesh.hpp"
 
 namespace vehd::fem_check {
@@ -16,8 +19,11 @@ struct Refinement {
   /// Of the layers' thickness: the fine structure of the fields ends in a thin inner layer, and the layers outside
   /// carry the smooth rest at high degree.
   double shell_growth = 3.0;
-  double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape
-  int points_per_edge = 10;   ///< of the comparison, Gauss points on each face of γ
+  double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape, or of two together
+  // Of two vesicles: between a membrane and its box, and from the boxes to the outer sphere.
+  int box_layers = 2, outer_layers = 2;
+  double box_growth = 2.0, outer_growth = 2.0;
+  int points_per_edge = 12;  ///< of the comparison, Gauss points on each face of γ
 
   int potential_first = 4, potential_last = 9;  ///< degrees
   int flow_first = 4, flow_last = 8;
@@ -42,11 +48,16 @@ struct DegreeRange {
 /// @param far  with one more layer of cells, outside the others
 meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double radius, bool far);
 
-/// Meshes of one shape at both radii of the outer sphere.
+/// About two shapes.
+/// @param far  with one more layer of cells, outside the others
+meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
+                                              const std::array<meshes::FrozenShape, 2>& shapes, bool far);
+
+/// Meshes of one or two shapes at both radii of the outer sphere.
 class Meshes {
  public:
-  /// @throws MeshError if the blocks cannot follow the shape
-  Meshes(const meshes::FrozenShape& shape, const Refinement& refinement);
+  /// @throws MeshError if there are more shapes, or if the blocks cannot follow them
+  Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement);
 
   [[nodiscard]] Discretisation discretise(int degree) const { return {near_, degree}; }
   [[nodiscard]] double outer_radius() const { return near_->outer_radius(); }

@@ -10,17 +10,12 @@ namespace {
 nlohmann::json json_of(const Norms& norms) { return {{"l2", norms.l2}, {"max", norms.max}}; }
 
 nlohmann::json json_of(const FieldComparison& field) {
-  return {{"l2", field.difference.l2},
-          {"max", field.difference.max},
-          {"fem_error", field.fem_error()},
-          {"fem_levels_change", json_of(field.levels_change)},
-          {"fem_truncation", json_of(field.truncation)},
-          {"fem_solver", field.solver},
-          {"fem_time", field.time},
-          {"bie_error", field.bie_error()},
-          {"bie_change", json_of(field.bie_change)},
-          {"bie_further", field.bie_further},
-          {"verdict", name_of(field.verdict)}};
+  return {{"l2", field.difference.l2},        {"max", field.difference.max},
+          {"fem_error", field.fem_error()},   {"fem_levels_change", json_of(field.levels_change)},
+          {"fem_tail", field.tail},           {"fem_truncation", json_of(field.truncation)},
+          {"fem_solver", field.solver},       {"fem_time", field.time},
+          {"bie_error", field.bie_error()},   {"bie_change", json_of(field.bie_change)},
+          {"bie_further", field.bie_further}, {"verdict", name_of(field.verdict)}};
 }
 
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
@@ -62,39 +57,33 @@ std::string label_of(const FieldComparison& field) {
   return field.group == RowGroup::from_shape ? field.label + " from shape" : field.label;
 }
 
-std::string row_of(const FieldComparison& field) {
+/// A row with its label in the table.
+struct Row {
+  std::string label;
+  const FieldComparison* field;
+};
+
+std::vector<Row> rows_of(const CheckResult& result) {
+  std::vector<Row> rows;
+  const std::string prefix = result.name.empty() ? "" : result.name + ": ";
+  for (const FieldComparison& field : result.fields) rows.push_back({prefix + label_of(field), &field});
+  for (const CheckResult& vesicle : result.vesicles) {
+    for (const Row& row : rows_of(vesicle)) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string text_of(const Row& row, std::size_t width) {
+  const FieldComparison& field = *row.field;
   const std::string fem = field.of_levels.empty() ? "-" : fmt::format("{:.1e}", field.fem_error());
-  return fmt::format("{:<18} {:>9.1e} {:>9.1e}   {:>9} {:>6}   {:>9.1e}   {}\n", label_of(field), field.difference.l2,
+  return fmt::format("{:<{}} {:>9.1e} {:>9.1e}   {:>9} {:>6}   {:>9.1e}   {}\n", row.label, width, field.difference.l2,
                      field.difference.max, fem, field.order ? fmt::format("{:.1f}", *field.order) : "-",
                      field.bie_error(), name_of(field.verdict));
 }
 
-}  // namespace
-
-Verdict CheckResult::verdict() const {
-  const auto has = [&](Verdict verdict) {
-    return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.verdict == verdict; });
-  };
-  if (has(Verdict::does_not)) return Verdict::does_not;
-  return has(Verdict::undecided) || fields.empty() ? Verdict::undecided : Verdict::agree;
-}
-
-std::string CheckResult::rows_with(Verdict verdict) const {
+/// Below the table.
+std::string further_lines(const CheckResult& result) {
   std::string text;
-  for (const FieldComparison& field : fields) {
-    if (field.verdict == verdict) text += (text.empty() ? "" : ", ") + label_of(field);
-  }
-  return text;
-}
-
-std::string table_of(const CheckResult& result) {
-  std::string text = fmt::format(
-      "{} at time {:g}: boundary integrals of degree {}, their error from degree {}, finite elements to R = "
-      "{:.3g}\nrequired: errors below {:.3g} of each field\n",
-      result.source, result.time, result.order, result.high_order, result.outer_radius, result.required);
-  text += fmt::format("{:<18} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", "diff. L2", "max", "FEM error",
-                      "order", "BIE error", "verdict");
-  for (const FieldComparison& field : result.fields) text += row_of(field);
   if (result.in_time) {
     text +=
         fmt::format("V_m in time: from time {:g} in {} steps{}{}\n", result.in_time->begin, result.in_time->steps,
@@ -103,13 +92,63 @@ std::string table_of(const CheckResult& result) {
   }
   if (result.divergence) {
     text += fmt::format(
-        "surface divergence of v as the elements see it: {:.1e} of the strain rate (levels differ by {:.1e})\n",
-        result.divergence->size.l2, result.divergence->levels_change.l2);
+        "{}surface divergence of v as the elements see it: {:.1e} of the strain rate (levels differ by {:.1e})\n",
+        result.name.empty() ? "" : result.name + ": ", result.divergence->size.l2, result.divergence->levels_change.l2);
+  }
+  for (const CheckResult& vesicle : result.vesicles) text += further_lines(vesicle);
+  return text;
+}
+
+/// What boundary integrals were solved with.
+std::string degrees_of(const CheckResult& result) {
+  if (result.vesicles.empty()) {
+    return fmt::format("degree {}, their error from degree {}", result.order, result.high_order);
+  }
+  std::string orders, high_orders;
+  for (const CheckResult& vesicle : result.vesicles) {
+    orders += fmt::format("{}{}", orders.empty() ? "" : " and ", vesicle.order);
+    high_orders += fmt::format("{}{}", high_orders.empty() ? "" : " and ", vesicle.high_order);
+  }
+  return fmt::format("degrees {}, their error from degrees {}", orders, high_orders);
+}
+
+}  // namespace
+
+Verdict CheckResult::verdict() const {
+  const std::vector<Row> rows = rows_of(*this);
+  const auto has = [&](Verdict verdict) {
+    return std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.field->verdict == verdict; });
+  };
+  if (has(Verdict::does_not)) return Verdict::does_not;
+  return has(Verdict::undecided) || rows.empty() ? Verdict::undecided : Verdict::agree;
+}
+
+std::string CheckResult::rows_with(Verdict verdict) const {
+  std::string text;
+  for (const Row& row : rows_of(*this)) {
+    if (row.field->verdict == verdict) text += (text.empty() ? "" : ", ") + row.label;
   }
   return text;
 }
 
-nlohmann::json json_of(const CheckResult& result) {
+std::string table_of(const CheckResult& result) {
+  const std::vector<Row> rows = rows_of(result);
+  std::size_t width = 20;
+  for (const Row& row : rows) width = std::max(width, row.label.size());
+  std::string text = fmt::format(
+      "{} at time {:g}: boundary integrals of {}, finite elements to R = {:.3g}\nrequired: errors below {:.3g} of each "
+      "field\n",
+      result.source, result.time, degrees_of(result), result.outer_radius, result.required);
+  text += fmt::format("{:<{}} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", width, "diff. L2", "max", "FEM error",
+                      "order", "BIE error", "verdict");
+  for (const Row& row : rows) text += text_of(row, width);
+  return text + further_lines(result);
+}
+
+namespace {
+
+/// What goes with one vesicle.
+nlohmann::json vesicle_json(const CheckResult& result) {
   nlohmann::json fields = nlohmann::json::object(), from_shape = fields, stored = fields, in_time = fields,
                  orders = fields;
   for (const FieldComparison& field : result.fields) {
@@ -122,20 +161,13 @@ nlohmann::json json_of(const CheckResult& result) {
     if (field.order && own_group) group[field.name]["order_observed"] = *field.order;
     if (field.order && field.group == RowGroup::fields) orders[field.name] = *field.order;
   }
-  nlohmann::json json{{"source", result.source},
-                      {"time", result.time},
-                      {"order", result.order},
+  nlohmann::json json{{"order", result.order},
                       {"high_order", result.high_order},
-                      {"required", result.required},
-                      {"verdict", name_of(result.verdict())},
                       {"fields", fields},
                       {"from_shape", from_shape},
                       {"stored", stored},
                       {"order_observed", orders},
-                      {"levels", levels_json(result)},
-                      {"truncation_radius", result.outer_radius},
-                      {"truncation_radius_second", result.far_outer_radius},
-                      {"seconds", result.seconds}};
+                      {"levels", levels_json(result)}};
   if (result.in_time) {
     in_time["begin"] = result.in_time->begin;
     in_time["steps"] = result.in_time->steps;
@@ -148,6 +180,25 @@ nlohmann::json json_of(const CheckResult& result) {
     json["surface_divergence"]["fem_error"] = result.divergence->levels_change.l2;
   }
   if (result.stored_velocity) json["stored_velocity"] = *result.stored_velocity;
+  return json;
+}
+
+}  // namespace
+
+nlohmann::json json_of(const CheckResult& result) {
+  nlohmann::json json = result.vesicles.empty() ? vesicle_json(result) : nlohmann::json::object();
+  for (const CheckResult& vesicle : result.vesicles) {
+    nlohmann::json& of_vesicle = json["vesicles"].emplace_back(vesicle_json(vesicle));
+    of_vesicle["name"] = vesicle.name;
+    of_vesicle["verdict"] = name_of(vesicle.verdict());
+  }
+  json["source"] = result.source;
+  json["time"] = result.time;
+  json["required"] = result.required;
+  json["verdict"] = name_of(result.verdict());
+  json["truncation_radius"] = result.outer_radius;
+  json["truncation_radius_second"] = result.far_outer_radius;
+  json["seconds"] = result.seconds;
   return json;
 }
 

@@ -26,9 +26,10 @@ struct InTimeResult {
 /// Share of a field that the error of either method may reach for both to agree, unless asked for another.
 constexpr double default_requirement = 0.02;
 
-/// What a check found.
+/// What a check found. Of several vesicles each has a result of its own, and the whole has no rows itself.
 struct CheckResult {
   std::string source;
+  std::string name;  ///< of the vesicle; empty where there is only one
   double time = 0.0;
   int order = 0, high_order = 0;
   double required = default_requirement;
@@ -39,10 +40,11 @@ struct CheckResult {
   std::optional<double> stored_velocity;  ///< relative L2 of the snapshot's dx/dt against v of its truncated forces
   double outer_radius = 0.0, far_outer_radius = 0.0;
   double seconds = 0.0;
+  std::vector<CheckResult> vesicles{};
 
   /// Of all rows together: the worst of them.
   [[nodiscard]] Verdict verdict() const;
-  /// Labels of the rows with this verdict, separated by commas.
+  /// Labels of the rows with this verdict, of several vesicles with their names, separated by commas.
   [[nodiscard]] std::string rows_with(Verdict verdict) const;
 };
 

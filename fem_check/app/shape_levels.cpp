@@ -2,19 +2,24 @@
 
 #include <utility>
 
-#include "fem_check/app/level_loop.hpp"
 #include "fem_check/bending.hpp"
 #include "fem_check/inextensible_flow.hpp"
+#include "meshes/frozen_shape.hpp"
 
 namespace vehd::fem_check {
 namespace {
 
+/// Of the bending elements above that of the velocity: four derivatives of x would make f_b the largest error by far.
+constexpr int further_degrees = 6;
+/// Of f_b as a field above that of the velocity: it is rougher than all that follows from it.
+constexpr int degrees_of_field = 3;
+
 /// Flows with the force of the shape, with or without a tension.
 class ShapeFlow {
  public:
-  ShapeFlow(const CheckInput& input, Vector3 centre, const Refinement& refinement)
+  ShapeFlow(const CheckInput& input, const Refinement& refinement)
       : physics_(input.physics),
-        centre_(std::move(centre)),
+        centre_(meshes::FrozenShape(input.position).centroid()),
         tension_is_free_(input.bie.tension_is_free),
         points_per_edge_(refinement.points_per_edge) {}
 
@@ -24,9 +29,11 @@ class ShapeFlow {
     Solved solved;
     VectorOnSurface bending;
     if (physics_.bending_modulus > 0.0) {
-      bending = bending_of(space, 0.0);
-      solved.surface["bending"] = bending(points);
-      if (physics_.spontaneous_curvature != 0.0) bending = bending_of(space, physics_.spontaneous_curvature);
+      const double modulus = physics_.bending_modulus;
+      const int degree = space.degree() + further_degrees;
+      solved.surface["bending"] =
+          bending_field(space, {modulus, 0.0}, space.degree() + degrees_of_field, degree)(points);
+      bending = bending_force(space, {modulus, physics_.spontaneous_curvature}, degree);
     }
     FlowProblem problem = problem_with(tolerance);
     problem.gradient = physics_.flow_gradient;
@@ -59,12 +66,6 @@ class ShapeFlow {
     return problem;
   }
 
-  [[nodiscard]] VectorOnSurface bending_of(const Discretisation& space, double spontaneous_curvature) const {
-    // Four derivatives of x: with the degree of the velocity the force would be the largest error by far.
-    constexpr int further_degrees = 3;
-    return bending_force(space, {physics_.bending_modulus, spontaneous_curvature}, space.degree() + further_degrees);
-  }
-
   void add_flow(const Discretisation& space, const FlowProblem& problem, const SurfacePoints& points,
                 Solved& solved) const {
     if (!physics_.inextensible) {
@@ -82,16 +83,21 @@ class ShapeFlow {
   }
 
   const Physics& physics_;
-  Vector3 centre_;
+  Vector3 centre_;  // the weight is taken about it, which changes the pressure inside alone
   bool tension_is_free_;
   int points_per_edge_;
 };
 
 }  // namespace
 
-LevelSequence solve_shape_levels(const CheckInput& input, const Vector3& centre, const Meshes& meshes,
-                                 const Refinement& refinement, const PotentialLevels* potential, const Report& report) {
-  const ShapeFlow flow(input, centre, refinement);
+Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, const Refinement& refinement,
+                        const VectorOnSurface& electric) {
+  return ShapeFlow(input, refinement).solve(space, refinement.flow_tolerance, electric);
+}
+
+LevelSequence solve_shape_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                                 const PotentialLevels* potential, const Report& report) {
+  const ShapeFlow flow(input, refinement);
   VectorOnSurface electric;
   if (potential != nullptr) {
     electric = [&](const SurfacePoints& at) { return potential->solutions.back().on_surface(at).force; };

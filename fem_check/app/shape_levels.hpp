@@ -2,21 +2,27 @@
 
 #include "fem_check/app/check_input.hpp"
 #include "fem_check/app/level.hpp"
+#include "fem_check/app/level_loop.hpp"
 #include "fem_check/app/potential_levels.hpp"
 #include "fem_check/app/progress.hpp"
 #include "fem_check/app/refinement.hpp"
 
 namespace vehd::fem_check {
 
-/// The flow that follows from the shape, V_m and the physics alone, at rising degree: f_b from the bending energy of
+/// The flow that follows from the shape, V_m and the physics alone, on one discretisation, see solve_shape_levels().
+/// @param electric  f_E; empty: none
+/// @throws SolveError
+Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, const Refinement& refinement,
+                        const VectorOnSurface& electric);
+
+/// The same at rising degree: f_b from the bending energy of
 /// the elements, f_E from their potential, weight, and the tension that keeps every area element. Surface fields:
 /// velocity; bending, f_b without spontaneous curvature, where the membrane resists bending; tension where it is
 /// inextensible, without its mean where a uniform one does nothing.
-/// @param centre     of the shape: the weight is taken about it, which changes the pressure inside alone
 /// @param potential  null without a field; f_E is that of its finest level. What the level before has instead stands
 ///                   between the last two levels, as an error of the last
 /// @throws SolveError
-LevelSequence solve_shape_levels(const CheckInput& input, const Vector3& centre, const Meshes& meshes,
-                                 const Refinement& refinement, const PotentialLevels* potential, const Report& report);
+LevelSequence solve_shape_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+                                 const PotentialLevels* potential, const Report& report);
 
 }  // namespace vehd::fem_check

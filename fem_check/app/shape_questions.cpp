@@ -17,6 +17,9 @@ std::vector<FieldQuestion> shape_questions(const CheckInput& input, const Compar
   };
   if (input.physics.bending_modulus > 0.0) {
     list.push_back(question("bending", "f_b", &BieFields::force_bending, sizes.force));
+    FieldQuestion work = question("bending", "f_b work", &BieFields::force_bending, sizes.force);
+    work.name = "bending_work";
+    list.push_back(work_on_smooth(std::move(work), places.surface));
   }
   if (input.physics.inextensible) {
     FieldQuestion tension = question("tension", "lambda", &BieFields::tension, sizes.force * places.radius);

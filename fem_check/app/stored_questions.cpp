@@ -12,8 +12,18 @@ FieldQuestion stored(FieldQuestion question) {
   return question;
 }
 
-/// −(σ_i ∂φ_i/∂n + G_m V_m), the current that charges the membrane, from ∂φ_i/∂n of a level; C_m dV_m/dt of the run, or
-/// with displacement currents dq_i/dt.
+/// G_m V_m + J_p.
+Eigen::MatrixXd current_through(const CheckInput& input, const SurfacePoints& points) {
+  const Eigen::MatrixXd potential = SurfaceSeries(input.potential)(points);
+  Eigen::MatrixXd current = input.conductance.size() > 0
+                                ? Eigen::MatrixXd(SurfaceSeries(input.conductance)(points).cwiseProduct(potential))
+                                : Eigen::MatrixXd(input.physics.conductance * potential);
+  if (input.pump_current.size() > 0) current += SurfaceSeries(input.pump_current)(points);
+  return current;
+}
+
+/// −(σ_i ∂φ_i/∂n + G_m V_m + J_p), the current that charges the membrane, from ∂φ_i/∂n of a level; C_m dV_m/dt of the
+/// run, or with displacement currents dq_i/dt.
 FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces& places, const NaturalSizes& sizes,
                                 const QuestionMaker& maker) {
   const Physics& physics = input.physics;
@@ -22,7 +32,7 @@ FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces&
       stored(maker.on_surface("charging_current", input.charged_faces() ? "dq_i/dt" : "C dV_m/dt", "flux_in", rate,
                               rate, physics.capacitance * input.bie_high.potential_rate, sizes.current));
   question.is_remainder = true;
-  const Eigen::MatrixXd leak = physics.conductance * SurfaceSeries(input.potential)(places.surface);
+  const Eigen::MatrixXd leak = current_through(input, places.surface);
   question.from_level = [leak, sigma = physics.conductivity_in](const Eigen::MatrixXd& flux_in) {
     return Eigen::MatrixXd(-sigma * flux_in - leak);
   };
@@ -90,6 +100,9 @@ FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& 
   question.time_error = charging.time_error;
   // Steps of first order leave a third more than a quarter of their size changes: twice the change is counted.
   question.further_error = (question.bie - question.bie_high).cwiseAbs();
+  if (in_time.by_motion.size() > 0) {
+    question.further_error += 2.0 * SurfaceSeries(in_time.by_motion)(places.surface).cwiseAbs();
+  }
   return question;
 }
 

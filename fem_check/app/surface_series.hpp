@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "fem_check/types.hpp"
 #include "meshes/harmonic_series.hpp"
@@ -10,19 +11,30 @@ namespace vehd::fem_check {
 /// A field of the boundary-integral side as a function on γ.
 class SurfaceSeries {
  public:
-  explicit SurfaceSeries(const Eigen::MatrixXd& coefficients)
-      : series_(std::make_shared<const meshes::HarmonicSeries>(coefficients)) {}
+  explicit SurfaceSeries(const Eigen::MatrixXd& coefficients) : SurfaceSeries(std::vector{coefficients}) {}
+  /// @param of_vesicles  coefficients on the membrane of each
+  explicit SurfaceSeries(const std::vector<Eigen::MatrixXd>& of_vesicles) {
+    for (const Eigen::MatrixXd& coefficients : of_vesicles) {
+      series_.push_back(std::make_shared<const meshes::HarmonicSeries>(coefficients));
+    }
+  }
 
   /// [components x points].
   [[nodiscard]] Eigen::MatrixXd operator()(const SurfacePoints& points) const {
-    return series_->values(points.direction);
+    if (series_.size() == 1) return series_.front()->values(points.direction);
+    Eigen::MatrixXd result(series_.front()->n_columns(), points.size());
+    for (std::size_t vesicle = 0; vesicle < series_.size(); ++vesicle) {
+      const std::vector<Eigen::Index> columns = points.of_vesicle(static_cast<int>(vesicle));
+      result(Eigen::all, columns) = series_[vesicle]->values(points.direction(Eigen::all, columns));
+    }
+    return result;
   }
   [[nodiscard]] ScalarOnSurface scalar() const {
-    return [series = series_](const SurfacePoints& points) { return Vector(series->values(points.direction).row(0)); };
+    return [*this](const SurfacePoints& points) { return Vector((*this)(points).row(0)); };
   }
 
  private:
-  std::shared_ptr<const meshes::HarmonicSeries> series_;
+  std::vector<std::shared_ptr<const meshes::HarmonicSeries>> series_;
 };
 
 }  // namespace vehd::fem_check

@@ -113,6 +113,31 @@ BOOST_AUTO_TEST_CASE(potential_of_a_run_is_advanced_and_a_percent_is_noticed) {
   }
 }
 
+// What finer steps change of V_m on the moving shape falls like the steps of the run, of first order here, and is no
+// sliding of points, which would change V_m at given (θ, φ) alone.
+BOOST_AUTO_TEST_CASE(steps_of_a_moving_shape_count_as_an_error_of_the_run) {
+  const FinishedRun run(
+      "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
+      "[membrane]\ncapacitance = 1.0\nconductance = 0.5\n[flow]\nkind = 'shear'\nrate = 1.0\n"
+      "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+      "[numerics]\norder = 8\ndt = 0.1\nend_time = 0.6\n[output]\nevery = 0.2\n");
+  const std::string file = run.output + "/run.h5";
+  const FrozenState end = vehd::read_frozen_state({file, {}}, "0.6");
+  vehd::TimeSpan span = vehd::read_time_span(file, "0.2", end);
+  BOOST_TEST_REQUIRE(span.positions.size() == 3U);
+  const vehd::Vector& stored = end.state.vesicles.front().transmembrane_potential;
+  const double change = vehd::change_by_finer_motion(end, span).norm() / stored.norm();
+  span.control = vehd::fixed_steps(0.025);
+  const double finer = vehd::change_by_finer_motion(end, span).norm() / stored.norm();
+  BOOST_TEST_MESSAGE("changes " << change << " " << finer);
+  BOOST_TEST(change > 1e-4);
+  BOOST_TEST(change < 0.1);
+  BOOST_TEST(finer > 0.15 * change);
+  BOOST_TEST(finer < 0.4 * change);
+  span.positions = {end.state.vesicles.front().position};
+  BOOST_TEST(vehd::change_by_finer_motion(end, span).size() == 0);
+}
+
 BOOST_AUTO_TEST_CASE(span_that_is_none_is_refused) {
   const FinishedRun run(charging_scene);
   const std::string file = run.output + "/run.h5";

@@ -10,9 +10,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Levels of one method, coarse to fine.
-std::vector<nlohmann::json> levels_of(const nlohmann::json& bench, const std::string& method) {
+std::vector<nlohmann::json> levels_of(const nlohmann::json& bench, const std::string& method,
+                                      const std::string& table = "rows") {
   std::vector<nlohmann::json> levels;
-  for (const auto& level : bench["rows"]) {
+  for (const auto& level : bench[table]) {
     if (level["method"] == method) levels.push_back(level);
   }
   return levels;
@@ -59,10 +60,22 @@ BOOST_AUTO_TEST_CASE(both_methods_approach_the_exact_solution_each_at_its_rate,
     BOOST_TEST(level["seconds_min"].get<double>() <= level["seconds_max"].get<double>());
   }
   BOOST_TEST(bench["machine"].contains("compiler"));
-  BOOST_TEST(fs::file_size(directory / "out/methods.png") > 10000u);
+  for (const char* picture : {"out/methods.png", "out/methods_from_shape.png"}) {
+    BOOST_TEST(fs::file_size(directory / picture) > 10000u, picture);
+  }
   const std::string csv = file_text(directory / "out/methods.csv");
   BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 7);
-  BOOST_TEST(!fs::exists(directory / "out/sources.h5"));
+  for (const char* input : {"out/sources.h5", "out/shape_flow.h5"}) BOOST_TEST(!fs::exists(directory / input), input);
+
+  // What a step solves for, from the shape.
+  const auto flow_bie = levels_of(bench, "bie", "from_shape"), flow_fem = levels_of(bench, "fem_degree", "from_shape");
+  for (const auto& levels : {flow_bie, flow_fem}) {
+    BOOST_REQUIRE(levels.size() == 2);
+    for (const char* field : {"velocity", "tension"}) {
+      BOOST_TEST(error(levels.back(), field) < 0.8 * error(levels.front(), field), field);
+      BOOST_TEST(error(levels.back(), field) < 0.3, field << " " << error(levels.back(), field));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(unusable_directory_is_an_input_error, *boost::unit_test::precondition(finite_elements_are_built)) {

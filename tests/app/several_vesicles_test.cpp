@@ -164,6 +164,31 @@ BOOST_AUTO_TEST_CASE(plan_counts_the_kernels_of_all) {
   BOOST_TEST(plan.at("operators").back().at("vesicles").get<int>() == 1);
 }
 
+// Equal prolates about the axis of their field: what the other one does is what the first one does.
+BOOST_AUTO_TEST_CASE(exchange_of_equal_vesicles_is_planned_and_mirrors_them) {
+  const OwnCache cache;
+  const TemporaryDirectory directory;
+  const ProgramResult planned =
+      run_vehd({"plan", two_prolates, "--set", "numerics.degree=8", "--set", "numerics.tolerance=1e-1", "--set",
+                "numerics.end_time=0.1", "--json", directory / "plan.json"});
+  BOOST_TEST_REQUIRE(planned.exit_code == 0, planned.errors);
+  const auto plan = json_of(directory / "plan.json");
+  BOOST_TEST(plan.at("symmetry").get<std::string>() == "axisymmetric about z, vesicles exchanged by mirror z");
+  for (const auto& op : plan.at("operators")) BOOST_TEST(op.at("vesicles").get<int>() == 1);
+  const ProgramResult run =
+      run_vehd({"run", two_prolates, "-o", directory / "out", "--no-plot", "--set", "numerics.end_time=0.2", "--set",
+                "numerics.degree=12", "--set", "numerics.tolerance=1e-2"});
+  BOOST_TEST_REQUIRE(run.exit_code == 0, run.errors);
+  const vehd::HistoryTable rows(directory / "out/vesicles.csv");
+  for (const char* column : {"extent_z", "tension_integral", "area"}) {
+    const std::vector<double> lower = of_vesicle(rows, column, 0), upper = of_vesicle(rows, column, 1);
+    for (std::size_t i = 0; i < lower.size(); ++i)
+      BOOST_TEST(lower[i] == upper[i], boost::test_tools::tolerance(1e-12));
+  }
+  const std::vector<double> lower = of_vesicle(rows, "Vm_pole_plus", 0), upper = of_vesicle(rows, "Vm_pole_minus", 1);
+  for (std::size_t i = 0; i < lower.size(); ++i) BOOST_TEST(std::abs(lower[i] + upper[i]) < 1e-12);
+}
+
 // Of ten some are far enough for expansions.
 BOOST_AUTO_TEST_CASE(plan_counts_the_targets_of_pairs_as_the_run_does) {
   const OwnCache cache;

@@ -27,9 +27,19 @@ BOOST_AUTO_TEST_CASE(fields_that_the_elements_do_not_know_are_refused) {
   BOOST_TEST(message(waveform + "average = true\n").find("averaged ac field") != std::string::npos);
   BOOST_TEST(message("displacement_current = true\n") == "");
   const std::string poration = "[poration]\nthreshold_Vm = 1\nmodel = ";
-  BOOST_TEST(message(poration + "\"porosity\"\nporated_conductance = 1\nporation_time = 1\nresealing_time = 2\n")
-                 .find("porates") != std::string::npos);
+  BOOST_TEST(message(poration + "\"porosity\"\nporated_conductance = 1\nporation_time = 1\nresealing_time = 2\n") ==
+             "");
   BOOST_TEST(message(poration + "\"criterion\"\n") == "");
+  const auto by_place = [](const std::string& property) {
+    return "[membrane]\nbending_modulus = 0.1\nconductance = 1\n[membrane." + property +
+           "_by_place]\nkind = \"harmonics\"\nmodes = [{n = 1, m = 0, a = 0.1}]\n";
+  };
+  BOOST_TEST(message(by_place("capacitance")) == "");
+  BOOST_TEST(message(by_place("conductance")) == "");
+  BOOST_TEST(message("displacement_current = true\n" + by_place("conductance")) == "");
+  BOOST_TEST(message(by_place("bending")).find("bends differently") != std::string::npos);
+  BOOST_TEST(message("displacement_current = true\n" + by_place("capacitance")).find("displacement currents") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

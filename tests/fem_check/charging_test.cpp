@@ -37,10 +37,10 @@ BOOST_AUTO_TEST_CASE(sphere_charges_with_order_two) {
   const Discretisation space = discretise(unit_sphere(), {.shell_layers = 3, .degree = 4});
   const PotentialProblem problem = membrane_problem();
   const auto& membrane = std::get<ChargingMembrane>(problem.membrane);
-  const double kappa = 2.0 * problem.conductivity_in * problem.conductivity_out /
-                       (problem.conductivity_in + 2.0 * problem.conductivity_out);
-  const double rate = (membrane.conductance + kappa) / membrane.capacitance, end = 1.5;
-  const Vector3 slope = 1.5 * kappa / (membrane.capacitance * rate) * problem.field,
+  const double kappa = 2.0 * problem.conductivity_in[0] * problem.conductivity_out /
+                       (problem.conductivity_in[0] + 2.0 * problem.conductivity_out);
+  const double rate = (membrane.conductance[0] + kappa) / membrane.capacitance[0], end = 1.5;
+  const Vector3 slope = 1.5 * kappa / (membrane.capacitance[0] * rate) * problem.field,
                 offset = (1.0 - 1.0 / rate) * slope;
   const Vector3 start(0.5, 0.1, -0.4), last = offset + end * slope + std::exp(-rate * end) * (start - offset);
   double before = 0.0;

@@ -22,7 +22,9 @@ std::vector<NamedScene> all_scenes() {
     if (scene.vesicles.empty()) result.push_back({path.stem().string(), std::move(scene)});
   }
   result.push_back({"two_vesicles", read_scene(source / "tests/invariance/two_vesicles.toml")});
+  result.push_back({"exchanged_vesicles", read_scene(source / "tests/invariance/exchanged_vesicles.toml")});
   result.push_back({"two_vesicles_relaxing", read_scene(source / "tests/invariance/two_vesicles_relaxing.toml")});
+  result.push_back({"two_vesicles_pores", read_scene(source / "tests/invariance/two_vesicles_pores.toml")});
   result.push_back({"contact", read_scene(source / "tests/invariance/contact.toml")});
   result.push_back({"averaged", read_scene(source / "tests/invariance/averaged.toml")});
   for (const char* name : {"poration_criterion", "porosity", "pores", "by_place"}) {

@@ -85,7 +85,7 @@ BOOST_FIXTURE_TEST_CASE(each_step_is_backward_euler_exactly, RelaxingSphere) {
 BOOST_FIXTURE_TEST_CASE(steady_charges_do_not_change, RelaxingSphere) {
   Vector potential;
   require_converged(steady_potential(electric, charging, membrane, kTight, potential), "steady V_m");
-  const FaceCharges charges = steady_charges(electric, charging, potential);
+  const FaceCharges charges = steady_charges(electric, charging, membrane, potential);
   const Eigen::Vector2d rate = rates(amplitude(charges.inner), amplitude(charges.sum), electric.field.z());
   BOOST_TEST(rate.norm() < 1e-10);
 }

@@ -86,6 +86,18 @@ BOOST_AUTO_TEST_CASE(two_spheres_in_a_field_attract_along_it_and_repel_across_it
   }
 }
 
+// 24πβ²/d⁴ along the field and minus half of that across it, up to the third power of 1/d.
+BOOST_AUTO_TEST_CASE(distant_spheres_attract_as_dipoles) {
+  constexpr double d = 30.0, k = 10.0, beta = (k - 1.0) / (k + 2.0);
+  const SeveralMembranes spheres = two_spheres(6, d - 2.0);
+  const double along = 24.0 * std::numbers::pi * beta * beta / std::pow(d, 4);
+  const auto found = [&](const Vector3& field) {
+    return attraction(electric_forces(spheres, with_ratio(field, k), spheres.zeros()));
+  };
+  BOOST_TEST(std::abs(found({0.0, 0.0, 1.0}) / along - 1.0) < 10.0 / std::pow(d, 3));
+  BOOST_TEST(std::abs(found({1.0, 0.0, 0.0}) / along + 0.5) < 10.0 / std::pow(d, 3));
+}
+
 BOOST_AUTO_TEST_CASE(steady_membranes_act_as_insulators) {
   for (const double gap : {2.0, 0.5}) {
     const SeveralMembranes spheres = two_spheres(gap < 1.0 ? 20 : 12, gap);

@@ -139,6 +139,29 @@ BOOST_AUTO_TEST_CASE(layers_of_given_densities_agree_with_those_off_the_membrane
   }
 }
 
+// Outside shape (33), which holds the source, φ = D[φ] − S[∂φ/∂n], and so of its gradient.
+BOOST_AUTO_TEST_CASE(sources_within_shape_33_are_seen_at_every_gap) {
+  constexpr int kOrder = 24;
+  const PointField field(kOrder, shape_33(kOrder), {0.1, -0.05, 0.15}, {9.0, 0.0, 0.0});
+  const PointPotential source = point_potential(field.surface, field.inner);
+  const Vector value = field.space.fine.analyze(source.value), flux = weighted(field.space, field.surface, source.flux);
+  const Matrix points = points_at_all_gaps(field.position, 9);
+  const Matrix normals = any_normals(points.rows());
+  const PairLayers layers = pair_layers(field.position, points, normals);
+  const Vector found = layers.laplace_double(value) - layers.laplace_single(flux);
+  const Vector slope = layers.laplace_double_normal(value) - layers.laplace_single_normal(flux);
+  double error = 0.0, slope_error = 0.0;
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Vector3 r = points.row(i).transpose() - field.inner;
+    const double exact = kLaplacePrefactor / r.norm();
+    error = std::max(error, std::abs(found[i] - exact));
+    slope_error = std::max(slope_error, std::abs(slope[i] + exact / r.squaredNorm() * r.dot(normals.row(i))));
+  }
+  // What degree 24 leaves out of the traces.
+  BOOST_TEST(error < 1e-9);
+  BOOST_TEST(slope_error < 2e-8);
+}
+
 BOOST_AUTO_TEST_CASE(rows_of_far_targets_are_the_sums_of_their_rule) {
   const Matrix position = asymmetric_shape(8);
   const Matrix points = points_at_all_gaps(position, 7);

@@ -43,6 +43,22 @@ struct Written {
 
 BOOST_AUTO_TEST_SUITE(history)
 
+BOOST_AUTO_TEST_CASE(a_membrane_that_porates_and_differs_from_place_to_place_has_the_columns_of_both) {
+  vehd::HistoryKind kind(vehd::HistoryKind::of_each);
+  const std::size_t usual = vehd::history_columns(kind).size();
+  kind.poration = vehd::PorationModel::pores;
+  const std::size_t of_pores = vehd::history_columns(kind).size();
+  kind.by_place = true;
+  const auto& both = vehd::history_columns(kind);
+  BOOST_TEST(of_pores == usual + 3);
+  BOOST_TEST_REQUIRE(both.size() == of_pores + 4);
+  BOOST_TEST(both[usual].name == "conductance_max");
+  BOOST_TEST(both.back().name == "net_force_z");
+  // Of several they are those of each.
+  kind.rows = vehd::HistoryKind::of_all;
+  BOOST_TEST(vehd::history_columns(kind).size() == vehd::history_columns(vehd::HistoryKind::of_all).size());
+}
+
 BOOST_AUTO_TEST_CASE(columns_go_by_their_plain_names_whatever_their_units) {
   const Written si(kUnits), plain({});
   const vehd::HistoryTable shown(si.path), numbers(plain.path);

@@ -2,6 +2,7 @@
 
 #include "bie/files/run_reader.hpp"
 #include "bie/runs/session.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/output_error.hpp"
 #include "tests/support/files.hpp"
@@ -27,6 +28,20 @@ std::string three_vesicles(const std::string& numerics) {
          numerics;
 }
 
+/// Four of which two are images of others.
+const std::string kTwoPairs =
+    "[shape]\nkind = \"radial\"\nmodes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = -2, a = 0.1}]\n"
+    "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n[flow]\nkind = \"shear\"\nrate = 1.0\n"
+    "[fluid]\nviscosity_ratio = 2.0\n"
+    "[electric]\nfield = [0.0, 0.3, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+    "[[vesicle]]\n[vesicle.shape]\ncentre = [1.8, 0.1, 0.4]\n"
+    "[[vesicle]]\n[vesicle.shape]\ncentre = [-0.1, 2.0, 0.9]\nscale = 0.8\n"
+    "[[vesicle]]\n[vesicle.shape]\ncentre = [-1.8, -0.1, -0.4]\n"
+    "modes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = -2, a = -0.1}]\n"
+    "[[vesicle]]\n[vesicle.shape]\ncentre = [0.1, -2.0, -0.9]\nscale = 0.8\n"
+    "modes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = -2, a = -0.1}]\n"
+    "[numerics]\norder = 4\ntime_order = 2\ndt = 0.1\nend_time = 0.1\n[output]\nevery = 0.1\n";
+
 /// Two with displacement currents in a pulse, of different size, fluids and membranes.
 const std::string kRelaxingCharges =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.8, 1.2]\n"
@@ -37,6 +52,12 @@ const std::string kRelaxingCharges =
     "[[vesicle]]\n[vesicle.shape]\ncentre = [2.2, 0.5, 0.8]\nscale = 0.8\n[vesicle.membrane]\nbending_modulus = 0.1\n"
     "[vesicle.electric]\nconductivity_in = 0.4\npermittivity_ratio = 1.5\n"
     "[numerics]\norder = 4\ntime_order = 2\ndt = 0.05\nend_time = 0.1\n";
+
+/// The same with pores that open.
+const std::string kPores = kRelaxingCharges.substr(0, kRelaxingCharges.find("initial_Vm")) +
+                           "[poration]\nmodel = \"pores\"\ncreation_rate = 0.5\ncreation_Vm = 0.1\nrest_density = "
+                           "2.0\npore_radius = 0.1\nmembrane_thickness = 0.2\n" +
+                           kRelaxingCharges.substr(kRelaxingCharges.find("[[vesicle]]"));
 
 /// Enough of them for multipole expansions and for inverses of their own.
 const std::string kSuspension =
@@ -77,6 +98,10 @@ class Run {
     });
   }
 
+  [[nodiscard]] vehd::Scene scene(const std::string& text) const {
+    return vehd::read_scene(vehd::SceneSource{folder_ / "scene.toml", {}, text});
+  }
+
   void make_unwritable() const { std::filesystem::create_directories(folder_ / "out/run.h5"); }
 
  private:
@@ -113,6 +138,25 @@ BOOST_AUTO_TEST_CASE(steps_with_a_tolerance_have_the_same_bits_on_any_number_of_
 
 BOOST_AUTO_TEST_CASE(displacement_currents_have_the_same_bits_on_any_number_of_ranks) {
   check_same_files(kRelaxingCharges, {2});
+}
+
+BOOST_AUTO_TEST_CASE(pores_have_the_same_bits_on_any_number_of_ranks_and_go_on) {
+  check_same_files(kPores, {2});
+  const auto until = [](const std::string& end) {
+    return kPores.substr(0, kPores.find("end_time")) + end + "[output]\nevery = 0.05\n";
+  };
+  const Run whole, resumed;
+  check_completed(whole.go_on(until("end_time = 0.15\n"), 1));
+  check_completed(resumed.go_on(until("end_time = 0.05\n"), 2));
+  check_completed(resumed.go_on(until("end_time = 0.15\n"), 1));
+  for (const char* name : {"history.csv", "vesicles.csv"}) BOOST_TEST((resumed.file(name) == whole.file(name)), name);
+}
+
+BOOST_AUTO_TEST_CASE(exchanged_vesicles_have_the_same_bits_on_any_number_of_ranks) {
+  const Run planned;
+  const vehd::Problem problem = vehd::problem_of(planned.scene(kTwoPairs));
+  BOOST_TEST((problem.symmetry.exchange.originals() == std::vector<std::size_t>{0, 1, 0, 1}));
+  check_same_files(kTwoPairs, {2, 3});
 }
 
 BOOST_AUTO_TEST_CASE(many_vesicles_have_the_same_bits_on_any_number_of_ranks) { check_same_files(kSuspension, {2, 3}); }

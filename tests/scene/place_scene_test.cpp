@@ -150,10 +150,21 @@ BOOST_AUTO_TEST_CASE(what_has_no_effect_or_does_not_go_with_places_is_refused) {
   BOOST_TEST(refuses_places(charged + pump + "base = 1\n", "belongs to"));
   const std::string field =
       "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\npermittivity = 1\n";
-  BOOST_TEST(refuses_places(field + "displacement_current = true\n" + pump, "\"displacement_current\""));
   BOOST_TEST(refuses_places(field + "[electric.waveform]\nkind = \"ac\"\nfrequency = 50\naverage = true\n" + pump,
                             "\"average\""));
-  BOOST_TEST(refuses_places(field + "[poration]\nmodel = \"criterion\"\nthreshold_Vm = 1\n" + pump, "[poration]"));
+}
+
+BOOST_AUTO_TEST_CASE(places_go_with_displacement_currents_averages_and_poration) {
+  const std::string field =
+      "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\npermittivity = 1\n";
+  const std::string pump = "[membrane.pump]\ncurrent = 1\n" + cap;
+  const std::string capacitance = "[membrane.capacitance_by_place]\n" + cap;
+  for (const std::string& keys :
+       {field + "displacement_current = true\n" + pump,
+        field + "[electric.waveform]\nkind = \"ac\"\nfrequency = 50\naverage = true\n" + capacitance,
+        field + "displacement_current = true\n[poration]\nmodel = \"criterion\"\nthreshold_Vm = 1\n" + pump}) {
+    BOOST_TEST(message_of(with_appended(keys)) == "");
+  }
 }
 
 BOOST_AUTO_TEST_CASE(vesicles_have_places_of_their_own) {

@@ -28,15 +28,6 @@ State end_of(const Model& model, const Matrix& position, int time_order, double 
   return run(model, discretisation, start(model, discretisation, position, end / n_steps), end / n_steps, n_steps);
 }
 
-/// Solvers that add nothing to what is compared; the constraints are held as in a run.
-NumericalSettings tight_settings(int time_order) {
-  NumericalSettings settings;
-  settings.time_order = time_order;
-  settings.flow_tolerance = 1e-11;
-  settings.electric_tolerance = 1e-12;
-  return settings;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_field_that_jumps_moves_the_potential_and_not_the_charges) {

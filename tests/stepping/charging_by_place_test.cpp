@@ -6,7 +6,7 @@
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
-#include "tests/support/runs.hpp"
+#include "tests/stepping/by_place.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -18,17 +18,6 @@ using namespace vehd::testing;
 namespace {
 
 constexpr double kField = 0.7, kInside = 1.0, kOutside = 2.0;
-const double kEverywhere = std::sqrt(4.0 * std::numbers::pi);
-
-/// C_m, G_m and J_p of a few low degrees, without any symmetry.
-MembraneMaterial electric_material(int order) {
-  const auto uniform = [&](double value) -> Vector { return value * kEverywhere * harmonic(order, 0, 0); };
-  MembraneMaterial material;
-  material.capacitance = uniform(0.8) + 0.15 * harmonic(order, 1, 0) - 0.1 * harmonic(order, 2, 1);
-  material.conductance = uniform(0.5) + 0.2 * harmonic(order, 1, 1) + 0.1 * harmonic(order, 2, -2);
-  material.pump_current = uniform(0.1) + 0.4 * harmonic(order, 1, -1) + 0.3 * harmonic(order, 2, 0);
-  return material;
-}
 
 /// A frozen sphere with a pump that alternates.
 Model pumped_model() {
@@ -38,12 +27,6 @@ Model pumped_model() {
   model.vesicles[0].by_place = true;
   model.vesicles[0].pump = Waveform::alternating(1.0, 0.4, 0.3);
   return model;
-}
-
-State start_by_place(const Model& model, const Discretisation& discretisation, const Matrix& position, double dt,
-                     const MembraneMaterial& material, bool steady = false) {
-  Instruments instruments;
-  return initial_state(model, discretisation, {StartMembrane{position, {steady, {}}, material}}, dt, instruments);
 }
 
 /// V_m over a sphere of radius 1 by harmonics of the potentials on both sides: nothing is shared with the solver but
@@ -163,21 +146,6 @@ BOOST_AUTO_TEST_CASE(no_net_current_crosses_a_membrane_at_rest) {
   BOOST_TEST(current.cwiseAbs().dot(area) > 0.1);
 }
 
-namespace {
-
-/// The material that the parameters of a model say, everywhere.
-MembraneMaterial same_everywhere(const VesicleModel& vesicle, int order, double curvature) {
-  const auto uniform = [&](double value) -> Vector { return value * kEverywhere * harmonic(order, 0, 0); };
-  MembraneMaterial material;
-  material.capacitance = uniform(vesicle.charging.capacitance);
-  material.conductance = uniform(vesicle.charging.conductance);
-  material.bending_modulus = uniform(vesicle.bending->modulus);
-  material.spontaneous_curvature = uniform(curvature);
-  return material;
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(what_is_the_same_everywhere_moves_as_it_does_without_places) {
   constexpr int kOrder = 8;
   const Model model = field_model();
@@ -203,10 +171,7 @@ BOOST_AUTO_TEST_CASE(several_vesicles_have_each_their_own) {
   const NumericalSettings settings = solved_to_rounding(kOrder);
   const Discretisation discretisation = testing::discretisation_of(positions, settings);
   const auto started = [&](const std::vector<MembraneMaterial>& materials) {
-    std::vector<StartMembrane> membranes;
-    for (std::size_t a = 0; a < positions.size(); ++a) membranes.push_back({positions[a], {}, materials[a]});
-    Instruments instruments;
-    return initial_state(model, discretisation, membranes, 0.1, instruments);
+    return start_by_place(model, discretisation, positions, 0.1, materials);
   };
   const auto potentials = [&](const std::vector<MembraneMaterial>& materials) {
     return run(model, discretisation, started(materials), 0.1, 3);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bie/stepping/evolution.hpp"
+#include "tests/physics/coupled_spheres.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -160,6 +161,59 @@ BOOST_AUTO_TEST_CASE(every_vesicle_keeps_its_area_and_its_volume) {
     BOOST_TEST(std::abs(run.vesicle(a).area_drift) < 2e-9);
     BOOST_TEST(std::abs(run.vesicle(a).volume_drift) < 2e-9);
   }
+}
+
+// Each multipole of two frozen spheres: A (m(k + 1) + 1) = m(1 − k) L − m k V, B = V + L + A, C_m dV/dt = −m k B − G_m
+// V, L that of the field and of the other sphere; σ_e = 1.
+BOOST_AUTO_TEST_CASE(spheres_charge_in_time_as_their_multipoles_do) {
+  constexpr double k = 4.0, capacitance = 0.8, conductance = 0.3, d = 2.5, end = 0.4;
+  constexpr int kMultipoles = 40;
+  Matrix others(kMultipoles, kMultipoles), system = Matrix::Identity(kMultipoles, kMultipoles);
+  Vector of_field = Vector::Zero(kMultipoles), degree(kMultipoles), polarisation(kMultipoles), of_jump(kMultipoles);
+  of_field[0] = -1.0;
+  for (int m = 1; m <= kMultipoles; ++m) {
+    degree[m - 1] = m;
+    polarisation[m - 1] = polarisability(m, k);
+    of_jump[m - 1] = k * m / (m * (k + 1.0) + 1.0);
+    for (int n = 1; n <= kMultipoles; ++n) {
+      const double choose = std::exp(std::lgamma(m + n + 1.0) - std::lgamma(m + 1.0) - std::lgamma(n + 1.0));
+      others(m - 1, n - 1) = choose * std::pow(d, -(m + n + 1.0));
+    }
+  }
+  system += polarisation.asDiagonal() * others;
+  const Eigen::PartialPivLU<Matrix> inverse(system);
+  const auto outer = [&](const Vector& v) -> Vector {
+    return inverse.solve(polarisation.cwiseProduct(of_field) - of_jump.cwiseProduct(v));
+  };
+  const auto rate = [&](const Vector& v) -> Vector {
+    const Vector a = outer(v), inner = v + of_field - others * a + a;
+    return -(k * degree.cwiseProduct(inner) + conductance * v) / capacitance;
+  };
+  Vector v = Vector::Zero(kMultipoles);
+  constexpr int kSteps = 4000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double h = end / kSteps;
+    const Vector k1 = rate(v), k2 = rate(v + 0.5 * h * k1), k3 = rate(v + 0.5 * h * k2), k4 = rate(v + h * k3);
+    v += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+  const Vector a = outer(v), local = of_field - others * a;
+  double exact = 0.0;
+  for (int n = 1; n < kMultipoles; ++n) exact += -4.0 * std::numbers::pi * (n + 1.0) * local[n] * a[n - 1];
+
+  Model model = relaxation_model(0.1);
+  set_electric(model, {{0.0, 0.0, 1.0}, k, 1.0, 1.0}, {capacitance, conductance});
+  model.mobile = false;
+  model = with_vesicles(model, 2);
+  const std::vector<Matrix> shapes{translated(sphere(16), {0.0, 0.0, -d / 2.0}),
+                                   translated(sphere(16), {0.0, 0.0, d / 2.0})};
+  Run run(model, shapes, settings_of(16, 5), 0.05);
+  run.advance_to(end);
+  const Evaluation& evaluation = run.evolution().evaluation();
+  const Membrane& lower = *evaluation.vesicles[0].membrane;
+  // f_E is minus the force on a membrane.
+  const double found =
+      -lower.fine.synthesize(evaluation.fields.vesicles[0].force_electric).col(2).dot(lower.surface.quadrature);
+  BOOST_TEST(std::abs(found / exact - 1.0) < 1e-5, found << " " << exact);
 }
 
 // Slowly enough that the speed is nearly that of the start: 0.00726251441 at a gap of half a radius.

@@ -67,12 +67,32 @@ BOOST_AUTO_TEST_CASE(every_rank_gets_the_values_of_all_parts) {
   for (const int n_ranks : {1, 2, 3}) {
     const auto said = on_ranks(n_ranks, [](const Ranks& ranks) {
       const Shares shares(ranks, {1.0, 1.0, 1.0, 1.0, 1.0});
-      const auto values = shares.of_all(5, [](std::size_t a) { return Vector(Vector::Constant(2, 0.1 * double(a))); });
+      const auto values = shares.of_all(
+          5, [](std::size_t a) { return Vector(Vector::Constant(2, 0.1 * double(a))); },
+          [](const Vector& of_original, std::size_t) { return of_original; });
       std::string text;
       for (const Vector& value : values) text += fmt::format("{} ", value.sum());
       return text;
     });
     check_all_say(said, "0 0.2 0.4 0.6000000000000001 0.8 ");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(images_follow_from_their_originals_on_every_rank) {
+  for (const int n_ranks : {1, 2, 3}) {
+    const auto said = on_ranks(n_ranks, [](const Ranks& ranks) {
+      const Shares shares(ranks, std::vector<double>(6, 1.0), {0, 1, 1, 0, 4, 4});
+      std::string text;
+      for (std::size_t a = 0; a < 6; ++a) {
+        if (shares.is_image(a)) text += shares.owns(a) ? "done " : fmt::format("{} ", a);
+      }
+      std::vector<double> done(6);
+      for (const std::size_t a : shares.own(6)) done[a] = 0.5 * static_cast<double>(a);
+      shares.gather(done, [](double of_original, std::size_t a) { return of_original + static_cast<double>(a); });
+      for (const double value : done) text += fmt::format("{} ", value);
+      return text;
+    });
+    check_all_say(said, "2 3 5 0 0.5 2.5 3 2 7 ");
   }
 }
 

@@ -63,6 +63,15 @@ inline NumericalSettings solved_to_rounding(int order) {
   return settings;
 }
 
+/// Solvers that add nothing to what is compared; the constraints are held as in a run.
+inline NumericalSettings tight_settings(int time_order) {
+  NumericalSettings settings;
+  settings.time_order = time_order;
+  settings.flow_tolerance = 1e-11;
+  settings.electric_tolerance = 1e-12;
+  return settings;
+}
+
 /// A state of one membrane without charge, strain or references.
 inline State at_rest(const Matrix& position) {
   State state;

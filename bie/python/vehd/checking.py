@@ -24,10 +24,14 @@ class CheckResult(dict):
     @property
     def table(self) -> Table:
         """One row for each comparison: group ("fields", "from_shape", "stored", "in_time"), field, l2 and max of the
-        relative difference, fem_error, bie_error, verdict; `table.to_pandas()` is a DataFrame."""
-        rows = [{"group": group, "field": field, **values} for group in ("fields", "from_shape", "stored", "in_time")
-                for field, values in self.get(group, {}).items()]
+        relative difference, fem_error, bie_error, verdict; of two vesicles the name of the vesicle first.
+        `table.to_pandas()` is a DataFrame."""
+        rows = [{"vesicle": part.get("name", ""), "group": group, "field": field, **values}
+                for part in self.get("vesicles", [self]) for group in ("fields", "from_shape", "stored", "in_time")
+                for field, values in part.get(group, {}).items() if isinstance(values, dict)]
         names = ("group", "field", "l2", "max", "fem_error", "bie_error", "verdict")
+        if "vesicles" in self:
+            names = ("vesicle", *names)
         table = Table({name: np.array([row[name] for row in rows]) for name in names})
         table.units = {name: "" for name in names}
         return table

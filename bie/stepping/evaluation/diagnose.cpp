@@ -143,7 +143,10 @@ void add_poration(const DiagnosedModel& model, const SphereTransform& fine, cons
   if (!model.reaction) return;
   // Both rise with the state of the reaction, whose tops are smooth.
   const double most = maximum(fine.grid(), fine.synthesize_hessian(vesicle.poration), 0, vesicle.poration, 1.0);
-  d.conductance_max = model.charging.conductance + model.reaction->conductance(most).value;
+  d.conductance_max =
+      vesicle.material.conductance.size() > 0
+          ? maximum(fine.grid(), fine.synthesize_hessian(fields.conductance), 0, fields.conductance, 1.0)
+          : model.charging.conductance + model.reaction->conductance(most).value;
   d.poration_max = model.reaction->measure(most);
   const Vector measures =
       Vector(fine.synthesize(vesicle.poration)).unaryExpr([&](double state) { return model.reaction->measure(state); });

@@ -19,17 +19,37 @@ void visit_members(Vesicle& vesicle, Visit& visit) {
   visit(vesicle.potential_rate, vesicle.poration_rate, vesicle.free_charge_rate);
 }
 
+VesicleFields image_of(const ImageOfFields& image, const VesicleFields& of_original) {
+  VesicleFields fields = of_original;
+  for (Matrix* vector : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric,
+                         &fields.force_contact}) {
+    *vector = image.vector(*vector);
+  }
+  for (Vector* scalar : {&fields.tension, &fields.conductance}) *scalar = image.scalar(*scalar);
+  for (Vector* potential : {&fields.charge, &fields.potential, &fields.free_charge_in, &fields.free_charge_out}) {
+    *potential = image.potential(*potential);
+  }
+  for (Matrix* amplitude : {&fields.potential_amplitude, &fields.charge_amplitude}) {
+    *amplitude = image.potential(*amplitude);
+  }
+  return fields;
+}
+
 }  // namespace
 
-void gather_from_owners(const Shares& shares, SolvedFields& solved) {
-  if (shares.ranks().is_alone()) return;
+void gather_from_owners(const Shares& shares, const Exchange& exchange, SolvedFields& solved) {
+  if (shares.ranks().is_alone() && !exchange.any()) return;
   std::vector<SolvedVesicle> all(solved.vesicles.size());
   for (std::size_t a = 0; a < all.size(); ++a) {
     VesicleSolution& solution = solved.vesicles[a];
     all[a] = {std::move(solved.fields.vesicles[a]), std::move(solution.potential_rate),
               std::move(solution.poration_rate), std::move(solution.free_charge_rate)};
   }
-  shares.gather(all);
+  shares.gather(all, [&exchange](const SolvedVesicle& of_original, std::size_t a) -> SolvedVesicle {
+    const ImageOfFields& image = exchange.image(a);
+    return {image_of(image, of_original.fields), image.potential(of_original.potential_rate),
+            image.scalar(of_original.poration_rate), image.potential(of_original.free_charge_rate)};
+  });
   for (std::size_t a = 0; a < all.size(); ++a) {
     VesicleSolution& solution = solved.vesicles[a];
     solved.fields.vesicles[a] = std::move(all[a].fields);

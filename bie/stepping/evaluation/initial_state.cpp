@@ -9,6 +9,7 @@
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/support/errors.hpp"
 
@@ -38,10 +39,11 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
 constexpr LayerSelection kElectricLayers{true, true, true, false};
 
 /// With displacement currents the steady V_m stands for the charges of both faces.
-void take_steady_charges(const Model& model, const VesicleModel& vesicle, VesicleState& state) {
+void take_steady_charges(const Model& model, const VesicleModel& vesicle, const Membrane& membrane,
+                         VesicleState& state) {
   if (!relaxes_charge(model)) return;
   FaceCharges charges =
-      steady_charges(electric_parameters(model, vesicle), vesicle.charging, state.transmembrane_potential);
+      steady_charges(electric_parameters(model, vesicle), vesicle.charging, membrane, state.transmembrane_potential);
   state.transmembrane_potential = std::move(charges.inner);
   state.free_charge = std::move(charges.sum);
 }
@@ -62,7 +64,7 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     frozen.back().material = material_at(space, state.vesicles[a].material);
     interacting.push_back({position, space.targets(), electric_pair_selection(electric.back())});
   }
-  const Interaction interaction(interacting, {}, instruments, shares);
+  const Interaction interaction(interacting, {}, instruments, shares, discretisation.symmetry().exchange);
   std::vector<ElectricMembrane> membranes;
   std::vector<ChargingParameters> charging;
   std::vector<Vector> potentials;
@@ -76,7 +78,7 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
       "steady membrane potentials");
   for (std::size_t a = 0; a < frozen.size(); ++a) {
     state.vesicles[a].transmembrane_potential = std::move(potentials[a]);
-    take_steady_charges(model, model.vesicles[a], state.vesicles[a]);
+    take_steady_charges(model, model.vesicles[a], frozen[a], state.vesicles[a]);
   }
 }
 
@@ -102,7 +104,7 @@ State initial_state(const Model& model, const Discretisation& discretisation,
       require_converged(steady_potential(electric_parameters(model, vesicle), vesicle.charging, membrane,
                                          discretisation.settings().electric_tolerance, start.transmembrane_potential),
                         "steady membrane potential");
-      take_steady_charges(model, vesicle, start);
+      take_steady_charges(model, vesicle, membrane, start);
     }
   }
   const auto is_steady = [](const StartMembrane& membrane) { return membrane.potential.steady; };
@@ -113,7 +115,7 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     discretisation.shares().ranks().together(
         [&] { find_steady_potentials(model, discretisation, state, instruments); });
   }
-  return state;
+  return with_images(discretisation.symmetry().exchange, std::move(state));
 }
 
 }  // namespace vehd

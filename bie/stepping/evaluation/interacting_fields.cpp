@@ -110,7 +110,7 @@ PairSettings pair_settings(const NumericalSettings& settings) {
 }
 
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
-                                                  const Shares& shares, Instruments& instruments) {
+                                                  const Discretisation& discretisation, Instruments& instruments) {
   std::vector<InteractingMembrane> membranes;
   for (const VesicleTask& task : tasks) {
     PairSelection selection;
@@ -124,7 +124,8 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
     }
     membranes.push_back({task.state.position, task.space.targets(), selection});
   }
-  return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments, shares);
+  return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments,
+                                             discretisation.shares(), discretisation.symmetry().exchange);
 }
 
 void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,
@@ -150,6 +151,7 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
                                                                : forces_of_densities(tasks, time, limit, solved);
     for (const std::size_t a : own) forcing[a].force -= forces[a];
   }
+  for (const std::size_t a : own) add_poration(tasks[a]);
   if (!tasks.front().model.mobile) return;
   if (tasks.front().model.contact) {
     const auto timer = instruments.time("contact");
@@ -159,6 +161,13 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
   for_each_member(own, [&](std::size_t a) {
     add_forces(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, forcing[a]);
   });
+  for (std::size_t a = 0; a < tasks.size(); ++a) {
+    if (!solved.interaction->exchange().is_image(a)) continue;
+    // What of an image follows from no field of its original.
+    Forcing of_image{Matrix::Zero(tasks[a].membrane.surface.n_points(), 3),
+                     Matrix::Zero(tasks[a].state.position.rows(), 3)};
+    add_effects(tasks[a], {tasks[a].membrane, tasks[a].state.position, time, limit}, of_image);
+  }
   solve_velocities(tasks, forcing, solved);
 }
 

@@ -12,10 +12,9 @@ PairSettings pair_settings(const NumericalSettings& settings);
 
 /// The layers between the membranes that the effects of a model need; those of the electric problem only while it is
 /// active.
-/// @param shares  which rank has the layers of which vesicle
 /// @throws ConvergenceError if two membranes intersect or are too near for any rule
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
-                                                  const Shares& shares, Instruments& instruments);
+                                                  const Discretisation& discretisation, Instruments& instruments);
 
 /// solve_fields for several vesicles, coupled through the field and the fluid around them: charge densities, Eq. (12),
 /// forces, velocities and tensions, Eq. (27b), of all at once.

@@ -35,11 +35,14 @@ LoadAt of_potential(double threshold, const SphereTransform& fine, const Vector&
   return result;
 }
 
-LoadAt of_tension(double threshold, double capacitance, const SphereTransform& fine, const Vector& potential,
-                  const Vector& tension) {
+/// @param varying  C_m where it differs from place to place, coefficients, or empty
+LoadAt of_tension(double threshold, double capacitance, const Vector& varying, const SphereTransform& fine,
+                  const Vector& potential, const Vector& tension) {
   Vector sum = fine.synthesize(tension);
   if (potential.size() > 0) {
-    sum += 0.5 * capacitance * Vector(fine.synthesize(potential)).cwiseAbs2();
+    const Vector square = Vector(fine.synthesize(potential)).cwiseAbs2();
+    sum += varying.size() > 0 ? Vector(0.5 * Vector(fine.synthesize(varying)).cwiseProduct(square))
+                              : Vector(0.5 * capacitance * square);
   }
   const Vector coefficients = fine.analyze(sum);
   const Top top = top_of(fine.grid(), fine.synthesize_hessian(coefficients), 0, coefficients, 1.0);
@@ -83,10 +86,13 @@ PorationLoad poration_load(const PorationCriterion& criterion, double capacitanc
   const Vector& potential = transmembrane_potential(vesicle, fields);
   LoadAt most;
   if (criterion.potential && potential.size() > 0) {
-    most = of_potential(*criterion.potential, fine, potential, solution.potential_rate);
+    // That of the state is one of charges where V_m follows from them.
+    const bool known = fields.potential.size() == 0;
+    most = of_potential(*criterion.potential, fine, potential, known ? solution.potential_rate : Vector());
   }
   if (criterion.tension && fields.tension.size() > 0) {
-    const LoadAt of_layer = of_tension(*criterion.tension, capacitance, fine, potential, fields.tension);
+    const LoadAt of_layer =
+        of_tension(*criterion.tension, capacitance, vesicle.material.capacitance, fine, potential, fields.tension);
     if (of_layer.load > most.load) most = of_layer;
   }
   const Matrix place = evaluate_harmonics(vesicle.position, Vector{{most.point.theta}}, Vector{{most.point.phi}});

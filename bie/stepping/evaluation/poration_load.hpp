@@ -7,7 +7,7 @@ namespace vehd {
 
 /// How near a membrane is to its criterion of poration.
 /// @param criterion    of the membrane
-/// @param capacitance  C_m
+/// @param capacitance  C_m where it is the same everywhere
 /// @param fine         whose grid has as many longitudes as the degree asks for
 /// @return             the largest of |V_m|/V_c and (λ + ½ C_m V_m²)/λ_c over the membrane. Where two places are equal
 ///                     to rounding the one of positive V_m is taken

@@ -48,7 +48,11 @@ std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, dou
   for (const std::size_t a : shares.own(tasks.size())) {
     const VesicleTask& task = tasks[a];
     const ElectricParameters& electric = membranes[a].in_field.electric;
-    FaceCharges rates = charge_rates(electric, task.vesicle.charging, task.membrane, fields[a]);
+    Vector through = Vector::Zero(task.membrane.surface.n_points());
+    FaceCharges rates = add_varying_current(task, electric, fields[a].potential, through)
+                            ? charge_rates(electric, task.vesicle.charging, task.membrane, fields[a],
+                                           task.membrane.fine.analyze(through))
+                            : charge_rates(electric, task.vesicle.charging, task.membrane, fields[a]);
     task.solution.potential_rate = std::move(rates.inner);
     task.solution.free_charge_rate = std::move(rates.sum);
     take_charges(task);

@@ -79,6 +79,7 @@ void solve(const VesicleTask& task, double time, Limit limit, Instruments& instr
                      : relaxes_charge(task.model) ? forces_of_charges({task}, time, limit, solved).front()
                                                   : solve_electric(task, time, limit, solved.iterations_electric);
   }
+  add_poration(task);
   if (!task.model.mobile) return;
   const auto timer = instruments.time("tension solve");
   add_forces(task, {membrane, task.state.position, time, limit}, forcing);
@@ -117,14 +118,13 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
     tasks.push_back({model, model.vesicles[a], discretisation.settings(), discretisation.vesicle(a), state.vesicles[a],
                      *solved.vesicles[a].membrane, solved.fields.vesicles[a], solved.vesicles[a]});
   }
-  for (const VesicleTask& task : tasks) add_poration(task);
   if (n == 1) {
     solve(tasks.front(), state.time, limit, instruments, solved);
   } else {
     solved.interaction =
-        reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, shares, instruments);
+        reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, discretisation, instruments);
     solve_interacting(tasks, state.time, limit, instruments, solved);
-    gather_from_owners(shares, solved);
+    gather_from_owners(shares, discretisation.symmetry().exchange, solved);
   }
   return solved;
 }

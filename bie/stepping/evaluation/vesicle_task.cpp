@@ -14,37 +14,48 @@ Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric
   const Vector& area = membrane.surface.quadrature;
   Vector current = electric.conductivity_in * traces.flux_in;
   current.array() -= current.dot(area) / area.sum();
-  if (task.vesicle.reaction) {
-    current += porous_current(*task.vesicle.reaction, charging, membrane,
-                              {task.state.transmembrane_potential, task.state.poration});
-    return membrane.fine.analyze(current) / -charging.capacitance;
-  }
-  if (charges_by_place(membrane)) {
-    current += conductance_of(charging, membrane)
-                   .cwiseProduct(Vector(membrane.fine.synthesize(task.state.transmembrane_potential)));
-    const Vector& pump = membrane.material.pump_current;
-    if (pump.size() > 0) current += electric.pump * pump;
+  if (add_varying_current(task, electric, task.state.transmembrane_potential, current)) {
+    if (!charges_by_place(membrane)) return membrane.fine.analyze(current) / -charging.capacitance;
     return -membrane.fine.analyze(current.cwiseQuotient(capacitance_of(charging, membrane)));
   }
   return -(membrane.fine.analyze(current) + charging.conductance * task.state.transmembrane_potential) /
          charging.capacitance;
 }
 
+bool add_varying_current(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential,
+                         Vector& current) {
+  const Membrane& membrane = task.membrane;
+  const ChargingParameters& charging = task.vesicle.charging;
+  if (!task.vesicle.reaction && !charges_by_place(membrane)) return false;
+  if (task.vesicle.reaction) {
+    current += porous_current(*task.vesicle.reaction, charging, membrane, {potential, task.state.poration});
+  } else {
+    current += conductance_of(charging, membrane).cwiseProduct(Vector(membrane.fine.synthesize(potential)));
+  }
+  const Vector& pump = membrane.material.pump_current;
+  if (pump.size() > 0) current += electric.pump * pump;
+  return true;
+}
+
 void add_poration(const VesicleTask& task) {
   if (!task.vesicle.reaction) return;
   const PorationReaction& reaction = *task.vesicle.reaction;
   task.solution.poration_rate =
-      reaction_rate(reaction, task.membrane, {task.state.transmembrane_potential, task.state.poration});
+      reaction_rate(reaction, task.membrane, {transmembrane_potential(task.state, task.fields), task.state.poration});
   task.fields.conductance = task.membrane.fine.analyze(
       porous_conductance(reaction, task.vesicle.charging, task.membrane, task.state.poration));
 }
 
+void add_effects(const VesicleTask& task, const EffectInput& input, Forcing& forcing) {
+  const auto effects = explicit_effects(task.model, task.vesicle);
+  if (effects.empty()) return;
+  const Matrix without = forcing.force;
+  for (const auto& effect : effects) effect->add(input, forcing);
+  task.solution.force_of_effects = forcing.force - without;
+}
+
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing) {
-  if (const auto effects = explicit_effects(task.model, task.vesicle); !effects.empty()) {
-    const Matrix without = forcing.force;
-    for (const auto& effect : effects) effect->add(input, forcing);
-    task.solution.force_of_effects = forcing.force - without;
-  }
+  add_effects(task, input, forcing);
   if (!task.vesicle.bending) return;
   const Matrix bending = bends_by_place(task.membrane) ? elastic_force(task.membrane)
                                                        : bending_force(*task.vesicle.bending, task.membrane);

@@ -21,8 +21,17 @@ struct VesicleTask {
 /// quadrature sees only up to its error.
 Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric, const ElectricTraces& traces);
 
-/// What a membrane that porates conducts, which becomes one of the task's fields, and how fast that changes.
+/// Adds the current through the membrane, outwards, where it is not G_m V with one G_m. Whether it is not.
+/// @param current  values on the upsampled grid
+bool add_varying_current(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential,
+                         Vector& current);
+
+/// With V_m known: what a membrane that porates conducts, which becomes one of the task's fields, and how fast that
+/// changes.
 void add_poration(const VesicleTask& task);
+
+/// Adds the explicit effects, whose force is noted.
+void add_effects(const VesicleTask& task, const EffectInput& input, Forcing& forcing);
 
 /// Adds the explicit effects and the bending force, which becomes one of the task's fields.
 void add_forces(const VesicleTask& task, const EffectInput& input, Forcing& forcing);

@@ -227,8 +227,13 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
                               const std::vector<RecycledSubspace>& known, double tolerance) {
   std::vector<OneTension> all;
   for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a]);
-  const Shares& shares = flow.shares();
-  const std::vector<std::size_t> own = shares.own(all.size());
+  const std::vector<std::size_t> own = flow.shares().own(all.size());
+  const auto gather = [&flow](std::vector<ScalarPair>& scalars) {
+    flow.shares().gather(scalars, [&flow](const ScalarPair& of_original, std::size_t a) -> ScalarPair {
+      const ImageOfFields& image = flow.exchange().image(a);
+      return {image.scalar(of_original.normal), image.scalar(of_original.tension)};
+    });
+  };
   const bool many = are_many(static_cast<Index>(all.size()));
   if (many) find_inverses(all, own);
   const Layout layout(all);
@@ -238,7 +243,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     const std::vector<Matrix> velocities = velocities_of(all, flow, unknowns);
     std::vector<ScalarPair> result(all.size());
     for_each_member(own, [&](std::size_t a) { result[a] = all[a].response(velocities[a], unknowns[a]); });
-    shares.gather(result);
+    gather(result);
     return layout.stack(result);
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
@@ -246,7 +251,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     // Those of spheres, which few membranes have, every rank has for all.
     if (many) {
       for_each_member(own, [&](std::size_t a) { parts[a] = all[a].approximate_inverse(parts[a]); });
-      shares.gather(parts);
+      gather(parts);
     } else {
       for (std::size_t a = 0; a < all.size(); ++a) parts[a] = all[a].approximate_inverse(parts[a]);
     }
@@ -254,7 +259,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   };
   std::vector<ScalarPair> rhs(all.size()), guess;
   for (const std::size_t a : own) rhs[a] = all[a].constraints(-driven[a]);
-  shares.gather(rhs);
+  gather(rhs);
   for (std::size_t a = 0; a < all.size(); ++a) {
     const Vector none = Vector::Zero(n_coefficients(all[a].membrane().fine.order()));
     guess.push_back({none, start[a].size() > 0 ? start[a] : none});
@@ -276,7 +281,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   result.velocities = velocities_of(all, flow, unknowns);
   for (std::size_t a = 0; a < all.size(); ++a) {
     result.tension.push_back(membranes[a].parameters.inextensible ? unknowns[a].tension : Vector());
-    result.force.push_back(shares.owns(a) ? all[a].force(unknowns[a]) : Matrix());
+    result.force.push_back(flow.shares().owns(a) ? all[a].force(unknowns[a]) : Matrix());
   }
   return result;
 }

@@ -17,7 +17,7 @@ int n_longitudes(int grid_order, int fold, bool fast) {
 /// Cartesian components of axisymmetric vectors have the modes m = 0 and ±1 only.
 SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings& settings, int grid_order, bool fast) {
   if (symmetry.axisymmetric) return {settings.order, make_grid(grid_order, 4), 1};
-  const int fold = std::lcm(symmetry.fold, settings.longitude_fold);
+  const int fold = std::lcm(std::lcm(symmetry.fold, symmetry.exchange.fold()), settings.longitude_fold);
   return {settings.order, make_grid(grid_order, n_longitudes(grid_order, fold, fast))};
 }
 
@@ -47,7 +47,7 @@ void Discretisation::share(const Ranks& ranks) {
   if (n_vesicles() < 2) return;
   std::vector<double> costs;
   for (const auto& space : vesicles_) costs.push_back(std::pow(space->order() + 1.0, 4));
-  shares_ = Shares(ranks, costs);
+  shares_ = Shares(ranks, costs, symmetry_.exchange.originals());
 }
 
 Discretisation Discretisation::with(std::size_t vesicle, const Fineness& fineness) const {

@@ -5,22 +5,12 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/space/degree_bounds.hpp"
 #include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
 namespace {
-
-/// max |f_n| ≤ |coefficients of degree n| √((2n+1)/4π), by the addition theorem.
-Vector degree_bounds(const Matrix& coefficients) {
-  const int order = order_of(coefficients.rows());
-  Vector bounds(order + 1);
-  for (int n = 0; n <= order; ++n) {
-    const double norm = coefficients.middleRows(coefficient_index(n, -n), 2 * n + 1).norm();
-    bounds[n] = norm * std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi));
-  }
-  return bounds;
-}
 
 double least_potential_scale(const AppliedField& electric, double radius) {
   return thresholds::least_potential_share * electric.field.norm() * radius;
@@ -45,12 +35,13 @@ double charge_scale(const Model& model, std::size_t vesicle, double largest) {
   return scale_of(thresholds::least_charge_share * contrast * electric.field.norm(), largest);
 }
 
-Resolution::Resolution(const Model& model, const VesicleState& vesicle)
-    : Resolution(model, vesicle, vesicle.transmembrane_potential) {}
+Resolution::Resolution(const Model& model, const VesicleState& vesicle, VisibleShare share)
+    : Resolution(model, vesicle, vesicle.transmembrane_potential, share) {}
 
-Resolution::Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential) {
+Resolution::Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential, VisibleShare share)
+    : potential_share_(share.potential) {
   const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
-  shape_ = degree_bounds(vesicle.position) / radius;
+  shape_ = share.shape * degree_bounds(vesicle.position) / radius;
   shape_[0] = 0.0;  // where the vesicle is
   for_each_property(vesicle.material, [&](const Vector& property) {
     const Vector bounds = degree_bounds(property);
@@ -66,7 +57,7 @@ Resolution::Tail Resolution::tail_of_cut(int order) const {
   Vector& bound = tail.bound;
   if (potential_.size() > 0) {
     const Vector potential = potential_.head(order + 1);
-    bound = bound.cwiseMax(potential / scale_of(least_scale_, potential.maxCoeff()));
+    bound = bound.cwiseMax(potential_share_ * potential / scale_of(least_scale_, potential.maxCoeff()));
   }
   // Symmetry can silence every other degree.
   for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bie/physics/parameters.hpp"
+#include "bie/stepping/space/visible_share.hpp"
 #include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
@@ -19,10 +20,11 @@ double charge_scale(const Model& model, std::size_t vesicle, double largest);
 class Resolution {
  public:
   /// @param vesicle  of the state whose spectra are looked at
-  Resolution(const Model& model, const VesicleState& vesicle);
+  /// @param share    of what the degrees could do at most that counts
+  Resolution(const Model& model, const VesicleState& vesicle, VisibleShare share = {});
   /// A vesicle in an averaged field, whose V_m is no part of the state.
   /// @param potential  amplitude of V_m, of the degree of the vesicle
-  Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential);
+  Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential, VisibleShare share = {});
 
   /// Estimate of what the degrees above p would add, in the maximum norm, to x over the radius or to V_m over its
   /// scale, whichever is more. A geometric series continues the upper half of the spectrum.
@@ -43,9 +45,10 @@ class Resolution {
   [[nodiscard]] Tail tail_of_cut(int order) const;
   [[nodiscard]] double remainder_at(int order) const;
 
-  Vector shape_;              // bounds of x over the radius, or of the other field, by degree
-  Vector potential_;          // of V_m; empty without electricity
-  double least_scale_ = 0.0;  // of V_m; 0 without a field
+  Vector shape_;                  // bounds of x over the radius, or of the other field, by degree
+  Vector potential_;              // of V_m; empty without electricity
+  double potential_share_ = 1.0;  // of them that counts
+  double least_scale_ = 0.0;      // of V_m; 0 without a field
 };
 
 }  // namespace vehd

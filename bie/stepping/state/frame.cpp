@@ -11,6 +11,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/principal_axes.hpp"
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/invariance.hpp"
 #include "bie/stepping/state/rotated.hpp"
 
 namespace vehd {
@@ -49,13 +50,6 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
   return result;
 }
 
-bool is_invariant_under_rotations(const Model& model) {
-  const auto effects = explicit_effects(model);
-  return (!model.electric || model.electric->field.head<2>().isZero(0.0)) &&
-         std::all_of(effects.begin(), effects.end(),
-                     [](const auto& effect) { return effect->is_invariant_under_rotations(); });
-}
-
 bool is_same_everywhere(const Model& model) {
   const auto effects = explicit_effects(model);
   return std::all_of(effects.begin(), effects.end(), [](const auto& effect) { return effect->is_same_everywhere(); });
@@ -82,10 +76,12 @@ std::vector<Vector3> origin_candidates(const Model& model, const State& state) {
 }
 
 /// How much work a symmetry saves; zero where the frame is not worth leaving the laboratory's axes for.
-double worth(const Symmetry& symmetry, bool rotated) {
+double worth(const Symmetry& symmetry, bool rotated, std::size_t n_vesicles) {
   constexpr double kAxis = 1e6;
-  if (symmetry.axisymmetric) return kAxis + static_cast<double>(symmetry.reflections.size());
-  return rotated && symmetry.fold == 1 ? 0.0 : symmetry.group_order();
+  const double of_exchange =
+      static_cast<double>(n_vesicles) / static_cast<double>(symmetry.exchange.n_originals(n_vesicles));
+  if (symmetry.axisymmetric) return kAxis + static_cast<double>(symmetry.reflections.size()) * of_exchange;
+  return rotated && symmetry.fold == 1 && symmetry.exchange.fold() == 1 ? 0.0 : symmetry.group_order() * of_exchange;
 }
 
 /// In coefficients of degree 0.
@@ -123,7 +119,7 @@ Frame find_frame(const Model& model, const State& state) {
       const Model there = in_frame(frame, model);
       if (frame.is_rotated() && !is_invariant_under_rotations(there)) continue;
       const Symmetry symmetry = find_symmetry(there, in_frame(frame, state));
-      const double here = worth(symmetry, frame.is_rotated());
+      const double here = worth(symmetry, frame.is_rotated(), state.vesicles.size());
       if (here > most) {
         best = frame;
         most = here;
@@ -138,7 +134,7 @@ std::string symmetry_text(const Symmetry& symmetry, const Frame& frame) {
   std::array<std::string, 3> names;
   for (int i = 0; i < 3; ++i) names[static_cast<std::size_t>(i)] = axis_name(frame.axes.col(i));
   const std::string text = symmetry_text(symmetry, names);
-  if (!symmetry.any() || frame.origin.isZero(0.0)) return text;
+  if ((!symmetry.any() && !symmetry.exchange.any()) || frame.origin.isZero(0.0)) return text;
   return fmt::format("{}, through ({:.3g}, {:.3g}, {:.3g})", text, frame.origin.x(), frame.origin.y(),
                      frame.origin.z());
 }

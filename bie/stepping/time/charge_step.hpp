@@ -7,10 +7,10 @@
 
 namespace vehd {
 
-/// V_m of a membrane, or with displacement currents the charges of its faces: SurfaceFields::transmembrane_potential
-/// and SurfaceFields::free_charge.
+/// What charging changes: V_m of a membrane, or with displacement currents the charges of its faces, and the state of
+/// poration: SurfaceFields::transmembrane_potential, SurfaceFields::free_charge and SurfaceFields::poration.
 struct Charge {
-  Vector potential, free;
+  Vector potential, free, poration{};
 };
 
 /// One implicit step of the charging of all membranes, see charge_membrane, charge_membranes and relax_charges.

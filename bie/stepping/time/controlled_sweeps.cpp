@@ -88,8 +88,8 @@ std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolu
   std::vector<std::size_t> result = goal.too_coarse(physics.end_state(end));
   for (std::size_t a = 0; a < end.vesicles.size(); ++a) {
     // The degree does not hold the same surface on another grid.
-    if (end.vesicles[a].arrival_shift > thresholds::truncation_share * goal.tolerance && physics.may_rise(a))
-      result.push_back(a);
+    const double allowed = thresholds::truncation_share * goal.tolerance / goal.growth;
+    if (end.vesicles[a].arrival_shift > allowed && physics.may_rise(a)) result.push_back(a);
   }
   std::ranges::sort(result);
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -141,7 +141,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   }
   SweepErrors errors;
   std::vector<double> found;
-  const double allowed = thresholds::step_share * goal.tolerance;
+  const double allowed = thresholds::step_share * goal.tolerance / goal.growth;
   for (int left = order - 2;; --left) {
     y.evaluate_rates();
     if (const auto change = y.change_at_last(); change && !errors.all_known()) errors.add(*change);

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "bie/stepping/space/remap.hpp"
-#include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/time/step_operations.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
@@ -50,7 +50,12 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
     } catch (const ConvergenceError&) {
       // Which vesicle is the first without a motion all ranks have to say.
     }
-    shares().gather(all);
+    shares().gather(all, [this](const CountedMotion& of_original, std::size_t a) -> CountedMotion {
+      const ImageOfFields& image = discretisation_.symmetry().exchange.image(a);
+      Motion motion = of_original.motion;
+      for (SurfaceFields* fields : {&motion.material, &motion.arrived}) *fields = image_of(image, *fields);
+      return {std::move(motion)};
+    });
   });
   std::vector<Motion> result;
   for (CountedMotion& of_one : all) {

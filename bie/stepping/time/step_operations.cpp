@@ -8,8 +8,10 @@
 #include "bie/physics/averaged_field.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/porous_step.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -29,6 +31,10 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
     options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
   }
   return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
+}
+
+Charge charge_of(const SurfaceFields& fields) {
+  return {fields.transmembrane_potential, fields.free_charge, fields.poration};
 }
 
 }  // namespace
@@ -57,19 +63,16 @@ Rate StepOperations::rate(const NodeSolution& node) {
 NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   NodeSolution result{start_.time + dt, {}};
   std::vector<Charge> charged;
-  for (const VesicleState& vesicle : start_.vesicles) {
-    charged.push_back({vesicle.transmembrane_potential, vesicle.free_charge});
+  for (const VesicleState& vesicle : start_.vesicles) charged.push_back(charge_of(vesicle));
+  if (porates()) {
+    charged = porated(charged, nullptr, result.time, dt);
+  } else if (charges()) {
+    charge(electric_at(result.time), dt, charged);
   }
-  const bool is_linear = charges() && !porates();
-  if (is_linear) charge(electric_at(result.time), dt, charged);
   std::vector<MotionStart> starts;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = start_.vesicles[a];
-    if (is_linear) take(std::move(charged[a]), result.time, a, fields);
-    if (porates()) {
-      const PorousStep step{{fields.transmembrane_potential, fields.poration}, {}, dt};
-      porate(a, step, electric_at(result.time)[a], result.time, fields);
-    }
+    take(std::move(charged[a]), result.time, a, fields);
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
     if (model_.mobile) fields.tension = instantaneous.tension;
     starts.push_back({std::move(fields), instantaneous.velocity});
@@ -85,32 +88,29 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
   NodeSolution result{y.time, {}};
   std::vector<Charge> changes;
   for (const Residual::OfVesicle& of_vesicle : r.vesicles) {
-    changes.push_back({of_vesicle.potential, of_vesicle.free_charge});
+    changes.push_back({of_vesicle.potential, of_vesicle.free_charge, of_vesicle.poration});
   }
-  const bool is_linear = charges() && !porates();
-  if (is_linear) {
+  std::vector<Charge> reached;
+  if (porates()) {
+    for (const Motion& motion : y.vesicles) reached.push_back(charge_of(motion.material));
+    reached = porated(reached, &changes, y.time, dt);
+  } else if (charges()) {
     std::vector<ElectricParameters> homogeneous = electric_at(y.time);
     for (ElectricParameters& electric : homogeneous) {
       electric.field.setZero();
       electric.pump = 0.0;
     }
     charge(homogeneous, dt, changes);
+    for (std::size_t a = 0; a < changes.size(); ++a) {
+      const Charge now = charge_of(y.vesicles[a].material);
+      reached.push_back({now.potential + changes[a].potential, now.free + changes[a].free});
+    }
   }
   std::vector<MotionStart> starts;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
-    if (porates()) {
-      const PorousStep step{{fields.transmembrane_potential, fields.poration},
-                            PorousState{r.vesicles[a].potential, r.vesicles[a].poration},
-                            dt};
-      porate(a, step, electric_at(y.time)[a], result.time, fields);
-    }
-    if (is_linear) {
-      changes[a].potential += fields.transmembrane_potential;
-      changes[a].free += fields.free_charge;
-      take(std::move(changes[a]), result.time, a, fields);
-    }
+    if (!reached.empty()) take(std::move(reached[a]), result.time, a, fields);
     starts.push_back({std::move(fields), r.vesicles[a].position / dt});
   }
   // A rigid motion has no stiffness, so nothing of it is implicit.
@@ -143,31 +143,28 @@ bool StepOperations::porates() const {
                      [](const VesicleModel& vesicle) { return vesicle.reaction != nullptr; });
 }
 
-/// V_m and the state of poration of one vesicle after an implicit step.
-void StepOperations::porate(std::size_t a, const PorousStep& step, const ElectricParameters& electric, double time,
-                            SurfaceFields& fields) {
+/// After an implicit step of membranes that porate.
+std::vector<Charge> StepOperations::porated(const std::vector<Charge>& from, const std::vector<Charge>* lacks,
+                                            double time, double dt) {
   const auto timer = instruments_.time("electric");
-  const VesicleModel& vesicle = model_.vesicles[a];
-  const Membrane& membrane = *at_start_.vesicles[a].membrane;
-  if (!charges()) {
-    // Pores close where there is no V_m any more.
-    fields.poration = react(*vesicle.reaction, membrane.fine, step, fields.transmembrane_potential);
-    return;
-  }
-  PorousState state;
-  const SolveReport report = charge_porous_membrane(electric, vesicle.charging, *vesicle.reaction, membrane, step,
-                                                    discretisation_.settings().electric_tolerance, state);
+  std::vector<ElectricParameters> electric;
+  if (charges()) electric = electric_at(time);
+  std::vector<Charge> reached;
+  const SolveReport report =
+      porous_step(model_, at_start_, electric, dt, discretisation_.settings().electric_tolerance, from, lacks, reached);
   iterations_electric_ += report.iterations;
   if (!report.converged()) throw ConvergenceError("charging of a membrane that porates did not converge");
-  take({std::move(state.potential), {}}, time, a, fields);
-  fields.poration = std::move(state.reaction);
+  return reached;
 }
 
 void StepOperations::take(Charge charge, double time, std::size_t a, SurfaceFields& fields) const {
-  forget_decayed(time, a, charge.potential);
-  if (charge.free.size() > 0) forget_decayed(time, a, charge.free);
-  fields.transmembrane_potential = std::move(charge.potential);
-  fields.free_charge = std::move(charge.free);
+  if (charges()) {
+    forget_decayed(time, a, charge.potential);
+    if (charge.free.size() > 0) forget_decayed(time, a, charge.free);
+    fields.transmembrane_potential = std::move(charge.potential);
+    fields.free_charge = std::move(charge.free);
+  }
+  if (porates()) fields.poration = std::move(charge.poration);
 }
 
 /// A potential this small does nothing any more, and without it the electric part becomes inactive.
@@ -187,7 +184,7 @@ State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSoluti
         symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].*fields);
     vesicle.recycled = at_start_.vesicles[a].recycled;
   }
-  return state;
+  return with_images(discretisation_.symmetry().exchange, std::move(state));
 }
 
 State StepOperations::passed_state(const NodeSolution& node) const {
@@ -200,7 +197,8 @@ State StepOperations::end_state(const NodeSolution& node) const {
   State state = passed_state(node);
   std::vector<SentScalars> flow(state.vesicles.size());
   for (const std::size_t a : shares().own(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
-  shares().gather(flow);
+  // What is known of images serves nobody.
+  shares().gather(flow, [](const SentScalars&, std::size_t) { return SentScalars{}; });
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_flow_);
   }

@@ -3,7 +3,6 @@
 #include <functional>
 #include <vector>
 
-#include "bie/physics/porous_charging.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/solve/constrained_motion.hpp"
 #include "bie/stepping/solve/flow_systems.hpp"
@@ -116,8 +115,8 @@ class StepOperations {
   void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges);
   [[nodiscard]] double poration_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] bool porates() const;
-  void porate(std::size_t vesicle, const PorousStep& step, const ElectricParameters& electric, double time,
-              SurfaceFields& fields);
+  std::vector<Charge> porated(const std::vector<Charge>& from, const std::vector<Charge>* lacks, double time,
+                              double dt);
   void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] const Shares& shares() const { return discretisation_.shares(); }

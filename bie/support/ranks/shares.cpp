@@ -5,15 +5,20 @@
 
 namespace vehd {
 
-Shares::Shares(Ranks ranks, const std::vector<double>& costs) : ranks_(std::move(ranks)) {
+Shares::Shares(Ranks ranks, const std::vector<double>& costs, std::vector<std::size_t> originals)
+    : ranks_(std::move(ranks)), originals_(std::move(originals)) {
   if (ranks_.is_alone()) return;
-  const double all = std::accumulate(costs.begin(), costs.end(), 0.0);
+  std::vector<double> done = costs;
+  for (std::size_t part = 0; part < done.size(); ++part) {
+    if (is_image(part)) done[part] = 0.0;
+  }
+  const double all = std::accumulate(done.begin(), done.end(), 0.0);
   double before = 0.0;
-  for (const double cost : costs) {
+  for (std::size_t part = 0; part < done.size(); ++part) {
     // By the middle of the part.
-    const int rank = static_cast<int>((before + 0.5 * cost) / all * ranks_.size());
-    owners_.push_back(std::clamp(rank, 0, ranks_.size() - 1));
-    before += cost;
+    const int rank = static_cast<int>((before + 0.5 * done[part]) / all * ranks_.size());
+    owners_.push_back(is_image(part) ? owners_[originals_[part]] : std::clamp(rank, 0, ranks_.size() - 1));
+    before += done[part];
   }
 }
 

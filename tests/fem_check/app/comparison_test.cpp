@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "fem_check/app/question_maker.hpp"
+#include "tests/fem_check/cases.hpp"
 
 using namespace vehd::fem_check;
+using namespace vehd::fem_check::testing;
 
 BOOST_AUTO_TEST_SUITE(comparison)
 
@@ -136,6 +138,31 @@ BOOST_AUTO_TEST_CASE(background_does_not_hide_what_is_left) {
   BOOST_TEST((compare(without(asked, background), shifted, 0.02).verdict == Verdict::does_not));
 }
 
+// As a functional on smooth displacements a force is known to more digits than as a field: waves of high degree count
+// for nothing, and a thousandth that they would hide is seen.
+BOOST_AUTO_TEST_CASE(work_on_smooth_displacements_is_that_of_the_whole_force) {
+  const Discretisation space = discretise(shapes::shape_33(), {.cells_per_edge = 2, .shell_layers = 2, .degree = 3});
+  const SurfacePoints points = space.quadrature_points(10);
+  const Eigen::MatrixXd harmonics = shapes::all_harmonics(9).values(points.direction);
+  const auto low = harmonics.topRows(25);
+  const Eigen::MatrixXd smooth = Eigen::MatrixXd::Random(3, 25) * low;
+  const Eigen::MatrixXd wave = 0.3 * Vector3(1.0, -2.0, 0.5) * harmonics.row(90);
+  FieldQuestion asked;
+  asked.values = "bending";
+  asked.weight = points.weight;
+  asked.judged = asked.bie = asked.bie_high = smooth;
+  LevelSequence sequence = levels();
+  for (Level& each : sequence.levels) each.surface["bending"] = smooth + wave;
+  BOOST_TEST((compare(asked, sequence, 0.02).verdict == Verdict::does_not), "the wave is in the field");
+
+  const FieldQuestion work = work_on_smooth(asked, points);
+  const Eigen::MatrixXd of_level = work.from_level(smooth + wave);
+  const Eigen::MatrixXd moments = (smooth + wave) * points.weight.asDiagonal() * low.transpose();
+  BOOST_TEST((of_level * points.weight.asDiagonal() * low.transpose() - moments).norm() < 1e-12 * moments.norm());
+  BOOST_TEST((work.judged - smooth).norm() < 1e-12 * smooth.norm());
+  BOOST_TEST((of_level - smooth).norm() < 0.5 * wave.norm());
+}
+
 BOOST_AUTO_TEST_CASE(numbers_without_finite_elements_are_judged_by_the_boundary_integrals) {
   FieldQuestion asked = question();
   asked.values.clear();
@@ -150,6 +177,27 @@ BOOST_AUTO_TEST_CASE(difference_of_the_size_of_the_last_change_is_no_disagreemen
   FieldQuestion asked = question();
   for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers *= 1.0 + 9.0 * fine_error;
   BOOST_TEST((verdict(asked) == Verdict::agree));
+}
+
+// Of a field that elements of rising degree follow no better than finer ones, the last change is less than what is
+// left.
+BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
+  const auto with_order = [](double order) {
+    LevelSequence slow = levels();
+    for (int i = 0; i < 3; ++i) {
+      slow.levels[i] = level(100 * fine_error * std::pow(2.0, -order * i / 3.0), 1000 << i);
+    }
+    return compare(question(), slow, 0.02);
+  };
+  for (const double order : {1.0, 1.5, 2.0, 3.0}) {
+    const FieldComparison result = with_order(order);
+    BOOST_TEST(result.order.value() == order, boost::test_tools::tolerance(1e-2));
+    BOOST_TEST(result.tail * result.levels_change.l2 == result.difference.l2, boost::test_tools::tolerance(1e-2));
+    BOOST_TEST((result.verdict != Verdict::does_not), order);
+  }
+  BOOST_TEST(with_order(4.0).tail == 1.0);
+  // An order below one is none.
+  BOOST_TEST(with_order(0.1).tail == with_order(1.0).tail, boost::test_tools::tolerance(1e-2));
 }
 
 BOOST_AUTO_TEST_CASE(single_level_has_an_unknown_error) {

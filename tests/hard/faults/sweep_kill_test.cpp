@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <csignal>
 #include <random>
@@ -34,6 +35,11 @@ BOOST_AUTO_TEST_CASE(of_a_sweep_lose_no_row_and_double_none) {
       std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds(random)));
       const auto held = work.held();
       if (held.empty() || program.ended()) continue;
+      // A run at which so many workers die in a row would be given up; where the machine is slow or busy none of them
+      // gets far enough to finish it.
+      if (std::ranges::any_of(held,
+                              [](const auto& claim) { return claim.takeovers >= vehd::Claims::most_takeovers / 2; }))
+        continue;
       ++killed;
       if (one_in_ten(random) == 0) {
         program.send(SIGKILL);

@@ -99,24 +99,31 @@ BOOST_AUTO_TEST_CASE(spheres_in_contact_approach_each_other_with_the_exact_speed
   BOOST_TEST(std::abs(translation(found.fields.vesicles[1].velocity).z() / exact + 1.0) < 1e-6);
 }
 
-BOOST_AUTO_TEST_CASE(forces_between_two_shapes_have_no_resultant) {
+BOOST_AUTO_TEST_CASE(forces_between_two_shapes_have_no_resultant_and_the_torque_of_their_dipole) {
   const std::vector<Matrix> shapes = two_shapes(16);
   const Model model = full_model();
   const Discretisation discretisation = discretisation_of(shapes);
   const SolvedFields found = solved(model, discretisation, start(model, discretisation, shapes, 0.1));
-  Vector3 electric = Vector3::Zero();
+  Vector3 electric = Vector3::Zero(), torque = Vector3::Zero(), dipole = Vector3::Zero();
   double scale = 0.0;
   for (const std::size_t a : {0, 1}) {
     const Membrane& membrane = *found.vesicles[a].membrane;
     const VesicleFields& f = found.fields.vesicles[a];
     electric += total_force(membrane, f.force_electric);
     scale = std::max(scale, total_force(membrane, f.force_electric).norm());
+    torque += total_torque(membrane, f.force_electric);
+    dipole += membrane.surface.position.transpose() *
+              Vector(membrane.fine.synthesize(f.charge)).cwiseProduct(membrane.surface.quadrature);
     // What degree 16 leaves out of the forces.
     BOOST_TEST(total_force(membrane, f.force_tension).norm() < 3e-5);
     BOOST_TEST(total_torque(membrane, f.force_tension).norm() < 5e-5);
   }
   BOOST_TEST(scale > 1e-3);
   BOOST_TEST(electric.norm() < 2e-4 * scale);
+  // The uniform field turns the dipole of both, V_m is zero; f_E is minus the force on a membrane.
+  const Vector3 expected = -dipole.cross(model.electric->field);
+  BOOST_TEST(expected.norm() > 1e-2);
+  BOOST_TEST((torque - expected).norm() < 2e-4 * expected.norm(), torque.transpose() << "; " << expected.transpose());
 }
 
 BOOST_AUTO_TEST_CASE(the_order_of_vesicles_does_not_matter) {

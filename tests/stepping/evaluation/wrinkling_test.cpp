@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bie/sphere/harmonics.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -44,6 +45,47 @@ BOOST_AUTO_TEST_CASE(a_compressed_membrane_says_so) {
   }();
   BOOST_TEST(evaluated(stretched, discretisation, start(stretched, discretisation, prolate(8), 0.1))
                  .diagnostics.wrinkle_degree == 0.0);
+}
+
+// At rest two disturbances share the excess area: the lower degree grows on what the higher one gives back.
+BOOST_AUTO_TEST_CASE(a_disturbance_of_a_compressed_sphere_grows_at_its_rate) {
+  constexpr int kOrder = 10;
+  constexpr double kRadius = 1.7, kSize = 1e-3;
+  const Index low = coefficient_index(2, 1), high = coefficient_index(3, -2);
+  const SphereTransform transform(kOrder, make_grid(kOrder));
+  const Matrix directions = grid_directions(transform.grid());
+  Matrix shape = Matrix::Zero(n_coefficients(kOrder), 1);
+  shape(low, 0) = 2.0 * kSize;
+  shape(high, 0) = kSize;
+  const Vector distance = kRadius * (1.0 + transform.synthesize(shape).col(0).array());
+  const Matrix position = transform.analyze(distance.asDiagonal() * directions);
+  for (const double viscosity_ratio : {1.0, 4.0}) {
+    Model model = relaxation_model(0.3);
+    model.viscosity = 0.7;
+    model.vesicles[0].viscosity_ratio = viscosity_ratio;
+    const Discretisation discretisation = discretisation_of(kOrder);
+    const Evaluated found = evaluated(model, discretisation, start(model, discretisation, position, 0.1));
+    const double tension = found.diagnostics.tension_integral / found.diagnostics.area;
+    const Matrix velocity = transform.synthesize(found.fields.velocity);
+    const Vector outward = velocity.cwiseProduct(directions).rowwise().sum();
+    const double rate = transform.analyze(outward)(low, 0) / (kRadius * shape(low, 0));
+    const FlowParameters flow = flow_parameters(model, model.vesicles[0]);
+    const double expected = wrinkling_rate(flow, tension, kRadius, kOrder);
+    BOOST_TEST(expected > 0.0);
+    BOOST_TEST(rate == expected, boost::test_tools::tolerance(0.01));
+    // Under a tension that is above that of both nothing grows.
+    BOOST_TEST(wrinkling_rate(flow, 0.0, kRadius, kOrder) == 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(wrinkles_much_finer_than_the_radius_grow_as_on_a_plane) {
+  const double modulus = 0.3, radius = 1.7, tension = -7e4;
+  const FlowParameters parameters{.viscosity = 0.7, .viscosity_ratio = 2.5, .bending = BendingParameters{modulus}};
+  const double k = std::round(wrinkle_degree(parameters, tension, radius)) / radius;
+  const double plane = (-tension * k - 0.5 * modulus * k * k * k) / (2.0 * 0.7 * (1.0 + 2.5));
+  BOOST_TEST(wrinkling_rate(parameters, tension, radius, 4000) == plane, boost::test_tools::tolerance(1e-3));
+  // Of finer ones a degree knows nothing.
+  BOOST_TEST(wrinkling_rate(parameters, tension, radius, 32) < 0.3 * plane);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

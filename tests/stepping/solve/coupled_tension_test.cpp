@@ -63,8 +63,14 @@ BOOST_AUTO_TEST_CASE(drag_of_stimson_and_jeffery_is_the_tabulated_one) {
 
 // Rigid spheres do not notice what is within them.
 BOOST_AUTO_TEST_CASE(spheres_along_their_line_of_centres_move_as_stimson_and_jeffery_say) {
-  for (const double gap : {2.0, 0.5}) {
-    const std::vector<Matrix> spheres = two_spheres(16, gap);
+  struct Row {
+    double gap;
+    int order;
+    double most;
+  };
+  for (const auto& [gap, order, most] :
+       {Row{4.0, 16, 1e-8}, Row{2.0, 16, 1e-8}, Row{0.5, 16, 1e-8}, Row{0.1, 32, 1e-5}}) {
+    const std::vector<Matrix> spheres = two_spheres(order, gap);
     const StimsonJeffery exact = stimson_jeffery(gap);
     for (const double viscosity_ratio : {1.0, 5.0}) {
       for (const double lower : {1.0, -1.0}) {
@@ -75,11 +81,25 @@ BOOST_AUTO_TEST_CASE(spheres_along_their_line_of_centres_move_as_stimson_and_jef
         const double speed = 1.0 / (6.0 * std::numbers::pi * 2.5 * (lower > 0.0 ? exact.same : exact.opposite));
         const Vector3 below = translation(found.fields.vesicles[0].velocity);
         const Vector3 above = translation(found.fields.vesicles[1].velocity);
-        BOOST_TEST(std::abs(above.z() - speed) < 1e-8 * speed);
-        BOOST_TEST((below - Vector3(0.0, 0.0, lower * speed)).norm() < 1e-8 * speed);
-        BOOST_TEST(found.iterations_flow <= 10);
+        BOOST_TEST(std::abs(above.z() - speed) < most * speed);
+        BOOST_TEST((below - Vector3(0.0, 0.0, lower * speed)).norm() < most * speed);
+        if (gap >= 0.5) BOOST_TEST(found.iterations_flow <= 10);
       }
     }
+  }
+}
+
+// U/U₀ = 1 ± (3/2d − 1/d³) up to the fourth power of 1/d.
+BOOST_AUTO_TEST_CASE(distant_spheres_move_as_far_limits_say) {
+  constexpr double d = 60.0;
+  const std::vector<Matrix> spheres = two_spheres(8, d - 2.0);
+  for (const double lower : {1.0, -1.0}) {
+    const Model model = pulled(lower, 1.0, 2.5, 1.0);
+    const Discretisation discretisation = discretisation_of(spheres, {}, find_symmetry(model, at_rest(spheres)));
+    const double alone = 1.0 / (6.0 * std::numbers::pi * 2.5);
+    const double expected = 1.0 + lower * (1.5 / d - 1.0 / (d * d * d));
+    const SolvedFields found = solved(model, discretisation, at_rest(spheres));
+    BOOST_TEST(std::abs(translation(found.fields.vesicles[1].velocity).z() / alone - expected) < 10.0 / std::pow(d, 4));
   }
 }
 

@@ -4,9 +4,12 @@
 
 namespace vehd {
 
-/// Doubles that one instruction handles where targets stand side by side; columns of small_product are a multiple of
-/// it.
+/// Targets that stand side by side at least; columns of small_product are a multiple of it. An instruction handles as
+/// many doubles, or twice as many where the processor has such.
 constexpr int kLanes = 4;
+
+/// The least multiple of it that is not below a count.
+constexpr Index filled_up(Index count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
 /// A factor whose entry (i, k) is at data[i * row_stride + k * column_stride]: a table, a part of it, or its transpose.
 struct Factor {
@@ -19,7 +22,7 @@ struct Factor {
 /// @param inner     columns of A and rows of B; 0 makes C zero
 /// @param columns   of B and C, a multiple of kLanes
 /// @param b_stride  from a row of B to the next, c_stride likewise
-/// Accuracy: rounding; terms are added in the order of k (tests/potentials/small_product_test.cpp)
+/// Accuracy: rounding; terms are added in the order of k (tests/sphere/small_product_test.cpp)
 void small_product(Index rows, Index inner, Index columns, const Factor& a, const double* b, Index b_stride, double* c,
                    Index c_stride);
 

@@ -1,4 +1,4 @@
-#include "bie/potentials/small_product.hpp"
+#include "bie/sphere/small_product.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -10,9 +10,9 @@ using namespace vehd::testing;
 BOOST_AUTO_TEST_SUITE(small_products)
 
 BOOST_AUTO_TEST_CASE(they_are_products_of_any_shape) {
-  for (const Index rows : {1, 2, 3, 4, 5, 9, 23}) {
+  for (const Index rows : {1, 2, 3, 4, 5, 6, 7, 8, 9, 17, 23}) {
     for (const Index inner : {0, 1, 2, 17}) {
-      for (const Index columns : {4, 8, 12, 16, 20, 24, 28, 48}) {
+      for (const Index columns : {4, 8, 12, 16, 20, 24, 28, 36, 48, 52}) {
         const RowMatrix a = RowMatrix::Random(rows, inner), b = RowMatrix::Random(inner, columns);
         const RowMatrix expected = a * b;
         // Rows of a larger matrix; what stands beside the product is left alone.

@@ -1,0 +1,66 @@
+#include "bie/bench/shape_flow_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bie/comparison/check_input.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/state/resized.hpp"
+
+namespace vehd {
+namespace {
+
+/// docs/checks/shape33.toml in another degree.
+std::string scene_of(int order) {
+  return fmt::format(
+      "[shape]\nkind = 'radial'\nbase = 1.0\namplitude = 0.2\nexponent = -3.0\nmodes = [{{n = 3, m = 2, a = 1.0}}]\n"
+      "[membrane]\nbending_modulus = 0.1\ncapacitance = 1.0\nconductance = 5.0\n"
+      "[electric]\nfield = [0.3, 0.5, 1.0]\nconductivity_in = 2.0\nconductivity_out = 1.0\ninitial_Vm = 'steady'\n"
+      "[flow]\nkind = 'shear'\nrate = 1.0\n[numerics]\ndegree = {}\ndt = 0.02\nend_time = 0.0\n",
+      order);
+}
+
+}  // namespace
+
+ShapeFlowProblem::ShapeFlowProblem(int reference_order)
+    : frozen_(read_frozen_state({"shape33.toml", {}, scene_of(reference_order)}, std::nullopt)),
+      contents_(check_contents(frozen_)),
+      force_(total_force(frozen_, frozen_.fields.vesicles.front())),
+      reference_(check_fields(frozen_, contents_, force_, reference_order, Matrix(0, 3))) {}
+
+SolvedFields ShapeFlowProblem::solve(int order) const {
+  Instruments instruments;
+  return solve_fields(frozen_.model, Discretisation(settings_at(frozen_, order)), resized(frozen_.state, order),
+                      instruments);
+}
+
+MethodError ShapeFlowProblem::error_of(const Matrix& found, const Matrix& exact, const Matrix& background) const {
+  Instruments instruments;
+  const MembraneSpace space(settings_at(frozen_, reference_.order), {});
+  const Matrix& position = frozen_.state.vesicles.front().position;
+  const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);
+  const auto sizes = [&](const Matrix& coefficients) -> MethodError {
+    const Vector squares = membrane.fine.synthesize(coefficients).rowwise().squaredNorm();
+    // The coefficient of Y_00 is the integral but for a factor that the ratio below does not have.
+    return {std::sqrt(membrane.weighted(squares)(0, 0)), std::sqrt(squares.maxCoeff())};
+  };
+  const MethodError difference = sizes(resize_order(found, reference_.order) - exact),
+                    whole = sizes(exact - background);
+  return {difference.l2 / whole.l2, difference.max / whole.max};
+}
+
+ShapeFlowErrors ShapeFlowProblem::errors_of(const SolvedFields& solved) const {
+  const VesicleFields& fields = solved.fields.vesicles.front();
+  const Matrix background = frozen_.state.vesicles.front().position * flow_gradient(frozen_).transpose();
+  return {error_of(fields.velocity, reference_.velocity_of_shape, background),
+          error_of(fields.tension, reference_.tension, Matrix::Zero(reference_.tension.size(), 1))};
+}
+
+void ShapeFlowProblem::write_input(const std::filesystem::path& file) const {
+  write_check_input(file, {frozen_, contents_, force_, {}, reference_, reference_});
+}
+
+}  // namespace vehd

@@ -1,0 +1,101 @@
+#include "bie/sphere/small_product.hpp"
+
+#include <utility>
+
+namespace vehd {
+
+namespace {
+
+#ifdef __AVX512F__
+/// Doubles of one register. Rows and registers of C that stay in place: 24 sums, three pieces of B and one entry of A
+/// fill 28 of 32.
+constexpr int kWide = 2 * kLanes;
+constexpr int kMostRows = 8;
+#else
+/// Doubles of one register. Rows and registers of C that stay in place: twelve sums, three pieces of B and one entry of
+/// A fill sixteen.
+#ifdef __AVX__
+constexpr int kWide = kLanes;
+#else
+constexpr int kWide = kLanes / 2;
+#endif
+constexpr int kMostRows = 4;
+#endif
+constexpr int kMostPieces = 3;
+
+template <int kWidth>
+struct Register {
+  using Values [[gnu::vector_size(kWidth * sizeof(double))]] = double;
+  /// The same at any address of a double.
+  using Anywhere [[gnu::vector_size(kWidth * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] = double;
+};
+
+template <int kWidth, int kRows, int kPieces>
+void block(Index inner, const Factor& a, const double* b, Index b_stride, double* c, Index c_stride) {
+  using Values = typename Register<kWidth>::Values;
+  using Anywhere = typename Register<kWidth>::Anywhere;
+  Values sum[kRows][kPieces] = {};
+  const double* entry = a.data;
+  const Index row_stride = a.row_stride;
+  for (Index k = 0; k < inner; ++k, entry += a.column_stride, b += b_stride) {
+    Values piece[kPieces];
+#pragma GCC unroll 3
+    for (int i = 0; i < kPieces; ++i) piece[i] = *reinterpret_cast<const Anywhere*>(b + i * kWidth);
+#pragma GCC unroll 8
+    for (int r = 0; r < kRows; ++r) {
+#pragma GCC unroll 3
+      for (int i = 0; i < kPieces; ++i) sum[r][i] += entry[r * row_stride] * piece[i];
+    }
+  }
+#pragma GCC unroll 8
+  for (int r = 0; r < kRows; ++r) {
+#pragma GCC unroll 3
+    for (int i = 0; i < kPieces; ++i) *reinterpret_cast<Anywhere*>(c + r * c_stride + i * kWidth) = sum[r][i];
+  }
+}
+
+/// All rows of a few columns, in blocks of nearly equal height.
+template <int kWidth, int kPieces>
+void panel(Index rows, Index inner, Factor a, const double* b, Index b_stride, double* c, Index c_stride) {
+  const Index n_blocks = (rows + kMostRows - 1) / kMostRows;
+  for (Index i = 0, done = 0; i < n_blocks; ++i) {
+    const Index height = rows * (i + 1) / n_blocks - done;
+    [&]<int... kHeights>(std::integer_sequence<int, kHeights...>) {
+      ((height == kHeights + 1 ? block<kWidth, kHeights + 1, kPieces>(inner, a, b, b_stride, c, c_stride) : void()),
+       ...);
+    }
+    (std::make_integer_sequence<int, kMostRows>());
+    done += height;
+    a.data += height * a.row_stride;
+    c += height * c_stride;
+  }
+}
+
+}  // namespace
+
+void small_product(Index rows, Index inner, Index columns, const Factor& a, const double* b, Index b_stride, double* c,
+                   Index c_stride) {
+  const Index pieces = columns / kWide;
+  const Index n_panels = (pieces + kMostPieces - 1) / kMostPieces;
+  for (Index i = 0, done = 0; i < n_panels; ++i) {
+    const Index width = pieces * (i + 1) / n_panels - done;
+    const double* from = b + done * kWide;
+    double* to = c + done * kWide;
+    switch (width) {
+      case 3:
+        panel<kWide, 3>(rows, inner, a, from, b_stride, to, c_stride);
+        break;
+      case 2:
+        panel<kWide, 2>(rows, inner, a, from, b_stride, to, c_stride);
+        break;
+      default:
+        panel<kWide, 1>(rows, inner, a, from, b_stride, to, c_stride);
+    }
+    done += width;
+  }
+  if (const Index done = pieces * kWide; done < columns) {
+    panel<kLanes, 1>(rows, inner, a, b + done, b_stride, c + done, c_stride);
+  }
+}
+
+}  // namespace vehd

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/thresholds.hpp"
+#include "bie/support/errors.hpp"
+
+// Degree and quadrature that follow the state.
+namespace vehd {
+
+int Evolution::lowest_order() const { return std::min(lowest_adaptive_order, setup_.settings.order); }
+
+double Evolution::truncation_target() const {
+  return thresholds::truncation_share * setup_.control.tolerance / growth_;
+}
+
+void Evolution::lower_quadrature_if_idle(std::size_t a) {
+  const std::int64_t level = state_.vesicles[a].quadrature_level;
+  if (level == 0) return;
+  const double error = evaluation_.diagnostics.vesicles[a].quadrature_error;
+  if (error > thresholds::idle_quadrature * setup_.settings.quadrature_tolerance) return;
+  change_space(a, order(a), level - 1);
+}
+
+/// Does the degree leave out little enough, or is there no higher one?
+bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
+  return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target();
+}
+
+/// The least even degree for what is in the narrowest gap, of the two that it is between and of their images.
+int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
+  const Exchange& exchange = setup_.symmetry.exchange;
+  const std::size_t original = exchange.original(a);
+  if (!adapts() || (original != exchange.original(gap.first) && original != exchange.original(gap.second))) return 0;
+  return std::min(setup_.settings.order, 2 * static_cast<int>(std::ceil(std::min(gap.degree(), 1e3) / 2.0)));
+}
+
+int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
+  const int enough = resolution.order_for(truncation_target(), order(a), order(a) + 8);
+  return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
+}
+
+/// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
+void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
+  try {
+    change_space(a, enough, state_.vesicles[a].quadrature_level);
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(fmt::format(
+        "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
+        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(), enough, error.what()));
+  }
+}
+
+/// @returns whether any was too low
+bool Evolution::raise_orders_for(const State& reached) {
+  bool raised = false;
+  const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
+  for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
+    if (setup_.symmetry.exchange.is_image(a)) continue;
+    const Resolution found = resolution(reached, a);
+    const int of_gap = order_of_gap(gap, a);
+    if (resolves(found, a) && order(a) >= of_gap) continue;
+    raise_order(a, found, std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap));
+    raised = true;
+  }
+  return raised;
+}
+
+void Evolution::lower_order_if_idle(std::size_t a) {
+  const int lowest = std::max(lowest_order(), order_of_gap(gap_, a));
+  if (!adapts() || order(a) <= lowest) return;
+  const int enough =
+      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(), lowest, order(a));
+  if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
+}
+
+void Evolution::economise() {
+  if (state_.step % thresholds::economy_interval != 0) return;
+  for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
+    if (setup_.symmetry.exchange.is_image(a)) continue;
+    for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
+      try {
+        (this->*economy)(a);
+      } catch (const ConvergenceError&) {
+        // What cannot be had for less goes on as it is.
+      }
+    }
+  }
+}
+
+}  // namespace vehd

@@ -1,0 +1,102 @@
+#include <cmath>
+#include <limits>
+
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evaluation/charge_difference.hpp"
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/first_step.hpp"
+#include "bie/stepping/state/exchange.hpp"
+#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/thresholds.hpp"
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+
+std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& start) const {
+  std::vector<int> orders;
+  for (const StartMembrane& membrane : start) {
+    if (!adapts()) {
+      orders.push_back(setup_.settings.order);
+      continue;
+    }
+    const Matrix& position = membrane.position;
+    const Vector& potential = membrane.potential.given;
+    VesicleState shape;
+    shape.position = position;
+    shape.material = membrane.material;
+    for_each_property(shape.material, [&](Vector& property) {
+      property = resize_order(Matrix(property), order_of(position.rows())).col(0);
+    });
+    if (potential.size() > 0) shape.transmembrane_potential = resize_order(potential, order_of(position.rows()));
+    // Exact for a sphere, and only a scale.
+    shape.reference_area = position.bottomRows(position.rows() - 1).squaredNorm();
+    orders.push_back(
+        Resolution(setup_.model, shape).order_for(truncation_target(), lowest_order(), setup_.settings.order));
+  }
+  return orders;
+}
+
+/// Starts anew at these degrees. Where that cannot be solved for, or is not needed, everything stays: a higher degree
+/// that cannot be had now may be asked for again by a step. @returns whether it has
+bool Evolution::restart_at(const std::vector<int>& orders,
+                           const std::function<bool(const Evaluation& former)>& is_needed) {
+  const Discretisation discretisation = discretisation_;
+  const State state = state_;
+  const Evaluation evaluation = std::move(evaluation_);
+  try {
+    start_at(orders, start_);
+    evaluation_ = {};
+    arrive(state_);
+    if (is_needed(evaluation)) return true;
+  } catch (const ConvergenceError&) {
+  }
+  discretisation_ = discretisation;
+  state_ = state;
+  evaluation_ = evaluation;
+  return false;
+}
+
+/// Of a start whose charge, which moves V_m, needs more than its shape and V_m do: a spectrum that is cut too early
+/// says little of how many degrees more. @returns whether any rose
+bool Evolution::raise_orders_for_charge() {
+  std::vector<int> orders;
+  bool raised = false;
+  for (std::size_t a = 0; a < start_.size(); ++a) {
+    orders.push_back(order(a));
+    if (!adapts() || !setup_.model.electric || order(a) >= setup_.settings.order) continue;
+    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
+    raised = true;
+  }
+  return raised && restart_at(orders, [this](const Evaluation& former) {
+           return charge_difference(setup_.model, discretisation_, former, evaluation_) > truncation_target();
+         });
+}
+
+/// Of a start that is compressed: what is cut off grows, and no later degree brings it back. @returns whether any rose
+bool Evolution::raise_orders_for_growth() {
+  if (start_.empty()) return false;
+  expect_growth(std::numeric_limits<double>::infinity());
+  std::vector<int> orders;
+  bool raised = false;
+  for (std::size_t a = 0; a < start_.size(); ++a) {
+    orders.push_back(order(a));
+    const Resolution found = resolution(state_, a);
+    if (resolves(found, a)) continue;
+    orders[a] = raised_order(found, a);
+    raised = true;
+  }
+  return raised &&
+         restart_at(with_images(setup_.symmetry.exchange, std::move(orders)), [](const Evaluation&) { return true; });
+}
+
+void Evolution::evaluate_start() {
+  arrive(state_);
+  while (raise_orders_for_charge()) {
+  }
+  while (raise_orders_for_growth()) {
+  }
+  start_.clear();
+  if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);
+}
+
+}  // namespace vehd

@@ -1,0 +1,188 @@
+#include "meshes/box_map.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "meshes/surface_samples.hpp"
+
+namespace vehd::meshes {
+namespace {
+
+/// Angle on the cube over a coordinate of a face: g = tan(π v/4).
+constexpr double kAngle = 0.25 * std::numbers::pi;
+
+/// Ends of points along the columns of `axes`.
+struct Extent {
+  Point low, high;
+};
+Extent extent_along(const Matrix3& axes, const Eigen::Matrix3Xd& points) {
+  const Eigen::Matrix3Xd along = axes.transpose() * points;
+  return {along.rowwise().minCoeff(), along.rowwise().maxCoeff()};
+}
+
+/// Derivatives of u/|u|.
+template <typename Slopes>
+Slopes unit_slopes(const Point& u, const Slopes& slopes) {
+  const Point unit = u.normalized();
+  return (slopes - unit * (unit.transpose() * slopes)) / u.norm();
+}
+
+}  // namespace
+
+/// The third axis is the normal of the plane; the others follow what both shapes are stretched along across it, or, if
+/// that is nothing, the coordinate axis that lies most across.
+Matrix3 BoxMap::axes_along(const Point& normal, const std::array<FrozenShape, 2>& shapes) {
+  constexpr double kMarked = 1.02;
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  Matrix3 axes;
+  axes.col(2) = normal;
+  axes.col(0) = (Point::Unit(least) - normal[least] * normal).normalized();
+  axes.col(1) = normal.cross(axes.col(0));
+  Matrix3 stretch = Matrix3::Zero();
+  for (const FrozenShape& shape : shapes) stretch += shape.affine_part() * shape.affine_part().transpose();
+  const Eigen::Matrix<double, 3, 2> across = axes.leftCols<2>();
+  const Eigen::Matrix2d across_stretch = across.transpose() * stretch * across;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(across_stretch);
+  if (principal.eigenvalues()[1] > kMarked * principal.eigenvalues()[0]) {
+    axes.col(0) = across * principal.eigenvectors().col(1);
+    axes.col(1) = normal.cross(axes.col(0));
+  }
+  return axes;
+}
+
+/// As large as every ray through the membrane leaves room for.
+Matrix3 BoxMap::core_of(const Box& box, const Matrix3& widths, double fraction) {
+  const Eigen::Matrix3Xd points = surface_samples(box.shape).colwise() - box.shape.centroid();
+  const Eigen::Matrix3Xd scaled = widths.inverse() * points;
+  return fraction * scaled.cwiseAbs().colwise().maxCoeff().minCoeff() * widths;
+}
+
+BoxMap::BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& options)
+    : centre_(Point::Zero()), outer_radius_(options.outer_radius), far_radius_(options.far_radius) {
+  const SeparatingPlane plane = separating_plane(shapes[0], shapes[1]);
+  const Matrix3 axes = axes_along(plane.normal, shapes);
+  std::array<Extent, 2> extents;
+  for (int k = 0; k < 2; ++k) extents[k] = extent_along(axes, surface_samples(shapes[k]));
+  const double margin = options.margin * std::max(shapes[0].radius(), shapes[1].radius());
+  const Point low = extents[0].low.cwiseMin(extents[1].low).array() - margin;
+  const Point high = extents[0].high.cwiseMax(extents[1].high).array() + margin;
+  centre_ = axes * (0.5 * (low + high));
+  for (int k = 0; k < 2; ++k) {
+    Point box_low = low, box_high = high;
+    (k == 0 ? box_high : box_low)[2] = plane.offset;
+    const Matrix3 widths = axes * (0.5 * (extents[k].high - extents[k].low)).asDiagonal();
+    Box box{shapes[k], shapes[k].affine_part().inverse() * widths, Matrix3::Zero(), axes * (0.5 * (box_low + box_high)),
+            axes * (0.5 * (box_high - box_low)).asDiagonal()};
+    if (!(box.to_direction.determinant() > 0.0)) {
+      throw MeshError(
+          fmt::format("a membrane whose best ellipsoid is turned inside out, about ({:.6g}, {:.6g}, {:.6g})",
+                      box.shape.centroid().x(), box.shape.centroid().y(), box.shape.centroid().z()));
+    }
+    box.core = core_of(box, widths, options.core_fraction);
+    boxes_.push_back(std::move(box));
+  }
+  const double reach = 0.5 * (high - low).norm();
+  if (!(outer_radius_ > reach)) {
+    throw MeshError(fmt::format(
+        "outer radius {:.6g} does not hold the boxes about the two membranes, which reach {:.6g} from their middle "
+        "({:.6g}, {:.6g}, {:.6g})",
+        outer_radius_, reach, centre_.x(), centre_.y(), centre_.z()));
+  }
+}
+
+BoxMap::CubePoint BoxMap::cube_point(const BoxBlock& block, const Point& at) {
+  const int first = (block.axis + (block.sign > 0.0 ? 1 : 2)) % 3, second = 3 - block.axis - first;
+  CubePoint result{block.sign * Point::Unit(block.axis), block.sign * Point::Unit(block.axis), Slopes::Zero(),
+                   Slopes::Zero()};
+  for (int k = 0; k < 2; ++k) {
+    const int axis = k == 0 ? first : second;
+    result.v[axis] = at[k];
+    result.g[axis] = std::tan(kAngle * at[k]);
+    result.v_slopes(axis, k) = 1.0;
+    result.g_slopes(axis, k) = kAngle * (1.0 + result.g[axis] * result.g[axis]);
+  }
+  return result;
+}
+
+Point BoxMap::direction(const BoxBlock& block, const Point& at) const {
+  return (boxes_[block.vesicle].to_direction * cube_point(block, at).g).normalized();
+}
+
+BoxMap::SurfacePoint BoxMap::on_core(const BoxBlock& block, const CubePoint& point) const {
+  const Box& box = boxes_[block.vesicle];
+  return {box.shape.centroid() + box.core * point.v, box.core * point.v_slopes};
+}
+
+BoxMap::SurfacePoint BoxMap::on_membrane(const BoxBlock& block, const CubePoint& point) const {
+  const Box& box = boxes_[block.vesicle];
+  const Point u = box.to_direction * point.g, r = u.normalized();
+  return {box.shape.position(r), box.shape.tangent_map(r) * unit_slopes(u, Slopes(box.to_direction * point.g_slopes))};
+}
+
+BoxMap::SurfacePoint BoxMap::on_box(const BoxBlock& block, const CubePoint& point) const {
+  const Box& box = boxes_[block.vesicle];
+  return {box.middle + box.half * point.g, box.half * point.g_slopes};
+}
+
+BoxMap::SurfacePoint BoxMap::on_sphere(const SurfacePoint& on_box, double radius) const {
+  const Point away = on_box.at - centre_;
+  return {centre_ + radius * away.normalized(), radius * unit_slopes(away, on_box.slopes)};
+}
+
+Point BoxMap::place(const BoxBlock& block, const Point& at, const Point& on_membrane) const {
+  const CubePoint point = cube_point(block, at);
+  const double t = at.z();
+  if (block.layer == BoxBlock::Layer::blend) return (1.0 - t) * on_core(block, point).at + t * on_membrane;
+  const SurfacePoint box = on_box(block, point);
+  if (block.layer == BoxBlock::Layer::box) return (1.0 - t) * on_membrane + t * box.at;
+  const Point sphere = on_sphere(box, outer_radius_).at;
+  if (t <= 1.0) return (1.0 - t) * box.at + t * sphere;
+  return (2.0 - t) * sphere + (t - 1.0) * on_sphere(box, far_radius_).at;
+}
+
+Point BoxMap::position(const BoxBlock& block, const Point& at) const { return positions(block, at).col(0); }
+
+Eigen::Matrix3Xd BoxMap::positions(const BoxBlock& block, const Eigen::Matrix3Xd& at) const {
+  const Box& box = boxes_[block.vesicle];
+  if (block.layer == BoxBlock::Layer::core) return (box.core * at).colwise() + box.shape.centroid();
+  Eigen::Matrix3Xd result(3, at.cols());
+  if (block.layer != BoxBlock::Layer::outer) {
+    for (Eigen::Index i = 0; i < at.cols(); ++i) result.col(i) = direction(block, at.col(i));
+    result = box.shape.positions(result);
+  }
+  for (Eigen::Index i = 0; i < at.cols(); ++i) result.col(i) = place(block, at.col(i), result.col(i));
+  return result;
+}
+
+Matrix3 BoxMap::derivative(const BoxBlock& block, const Point& at) const {
+  if (block.layer == BoxBlock::Layer::core) return boxes_[block.vesicle].core;
+  const CubePoint point = cube_point(block, at);
+  double t = at.z();
+  SurfacePoint from, to;
+  if (block.layer == BoxBlock::Layer::blend) {
+    from = on_core(block, point);
+    to = on_membrane(block, point);
+  } else if (block.layer == BoxBlock::Layer::box) {
+    from = on_membrane(block, point);
+    to = on_box(block, point);
+  } else {
+    const SurfacePoint box = on_box(block, point), sphere = on_sphere(box, outer_radius_);
+    const bool beyond = t > 1.0;
+    from = beyond ? sphere : box;
+    to = beyond ? on_sphere(box, far_radius_) : sphere;
+    if (beyond) t -= 1.0;
+  }
+  Matrix3 result;
+  result << (1.0 - t) * from.slopes + t * to.slopes, to.at - from.at;
+  return result;
+}
+
+}  // namespace vehd::meshes

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+
+#include "meshes/frozen_shape.hpp"
+#include "meshes/separating_plane.hpp"
+#include "meshes/types.hpp"
+
+namespace vehd::meshes {
+
+/// One of the 36 blocks of a mesh about two membranes: a core, 6 blend blocks and 6 box blocks for each of them, and 10
+/// blocks from both boxes to the outer sphere.
+struct BoxBlock {
+  enum class Layer { core, blend, box, outer };
+  Layer layer;
+  int vesicle;  ///< 0 or 1; of an outer block that whose box it stands on
+  int axis;     ///< the axis that cuts the block's face of the box; means nothing in the core
+  double sign;  ///< +1 or −1: on which side
+};
+
+/// How the blocks of a mesh about two membranes lie.
+struct BoxOptions {
+  double core_fraction = 0.6;  ///< half-width of the cores over the width that the shapes leave them
+  double margin = 0.6;         ///< of the boxes about their membranes, over the larger radius
+  double outer_radius = 8.0;   ///< R, about the middle of both boxes
+  double far_radius = 0.0;     ///< of a second sphere that a further layer of cells ends on; 0: none
+};
+
+/// Blocks about two membranes on either side of a plane.
+///
+/// Each membrane has a box; the boxes share a face, which lies in the plane. A face of a box, with its coordinates v in
+/// [−1, 1]², g_k = tan(π v_k/4) and g = ±1 along its axis, belongs to the directions r̂ = A g/|A g| with A = M⁻¹ U W: of
+/// an ellipsoid x = x_0 + M r̂ exactly the part that lies before it, seen from its centre; U has the axes of the boxes
+/// and W the half-widths of the shape along them. Straight lines lead from the core c + K v to x(r̂), on to the point of
+/// the box with the coordinates g, and from there, away from the middle of both boxes, to the outer sphere.
+class BoxMap {
+ public:
+  /// @throws MeshError if no plane separates the shapes, or if the outer sphere does not hold the boxes
+  BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& options);
+
+  /// Middle of both boxes.
+  [[nodiscard]] const Point& centre() const { return centre_; }
+
+  /// @param at  across the block in [−1, 1] twice, the third outwards in [0, 1], of an outer block in [0, 2] if there
+  /// is
+  ///            a far sphere, from 1 on beyond the near one; in a core all three in [−1, 1]. Right-handed
+  [[nodiscard]] Point position(const BoxBlock& block, const Point& at) const;
+  /// Many columns at once.
+  [[nodiscard]] Eigen::Matrix3Xd positions(const BoxBlock& block, const Eigen::Matrix3Xd& at) const;
+  /// ∂ position/∂at.
+  [[nodiscard]] Matrix3 derivative(const BoxBlock& block, const Point& at) const;
+  /// r̂ of a place outside the cores.
+  [[nodiscard]] Point direction(const BoxBlock& block, const Point& at) const;
+
+ private:
+  using Slopes = Eigen::Matrix<double, 3, 2>;
+  /// A point of a surface that blocks lie between, with its derivatives by the coordinates across.
+  struct SurfacePoint {
+    Point at;
+    Slopes slopes;
+  };
+  /// v or g of a place, which is to be understood on the cube.
+  struct CubePoint {
+    Point v, g;
+    Slopes v_slopes, g_slopes;
+  };
+  static CubePoint cube_point(const BoxBlock& block, const Point& at);
+
+  [[nodiscard]] SurfacePoint on_core(const BoxBlock& block, const CubePoint& point) const;
+  [[nodiscard]] SurfacePoint on_membrane(const BoxBlock& block, const CubePoint& point) const;
+  [[nodiscard]] SurfacePoint on_box(const BoxBlock& block, const CubePoint& point) const;
+  [[nodiscard]] SurfacePoint on_sphere(const SurfacePoint& on_box, double radius) const;
+  [[nodiscard]] Point place(const BoxBlock& block, const Point& at, const Point& on_membrane) const;
+
+  /// What belongs to one vesicle.
+  struct Box {
+    FrozenShape shape;
+    Matrix3 to_direction;  // A
+    Matrix3 core;          // K
+    Point middle;          // of the box
+    Matrix3 half;          // from g to the box about its middle
+  };
+  static Matrix3 axes_along(const Point& normal, const std::array<FrozenShape, 2>& shapes);
+  static Matrix3 core_of(const Box& box, const Matrix3& widths, double fraction);
+
+  std::vector<Box> boxes_;
+  Point centre_;
+  double outer_radius_, far_radius_;
+};
+
+}  // namespace vehd::meshes

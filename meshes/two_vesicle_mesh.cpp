@@ -1,0 +1,200 @@
+#include "meshes/two_vesicle_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "meshes/breaks.hpp"
+#include "meshes/mesh_quality.hpp"
+
+namespace vehd::meshes {
+namespace {
+
+using BoxLayer = BoxBlock::Layer;
+
+class BoxMeshBuilder {
+ public:
+  BoxMeshBuilder(const TwoVesicleOptions& options, const BoxMap& map)
+      : n_(options.cells_per_edge), map_(map), across_(even_breaks(n_)) {
+    topology.shape = CellShape::hexahedron;
+    std::vector<double> outer = layer_breaks(options.outer_layers, options.outer_growth);
+    if (options.boxes.far_radius > 0.0) outer.push_back(2.0);
+    int level = 0;
+    for (const auto& [layer, borders] : {std::pair{BoxLayer::blend, layer_breaks(options.blend_layers, 1.0)},
+                                         std::pair{BoxLayer::box, layer_breaks(options.box_layers, options.box_growth)},
+                                         std::pair{BoxLayer::outer, outer}}) {
+      const int first_level = level;
+      if (layer == BoxLayer::outer) first_outer_level_ = level;
+      level += static_cast<int>(borders.size()) - 1;
+      shells_.push_back({layer, first_level, borders});
+    }
+  }
+
+  MeshTopology topology;
+  std::vector<TwoVesicleMesh::CellPlace> places;
+
+  void build() {
+    for (int vesicle = 0; vesicle < 2; ++vesicle) {
+      add_core(vesicle);
+      for (const Shell& shell : shells_) {
+        for (int axis = 0; axis < 3; ++axis) {
+          for (const double sign : {-1.0, 1.0}) {
+            // The face in which the boxes meet has nothing beyond it.
+            const bool shared = axis == 2 && (sign > 0.0) == (vesicle == 0);
+            if (shell.layer != BoxLayer::outer || !shared) add_shell({shell.layer, vesicle, axis, sign}, shell);
+          }
+        }
+      }
+    }
+    find_interface(topology);
+    split_interface(topology);
+  }
+
+ private:
+  /// Layers of one kind of block; levels number their borders from the core outwards.
+  struct Shell {
+    BoxLayer layer;
+    int first_level;
+    std::vector<double> borders;
+  };
+  /// Vesicle, level and place on the cube, from −n to n: where a vertex is, the same for all blocks that meet there.
+  using Key = std::array<int, 5>;
+
+  void add_core(int vesicle) {
+    for (int k = 0; k < n_; ++k) {
+      for (int j = 0; j < n_; ++j) {
+        for (int i = 0; i < n_; ++i) {
+          add_cell({BoxLayer::core, vesicle, 0, 1.0}, {i, j, k}, across_, [&](const std::array<int, 3>& corner) {
+            return Key{vesicle, 0, 2 * corner[0] - n_, 2 * corner[1] - n_, 2 * corner[2] - n_};
+          });
+        }
+      }
+    }
+  }
+
+  void add_shell(const BoxBlock& block, const Shell& shell) {
+    const int first = (block.axis + (block.sign > 0.0 ? 1 : 2)) % 3, second = 3 - block.axis - first;
+    const auto key = [&](const std::array<int, 3>& corner) {
+      Key result{block.vesicle, shell.first_level + corner[2], 0, 0, 0};
+      result[2 + block.axis] = block.sign > 0.0 ? n_ : -n_;
+      result[2 + first] = 2 * corner[0] - n_;
+      result[2 + second] = 2 * corner[1] - n_;
+      // What both boxes have is counted to the first.
+      if (result[1] >= first_outer_level_ && block.vesicle == 1 && result[4] == -n_) {
+        result[0] = 0;
+        result[4] = n_;
+      }
+      return result;
+    };
+    const int layers = static_cast<int>(shell.borders.size()) - 1;
+    for (int k = 0; k < layers; ++k) {
+      for (int j = 0; j < n_; ++j) {
+        for (int i = 0; i < n_; ++i) {
+          MeshCell& cell = add_cell(block, {i, j, k}, shell.borders, key);
+          constexpr int kInnerFace = 4, kOuterFace = 5;
+          if (shell.layer == BoxLayer::box && k == 0) cell.faces[kInnerFace] = FaceKind::membrane;
+          if (shell.layer == BoxLayer::blend && k == layers - 1) cell.faces[kOuterFace] = FaceKind::membrane;
+          if (shell.layer == BoxLayer::outer && k == layers - 1) cell.faces[kOuterFace] = FaceKind::outer_sphere;
+        }
+      }
+    }
+  }
+
+  template <typename KeyOf>
+  MeshCell& add_cell(const BoxBlock& block, const std::array<int, 3>& index, const std::vector<double>& third,
+                     const KeyOf& key_of) {
+    const auto corner_at = [&](const std::array<int, 3>& corner) {
+      return Point(across_[corner[0]], across_[corner[1]], third[corner[2]]);
+    };
+    MeshCell cell;
+    cell.region = block.layer == BoxLayer::core || block.layer == BoxLayer::blend ? Region::inside : Region::outside;
+    cell.vesicle = block.vesicle;
+    cell.faces.fill(FaceKind::interior);
+    for (int v = 0; v < 8; ++v) {
+      const std::array<int, 3> corner{index[0] + (v & 1), index[1] + (v >> 1 & 1), index[2] + (v >> 2 & 1)};
+      const auto [place, fresh] = numbers_.try_emplace(key_of(corner), static_cast<int>(topology.vertices.size()));
+      if (fresh) topology.vertices.push_back(map_.position(block, corner_at(corner)));
+      cell.vertices[v] = place->second;
+    }
+    places.push_back({block, corner_at(index), corner_at({index[0] + 1, index[1] + 1, index[2] + 1})});
+    topology.cells.push_back(cell);
+    return topology.cells.back();
+  }
+
+  int n_;
+  const BoxMap& map_;
+  std::vector<double> across_;
+  std::vector<Shell> shells_;
+  int first_outer_level_ = 0;
+  std::map<Key, int> numbers_;
+};
+
+void require_two(bool holds, const char* what, double value, const char* accepted) {
+  if (!holds) {
+    throw std::invalid_argument(fmt::format("mesh of two vesicles: {} is {}, but must be {}", what, value, accepted));
+  }
+}
+
+void require_options(const TwoVesicleOptions& o) {
+  require_two(o.cells_per_edge >= 1, "cells_per_edge", o.cells_per_edge, "at least 1");
+  require_two(o.blend_layers >= 1, "blend_layers", o.blend_layers, "at least 1");
+  require_two(o.box_layers >= 1, "box_layers", o.box_layers, "at least 1");
+  require_two(o.outer_layers >= 1, "outer_layers", o.outer_layers, "at least 1");
+  require_two(o.box_growth > 0.0, "box_growth", o.box_growth, "positive");
+  require_two(o.outer_growth > 0.0, "outer_growth", o.outer_growth, "positive");
+  require_two(o.boxes.core_fraction > 0.0 && o.boxes.core_fraction < 1.0, "core_fraction", o.boxes.core_fraction,
+              "between 0 and 1");
+  require_two(o.boxes.margin > 0.0, "margin", o.boxes.margin, "positive");
+  require_two(o.boxes.far_radius == 0.0 || o.boxes.far_radius > o.boxes.outer_radius, "far_radius", o.boxes.far_radius,
+              "0 or larger than outer_radius");
+}
+
+}  // namespace
+
+TwoVesicleMesh::TwoVesicleMesh(MeshTopology topology, std::vector<CellPlace> places, std::shared_ptr<const BoxMap> map,
+                               double outer_radius)
+    : VolumeMesh(std::move(topology), map->centre(), outer_radius), places_(std::move(places)), map_(std::move(map)) {}
+
+Point TwoVesicleMesh::in_block(int cell, const Point& unit) const {
+  const CellPlace& place = places_[cell];
+  return place.low + unit.cwiseProduct(place.high - place.low);
+}
+
+Point TwoVesicleMesh::physical(int cell, const Point& unit) const {
+  return map_->position(places_[cell].block, in_block(cell, unit));
+}
+
+std::vector<Point> TwoVesicleMesh::physical_points(int cell, const std::vector<Point>& units) const {
+  Eigen::Matrix3Xd points(3, units.size());
+  for (std::size_t i = 0; i < units.size(); ++i) points.col(i) = in_block(cell, units[i]);
+  points = map_->positions(places_[cell].block, points);
+  return {points.colwise().begin(), points.colwise().end()};
+}
+
+Matrix3 TwoVesicleMesh::jacobian(int cell, const Point& unit) const {
+  const CellPlace& place = places_[cell];
+  return map_->derivative(place.block, in_block(cell, unit)) * (place.high - place.low).asDiagonal();
+}
+
+Point TwoVesicleMesh::direction(int cell, const Point& unit) const {
+  if (places_[cell].block.layer == BoxLayer::core) {
+    throw std::logic_error(fmt::format("cell {} lies in a core: no point of it has a direction", cell));
+  }
+  return map_->direction(places_[cell].block, in_block(cell, unit));
+}
+
+TwoVesicleMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const TwoVesicleOptions& options) {
+  require_options(options);
+  auto map = std::make_shared<const BoxMap>(shapes, options.boxes);
+  BoxMeshBuilder builder(options, *map);
+  builder.build();
+  const double radius = options.boxes.far_radius > 0.0 ? options.boxes.far_radius : options.boxes.outer_radius;
+  TwoVesicleMesh mesh(std::move(builder.topology), std::move(builder.places), std::move(map), radius);
+  constexpr int kGaussPoints = 3;
+  require_quality(quality(mesh, {shapes[0], shapes[1]}, kGaussPoints), options.smallest_scaled_jacobian);
+  return mesh;
+}
+
+}  // namespace vehd::meshes

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "meshes/box_map.hpp"
+#include "meshes/volume_mesh.hpp"
+
+namespace vehd::meshes {
+
+/// Cells and radii of a mesh about two membranes.
+struct TwoVesicleOptions {
+  int cells_per_edge = 3;     ///< of each of the 6 blocks that a membrane is divided into; also in the cores
+  int blend_layers = 1;       ///< between core and membrane
+  int box_layers = 2;         ///< between a membrane and its box
+  int outer_layers = 2;       ///< between the boxes and the outer sphere
+  double box_growth = 2.0;    ///< thickness of a layer over that of the one nearer to the membrane
+  double outer_growth = 2.0;  ///< the same between boxes and sphere
+  BoxOptions boxes;           ///< where the blocks lie; a far sphere brings one more layer
+  double smallest_scaled_jacobian = 0.02;  ///< below it an element is too flat
+};
+
+/// Hexahedra in 36 blocks about two membranes (BoxMap). The interface is split. Topology vertices are positions in
+/// space.
+class TwoVesicleMesh final : public VolumeMesh {
+ public:
+  /// The part of a block that a cell fills, in the coordinates of BoxMap.
+  struct CellPlace {
+    BoxBlock block;
+    Point low, high;
+  };
+
+  TwoVesicleMesh(MeshTopology topology, std::vector<CellPlace> places, std::shared_ptr<const BoxMap> map,
+                 double outer_radius);
+
+  [[nodiscard]] Point physical(int cell, const Point& unit) const override;
+  [[nodiscard]] std::vector<Point> physical_points(int cell, const std::vector<Point>& units) const override;
+  [[nodiscard]] Matrix3 jacobian(int cell, const Point& unit) const override;
+  [[nodiscard]] Point direction(int cell, const Point& unit) const override;
+
+ private:
+  [[nodiscard]] Point in_block(int cell, const Point& unit) const;
+
+  std::vector<CellPlace> places_;
+  std::shared_ptr<const BoxMap> map_;
+};
+
+/// @throws MeshError if no plane separates the shapes, if the outer sphere does not hold the boxes about them, or if an
+///         element is inverted or too flat
+/// @throws std::invalid_argument if an option is out of range
+/// Accuracy: membranes and outer sphere where they should be to 1e-13, neighbours meet to 1e-13
+/// (tests/meshes/two_vesicle_mesh_test.cpp)
+TwoVesicleMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const TwoVesicleOptions& options = {});
+
+}  // namespace vehd::meshes

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "bie/comparison/check_input.hpp"
+#include "tests/app/finite_elements.hpp"
+#include "tests/app/reference_run.hpp"
+
+// Whether the check agrees with a run that stands still, and with none of one that is damaged.
+
+using vehd::CheckFields;
+using vehd::FrozenState;
+
+/// What the boundary-integral side hands over.
+struct Numbers {
+  FrozenState frozen;
+  vehd::CheckContents contents;
+  vehd::CheckSamples samples;
+  CheckFields bie, high;
+
+  void solve(const FrozenState& state) {
+    bie = vehd::check_fields(state, contents, {}, 10, samples.points);
+    high = vehd::check_fields(state, contents, {}, 15, samples.points);
+  }
+};
+
+struct Damage {
+  std::string name;
+  std::function<void(Numbers&)> apply;
+  std::string group, row;  ///< one that has to see it
+};
+
+template <typename Values>
+Damage field_by(const std::string& name, Values CheckFields::*field, const std::string& group, const std::string& row) {
+  constexpr double factor = 1.002;
+  return {name,
+          [=](Numbers& numbers) {
+            for (CheckFields* fields : {&numbers.bie, &numbers.high}) fields->*field *= factor;
+          },
+          group, row};
+}
+
+/// One side of the comparison has another coefficient, or exchanges the sides.
+inline Damage state_with(const std::string& name, const std::function<void(FrozenState&)>& change,
+                         const std::string& group, const std::string& row) {
+  return {name,
+          [=](Numbers& numbers) {
+            FrozenState wrong = numbers.frozen;
+            change(wrong);
+            numbers.solve(wrong);
+          },
+          group, row};
+}
+
+/// Rows of both groups agree, and of each damage the row that has to see it does not.
+inline void check_and_damage(const FinishedRun& run, const std::string& time, const std::vector<const char*>& fields,
+                             const std::vector<const char*>& stored, const std::vector<Damage>& damages) {
+  const std::string file = run.output + "/run.h5";
+  Numbers right;
+  right.frozen = vehd::read_frozen_state({file, {}}, time);
+  right.contents = vehd::check_contents(right.frozen);
+  right.samples = vehd::check_samples(right.frozen.state.vesicles.front().position);
+  right.solve(right.frozen);
+  const auto written = [&](const std::string& name, const Numbers& n) {
+    vehd::write_check_input(run.directory / name, {n.frozen, n.contents, {}, n.samples, n.bie, n.high});
+    return run.directory / name;
+  };
+  std::vector<std::string> command{
+      finite_element_program().string(), "check",  written("right.h5", right),   "--quick", "-o",
+      run.directory / "elements",        "--json", run.directory / "result.json"};
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    Numbers wrong = right;
+    damages[i].apply(wrong);
+    command.insert(command.end(), {"--further", written("wrong" + std::to_string(i) + ".h5", wrong)});
+  }
+  const ProgramResult program = run_command(command);
+  BOOST_TEST(program.exit_code == 0, program.output + program.errors);
+  const nlohmann::json json = json_of(run.directory / "result.json");
+  for (const char* row : fields) {
+    BOOST_TEST(json["fields"][row]["verdict"] == "agree", row);
+  }
+  for (const char* row : stored) {
+    BOOST_TEST(json["stored"][row]["verdict"] == "agree", row);
+  }
+  BOOST_TEST_REQUIRE(json["further"].size() == damages.size());
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    const Damage& damage = damages[i];
+    BOOST_TEST(json["further"][i][damage.group][damage.row]["verdict"] == "does not",
+               damage.name << " in " << damage.row << ": " << json["further"][i][damage.group][damage.row]);
+  }
+}
