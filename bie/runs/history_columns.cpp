@@ -25,6 +25,8 @@ double of_row(const HistoryRow& row) {
 
 using D = VesicleDiagnostics;
 
+double wrinkle_growth(const HistoryRow& row) { return row.step.dt * row.diagnostics.vesicles.front().wrinkling_rate; }
+
 const Rheology& rheology_of(const HistoryRow& row) { return row.diagnostics.vesicles.front().rheology; }
 
 template <auto vector, int i>
@@ -219,7 +221,6 @@ std::size_t first_columns(HistoryKind kind) {
 
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
   static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
-  if (!kind.poration && !kind.by_place) return *usual.at(kind.rows);
   // Without poration and with each of its models, without places and with them.
   using OfRows = std::array<std::vector<HistoryColumn>, usual.size()>;
   static const auto further = [] {
@@ -235,6 +236,9 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
           // What each membrane of several has is told of each.
           if (model > 0 && !(reacts && of_whole)) append(poration_columns(static_cast<PorationModel>(model - 1)));
           if (places > 0 && !of_whole) append(place_columns());
+          // Histories of earlier versions end before it.
+          if (rows != HistoryKind::of_each)
+            columns.push_back({"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method});
         }
       }
     }

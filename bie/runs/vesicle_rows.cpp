@@ -22,7 +22,7 @@ void add(VesicleDiagnostics& all, const VesicleDiagnostics& one) {
   for (const auto worst :
        {&VesicleDiagnostics::Vm_max, &VesicleDiagnostics::area_drift, &VesicleDiagnostics::volume_drift,
         &VesicleDiagnostics::strain_max, &VesicleDiagnostics::spectrum_tail, &VesicleDiagnostics::wrinkle_degree,
-        &VesicleDiagnostics::quadrature_error}) {
+        &VesicleDiagnostics::wrinkling_rate, &VesicleDiagnostics::quadrature_error}) {
     take_larger(all.*worst, one.*worst);
   }
   all.tension_max = std::max(all.tension_max, one.tension_max);

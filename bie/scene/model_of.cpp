@@ -160,7 +160,9 @@ double eighth_of_period(const Scene& scene) {
 StepControl step_control_of(const Scene& scene) {
   const NumericsScene& numerics = scene.numerics;
   if (!numerics.tolerance) return fixed_steps(*numerics.dt);
-  constexpr double kSmallestFraction = 1e-9;
+  // Smaller steps would not change the time at the end. A membrane that charges within nanoseconds may be followed for
+  // hours.
+  constexpr double kSmallestFraction = 1e-15;
   const double longest = std::max(numerics.end_time, std::numeric_limits<double>::min());
   return {std::min({numerics.dt.value_or(longest), longest, eighth_of_period(scene)}), kSmallestFraction * longest,
           *numerics.tolerance};

@@ -125,6 +125,19 @@ BOOST_FIXTURE_TEST_CASE(numbers_are_those_of_the_experiment, SiRun) {
   BOOST_TEST(file.number_attribute("/snapshots/000000/x", "scale") == radius, boost::test_tools::tolerance(1e-12));
 }
 
+// Its first step is 3e-13 of it.
+BOOST_FIXTURE_TEST_CASE(a_membrane_that_charges_in_nanoseconds_may_be_followed_for_an_hour, SiRun) {
+  const std::string scene =
+      "[units]\nlength = \"1 um\"\n[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 2]\n"
+      "[membrane]\nbending_modulus = \"1e-19 J\"\ncapacitance = \"10 mF/m^2\"\n"
+      "[fluid]\nviscosity = \"1 mPa s\"\n"
+      "[electric]\nfield = [0, 0, \"10 V/m\"]\nconductivity_in = \"3 S/m\"\nconductivity_out = \"1 S/m\"\n"
+      "permittivity = \"80 eps0\"\n[numerics]\ndegree = 16\ntolerance = 1e-2\nend_time = \"3600 s\"\n";
+  const vehd::HistoryTable history(run("hour", scene) + "/history.csv");
+  BOOST_TEST(history.column("dt")[1] < 3600.0 * 1e-9);
+  BOOST_TEST(history.column("Vm_pole_plus").back() != 0.0);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_dimensionless_run_names_no_unit, SiRun) {
   const std::string output = run("run", quick_scene("0.5"));
   BOOST_TEST(json_of(output + "/summary.json").at("units").at("time").get<std::string>() == "1");

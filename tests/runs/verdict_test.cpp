@@ -81,6 +81,27 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) == "truncation above 0.001 since time 1 (worst 0.1)");
 }
 
+// A hundredfold is ln 100 = 4.6.
+BOOST_AUTO_TEST_CASE(wrinkles_that_had_the_time_to_grow_unseen_are_reported) {
+  const auto compressed = [](double time, double growth, double degree = 20.0) {
+    vehd::HistoryRow row = row_at(time, 0, 0);
+    row.order = 10;
+    row.diagnostics.vesicles[0].wrinkle_degree = degree;
+    row.step.dt = 0.5;
+    row.diagnostics.vesicles[0].wrinkling_rate = 2.0 * growth;
+    return row;
+  };
+  BOOST_TEST(judged({compressed(0, 5), compressed(1, 3)}) ==
+             "compressed since time 0: wrinkles of wavelength 0.31 radii grow fastest, the finest degree 10 has 0.63, "
+             "and what it has may have grown by 3e+03");
+  BOOST_TEST(judged({compressed(0, 2), compressed(1, 2)}) == "trustworthy");
+  // Seen, and hence followed by the tolerance.
+  BOOST_TEST(judged({compressed(0, 5, 9.0), compressed(1, 3, 9.0)}) == "trustworthy");
+  // What grew before the membrane was stretched is gone.
+  BOOST_TEST(judged({compressed(0, 2), compressed(1, 2), compressed(2, 0, 0.0), compressed(3, 2), compressed(4, 2)}) ==
+             "trustworthy");
+}
+
 BOOST_AUTO_TEST_CASE(run_that_stopped_says_so_and_why) {
   const std::vector<vehd::HistoryRow> good = {row_at(0, 0, 0), row_at(1, 0, 0)};
   BOOST_TEST(judged(good, {}, "no acceptable step") == "stopped: no acceptable step");

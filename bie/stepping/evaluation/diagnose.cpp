@@ -221,7 +221,10 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
     d.tension_integral = tension.dot(s.quadrature);
     d.tension_max = maximum(fine.grid(), fine.synthesize_hessian(fields.tension), 0, fields.tension, 1.0);
     // The tension of a sphere is known up to its mean.
-    if (!solution.is_sphere) d.wrinkle_degree = wrinkle_degree(model.flow, tension.minCoeff(), membrane.radius);
+    if (!solution.is_sphere) {
+      d.wrinkle_degree = wrinkle_degree(model.flow, tension.minCoeff(), membrane.radius);
+      d.wrinkling_rate = wrinkling_rate(model.flow, d.tension_integral / d.area, membrane.radius, fine.order());
+    }
   }
   if (fields.potential_amplitude.size() > 0) {
     add_amplitudes(model, fine, s, vesicle, fields.potential_amplitude, d);

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/evaluation/wrinkling.hpp"
 #include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
@@ -27,10 +26,10 @@ double normal_speed(const SphereTransform& fine, const Matrix& position, const M
 }
 
 /// σ T of one vesicle.
-double exponent_of(const FlowParameters& flow, const MembraneSpace& space, const VesicleState& vesicle,
-                   const VesicleFields& fields, const VesicleDiagnostics& diagnostics, double time_left) {
+double exponent_of(const MembraneSpace& space, const VesicleState& vesicle, const VesicleFields& fields,
+                   const VesicleDiagnostics& diagnostics, double time_left) {
   const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
-  const double rate = wrinkling_rate(flow, diagnostics.tension_integral / diagnostics.area, radius, space.order());
+  const double rate = diagnostics.wrinkling_rate;
   if (rate <= 0.0) return 0.0;
   const double speed = normal_speed(space.fine_transform(), vesicle.position, fields.velocity);
   return rate * (speed * time_left > radius ? radius / speed : time_left);
@@ -39,16 +38,15 @@ double exponent_of(const FlowParameters& flow, const MembraneSpace& space, const
 }  // namespace
 
 double expected_growth(const Model& model, const Discretisation& discretisation, const State& state,
-                       const Evaluation& evaluation, double until) {
+                       const Evaluation& evaluation, double until, int highest_degree) {
   const double time_left = until - state.time;
   if (!model.mobile || time_left <= 0.0) return 1.0;
   double exponent = 0.0;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    // The tension of a sphere is known up to its mean.
-    if (!model.vesicles[a].inextensible || evaluation.vesicles[a].is_sphere) continue;
-    exponent = std::max(
-        exponent, exponent_of(flow_parameters(model, model.vesicles[a]), discretisation.vesicle(a), state.vesicles[a],
-                              evaluation.fields.vesicles[a], evaluation.diagnostics.vesicles[a], time_left));
+    const VesicleDiagnostics& diagnostics = evaluation.diagnostics.vesicles[a];
+    if (diagnostics.wrinkle_degree > highest_degree) continue;
+    exponent = std::max(exponent, exponent_of(discretisation.vesicle(a), state.vesicles[a],
+                                              evaluation.fields.vesicles[a], diagnostics, time_left));
   }
   return std::exp(std::min(exponent, std::log(thresholds::most_growth)));
 }

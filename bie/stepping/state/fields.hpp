@@ -58,6 +58,7 @@ struct VesicleDiagnostics {
   double strain_max = 0;                    ///< max |W/W_ref − 1|
   double spectrum_tail = 0;                 ///< see docs/conventions.md
   double wrinkle_degree = 0;                ///< see wrinkle_degree()
+  double wrinkling_rate = 0;                ///< see wrinkling_rate(), of the mean tension and the degrees there are
   double quadrature_error = 0;              ///< LayerCheck::error
   /// The layers are less exact than NumericalSettings::quadrature_tolerance, and finer quadrature would help.
   bool quadrature_is_coarse = false;

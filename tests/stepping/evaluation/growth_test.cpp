@@ -34,8 +34,8 @@ struct CompressedStart {
     Instruments instruments;
     evaluation = evaluate(model, discretisation, state, instruments);
   }
-  [[nodiscard]] double growth(const Model& model, double until) const {
-    return expected_growth(model, discretisation, state, evaluation, until);
+  [[nodiscard]] double growth(const Model& model, double until, int highest_degree = 64) const {
+    return expected_growth(model, discretisation, state, evaluation, until, highest_degree);
   }
 };
 
@@ -67,6 +67,14 @@ BOOST_AUTO_TEST_CASE(nothing_grows_on_membranes_that_are_stretched_or_frozen) {
   Model frozen = compressed();
   frozen.mobile = false;
   BOOST_TEST(CompressedStart(frozen).growth(frozen, 1e3) == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(of_wrinkles_finer_than_every_degree_nothing_is_expected) {
+  const Model model = compressed();
+  const CompressedStart found(model);
+  const double finest = found.evaluation.diagnostics.vesicles[0].wrinkle_degree;
+  BOOST_TEST(found.growth(model, 1.0, static_cast<int>(finest)) == 1.0);
+  BOOST_TEST(found.growth(model, 1.0, static_cast<int>(finest) + 1) > 1.3);
 }
 
 // The shear that compresses a prolate along its axis at first soon has it turned.

@@ -72,6 +72,7 @@ BOOST_AUTO_TEST_CASE(a_disturbance_of_a_compressed_sphere_grows_at_its_rate) {
     const FlowParameters flow = flow_parameters(model, model.vesicles[0]);
     const double expected = wrinkling_rate(flow, tension, kRadius, kOrder);
     BOOST_TEST(expected > 0.0);
+    BOOST_TEST(found.diagnostics.wrinkling_rate == expected, boost::test_tools::tolerance(1e-5));
     BOOST_TEST(rate == expected, boost::test_tools::tolerance(0.01));
     // Under a tension that is above that of both nothing grows.
     BOOST_TEST(wrinkling_rate(flow, 0.0, kRadius, kOrder) == 0.0);
