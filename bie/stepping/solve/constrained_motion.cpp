@@ -19,6 +19,12 @@ double pass_tolerance(double largest_excess) {
   return std::clamp(thresholds::roughest_pass / largest_excess, thresholds::finest_pass, thresholds::roughest_pass);
 }
 
+/// Share of the strain of former steps that this step takes back.
+double share_taken_back(const Vector& strain) {
+  const double largest = strain.cwiseAbs().maxCoeff();
+  return std::clamp(2.0 - largest / thresholds::known_strain, 0.0, 1.0);
+}
+
 /// Area element, area and volume of a shape whose curvature is not needed.
 struct Measure {
   Vector area_element;
@@ -58,6 +64,7 @@ class Iteration {
         dt_(dt),
         area_(surface_area(context.membrane.surface)),
         stretch_before_(1.0 + fine().synthesize(context.state.area_strain).col(0).array()),
+        to_take_back_(share_taken_back(stretch_before_.array() - 1.0) * (stretch_before_.array() - 1.0)),
         normal_(fine().analyze(context.membrane.surface.normal)),
         velocity_(start.velocity),
         curvature_(Vector::Zero(normal_.rows())) {
@@ -80,7 +87,7 @@ class Iteration {
                                          stretch.minCoeff(), stretch.maxCoeff()));
     }
     strain_ = stretch_before_.array() * stretch - 1.0;
-    weighted_strain_ = membrane.weighted(strain_);
+    weighted_strain_ = membrane.weighted(Vector((1.0 + to_take_back_.array()) * stretch - 1.0));
     errors_.volume = (after_.volume + arrival_volume_) / context_.state.reference_volume - 1.0;
     errors_.area = inextensible() ? (after_.area + arrival_area_) / context_.state.reference_area - 1.0 : 0.0;
     if (pass_ == 0) motion_.raw_area = errors_.area;
@@ -159,6 +166,7 @@ class Iteration {
   double dt_;
   double area_;
   Vector stretch_before_;
+  Vector to_take_back_;       // of the strain before
   Matrix normal_;             // velocity of the volume correction, for unit amplitude
   Vector normal_divergence_;  // weighted
   double mean_curvature_ = 0.0;
@@ -168,7 +176,7 @@ class Iteration {
   Vector curvature_;  // h of Eq. (28), accumulated
   Measure after_;
   Vector strain_;
-  Vector weighted_strain_;
+  Vector weighted_strain_;  // of what this step answers for
   FlowRightHandSide rhs_;
   Errors errors_;
   // What arrival adds to area and volume, known from the last one.

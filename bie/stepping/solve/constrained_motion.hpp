@@ -25,9 +25,10 @@ struct MotionContext {
 /// Solves (27) for x^{n+1}: the velocity of the start plus the implicit increments, for the operators at the start of
 /// the step. The first-order step starts from x^n with its velocity; deferred corrections start from an approximation
 /// of x^{n+1} with a velocity that would remove its residual. The right-hand side of the constraint, zero in (27b), is
-/// iterated until the step as a whole (not only its tangent) keeps the area of every membrane element; a uniform normal
-/// velocity of the size of the step's volume error accompanies it. Area and volume are those of the shape on arrival,
-/// so that what truncation costs there is answered for as well.
+/// iterated until the step as a whole (not only its tangent) keeps the area of every membrane element, and takes back
+/// what former steps left of it up to thresholds::known_strain; a uniform normal velocity of the size of the step's
+/// volume error accompanies it. Area and volume are those of the shape on arrival, so that what truncation costs there
+/// is answered for as well.
 /// @param flow        the linearised system of this membrane and this dt
 /// @param iterations  grows by those of the flow
 /// @throws ConvergenceError where there is no such motion

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "bie/geometry/surface.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -38,6 +39,34 @@ BOOST_AUTO_TEST_CASE(accepted_step_holds_area_and_volume_to_the_tolerance) {
     BOOST_TEST(std::abs(enclosed_volume(after) / state.vesicles[0].reference_volume - 1.0) <= tolerance);
     BOOST_TEST(max_difference(result.state.vesicles[0].position, state.vesicles[0].position) > 1e-4);
   }
+}
+
+// A strain that is known is undone by the next step; one that degrees that are cut off must have left stays, and the
+// shape and its tension do not feel it.
+BOOST_AUTO_TEST_CASE(strain_is_taken_back_as_far_as_it_is_known) {
+  const Discretisation discretisation = discretisation_of(12);
+  const Model model = relaxation_model(0.1);
+  const State clean = start(model, discretisation, example_3_shape(12), 0.01);
+  const State after_clean = stepped(model, discretisation, clean, 0.01).state;
+  const Vector pattern = harmonic(12, 4, 2) - 0.7 * harmonic(12, 3, -1);
+  const double largest =
+      discretisation.vesicle(0).fine_transform().synthesize(pattern).cwiseAbs().maxCoeff() / thresholds::known_strain;
+  const auto after = [&](double strain) {
+    State state = clean;
+    state.vesicles[0].area_strain = strain / largest * pattern;
+    const StepAttempt result = stepped(model, discretisation, state, 0.01);
+    BOOST_TEST_REQUIRE(result.accepted);
+    return std::pair(result.state.vesicles[0].area_strain.norm() / state.vesicles[0].area_strain.norm(),
+                     max_difference(result.state.vesicles[0].position, after_clean.vesicles[0].position));
+  };
+  const auto [left_of_known, moved_by_known] = after(0.9);
+  BOOST_TEST(left_of_known < 0.01);
+  BOOST_TEST(moved_by_known > 1e-4);
+  const auto [left_of_half, moved_by_half] = after(1.5);
+  BOOST_TEST(left_of_half == 0.5, boost::test_tools::tolerance(0.02));
+  const auto [left_of_unknown, moved_by_unknown] = after(2.5);
+  BOOST_TEST(left_of_unknown == 1.0, boost::test_tools::tolerance(0.02));
+  BOOST_TEST(moved_by_unknown < 1e-9);
 }
 
 BOOST_AUTO_TEST_CASE(sphere_under_bending_alone_does_not_move) {
