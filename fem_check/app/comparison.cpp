@@ -18,6 +18,9 @@ constexpr double solver_share = 10.0 / rough_factor;
 constexpr double slowest_truncation_order = 3.0;
 /// Slowest power of the mesh size that levels are taken to converge with.
 constexpr double slowest_order = 1.0;
+/// Power of the degree that boundary integrals are not taken to converge faster than: at twice the degree a sixteenth
+/// is left.
+constexpr double slowest_degree_order = 4.0;
 
 /// The whole error of the nearer sphere over what moving it out changes.
 double truncation_tail(const LevelSequence& sequence) {
@@ -30,6 +33,27 @@ double truncation_tail(const LevelSequence& sequence) {
 /// @param growth  of the unknowns from the level before
 double order_tail(double order, double growth) {
   return std::max(1.0, 1.0 / (std::pow(growth, std::max(order, slowest_order) / 3.0) - 1.0));
+}
+
+/// What degree p leaves over the change from it to another degree P, by the slower of two ways for errors e_n of the
+/// degrees n to fall. Geometrically, e_n = r^n of the field, r from e_p − e_P = change: as slowly as if degree 0 had
+/// missed all of the field. A change too large for any r says nothing, and degree p may miss all. By a power,
+/// e_n ~ n^−s, for what is small and rough and falls later than the rest. Never less than all of the change.
+double degree_tail(double change, const Degrees& degrees) {
+  if (!(change > 0.0) || degrees.judged == degrees.other) return 1.0;
+  const double lower = std::min(degrees.judged, degrees.other), higher = std::max(degrees.judged, degrees.other);
+  const double growth = higher / lower;
+  // e of the lower degree solves e − e^growth = change, below where the left side is largest.
+  const double steepest = std::pow(growth, -1.0 / (growth - 1.0));
+  double low = 0.0, high = steepest;
+  if (change >= steepest - std::pow(steepest, growth)) return std::max(1.0, 1.0 / change);
+  for (int halving = 0; halving < std::numeric_limits<double>::digits; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (middle - std::pow(middle, growth) < change ? low : high) = middle;
+  }
+  const double by_power = 1.0 / (1.0 - std::pow(growth, -slowest_degree_order));
+  const double of_lower = std::max(high / change, by_power);
+  return std::max(1.0, degrees.judged < degrees.other ? of_lower : of_lower - 1.0);
 }
 
 /// Of a level, as the question wants them; empty where the level has none.
@@ -138,6 +162,7 @@ FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequ
     compare_with_levels(question, sequence, values, n_unknowns, result);
   }
   result.bie_change = measure(question.bie - question.bie_high);
+  result.bie_tail = degree_tail(result.bie_change.l2, question.degrees);
   if (question.further_error.size() > 0) result.bie_further = measure(question.further_error).l2;
   if (question.time_error.size() > 0) result.time = measure(question.time_error).l2;
   result.verdict = verdict_of(result, required);

@@ -47,6 +47,7 @@ FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::stri
   question.judged = SurfaceSeries(judged)(points);
   question.bie = SurfaceSeries(bie)(points);
   question.bie_high = SurfaceSeries(bie_high)(points);
+  question.degrees = degrees_;
   question.weight = points.weight;
   question.natural_size = natural_size;
   return question;
