@@ -35,24 +35,30 @@ double order_tail(double order, double growth) {
   return std::max(1.0, 1.0 / (std::pow(growth, std::max(order, slowest_order) / 3.0) - 1.0));
 }
 
-/// What degree p leaves over the change from it to another degree P, by the slower of two ways for errors e_n of the
-/// degrees n to fall. Geometrically, e_n = r^n of the field, r from e_p − e_P = change: as slowly as if degree 0 had
-/// missed all of the field. A change too large for any r says nothing, and degree p may miss all. By a power,
-/// e_n ~ n^−s, for what is small and rough and falls later than the rest. Never less than all of the change.
-double degree_tail(double change, const Degrees& degrees) {
-  if (!(change > 0.0) || degrees.judged == degrees.other) return 1.0;
-  const double lower = std::min(degrees.judged, degrees.other), higher = std::max(degrees.judged, degrees.other);
-  const double growth = higher / lower;
-  // e of the lower degree solves e − e^growth = change, below where the left side is largest.
-  const double steepest = std::pow(growth, -1.0 / (growth - 1.0));
-  double low = 0.0, high = steepest;
-  if (change >= steepest - std::pow(steepest, growth)) return std::max(1.0, 1.0 / change);
+/// Error e_p of the lower of two degrees p < P if errors fall geometrically, e_n = r^n of the field, and e_p − e_P is
+/// the change: as slowly as if degree 0 missed all of the field. A change too large for any r says nothing.
+double error_of_slow_decay(double change, double growth) {
+  // e − e^growth = change, below where the left side is largest.
+  const double largest = std::pow(growth, -1.0 / (growth - 1.0));
+  if (change >= largest - std::pow(largest, growth)) return std::max(1.0, change);
+  double low = 0.0, high = largest;
   for (int halving = 0; halving < std::numeric_limits<double>::digits; ++halving) {
     const double middle = 0.5 * (low + high);
     (middle - std::pow(middle, growth) < change ? low : high) = middle;
   }
-  const double by_power = 1.0 / (1.0 - std::pow(growth, -slowest_degree_order));
-  const double of_lower = std::max(high / change, by_power);
+  return high;
+}
+
+/// What the judged degree leaves over the change to the other one, which leaves something as well: by the decay of the
+/// coefficients, no slower than error_of_slow_decay, no faster than by a power of the degree, and never less than all
+/// of the change.
+double degree_tail(double change, const Degrees& degrees) {
+  if (!(change > 0.0) || degrees.judged == degrees.other) return 1.0;
+  const double growth =
+      static_cast<double>(std::max(degrees.judged, degrees.other)) / std::min(degrees.judged, degrees.other);
+  double of_lower = error_of_slow_decay(change, growth) / change;
+  if (degrees.decay && *degrees.decay < 1.0) of_lower = std::min(of_lower, 1.0 / (1.0 - *degrees.decay));
+  of_lower = std::max(of_lower, 1.0 / (1.0 - std::pow(growth, -slowest_degree_order)));
   return std::max(1.0, degrees.judged < degrees.other ? of_lower : of_lower - 1.0);
 }
 

@@ -58,6 +58,8 @@ struct FieldComparison {
 /// Degrees of two solutions of one field; equal where a change between them has nothing to do with their degrees.
 struct Degrees {
   int judged = 0, other = 0;
+  /// Of the size of the coefficients from one of the two to the other, in the finer solution; empty: not known.
+  std::optional<double> decay;
 };
 
 /// What is compared with what: values at points, [components x points].

@@ -33,7 +33,7 @@ double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& point
 class QuestionMaker {
  public:
   QuestionMaker(const CheckInput& input, const ComparisonPlaces& places)
-      : places_(places), degrees_{input.bie.order, input.bie_high.order} {}
+      : places_(places), degrees_{input.bie.order, input.bie_high.order, {}} {}
 
   /// Of coefficients; judged by `values` of the levels, or by `bie` where that is empty.
   [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label, const std::string& values,

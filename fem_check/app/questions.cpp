@@ -55,7 +55,7 @@ class Questions {
       question.judged = (input_.bie.*field)(columns, Eigen::all).transpose();
       question.bie = question.judged;
       question.bie_high = (input_.bie_high.*field)(columns, Eigen::all).transpose();
-      question.degrees = {input_.bie.order, input_.bie_high.order};
+      question.degrees = {input_.bie.order, input_.bie_high.order, {}};
       question.weight = Vector::Ones(static_cast<Eigen::Index>(columns.size()));
       question.natural_size = size;
       question.whole_size = whole;

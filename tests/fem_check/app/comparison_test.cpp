@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
     FieldQuestion asked = question();
     asked.judged = asked.bie = field(1.0 - error);
     asked.bie_high = field(1.0 - other_error);
-    asked.degrees = {degree, other};
+    asked.degrees = {degree, other, {}};
     LevelSequence exact = levels();
     for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.far, &exact.rough}) {
       each->surface["q"] = field();
@@ -229,6 +229,15 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
     BOOST_TEST((result.verdict == Verdict::agree), other);
     BOOST_TEST(result.bie_error() == error, boost::test_tools::tolerance(0.03));
   }
+  // Coefficients that fall faster say more.
+  FieldQuestion bulbs = question();
+  bulbs.bie_high = field(1.022);
+  bulbs.degrees = {24, 28, {}};
+  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::undecided));
+  bulbs.degrees.decay = 0.2;
+  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::agree));
+  bulbs.degrees.decay = 0.95;
+  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::undecided));
   // A change that errors falling to the other degree cannot make says nothing.
   const FieldComparison unknown = with_errors(40, 0.44, 42, 0.40);
   BOOST_TEST((unknown.verdict == Verdict::undecided));
@@ -237,6 +246,28 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
   BOOST_TEST(geometric(0.9, 64, 48).bie_error() == std::pow(0.9, 48) - std::pow(0.9, 64),
              boost::test_tools::tolerance(1e-6));
   BOOST_TEST(geometric(0.965, 64, 62).bie_error() == std::pow(0.965, 64), boost::test_tools::tolerance(1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
+  const Discretisation space = discretise(shapes::shape_33(), {.cells_per_edge = 2, .shell_layers = 2, .degree = 3});
+  const ComparisonPlaces places{space.quadrature_points(4)};
+  // Amplitude r^n/√(2n+1) of each coefficient: r^n of each degree.
+  const auto series = [](int degree, double rate) {
+    Eigen::MatrixXd values((degree + 1) * (degree + 1), 1);
+    for (int n = 0; n <= degree; ++n) {
+      values.middleRows(n * n, 2 * n + 1).setConstant(std::pow(rate, n) / std::sqrt(2.0 * n + 1.0));
+    }
+    return values;
+  };
+  for (const auto& [judged, other] : {std::pair{8, 10}, std::pair{10, 8}}) {
+    CheckInput input;
+    input.bie.order = judged;
+    input.bie_high.order = other;
+    const FieldQuestion asked =
+        QuestionMaker(input, places)
+            .on_surface("q", "q", "q", series(judged, 0.7), series(judged, 0.7), series(other, 0.7), 1.0);
+    BOOST_TEST(asked.degrees.decay.value() == 0.49, boost::test_tools::tolerance(1e-10));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(single_level_has_an_unknown_error) {
