@@ -21,6 +21,9 @@ std::vector<FieldQuestion> shape_questions(const CheckInput& input, const Compar
     work.name = "bending_work";
     list.push_back(work_on_smooth(std::move(work), places.surface));
   }
+  if (input.bie.force_curvature.size() > 0) {
+    list.push_back(question("spontaneous_curvature", "f_c", &BieFields::force_curvature, sizes.force));
+  }
   if (input.physics.inextensible) {
     FieldQuestion tension = question("tension", "lambda", &BieFields::tension, sizes.force * places.radius);
     if (input.bie.tension_is_free) tension = without_uniform_tension(std::move(tension), places.surface);
