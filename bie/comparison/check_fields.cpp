@@ -12,6 +12,7 @@
 
 #include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
+#include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
@@ -134,12 +135,24 @@ class FrozenSolver {
   void take_flow_of_shape() {
     const VesicleFields& fields = solved_.fields.vesicles.front();
     result.force_bending = fields.force_bending;
+    result.force_curvature = force_of_curvature();
     result.force_tension = fields.force_tension;
     result.tension = fields.tension;
     result.tension_is_free = solved_.vesicles.front().is_sphere;
     result.velocity_of_shape = fields.velocity;
     if (position_.rows() != membrane_of(frozen_).position.rows()) return;
     result.velocity_truncation = fields.velocity - velocity_of(total_force(frozen_, fields));
+  }
+
+  /// f_c; empty without a spontaneous curvature.
+  [[nodiscard]] Matrix force_of_curvature() const {
+    Forcing forcing{Matrix::Zero(membrane_.surface.n_points(), 3), {}};
+    for (const auto& effect : vesicle_of(frozen_).effects) {
+      if (dynamic_cast<const SpontaneousCurvatureEffect*>(effect.get()) == nullptr) continue;
+      effect->add({membrane_, position_, frozen_.state.time}, forcing);
+      return membrane_.fine.analyze(forcing.force);
+    }
+    return {};
   }
 
   /// J q of the state, coefficients.

@@ -30,6 +30,7 @@ struct CheckFields {
   Vector potential_of_charges;   ///< V_m that follows from free charges; with displacement currents alone
   Vector free_charge_rate;       ///< D(q_i + q_e)/Dt over C_m; with displacement currents alone
   Matrix force_bending;          ///< f_b
+  Matrix force_curvature;        ///< f_c of a spontaneous curvature; of one vesicle alone
   Matrix force_tension;          ///< f_λ
   Vector tension;                ///< λ
   bool tension_is_free = false;  ///< a uniform tension does nothing: a sphere

@@ -122,6 +122,7 @@ BieFields read_fields(const VesicleGroup& file, const std::string& group, const 
   fields.velocity_of_shape = of.required("velocity_of_shape", 3);
   fields.velocity_truncation = of.optional("velocity_truncation", 3);
   if (input.physics.bending_modulus > 0.0) fields.force_bending = of.required("force_bending", 3);
+  fields.force_curvature = of.optional("force_curvature", 3);
   if (!input.physics.inextensible) return fields;
   fields.force_tension = of.required("force_tension", 3);
   fields.tension = of.required("tension", 1);
@@ -234,6 +235,11 @@ std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path) {
     CheckInput& input = inputs.emplace_back(read_vesicle(group));
     input.source = file.text("/", "source");
     input.time = file.number("/", "time");
+    const bool is_curved = input.flow() && input.physics.spontaneous_curvature != 0.0;
+    if (groups.size() == 1 && is_curved &&
+        !(input.bie.force_curvature.size() > 0 && input.bie_high.force_curvature.size() > 0)) {
+      file.refuse("has a spontaneous curvature and no force_curvature in /bie or /bie_high");
+    }
     if (groups.size() > 1) input.name = file.text(group.path("/"), "name");
     if (input.electric() != inputs.front().electric() || input.flow() != inputs.front().flow()) {
       file.refuse("vesicles differ in what is compared");

@@ -32,6 +32,7 @@ struct BieFields {
   Eigen::MatrixXd charge, force_electric, potential_rate;
   Eigen::MatrixXd potential_of_charges, free_charge_rate;  ///< with displacement currents alone
   Eigen::MatrixXd force_bending, force_tension, tension;
+  Eigen::MatrixXd force_curvature;      ///< of a spontaneous curvature; of one vesicle alone
   bool tension_is_free = false;         ///< a uniform tension does nothing
   Eigen::MatrixXd velocity_of_shape;    ///< of all these forces
   Eigen::MatrixXd velocity_truncation;  ///< of what these forces lose in truncation; in the order of the state only

@@ -18,6 +18,9 @@ constexpr double solver_share = 10.0 / rough_factor;
 constexpr double slowest_truncation_order = 3.0;
 /// Slowest power of the mesh size that levels are taken to converge with.
 constexpr double slowest_order = 1.0;
+/// Power of the degree that boundary integrals are not taken to converge faster than: at twice the degree a sixteenth
+/// is left.
+constexpr double slowest_degree_order = 4.0;
 
 /// The whole error of the nearer sphere over what moving it out changes.
 double truncation_tail(const LevelSequence& sequence) {
@@ -30,6 +33,33 @@ double truncation_tail(const LevelSequence& sequence) {
 /// @param growth  of the unknowns from the level before
 double order_tail(double order, double growth) {
   return std::max(1.0, 1.0 / (std::pow(growth, std::max(order, slowest_order) / 3.0) - 1.0));
+}
+
+/// Error e_p of the lower of two degrees p < P if errors fall geometrically, e_n = r^n of the field, and e_p − e_P is
+/// the change: as slowly as if degree 0 missed all of the field. A change too large for any r says nothing.
+double error_of_slow_decay(double change, double growth) {
+  // e − e^growth = change, below where the left side is largest.
+  const double largest = std::pow(growth, -1.0 / (growth - 1.0));
+  if (change >= largest - std::pow(largest, growth)) return std::max(1.0, change);
+  double low = 0.0, high = largest;
+  for (int halving = 0; halving < std::numeric_limits<double>::digits; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (middle - std::pow(middle, growth) < change ? low : high) = middle;
+  }
+  return high;
+}
+
+/// What the judged degree leaves over the change to the other one, which leaves something as well: by the decay of the
+/// coefficients, no slower than error_of_slow_decay, no faster than by a power of the degree, and never less than all
+/// of the change.
+double degree_tail(double change, const Degrees& degrees) {
+  if (!(change > 0.0) || degrees.judged == degrees.other) return 1.0;
+  const double growth =
+      static_cast<double>(std::max(degrees.judged, degrees.other)) / std::min(degrees.judged, degrees.other);
+  double of_lower = error_of_slow_decay(change, growth) / change;
+  if (degrees.decay && *degrees.decay < 1.0) of_lower = std::min(of_lower, 1.0 / (1.0 - *degrees.decay));
+  of_lower = std::max(of_lower, 1.0 / (1.0 - std::pow(growth, -slowest_degree_order)));
+  return std::max(1.0, degrees.judged < degrees.other ? of_lower : of_lower - 1.0);
 }
 
 /// Of a level, as the question wants them; empty where the level has none.
@@ -138,6 +168,7 @@ FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequ
     compare_with_levels(question, sequence, values, n_unknowns, result);
   }
   result.bie_change = measure(question.bie - question.bie_high);
+  result.bie_tail = degree_tail(result.bie_change.l2, question.degrees);
   if (question.further_error.size() > 0) result.bie_further = measure(question.further_error).l2;
   if (question.time_error.size() > 0) result.time = measure(question.time_error).l2;
   result.verdict = verdict_of(result, required);

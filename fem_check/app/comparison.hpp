@@ -44,14 +44,22 @@ struct FieldComparison {
   Norms truncation;              ///< of the outer sphere, from one further out
   double solver = 0.0;           ///< what the linear solvers leave, from coarser ones
   double time = 0.0;             ///< of the steps in time; FieldQuestion::time_error
-  Norms bie_change;              ///< order p against the other order
+  Norms bie_change;              ///< degree p against the other degree
+  double bie_tail = 1.0;         ///< what degree p leaves, over that change
   double bie_further = 0.0;      ///< FieldQuestion::further_error
   std::optional<double> order;   ///< observed, in the mesh size N^(−1/3), N unknowns
   std::vector<Norms> of_levels;  ///< difference of every level that has the field
   Verdict verdict = Verdict::undecided;
 
   [[nodiscard]] double fem_error() const { return tail * levels_change.l2 + truncation.l2 + solver + time; }
-  [[nodiscard]] double bie_error() const { return bie_change.l2 + bie_further; }
+  [[nodiscard]] double bie_error() const { return bie_tail * bie_change.l2 + bie_further; }
+};
+
+/// Degrees of two solutions of one field; equal where a change between them has nothing to do with their degrees.
+struct Degrees {
+  int judged = 0, other = 0;
+  /// Of the size of the coefficients from one of the two to the other, in the finer solution; empty: not known.
+  std::optional<double> decay;
 };
 
 /// What is compared with what: values at points, [components x points].
@@ -60,7 +68,8 @@ struct FieldQuestion {
   std::string label;
   RowGroup group = RowGroup::fields;
   Eigen::MatrixXd judged;         ///< the number under judgement
-  Eigen::MatrixXd bie, bie_high;  ///< boundary integrals at both orders, whose change is the error of the judged number
+  Eigen::MatrixXd bie, bie_high;  ///< boundary integrals at both degrees, whose change estimates the error of `judged`
+  Degrees degrees;                ///< of these two
   Eigen::MatrixXd further_error;  ///< what else that number may be off by; empty: nothing
   Eigen::MatrixXd time_error;     ///< of what the levels have, by their steps in time; empty: none
   /// Name in the levels of what it is judged by; empty: by `bie`, no finite elements.

@@ -1,8 +1,10 @@
 #include "fem_check/app/question_maker.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "fem_check/app/surface_series.hpp"
@@ -36,6 +38,25 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
   return sizes;
 }
 
+namespace {
+
+/// Over half of the lower degree at least, as the size of coefficients may rise from one degree to the next.
+/// @param finer  coefficients in the higher of both degrees
+std::optional<double> decay_of(const Eigen::MatrixXd& finer, const Degrees& degrees) {
+  const Eigen::Index lower = std::min(degrees.judged, degrees.other), higher = std::max(degrees.judged, degrees.other);
+  const Eigen::Index width = higher - lower, distance = std::max(width, lower / 2);
+  const auto size = [&](Eigen::Index above, Eigen::Index up_to) {
+    const Eigen::Index first = (above + 1) * (above + 1);
+    return finer.middleRows(first, (up_to + 1) * (up_to + 1) - first).norm();
+  };
+  if (width == 0 || distance > lower) return {};
+  const double before = size(lower - distance, higher - distance);
+  if (!(before > 0.0)) return {};
+  return std::pow(size(lower, higher) / before, static_cast<double>(width) / static_cast<double>(distance));
+}
+
+}  // namespace
+
 FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::string& label, const std::string& values,
                                         const Eigen::MatrixXd& judged, const Eigen::MatrixXd& bie,
                                         const Eigen::MatrixXd& bie_high, double natural_size) const {
@@ -47,6 +68,8 @@ FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::stri
   question.judged = SurfaceSeries(judged)(points);
   question.bie = SurfaceSeries(bie)(points);
   question.bie_high = SurfaceSeries(bie_high)(points);
+  question.degrees = degrees_;
+  question.degrees.decay = decay_of(degrees_.judged > degrees_.other ? bie : bie_high, degrees_);
   question.weight = points.weight;
   question.natural_size = natural_size;
   return question;

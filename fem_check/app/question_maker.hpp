@@ -32,7 +32,8 @@ double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& point
 /// Makes questions about fields on γ.
 class QuestionMaker {
  public:
-  explicit QuestionMaker(const ComparisonPlaces& places) : places_(places) {}
+  QuestionMaker(const CheckInput& input, const ComparisonPlaces& places)
+      : places_(places), degrees_{input.bie.order, input.bie_high.order, {}} {}
 
   /// Of coefficients; judged by `values` of the levels, or by `bie` where that is empty.
   [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label, const std::string& values,
@@ -41,6 +42,7 @@ class QuestionMaker {
 
  private:
   const ComparisonPlaces& places_;
+  Degrees degrees_;
 };
 
 /// The same question about a tension, or a force of one, that is known up to a uniform one.

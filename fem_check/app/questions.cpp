@@ -25,7 +25,7 @@ std::vector<bool> found_by_all(const LevelSequence& sequence, const std::string&
 class Questions {
  public:
   Questions(const CheckInput& input, const ComparisonPlaces& places, const LevelSequence& sequence)
-      : input_(input), sequence_(sequence), maker_(places) {}
+      : input_(input), sequence_(sequence), maker_(input, places) {}
 
   [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label,
                                          Eigen::MatrixXd BieFields::*field, double size) const {
@@ -55,6 +55,7 @@ class Questions {
       question.judged = (input_.bie.*field)(columns, Eigen::all).transpose();
       question.bie = question.judged;
       question.bie_high = (input_.bie_high.*field)(columns, Eigen::all).transpose();
+      question.degrees = {input_.bie.order, input_.bie_high.order, {}};
       question.weight = Vector::Ones(static_cast<Eigen::Index>(columns.size()));
       question.natural_size = size;
       question.whole_size = whole;

@@ -15,7 +15,8 @@ nlohmann::json json_of(const FieldComparison& field) {
           {"fem_tail", field.tail},           {"fem_truncation", json_of(field.truncation)},
           {"fem_solver", field.solver},       {"fem_time", field.time},
           {"bie_error", field.bie_error()},   {"bie_change", json_of(field.bie_change)},
-          {"bie_further", field.bie_further}, {"verdict", name_of(field.verdict)}};
+          {"bie_tail", field.bie_tail},       {"bie_further", field.bie_further},
+          {"verdict", name_of(field.verdict)}};
 }
 
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.

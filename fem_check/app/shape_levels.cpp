@@ -31,9 +31,13 @@ class ShapeFlow {
     if (physics_.bending_modulus > 0.0) {
       const double modulus = physics_.bending_modulus;
       const int degree = space.degree() + further_degrees;
-      solved.surface["bending"] =
-          bending_field(space, {modulus, 0.0}, space.degree() + degrees_of_field, degree)(points);
-      bending = bending_force(space, {modulus, physics_.spontaneous_curvature}, degree);
+      const auto field = [&](double curvature) {
+        return bending_field(space, {modulus, curvature}, space.degree() + degrees_of_field, degree)(points);
+      };
+      const double curvature = physics_.spontaneous_curvature;
+      solved.surface["bending"] = field(0.0);
+      if (curvature != 0.0) solved.surface["spontaneous_curvature"] = field(curvature) - solved.surface["bending"];
+      bending = bending_force(space, {modulus, curvature}, degree);
     }
     FlowProblem problem = problem_with(tolerance);
     problem.gradient = physics_.flow_gradient;

@@ -17,8 +17,9 @@ Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, co
 
 /// The same at rising degree: f_b from the bending energy of
 /// the elements, f_E from their potential, weight, and the tension that keeps every area element. Surface fields:
-/// velocity; bending, f_b without spontaneous curvature, where the membrane resists bending; tension where it is
-/// inextensible, without its mean where a uniform one does nothing.
+/// velocity; bending, f_b without spontaneous curvature, where the membrane resists bending; spontaneous_curvature,
+/// what that adds to f_b, where there is one; tension where it is inextensible, without its mean where a uniform one
+/// does nothing.
 /// @param potential  null without a field; f_E is that of its finest level. What the level before has instead stands
 ///                   between the last two levels, as an error of the last
 /// @throws SolveError

@@ -6,7 +6,7 @@ namespace vehd::fem_check {
 
 std::vector<FieldQuestion> shape_questions(const CheckInput& input, const ComparisonPlaces& places) {
   const NaturalSizes sizes = natural_sizes(input, places);
-  const QuestionMaker maker(places);
+  const QuestionMaker maker(input, places);
   std::vector<FieldQuestion> list;
   const auto question = [&](const std::string& name, const std::string& label, Eigen::MatrixXd BieFields::*field,
                             double size) {
@@ -20,6 +20,9 @@ std::vector<FieldQuestion> shape_questions(const CheckInput& input, const Compar
     FieldQuestion work = question("bending", "f_b work", &BieFields::force_bending, sizes.force);
     work.name = "bending_work";
     list.push_back(work_on_smooth(std::move(work), places.surface));
+  }
+  if (input.bie.force_curvature.size() > 0) {
+    list.push_back(question("spontaneous_curvature", "f_c", &BieFields::force_curvature, sizes.force));
   }
   if (input.physics.inextensible) {
     FieldQuestion tension = question("tension", "lambda", &BieFields::tension, sizes.force * places.radius);

@@ -51,6 +51,7 @@ void scale_field_of_run(const std::string& path, const std::string& group, const
 
 const std::string moving_scene =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.1, 1.25]\n[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
+    "spontaneous_curvature = -0.3\n"
     "[flow]\nkind = 'shear'\nrate = 1.0\n"
     "[electric]\nfield = [0.0, 0.2, 0.5]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
     "[numerics]\norder = 10\ndt = 0.1\nend_time = 0.0\n";
@@ -106,6 +107,7 @@ BOOST_AUTO_TEST_CASE(input_without_what_is_compared_is_refused) {
   refused("/bie/q", "dataset /bie/q is missing or damaged");
   refused("/bie_high/velocity", "dataset /bie_high/velocity is missing or damaged");
   refused("/bie/tension", "dataset /bie/tension is missing or damaged");
+  refused("/bie_high/force_curvature", "has a spontaneous curvature and no force_curvature in /bie or /bie_high");
   refused("/stored/q", "dataset /stored/q is missing or damaged");
   refused("/bie", "attribute order of /bie is missing or damaged");
   refused("/given", "has neither /given/Vm nor /given/force: nothing to compare");

@@ -200,6 +200,76 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
   BOOST_TEST(with_order(0.1).tail == with_order(1.0).tail, boost::test_tools::tolerance(1e-2));
 }
 
+// Elements know the work of f_b to 1e-11, so a difference of all that degree p misses meets the estimate from the other
+// degree alone, which misses something as well.
+BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_leaves) {
+  const auto with_errors = [](int degree, double error, int other, double other_error) {
+    FieldQuestion asked = question();
+    asked.judged = asked.bie = field(1.0 - error);
+    asked.bie_high = field(1.0 - other_error);
+    asked.degrees = {degree, other, {}};
+    LevelSequence exact = levels();
+    for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.far, &exact.rough}) {
+      each->surface["q"] = field();
+    }
+    return compare(asked, exact, 0.05);
+  };
+  const auto geometric = [&](double rate, int degree, int other) {
+    return with_errors(degree, std::pow(rate, degree), other, std::pow(rate, other));
+  };
+  // Errors that fall at one rate from all of the field at degree 0 are found exactly.
+  for (const double rate : {0.86, 0.88}) {
+    BOOST_TEST(geometric(rate, 24, 28).bie_error() == std::pow(rate, 24), boost::test_tools::tolerance(1e-6));
+  }
+  for (const double rate : {0.3, 0.7}) BOOST_TEST((geometric(rate, 24, 28).verdict == Verdict::agree), rate);
+  // Slower ones, by a power of the degree, after most of the error has fallen fast.
+  for (const int other : {14, 18, 24}) {
+    const double error = 3e-7, left = error * std::pow(12.0 / other, 4.1);
+    const FieldComparison result = with_errors(12, error, other, left);
+    BOOST_TEST((result.verdict == Verdict::agree), other);
+    BOOST_TEST(result.bie_error() == error, boost::test_tools::tolerance(0.03));
+  }
+  // Coefficients that fall faster say more.
+  FieldQuestion bulbs = question();
+  bulbs.bie_high = field(1.022);
+  bulbs.degrees = {24, 28, {}};
+  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::undecided));
+  bulbs.degrees.decay = 0.2;
+  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::agree));
+  bulbs.degrees.decay = 0.95;
+  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::undecided));
+  // A change that errors falling to the other degree cannot make says nothing.
+  const FieldComparison unknown = with_errors(40, 0.44, 42, 0.40);
+  BOOST_TEST((unknown.verdict == Verdict::undecided));
+  BOOST_TEST(unknown.bie_error() >= 0.99);
+  // A lower degree misses more than degree p: the change is larger than the error already, where it is small.
+  BOOST_TEST(geometric(0.9, 64, 48).bie_error() == std::pow(0.9, 48) - std::pow(0.9, 64),
+             boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(geometric(0.965, 64, 62).bie_error() == std::pow(0.965, 64), boost::test_tools::tolerance(1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
+  const Discretisation space = discretise(shapes::shape_33(), {.cells_per_edge = 2, .shell_layers = 2, .degree = 3});
+  const ComparisonPlaces places{space.quadrature_points(4)};
+  // Amplitude r^n/√(2n+1) of each coefficient: r^n of each degree.
+  const auto series = [](int degree, double rate) {
+    Eigen::MatrixXd values((degree + 1) * (degree + 1), 1);
+    for (int n = 0; n <= degree; ++n) {
+      values.middleRows(n * n, 2 * n + 1).setConstant(std::pow(rate, n) / std::sqrt(2.0 * n + 1.0));
+    }
+    return values;
+  };
+  for (const auto& [judged, other] : {std::pair{8, 10}, std::pair{10, 8}}) {
+    CheckInput input;
+    input.bie.order = judged;
+    input.bie_high.order = other;
+    const FieldQuestion asked =
+        QuestionMaker(input, places)
+            .on_surface("q", "q", "q", series(judged, 0.7), series(judged, 0.7), series(other, 0.7), 1.0);
+    BOOST_TEST(asked.degrees.decay.value() == 0.49, boost::test_tools::tolerance(1e-10));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(single_level_has_an_unknown_error) {
   LevelSequence one = levels();
   one.levels = {one.levels.back()};
