@@ -8,7 +8,8 @@ cmake_policy(VERSION 3.25)
 # has them all.
 #
 # Freed memory is kept, as the program keeps it (keep_freed_memory): giving it back and taking it anew was a quarter of the
-# time.
+# time. Threads wait as those of the program do (main.cpp), which would start itself anew to see to that: half of the time
+# of tests that start it often. What is installed starts without (installed/).
 #
 # With OTHER_LIBRARIES, a folder of numerical libraries for another instruction set, each suite that is neither labelled
 # "fem" nor "once" is run with them as well, as other/MODULE/SUITE.
@@ -38,7 +39,8 @@ function(register_suites)
       set(cost 1)
     endif()
     set(alone FALSE)
-    set(environment ${tests_ENVIRONMENT} MALLOC_MMAP_THRESHOLD_=1073741824 MALLOC_TRIM_THRESHOLD_=1073741824)
+    set(environment ${tests_ENVIRONMENT} MALLOC_MMAP_THRESHOLD_=1073741824 MALLOC_TRIM_THRESHOLD_=1073741824
+        OMP_WAIT_POLICY=passive)
     if("alone" IN_LIST labels)
       set(alone TRUE)
     elseif(NOT DEFINED ENV{OMP_NUM_THREADS})

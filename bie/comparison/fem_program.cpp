@@ -46,6 +46,8 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
     // Containers have root alone, and often fewer slots than Open MPI wants to see.
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+    // Ranks that spin while they wait take the time of those that work as soon as anything else runs on the machine.
+    ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     words = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(n_ranks)};
     // When mpirun is told to end, it has more to remove than its processes, and no second to spend on them.
     words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "0"});

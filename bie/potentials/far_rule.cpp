@@ -1,5 +1,6 @@
 #include "bie/potentials/far_rule.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bie/kernels/laplace.hpp"
@@ -10,8 +11,9 @@ namespace vehd {
 
 namespace {
 
-/// Nodes that are looked at together: one instruction each of what compilers would else do one by one.
-constexpr Index kTogether = 4;
+/// Nodes that are looked at together, as many as a register holds: one instruction each of what compilers would else do
+/// one by one.
+constexpr Index kTogether = std::max(4, int{Eigen::internal::packet_traits<double>::size});
 using Few = Eigen::Array<double, kTogether, 1>;
 
 Few few(const double* at) { return Eigen::Map<const Few>(at); }
@@ -26,7 +28,7 @@ struct NodeSeparation {
       : x(target[0] - few(at.col(0).data() + i)),
         y(target[1] - few(at.col(1).data() + i)),
         z(target[2] - few(at.col(2).data() + i)),
-        inverse(1.0 / (x * x + y * y + z * z).sqrt()),
+        inverse((x * x + y * y + z * z).rsqrt()),
         nx(few(at.col(3).data() + i)),
         ny(few(at.col(4).data() + i)),
         nz(few(at.col(5).data() + i)) {}

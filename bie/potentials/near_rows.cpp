@@ -111,28 +111,30 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
   std::vector<Matrix> rotated;
   for (int m = 0; m <= order; ++m) {
     const auto table = [&](Index kind) { return rule.synthesis[m].middleRows(kind * n_theta, n_theta).transpose(); };
-    // cosines and sines of one column on all circles
-    const auto cosines = [&](Index column) { return circles.row(m).segment(column * n_theta, n_theta).transpose(); };
-    const auto sines = [&](Index column) {
-      return circles.row(order + m).segment(column * n_theta, n_theta).transpose();
-    };
-    Matrix part = Matrix::Zero(order + 1 - m, 2 * columns.count);
+    // of all columns, one beside the other, on all circles
+    const Eigen::Map<const Matrix> cosines(circles.row(m).data(), n_theta, n_all);
+    const Eigen::Map<const Matrix> sines(circles.row(order + m).data(), n_theta, n_all);
+    Matrix part(order + 1 - m, 2 * columns.count);
+    part.leftCols(columns.count).noalias() = table(0) * cosines.leftCols(columns.count);
+    if (m > 0) {
+      part.rightCols(columns.count).noalias() = table(0) * sines.leftCols(columns.count);
+    } else {
+      part.rightCols(columns.count).setZero();
+    }
     for (int c = 0; c < columns.count; ++c) {
       auto cosine = part.col(c);
       auto sine = part.col(columns.count + c);
       if (kinds[c].factor == NodeFactor::tangents) {
-        cosine = table(1) * cosines(c);
+        cosine.noalias() = table(1) * cosines.col(c);
         if (m > 0) {
-          cosine -= table(2) * sines(columns.count);
-          sine = table(1) * sines(c) + table(2) * cosines(columns.count);
+          cosine.noalias() -= table(2) * sines.col(columns.count);
+          sine.noalias() = table(1) * sines.col(c);
+          sine.noalias() += table(2) * cosines.col(columns.count);
         }
-      } else {
-        cosine = table(0) * cosines(c);
-        if (m > 0) sine = table(0) * sines(c);
       }
       if (m == 0 && kinds[c].factor == NodeFactor::value) {
         // The tables hold differences from the pole.
-        const double sum = cosines(c).sum();
+        const double sum = cosines.col(c).sum();
         for (int n = 0; n <= order; ++n) cosine[n] += std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi)) * sum;
       }
       cosine *= kinds[c].prefactor;

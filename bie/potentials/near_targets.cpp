@@ -22,6 +22,12 @@ struct NearTarget {
   NearRule rule;
 };
 
+/// What a group of targets is integrated by, with the rows of those by which that was found, ascending.
+struct SettledRule {
+  GradedRule rule;
+  std::map<std::size_t, NearRows> rows;
+};
+
 struct NearRowMaker {
   const PairGeometry& at;
   const PairColumns& columns;
@@ -38,8 +44,10 @@ struct NearRowMaker {
     return target;
   }
 
-  [[nodiscard]] NearRows rows_of(const NearTarget& target, const GradedRule& rule) const {
-    const TargetFrame frame(at.fields, target.foot.theta, target.foot.phi);
+  [[nodiscard]] TargetFrame frame_of(const NearTarget& target) const {
+    return {at.fields, target.foot.theta, target.foot.phi};
+  }
+  [[nodiscard]] NearRows rows_of(const NearTarget& target, const TargetFrame& frame, const GradedRule& rule) const {
     return near_rows(frame, rule, at.point(target.index) - target.foot.position, at.normal(target.index), columns);
   }
 
@@ -54,22 +62,24 @@ struct NearRowMaker {
   }
 
   /// The first stage that agrees with the next at the targets that are nearest, farthest and between.
-  [[nodiscard]] GradedRule settled_rule(const NearRule& choice, const std::vector<NearTarget>& group) const {
-    std::vector<const NearTarget*> samples;
-    for (const std::size_t i : {std::size_t{0}, group.size() / 2, group.size() - 1}) samples.push_back(&group[i]);
-    samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-    GradedRule rule = make_near_rule(order, choice, 0);
-    std::vector<NearRows> before;
-    for (const NearTarget* sample : samples) before.push_back(rows_of(*sample, rule));
+  [[nodiscard]] SettledRule settled_rule(const NearRule& choice, const std::vector<NearTarget>& group) const {
+    SettledRule settled{make_near_rule(order, choice, 0), {}};
+    std::vector<TargetFrame> frames;
+    for (const std::size_t i : {std::size_t{0}, group.size() / 2, group.size() - 1}) {
+      if (settled.rows.contains(i)) continue;
+      frames.push_back(frame_of(group[i]));
+      settled.rows.emplace(i, rows_of(group[i], frames.back(), settled.rule));
+    }
     for (int stage = 1; stage < settings.max_rules; ++stage) {
-      rule = make_near_rule(order, choice, stage);
+      settled.rule = make_near_rule(order, choice, stage);
       double largest = 0.0;
-      for (std::size_t i = 0; i < samples.size(); ++i) {
-        NearRows after = rows_of(*samples[i], rule);
-        largest = std::max(largest, change(before[i], after));
-        before[i] = std::move(after);
+      auto frame = frames.begin();
+      for (auto& [i, rows] : settled.rows) {
+        NearRows after = rows_of(group[i], *frame++, settled.rule);
+        largest = std::max(largest, change(rows, after));
+        rows = std::move(after);
       }
-      if (largest <= settings.tolerance) return rule;
+      if (largest <= settings.tolerance) return settled;
     }
     const Index i = group.front().index;
     throw ConvergenceError(
@@ -102,14 +112,16 @@ struct NearRowMaker {
     for (const NearTarget& target : targets) groups[target.rule].push_back(target);
     for (auto& [choice, group] : groups) {
       std::ranges::sort(group, {}, [](const NearTarget& t) { return std::pair(t.foot.height, t.index); });
-      const GradedRule rule = settled_rule(choice, group);
+      const SettledRule settled = settled_rule(choice, group);
       const std::vector<NearTarget>& members = group;  // OpenMP takes no structured binding
       const Index n_members = static_cast<Index>(members.size());
 #pragma omp parallel for schedule(dynamic, 1)
       for (Index i = 0; i < n_members; ++i) {
         const Index place = std::lower_bound(near.begin(), near.end(), members[i].index) - near.begin();
         guarded(place, [&] {
-          const NearRows found = rows_of(members[i], rule);
+          const auto known = settled.rows.find(static_cast<std::size_t>(i));
+          const NearRows found =
+              known != settled.rows.end() ? known->second : rows_of(members[i], frame_of(members[i]), settled.rule);
           // A solid angle that is off betrays another part of the membrane that no node has seen.
           constexpr double kEnclosureDefect = 1e-2;
           if (std::abs(found.enclosure) > kEnclosureDefect) {

@@ -11,17 +11,22 @@ TargetFrame::TargetFrame(const LayerFields& fields, double theta, double phi)
     : fields_(fields),
       order_(order_of(fields.coefficients.rows())),
       n_fields_(fields.coefficients.cols()),
-      phi_(phi),
+      azimuth_cosine_(order_ + 1),
+      azimuth_sine_(order_ + 1),
       rotation_(rotation_y(order_, theta)),
       pole_(Eigen::RowVectorXd::Zero(n_fields_)) {
-  for (int m = 0; m <= order_; ++m) rotated_.emplace_back(Matrix::Zero(order_ + 1 - m, 2 * n_fields_));
+  for (int m = 0; m <= order_; ++m) {
+    azimuth_cosine_[m] = std::cos(m * phi);
+    azimuth_sine_[m] = std::sin(m * phi);
+    rotated_.emplace_back(Matrix::Zero(order_ + 1 - m, 2 * n_fields_));
+  }
   Matrix cosine, sine;
   for (int n = 0; n <= order_; ++n) {
     cosine.resize(n + 1, n_fields_);
     sine.resize(n, n_fields_);
     for (int m = 0; m <= n; ++m) {
-      const double c = std::cos(m * phi);
-      const double s = std::sin(m * phi);
+      const double c = azimuth_cosine_[m];
+      const double s = azimuth_sine_[m];
       const auto a = fields.coefficients.row(coefficient_index(n, m));
       const auto b = fields.coefficients.row(coefficient_index(n, -m));
       if (m == 0) {
@@ -96,8 +101,8 @@ RowMatrix TargetFrame::rotated_back(const std::vector<Matrix>& rotated) const {
     const Matrix sine_before = rotation_.sine[n].transpose() * sine;
     result.col(coefficient_index(n, 0)) = cosine_before.row(0).transpose();
     for (int m = 1; m <= n; ++m) {
-      const double c = std::cos(m * phi_);
-      const double s = std::sin(m * phi_);
+      const double c = azimuth_cosine_[m];
+      const double s = azimuth_sine_[m];
       result.col(coefficient_index(n, m)) = (c * cosine_before.row(m) - s * sine_before.row(m - 1)).transpose();
       result.col(coefficient_index(n, -m)) = (s * cosine_before.row(m) + c * sine_before.row(m - 1)).transpose();
     }

@@ -40,7 +40,7 @@ class TargetFrame {
   const LayerFields& fields_;
   int order_;
   Index n_fields_;
-  double phi_;
+  Vector azimuth_cosine_, azimuth_sine_;  ///< of mφ, m = 0..order
   RotationY rotation_;
   std::vector<Matrix> rotated_;  ///< per m [(order + 1 − m) x 2 n_fields], cosines and sines
   Eigen::RowVectorXd pole_;

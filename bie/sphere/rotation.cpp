@@ -33,23 +33,33 @@ double start_value(int m, int k, double c, double s) {
   return highest_row(n, -m, c, s);  // k = -n: d_{m,-n} = d_{n,-m}
 }
 
+/// An angle β by what the sequences of all m and k take of it.
+struct Angle {
+  double cosine, half_cosine, half_sine;
+
+  explicit Angle(double beta)
+      : cosine(std::cos(beta)), half_cosine(std::cos(beta / 2)), half_sine(std::sin(beta / 2)) {}
+};
+
 /// d^n_{m,k}(β) for n = 0..order, zero below max(|m|, |k|).
-Vector wigner_sequence(int order, int m, int k, double beta) {
+Vector wigner_sequence(int order, int m, int k, const Angle& beta) {
   Vector d = Vector::Zero(order + 1);
   const int first = std::max(std::abs(m), std::abs(k));
-  d[first] = start_value(m, k, std::cos(beta / 2), std::sin(beta / 2));
-  const double x = std::cos(beta);
+  d[first] = start_value(m, k, beta.half_cosine, beta.half_sine);
+  const double x = beta.cosine;
+  const double mm = double(m) * m;
+  const double kk = double(k) * k;
+  double root_below = 1.0;  // √((n² − m²)(n² − k²)), for the next n
   for (int n = first; n < order; ++n) {
     if (n == 0) {
       d[1] = x;
       continue;
     }
     const double nn = n;
-    const double mm = double(m) * m;
-    const double kk = double(k) * k;
-    const double below = n > first ? (nn + 1) * std::sqrt((nn * nn - mm) * (nn * nn - kk)) * d[n - 1] : 0.0;
-    const double above = nn * std::sqrt(((nn + 1) * (nn + 1) - mm) * ((nn + 1) * (nn + 1) - kk));
-    d[n + 1] = ((2 * nn + 1) * (nn * (nn + 1) * x - double(m) * k) * d[n] - below) / above;
+    const double below = n > first ? (nn + 1) * root_below * d[n - 1] : 0.0;
+    const double root = std::sqrt(((nn + 1) * (nn + 1) - mm) * ((nn + 1) * (nn + 1) - kk));
+    d[n + 1] = ((2 * nn + 1) * (nn * (nn + 1) * x - double(m) * k) * d[n] - below) / (nn * root);
+    root_below = root;
   }
   return d;
 }
@@ -57,6 +67,7 @@ Vector wigner_sequence(int order, int m, int k, double beta) {
 }  // namespace
 
 RotationY rotation_y(int order, double beta) {
+  const Angle angle(beta);
   RotationY rotation;
   for (int n = 0; n <= order; ++n) {
     rotation.cosine.emplace_back(Matrix::Zero(n + 1, n + 1));
@@ -64,8 +75,8 @@ RotationY rotation_y(int order, double beta) {
   }
   for (int before = 0; before <= order; ++before) {
     for (int after = 0; after <= order; ++after) {
-      const Vector plus = wigner_sequence(order, before, after, beta);
-      const Vector minus = wigner_sequence(order, -before, after, beta);
+      const Vector plus = wigner_sequence(order, before, after, angle);
+      const Vector minus = wigner_sequence(order, -before, after, angle);
       const double sign_after = parity(after);
       const double sign_before = parity(before);
       for (int n = std::max(before, after); n <= order; ++n) {

@@ -73,8 +73,9 @@ std::string missing_program(const std::string& command) {
   return !modules.empty() && python_with(modules).empty() ? modules : "";
 }
 
-/// A sweep with few runs.
-std::string few_runs(const std::string& sweep) {
+/// A sweep with few runs, each of few vesicles.
+std::string few_runs(std::string sweep) {
+  sweep = std::regex_replace(sweep, std::regex("(\\[suspension\\]\nkind = \"ball\"\nradius = )[0-9.]+"), "$015.0");
   return std::regex_replace(sweep, std::regex("count = [0-9]+"), "count = 2");
 }
 

@@ -30,6 +30,8 @@ struct AnyContainer {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+    // Ranks that wait leave the processors to other tests.
+    ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
   }
 };
 
