@@ -14,7 +14,6 @@
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/stepping/space/discretisation.hpp"
-#include "bie/support/memory.hpp"
 #include "bie/support/temporary.hpp"
 #include "bie/support/thread_count.hpp"
 
@@ -76,7 +75,12 @@ MethodLevel sources_level(int order, int repeats) {
   }
   level.first = {errors.charge_l2, errors.charge};
   level.second = {errors.force_l2, errors.force};
-  level.peak_memory_bytes = peak_memory_bytes();
+  level.peak_memory_bytes = memory_of({"sources",
+                                       [&](int degree) {
+                                         static_cast<void>(solve_example1(degree, upsampling));
+                                         return SolvedProblem{};
+                                       }},
+                                      order);
   return level;
 }
 
