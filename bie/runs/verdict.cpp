@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace vehd {
@@ -32,10 +33,10 @@ constexpr std::size_t most_swings = 4;
 constexpr double largest_rejecting_share = 0.1;
 constexpr std::ptrdiff_t most_rejecting = 10;
 
-/// A membrane that wrinkles more finely than its degree can show, for so long that the fastest disturbance that it does
-/// show would grow by more than this, depends on what was cut off. A pulse that is over before holds its tolerance (20
-/// times); those that miss it tenfold, or depend on the degree, have 200 and more (docs/hard_cases.md).
-constexpr double most_unseen_growth = 100.0;
+/// With fixed steps, what a membrane that wrinkles more finely than its degree can show may make of what was cut off:
+/// as much as the tail of a spectrum may have. With a tolerance that is the limit. Pulses that hold their tolerance
+/// stay below it, those that miss it tenfold, or depend on the degree, are a thousand times above (docs/hard_cases.md).
+constexpr double most_unseen = 5e-3;
 
 /// The value furthest from what is good; not a number where there is one.
 template <typename IsWorse>
@@ -80,15 +81,19 @@ std::vector<std::string> beyond_limits(const HistoryTable& history, std::optiona
 struct UnseenWrinkles {
   double since = 0.0;
   std::size_t worst_row = 0;
-  double growth = 1.0;  ///< the most in one such time: exp of the sum of wrinkle_growth
+  /// What was cut off when a time of wrinkles began, and exp of the sum of wrinkle_growth in it, where their product is
+  /// most.
+  double seed = 0.0, growth = 1.0;
 
-  [[nodiscard]] std::string text(const HistoryTable& history) const {
+  [[nodiscard]] bool matters(double limit) const { return seed * growth > limit; }
+  [[nodiscard]] std::string text(const HistoryTable& history, double limit) const {
     const double round = 2.0 * std::numbers::pi;
     const double wrinkle = history.column("wrinkle_degree")[worst_row], order = history.column("order")[worst_row];
     std::string result = fmt::format(
         "compressed since time {}: wrinkles of wavelength {:.2g} radii grow fastest, the finest degree {:g} has {:.2g}",
         history.time_text(since), round / wrinkle, order, round / order);
-    if (growth > most_unseen_growth) result += fmt::format(", and what it has may have grown by {:.0e}", growth);
+    if (matters(limit))
+      result += fmt::format(", and the {:.1g} that it cut off may have grown {:.0e} times", seed, growth);
     return result;
   }
 };
@@ -97,18 +102,25 @@ std::optional<UnseenWrinkles> unseen_wrinkles(const HistoryTable& history) {
   const std::vector<double>& times = history.column("time");
   const std::vector<double>& wrinkles = history.column("wrinkle_degree");
   const std::vector<double>& order = history.column("order");
+  const std::vector<double>& truncation = history.column("truncation");
   const bool has_growth = history.has("wrinkle_growth");  // histories of earlier versions are without
   std::optional<UnseenWrinkles> found;
-  double exponent = 0.0;
+  double seed = 0.0, exponent = 0.0;
+  bool wrinkled = false;
   for (std::size_t i = 0; i < wrinkles.size(); ++i) {
-    if (!(wrinkles[i] > order[i])) {
-      exponent = 0.0;
-      continue;
-    }
+    const bool had_wrinkles = std::exchange(wrinkled, wrinkles[i] > order[i]);
+    if (!wrinkled) continue;
     if (!found) found = UnseenWrinkles{.since = times[i], .worst_row = i};
     if (wrinkles[i] > wrinkles[found->worst_row]) found->worst_row = i;
+    if (!had_wrinkles) {
+      seed = truncation[i];
+      exponent = 0.0;
+    }
     if (has_growth) exponent += history.column("wrinkle_growth")[i];
-    found->growth = std::max(found->growth, std::exp(exponent));
+    if (seed * std::exp(exponent) > found->seed * found->growth) {
+      found->seed = seed;
+      found->growth = std::exp(exponent);
+    }
   }
   return found;
 }
@@ -197,9 +209,10 @@ std::string verdict_of(const HistoryTable& history, std::optional<double> tolera
     if (auto finding = rejections(history)) findings.push_back(std::move(*finding));
   }
   // By themselves no fault: a membrane is compressed at the start of a pulse that ends before anything has grown.
+  const double unseen = tolerance.value_or(most_unseen);
   if (const auto wrinkles = unseen_wrinkles(history);
-      wrinkles && (wrinkles->growth > most_unseen_growth || !findings.empty() || !stop_reason.empty())) {
-    findings.push_back(wrinkles->text(history));
+      wrinkles && (wrinkles->matters(unseen) || !findings.empty() || !stop_reason.empty())) {
+    findings.push_back(wrinkles->text(history, unseen));
   }
   if (auto finding = narrow_gap(history)) findings.push_back(std::move(*finding));
   const std::string text = fmt::format("{}", fmt::join(findings, "; "));

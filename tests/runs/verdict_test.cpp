@@ -81,24 +81,29 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) == "truncation above 0.001 since time 1 (worst 0.1)");
 }
 
-// A hundredfold is ln 100 = 4.6.
+// Of 1e-4 a growth by e³ = 20 makes 2e-3, one by e⁸ 0.3.
 BOOST_AUTO_TEST_CASE(wrinkles_that_had_the_time_to_grow_unseen_are_reported) {
-  const auto compressed = [](double time, double growth, double degree = 20.0) {
+  const auto compressed = [](double time, double growth, double degree = 20.0, double truncation = 1e-4) {
     vehd::HistoryRow row = row_at(time, 0, 0);
     row.order = 10;
+    row.truncation = truncation;
     row.diagnostics.vesicles[0].wrinkle_degree = degree;
     row.step.dt = 0.5;
     row.diagnostics.vesicles[0].wrinkling_rate = 2.0 * growth;
     return row;
   };
-  BOOST_TEST(judged({compressed(0, 5), compressed(1, 3)}) ==
-             "compressed since time 0: wrinkles of wavelength 0.31 radii grow fastest, the finest degree 10 has 0.63, "
-             "and what it has may have grown by 3e+03");
-  BOOST_TEST(judged({compressed(0, 2), compressed(1, 2)}) == "trustworthy");
+  const std::string wrinkles =
+      "compressed since time 0: wrinkles of wavelength 0.31 radii grow fastest, the finest degree 10 has 0.63, and the "
+      "0.0001 that it cut off may have grown ";
+  BOOST_TEST(judged({compressed(0, 5), compressed(1, 3)}) == wrinkles + "3e+03 times");
+  BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}) == "trustworthy");
+  BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}, 1e-3) == wrinkles + "2e+01 times");
+  // Nothing was there to grow.
+  BOOST_TEST(judged({compressed(0, 5, 20.0, 0.0), compressed(1, 3)}) == "trustworthy");
   // Seen, and hence followed by the tolerance.
   BOOST_TEST(judged({compressed(0, 5, 9.0), compressed(1, 3, 9.0)}) == "trustworthy");
   // What grew before the membrane was stretched is gone.
-  BOOST_TEST(judged({compressed(0, 2), compressed(1, 2), compressed(2, 0, 0.0), compressed(3, 2), compressed(4, 2)}) ==
+  BOOST_TEST(judged({compressed(0, 2), compressed(1, 1), compressed(2, 0, 0.0), compressed(3, 2), compressed(4, 1)}) ==
              "trustworthy");
 }
 
