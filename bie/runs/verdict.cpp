@@ -37,6 +37,8 @@ constexpr std::ptrdiff_t most_rejecting = 10;
 /// as much as the tail of a spectrum may have. With a tolerance that is the limit. Pulses that hold their tolerance
 /// stay below it, those that miss it tenfold, or depend on the degree, are a thousand times above (docs/hard_cases.md).
 constexpr double most_unseen = 5e-3;
+/// What has not grown by a digit is told by its own column.
+constexpr double least_unseen_growth = 10.0;
 
 /// The value furthest from what is good; not a number where there is one.
 template <typename IsWorse>
@@ -85,7 +87,7 @@ struct UnseenWrinkles {
   /// most.
   double seed = 0.0, growth = 1.0;
 
-  [[nodiscard]] bool matters(double limit) const { return seed * growth > limit; }
+  [[nodiscard]] bool matters(double limit) const { return growth > least_unseen_growth && seed * growth > limit; }
   [[nodiscard]] std::string text(const HistoryTable& history, double limit) const {
     const double round = 2.0 * std::numbers::pi;
     const double wrinkle = history.column("wrinkle_degree")[worst_row], order = history.column("order")[worst_row];
