@@ -66,6 +66,14 @@ MethodLevel level_of_order(int order, int n_scalars) {
   return level;
 }
 
+std::optional<std::int64_t> memory_of_solve(int order, const std::function<void()>& solve) {
+  const auto solved = [&](int) {
+    solve();
+    return SolvedProblem{};
+  };
+  return memory_of({"solve", solved}, order);
+}
+
 MethodLevel sources_level(int order, int repeats) {
   MethodLevel level = level_of_order(order, 1);
   const int upsampling = NumericalSettings().upsampling;
@@ -75,12 +83,7 @@ MethodLevel sources_level(int order, int repeats) {
   }
   level.first = {errors.charge_l2, errors.charge};
   level.second = {errors.force_l2, errors.force};
-  level.peak_memory_bytes = memory_of({"sources",
-                                       [&](int degree) {
-                                         static_cast<void>(solve_example1(degree, upsampling));
-                                         return SolvedProblem{};
-                                       }},
-                                      order);
+  level.peak_memory_bytes = memory_of_solve(order, [&] { static_cast<void>(solve_example1(order, upsampling)); });
   return level;
 }
 
@@ -95,12 +98,7 @@ MethodLevel shape_level(const ShapeFlowProblem& problem, int order, int repeats)
   }
   level.first = errors.velocity;
   level.second = errors.tension;
-  level.peak_memory_bytes = memory_of({"shape",
-                                       [&](int degree) {
-                                         static_cast<void>(problem.solve(degree));
-                                         return SolvedProblem{};
-                                       }},
-                                      order);
+  level.peak_memory_bytes = memory_of_solve(order, [&] { static_cast<void>(problem.solve(order)); });
   return level;
 }
 

@@ -45,7 +45,7 @@ SceneRun::SceneRun(const GivenScene& given, const std::optional<std::filesystem:
     }
   } else {
     parts_->in_memory.emplace(parts_->scene, Checkpoint{}, OutputUnits(parts_->scene));
-    laboratory_.emplace(parts_->in_memory->problem().frame, parts_->in_memory->problem().settings);
+    lab_frame_output_.emplace(parts_->in_memory->problem().frame, parts_->in_memory->problem().settings);
     const bool several = parts_->in_memory->evolution().state().vesicles.size() > 1;
     const HistoryKind kind = history_kind(parts_->scene);
     history_.emplace(parts_->in_memory->units(), kind);
@@ -105,7 +105,7 @@ bool SceneRun::step() {
 
 void SceneRun::append_rows() {
   for (const RecordedSide& side : parts_->in_memory->sides()) {
-    const HistoryRow row = row_in_laboratory(*laboratory_, parts_->scene.numerics.order, side);
+    const HistoryRow row = row_in_laboratory(*lab_frame_output_, parts_->scene.numerics.order, side);
     history_->append(vesicles_ ? row_of_all(row) : row);
     if (!vesicles_) continue;
     for (const HistoryRow& own : rows_of_each(row)) vesicles_->append(own);

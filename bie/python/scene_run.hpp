@@ -65,7 +65,7 @@ class SceneRun {
 
   std::shared_ptr<Parts> parts_;
   std::optional<std::filesystem::path> directory_;
-  std::optional<LabFrameOutput> laboratory_;
+  std::optional<LabFrameOutput> lab_frame_output_;
   std::optional<HistoryTable> history_, vesicles_;
   std::shared_ptr<Moment> moment_;
   bool looks_ = false;  ///< the moment is that of the state

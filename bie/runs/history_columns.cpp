@@ -223,7 +223,7 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
   static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
   // Without poration and with each of its models, without places and with them.
   using OfRows = std::array<std::vector<HistoryColumn>, usual.size()>;
-  static const auto further = [] {
+  static const auto of_kinds = [] {
     std::array<std::array<OfRows, 2>, n_poration_models + 1> all;
     for (std::size_t model = 0; model < all.size(); ++model) {
       for (std::size_t places = 0; places < 2; ++places) {
@@ -237,15 +237,14 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
           if (model > 0 && !(reacts && of_whole)) append(poration_columns(static_cast<PorationModel>(model - 1)));
           if (places > 0 && !of_whole) append(place_columns());
           // Histories of earlier versions end before it.
-          if (rows != HistoryKind::of_each)
-            columns.push_back({"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method});
+          if (rows != HistoryKind::of_each) append({{"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method}});
         }
       }
     }
     return all;
   }();
   const std::size_t model = kind.poration ? static_cast<std::size_t>(*kind.poration) + 1 : 0;
-  return further.at(model).at(kind.by_place ? 1 : 0).at(kind.rows);
+  return of_kinds.at(model).at(kind.by_place ? 1 : 0).at(kind.rows);
 }
 
 HistoryKind history_kind(const Scene& scene) {

@@ -94,8 +94,9 @@ struct UnseenWrinkles {
     std::string result = fmt::format(
         "compressed since time {}: wrinkles of wavelength {:.2g} radii grow fastest, the finest degree {:g} has {:.2g}",
         history.time_text(since), round / wrinkle, order, round / order);
-    if (matters(limit))
+    if (matters(limit)) {
       result += fmt::format(", and the {:.1g} that it cut off may have grown {:.0e} times", seed, growth);
+    }
     return result;
   }
 };
@@ -105,7 +106,8 @@ std::optional<UnseenWrinkles> unseen_wrinkles(const HistoryTable& history) {
   const std::vector<double>& wrinkles = history.column("wrinkle_degree");
   const std::vector<double>& order = history.column("order");
   const std::vector<double>& truncation = history.column("truncation");
-  const bool has_growth = history.has("wrinkle_growth");  // histories of earlier versions are without
+  // Histories of earlier versions are without.
+  const std::vector<double>* const growth = history.has("wrinkle_growth") ? &history.column("wrinkle_growth") : nullptr;
   std::optional<UnseenWrinkles> found;
   double seed = 0.0, exponent = 0.0;
   bool wrinkled = false;
@@ -118,7 +120,7 @@ std::optional<UnseenWrinkles> unseen_wrinkles(const HistoryTable& history) {
       seed = truncation[i];
       exponent = 0.0;
     }
-    if (has_growth) exponent += history.column("wrinkle_growth")[i];
+    if (growth != nullptr) exponent += (*growth)[i];
     if (seed * std::exp(exponent) > found->seed * found->growth) {
       found->seed = seed;
       found->growth = std::exp(exponent);

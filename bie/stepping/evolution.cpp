@@ -74,7 +74,8 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
 void Evolution::expect_growth(double until) {
-  if (adapts()) growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, until, setup_.settings.order);
+  if (adapts())
+    growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, until, setup_.settings.order);
 }
 
 double Evolution::truncation(const State& state) const {
