@@ -50,7 +50,8 @@ Matrix3 BoxMap::axes_along(const Point& normal, const std::array<FrozenShape, 2>
   for (const FrozenShape& shape : shapes) stretch += shape.affine_part() * shape.affine_part().transpose();
   const Eigen::Matrix<double, 3, 2> across = axes.leftCols<2>();
   const Eigen::Matrix2d across_stretch = across.transpose() * stretch * across;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(across_stretch);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
+  principal.computeDirect(across_stretch);
   if (principal.eigenvalues()[1] > kMarked * principal.eigenvalues()[0]) {
     axes.col(0) = across * principal.eigenvectors().col(1);
     axes.col(1) = normal.cross(axes.col(0));
