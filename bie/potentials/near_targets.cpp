@@ -61,7 +61,8 @@ struct NearRowMaker {
     return largest;
   }
 
-  /// The first stage that agrees with the next at the targets that are nearest, farthest and between.
+  /// The first stage that agrees with the one before it at the targets that are nearest, farthest and between: what it
+  /// leaves is well below their difference, which is room for the targets that were not asked.
   [[nodiscard]] SettledRule settled_rule(const NearRule& choice, const std::vector<NearTarget>& group) const {
     SettledRule settled{make_near_rule(order, choice, 0), {}};
     std::vector<TargetFrame> frames;
