@@ -14,7 +14,10 @@ constexpr double kLaplacePrefactor = 1.0 / (4.0 * std::numbers::pi);
 /// @param inverse_r  1/|r|
 /// Accuracy: rounding
 /// Source: paper Eq. (9)
-inline double laplace_single_kernel(double inverse_r) { return inverse_r; }
+template <class Real>
+Real laplace_single_kernel(const Real& inverse_r) {
+  return inverse_r;
+}
 
 /// ∂G/∂n(y) without prefactor: r·n(y)/|r|³, Eq. (9).
 /// @param r_dot_source_normal  r·n(y), or r·J n(y) where the area element is to be in the kernel; its units come out

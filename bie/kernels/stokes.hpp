@@ -3,7 +3,8 @@
 #include <array>
 #include <numbers>
 
-/// Pointwise Stokes kernels, r = x − y (target minus source). No quadrature, no area element.
+/// Pointwise Stokes kernels, r = x − y (target minus source). No quadrature, no area element. Real is a number or an
+/// array of those for several nodes.
 namespace vehd {
 
 /// 1/(8πμ).
@@ -16,14 +17,14 @@ constexpr double stokes_single_layer_prefactor(double viscosity) { return 1.0 / 
 /// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11
 /// (tests/potentials/stokes_sphere_test.cpp)
 /// Source: paper Eq. (6)
-inline std::array<double, 6> stokeslet(double rx, double ry, double rz, double inverse_r) {
-  const double inverse_r3 = inverse_r * inverse_r * inverse_r;
+template <class Real>
+std::array<Real, 6> stokeslet(const Real& rx, const Real& ry, const Real& rz, const Real& inverse_r) {
+  const Real inverse_r3 = inverse_r * inverse_r * inverse_r;
   return {inverse_r + rx * rx * inverse_r3, rx * ry * inverse_r3, rx * rz * inverse_r3,
           inverse_r + ry * ry * inverse_r3, ry * rz * inverse_r3, inverse_r + rz * rz * inverse_r3};
 }
 
-/// The same times a force, f/|r| + r r·f/|r|³, in half the operations. Real is a number or an array of those for
-/// several nodes.
+/// The same times a force, f/|r| + r r·f/|r|³, in half the operations.
 template <class Real>
 std::array<Real, 3> stokeslet_flow(const Real& rx, const Real& ry, const Real& rz, const Real& inverse_r,
                                    const Real& fx, const Real& fy, const Real& fz) {
@@ -46,13 +47,14 @@ constexpr double kStokesDoubleLayerPrefactor = 3.0 / (4.0 * std::numbers::pi);
 /// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11
 /// (tests/potentials/stokes_sphere_test.cpp)
 /// Source: Pozrikidis 1992
-inline std::array<double, 6> stokes_double_kernel(double rx, double ry, double rz, double r_dot_source_normal,
-                                                  double inverse_r) {
-  const double inverse_r2 = inverse_r * inverse_r;
-  const double factor = r_dot_source_normal * inverse_r2 * inverse_r2 * inverse_r;
-  const double x = factor * rx;
-  const double y = factor * ry;
-  const double z = factor * rz;
+template <class Real>
+std::array<Real, 6> stokes_double_kernel(const Real& rx, const Real& ry, const Real& rz,
+                                         const Real& r_dot_source_normal, const Real& inverse_r) {
+  const Real inverse_r2 = inverse_r * inverse_r;
+  const Real factor = r_dot_source_normal * inverse_r2 * inverse_r2 * inverse_r;
+  const Real x = factor * rx;
+  const Real y = factor * ry;
+  const Real z = factor * rz;
   return {x * rx, x * ry, x * rz, y * ry, y * rz, z * rz};
 }
 

@@ -5,18 +5,12 @@
 
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
+#include "bie/potentials/few_nodes.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
 
 namespace {
-
-/// Nodes that are looked at together, as many as a register holds: one instruction each of what compilers would else do
-/// one by one.
-constexpr Index kTogether = std::max(4, int{Eigen::internal::packet_traits<double>::size});
-using Few = Eigen::Array<double, kTogether, 1>;
-
-Few few(const double* at) { return Eigen::Map<const Few>(at); }
 
 /// r = x − y at some nodes, y the source, and its products with J n there.
 struct NodeSeparation {
@@ -94,10 +88,8 @@ void scalar_kernels(const Matrix& at, const Vector3& target, const Kernel& kerne
 void stokes_double_kernels(const Matrix& at, const Vector3& target, double* kernels) {
   for (Index i = 0; i < at.rows(); i += kTogether) {
     const NodeSeparation r(at, i, target);
-    const Few inverse2 = r.inverse * r.inverse;
-    const Few factor = kStokesDoubleLayerPrefactor * r.source() * inverse2 * inverse2 * r.inverse;
-    const Few products[] = {r.x * r.x, r.x * r.y, r.x * r.z, r.y * r.y, r.y * r.z, r.z * r.z};
-    for (int k = 0; k < 6; ++k) Eigen::Map<Few>(kernels + k * at.rows() + i) = factor * products[k];
+    const std::array<Few, 6> g = stokes_double_kernel(r.x, r.y, r.z, r.source(), r.inverse);
+    for (int k = 0; k < 6; ++k) Eigen::Map<Few>(kernels + k * at.rows() + i) = kStokesDoubleLayerPrefactor * g[k];
   }
 }
 

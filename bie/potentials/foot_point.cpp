@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/neighbourhood.hpp"
@@ -60,44 +61,92 @@ FootPoint foot_point_at(const TangentFrame& direction, const PointDerivatives& y
   return foot;
 }
 
+/// One search for a nearest point: it asks for the derivatives at a point, is told them, and asks again.
+class FootSearch {
+ public:
+  FootSearch(const Vector3& start, const Vector3& target) : target_(target), asked_(point_of(start)) {}
+
+  [[nodiscard]] bool is_done() const { return done_; }
+  /// Where derivatives are wanted.
+  [[nodiscard]] const SpherePoint& asks_for() const { return asked_.point; }
+
+  void is_told(PointDerivatives y) {
+    const SquaredDistance q = squared_distance(y, target_);
+    // The square of a tiny distance is flat to rounding: the gradient decides when the value cannot.
+    const bool nearer = steps_ == 0 || q.value <= q_.value || q.gradient.norm() < q_.gradient.norm();
+    if (!nearer && halvings_ < kMaxHalvings && !last_) {
+      step_ *= 0.5;
+      ++halvings_;
+    } else {
+      direction_ = asked_;
+      y_ = std::move(y);
+      q_ = q;
+      converged_ = last_;
+      done_ = converged_ || steps_ == kMaxSteps;
+      step_ = descent_step(q_);
+      last_ = step_.norm() < kTolerance;
+      halvings_ = 0;
+      ++steps_;
+    }
+    asked_ = TangentFrame(point_of(direction_.moved(step_)));
+  }
+
+  /// @throws ConvergenceError after too many steps
+  [[nodiscard]] FootPoint result() const {
+    // Near a centre of curvature the distance hardly depends on the point, and any point close to nearest serves.
+    constexpr double kFlatGradient = 1e-3;
+    if (!converged_ && q_.gradient.norm() > kFlatGradient * std::sqrt(2.0 * q_.value * q_.metric.trace())) {
+      throw ConvergenceError(
+          fmt::format("nearest point of the membrane to ({:.6g}, {:.6g}, {:.6g}): no convergence in {} "
+                      "steps from the nearest node",
+                      target_.x(), target_.y(), target_.z(), kMaxSteps));
+    }
+    return foot_point_at(direction_, y_, q_, target_);
+  }
+
+ private:
+  static constexpr int kMaxSteps = 60;
+  static constexpr int kMaxHalvings = 30;
+  static constexpr double kTolerance = 1e-13;
+
+  Vector3 target_;
+  TangentFrame asked_, direction_ = asked_;
+  PointDerivatives y_;
+  SquaredDistance q_{};
+  Eigen::Vector2d step_ = Eigen::Vector2d::Zero();
+  int steps_ = 0, halvings_ = 0;
+  bool last_ = false, converged_ = false, done_ = false;
+};
+
 }  // namespace
 
 FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Vector3& target) {
-  constexpr int kMaxSteps = 60;
-  constexpr int kMaxHalvings = 30;
-  constexpr double kTolerance = 1e-13;
   require_size("position (Cartesian components)", position.cols(), 3);
-  TangentFrame direction(point_of(start));
-  PointDerivatives y = point_derivatives(position, direction.point);
-  SquaredDistance q = squared_distance(y, target);
-  for (int steps = 0; steps < kMaxSteps; ++steps) {
-    Eigen::Vector2d step = descent_step(q);
-    const bool last = step.norm() < kTolerance;
-    for (int halvings = 0;; ++halvings) {
-      const TangentFrame next(point_of(direction.moved(step)));
-      const PointDerivatives y_next = point_derivatives(position, next.point);
-      const SquaredDistance q_next = squared_distance(y_next, target);
-      // The square of a tiny distance is flat to rounding: the gradient decides when the value cannot.
-      const bool nearer = q_next.value <= q.value || q_next.gradient.norm() < q.gradient.norm();
-      if (nearer || halvings == kMaxHalvings || last) {
-        direction = next;
-        y = y_next;
-        q = q_next;
-        break;
-      }
-      step *= 0.5;
-    }
-    if (last) return foot_point_at(direction, y, q, target);
+  FootSearch search(start, target);
+  while (!search.is_done()) search.is_told(point_derivatives(position, search.asks_for()));
+  return search.result();
+}
+
+std::vector<FootPoint> find_foot_points(const Matrix& position, const Matrix& starts, const Matrix& targets) {
+  require_size("position (Cartesian components)", position.cols(), 3);
+  require_size("starts", starts.rows(), targets.rows());
+  std::vector<FootSearch> searches;
+  for (Index i = 0; i < targets.rows(); ++i) {
+    searches.emplace_back(Vector3(starts.row(i).transpose()), Vector3(targets.row(i).transpose()));
   }
-  // Near a centre of curvature the distance hardly depends on the point, and any point close to nearest serves.
-  constexpr double kFlatGradient = 1e-3;
-  if (q.gradient.norm() <= kFlatGradient * std::sqrt(2.0 * q.value * q.metric.trace())) {
-    return foot_point_at(direction, y, q, target);
+  std::vector<FootSearch*> going_on;
+  for (FootSearch& search : searches) going_on.push_back(&search);
+  std::vector<SpherePoint> points;
+  while (!going_on.empty()) {
+    points.clear();
+    for (const FootSearch* search : going_on) points.push_back(search->asks_for());
+    std::vector<PointDerivatives> found = point_derivatives(position, points);
+    for (std::size_t i = 0; i < found.size(); ++i) going_on[i]->is_told(std::move(found[i]));
+    std::erase_if(going_on, [](const FootSearch* search) { return search->is_done(); });
   }
-  throw ConvergenceError(
-      fmt::format("nearest point of the membrane to ({:.6g}, {:.6g}, {:.6g}): no convergence in {} "
-                  "steps from the nearest node",
-                  target.x(), target.y(), target.z(), kMaxSteps));
+  std::vector<FootPoint> feet;
+  for (const FootSearch& search : searches) feet.push_back(search.result());
+  return feet;
 }
 
 }  // namespace vehd

@@ -70,14 +70,7 @@ GradedRule make_graded_rule(int order, double scale, int n_theta, int n_phi) {
     rule.synthesis.push_back(std::move(stack));
   }
 
-  rule.fourier.resize(n_phi, 2 * order + 1);
-  for (int k = 0; k < n_phi; ++k) {
-    const double psi = (k + 0.5) * 2.0 * std::numbers::pi / n_phi;
-    for (int m = 0; m <= order; ++m) {
-      rule.fourier(k, m) = std::cos(m * psi);
-      if (m > 0) rule.fourier(k, order + m) = std::sin(m * psi);
-    }
-  }
+  rule.azimuths = AzimuthSums(n_phi, order);
   return rule;
 }
 

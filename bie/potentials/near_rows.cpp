@@ -1,10 +1,13 @@
 #include "bie/potentials/near_rows.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
+#include "bie/potentials/few_nodes.hpp"
 
 namespace vehd {
 
@@ -54,38 +57,42 @@ std::vector<KernelKind> kinds_of(const PairColumns& columns) {
 double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& weight, const Vector3& offset,
                       const Vector3& normal, const PairColumns& columns, double* kernels) {
   const Index n = weight.size();
-  const auto field = [&](int column) { return nodes + column * n; };
-  const auto out = [&](int row) { return kernels + row * n; };
-  const double *px = field(at.position), *py = field(at.position + 1), *pz = field(at.position + 2);
-  const double *ux = field(at.tangent_1), *uy = field(at.tangent_1 + 1), *uz = field(at.tangent_1 + 2);
-  const double *vx = field(at.tangent_2), *vy = field(at.tangent_2 + 1), *vz = field(at.tangent_2 + 2);
+  const auto field = [&](int column, Index i) { return few(nodes + column * n + i); };
+  const auto dot = [](const Vector3& a, const Few& x, const Few& y, const Few& z) -> Few {
+    return a[0] * x + a[1] * y + a[2] * z;
+  };
   double angle = 0.0;
-  for (Index i = 0; i < n; ++i) {
-    const Vector3 r(offset[0] - px[i], offset[1] - py[i], offset[2] - pz[i]);
-    const Vector3 u(ux[i], uy[i], uz[i]), v(vx[i], vy[i], vz[i]);
-    const double inverse = 1.0 / r.norm();
-    const double inverse3 = inverse * inverse * inverse;
-    const double w = weight[i];
-    const double r_dot_area = r.dot(u.cross(v));
-    const double solid_angle = w * laplace_double_kernel(r_dot_area, inverse);
-    angle += solid_angle;
-    if (columns.single >= 0) out(columns.single)[i] = w * laplace_single_kernel(inverse);
+  for (Index next = 0; next < n; next += kTogether) {
+    // The last ones begin earlier, so that they end with the circle, and find some of the nodes before them again.
+    const Index i = std::min(next, n - kTogether);
+    const auto put = [&](int row, const Few& values) { Eigen::Map<Few>(kernels + row * n + i) = values; };
+    const Few x = offset[0] - field(at.position, i), y = offset[1] - field(at.position + 1, i),
+              z = offset[2] - field(at.position + 2, i);
+    const Few ux = field(at.tangent_1, i), uy = field(at.tangent_1 + 1, i), uz = field(at.tangent_1 + 2, i);
+    const Few vx = field(at.tangent_2, i), vy = field(at.tangent_2 + 1, i), vz = field(at.tangent_2 + 2, i);
+    const Few inverse = (x * x + y * y + z * z).rsqrt();
+    const Few w = few(weight.data() + i);
+    const Few area = x * (uy * vz - uz * vy) + y * (uz * vx - ux * vz) + z * (ux * vy - uy * vx);  // r·(u × v)
+    const Few solid_angle = w * laplace_double_kernel(area, inverse);
+    angle += solid_angle.tail(i + kTogether - next).sum();
+    if (columns.single >= 0) put(columns.single, w * laplace_single_kernel(inverse));
     if (columns.single_normal >= 0) {
-      out(columns.single_normal)[i] = w * laplace_adjoint_kernel(r.dot(normal), inverse);
+      put(columns.single_normal, w * laplace_adjoint_kernel(dot(normal, x, y, z), inverse));
     }
-    if (columns.double_layer >= 0) out(columns.double_layer)[i] = solid_angle;
+    if (columns.double_layer >= 0) put(columns.double_layer, solid_angle);
     if (columns.double_normal >= 0) {
       // −N·r/|r|³ × (f_1 v − f_2 u)
-      out(columns.double_normal)[i] = -w * inverse3 * normal.dot(r.cross(v));
-      out(columns.count)[i] = w * inverse3 * normal.dot(r.cross(u));
+      const Few factor = w * inverse * inverse * inverse;
+      put(columns.double_normal, -factor * dot(normal, y * vz - z * vy, z * vx - x * vz, x * vy - y * vx));
+      put(columns.count, factor * dot(normal, y * uz - z * uy, z * ux - x * uz, x * uy - y * ux));
     }
     if (columns.stokes >= 0) {
-      const auto g = stokeslet(r[0], r[1], r[2], inverse);
-      for (int k = 0; k < 6; ++k) out(columns.stokes + k)[i] = w * g[k];
+      const std::array<Few, 6> g = stokeslet(x, y, z, inverse);
+      for (int k = 0; k < 6; ++k) put(columns.stokes + k, w * g[k]);
     }
     if (columns.stokes_double >= 0) {
-      const auto g = stokes_double_kernel(r[0], r[1], r[2], r_dot_area, inverse);
-      for (int k = 0; k < 6; ++k) out(columns.stokes_double + k)[i] = w * g[k];
+      const std::array<Few, 6> g = stokes_double_kernel(x, y, z, area, inverse);
+      for (int k = 0; k < 6; ++k) put(columns.stokes_double + k, w * g[k]);
     }
   }
   return angle;
@@ -98,14 +105,14 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
   const Index n_theta = rule.theta.size();
   const Index n_all = columns.count + 1;
   const RowMatrix nodes = frame.nodes(rule);
-  RowMatrix kernels = RowMatrix::Zero(rule.n_phi, n_all * n_theta);
+  RowMatrix kernels = RowMatrix::Zero(rule.n_phi, filled_up(n_all * n_theta));
   NearRows result;
   for (int k = 0; k < rule.n_phi; ++k) {
     result.enclosure += kLaplacePrefactor * circle_kernels(NodeColumns{}, nodes.row(k).data(), rule.weight, offset,
                                                            normal, columns, kernels.row(k).data());
   }
   // Adjoint of the Fourier sums, then of the Legendre sums of each m.
-  const RowMatrix circles = rule.fourier.transpose() * kernels;
+  const RowMatrix circles = rule.azimuths.adjoint(kernels);
   const std::vector<KernelKind> kinds = kinds_of(columns);
   const int order = static_cast<int>(rule.synthesis.size()) - 1;
   std::vector<Matrix> rotated;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bie/support/errors.hpp"
+
 namespace vehd {
 
 namespace {
@@ -11,7 +13,8 @@ constexpr double kNodeGrowth = 1.25;
 /// Finest grading, t = 2^−50: beyond it every distance is rounding.
 constexpr int kFinestLevel = 50;
 
-int even(double n) { return 2 * static_cast<int>(std::ceil(0.5 * n)); }
+/// As AzimuthSums needs it.
+int multiple_of_four(double n) { return 4 * static_cast<int>(std::ceil(0.25 * n)); }
 int least_n_theta(int order, int level) { return static_cast<int>(std::ceil(1.15 * order)) + 8 + level; }
 int least_n_phi(int order) { return 2 * order + 12; }
 
@@ -41,7 +44,7 @@ GradedRule make_near_rule(int order, const NearRule& choice, int stage) {
   return make_graded_rule(
       order, std::exp2(-choice.level),
       static_cast<int>(std::ceil(least_n_theta(order, choice.level) * std::pow(kNodeGrowth, stage))),
-      even(least_n_phi(order) * std::pow(kNodeGrowth, choice.azimuth + stage)));
+      multiple_of_four(least_n_phi(order) * std::pow(kNodeGrowth, choice.azimuth + stage)));
 }
 
 FootPoint nearest_foot(const Matrix& position, const SmoothGrid& grid, const NearestNodes& nearest,
@@ -53,6 +56,32 @@ FootPoint nearest_foot(const Matrix& position, const SmoothGrid& grid, const Nea
     if (std::abs(opposite.height) < std::abs(foot.height)) foot = opposite;
   }
   return foot;
+}
+
+std::vector<FootPoint> nearest_feet(const Matrix& position, const SmoothGrid& grid,
+                                    const std::vector<NearestNodes>& nearest, const Matrix& targets) {
+  require_size("nearest nodes", static_cast<long>(nearest.size()), targets.rows());
+  std::vector<Index> nodes, of_targets;
+  const auto seek = [&](Index target, Index node) {
+    nodes.push_back(node);
+    of_targets.push_back(target);
+  };
+  for (Index i = 0; i < targets.rows(); ++i) {
+    const NearestNodes& from = nearest[static_cast<std::size_t>(i)];
+    seek(i, from.first);
+    if (from.opposite_counts) seek(i, from.opposite);
+  }
+  const std::vector<FootPoint> found =
+      find_foot_points(position, grid.directions(nodes, Eigen::all), targets(of_targets, Eigen::all));
+  std::vector<FootPoint> feet;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (k == 0 || of_targets[k] != of_targets[k - 1]) {
+      feet.push_back(found[k]);
+    } else if (std::abs(found[k].height) < std::abs(feet.back().height)) {
+      feet.back() = found[k];
+    }
+  }
+  return feet;
 }
 
 }  // namespace vehd

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bie/potentials/foot_point.hpp"
 #include "bie/potentials/graded_rule.hpp"
 #include "bie/potentials/smooth_grid.hpp"
@@ -25,9 +27,14 @@ NearRule near_rule(const FootPoint& foot, int order, double tolerance, bool on_m
 /// @param stage  ≥ 0
 GradedRule make_near_rule(int order, const NearRule& choice, int stage);
 
-/// The nearest point of the membrane, sought from the nearest nodes of a grid (NearestNodes).
+/// The nearest points of the membrane, sought from the nearest nodes of a grid (NearestNodes).
 /// @param position  coefficients of the membrane, [n_coefficients x 3]
-/// @throws ConvergenceError if it is not found
+/// @param nearest   of each target
+/// @param targets   [n x 3]
+/// @throws ConvergenceError if one is not found
+std::vector<FootPoint> nearest_feet(const Matrix& position, const SmoothGrid& grid,
+                                    const std::vector<NearestNodes>& nearest, const Matrix& targets);
+/// That of one target.
 FootPoint nearest_foot(const Matrix& position, const SmoothGrid& grid, const NearestNodes& nearest,
                        const Vector3& point);
 

@@ -49,7 +49,7 @@ TargetFrame::TargetFrame(const LayerFields& fields, double theta, double phi)
 RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
   const NodeColumns& columns = fields_.columns;
   const Index n_theta = rule.theta.size();
-  RowMatrix result(2 * order_ + 1, columns.count * n_theta);
+  RowMatrix result = RowMatrix::Zero(rule.azimuths.n_modes(), filled_up(columns.count * n_theta));
   Matrix product;
   const auto put = [&](int m, int column, const auto& cosine, const auto& sine) {
     result.row(m).segment(column * n_theta, n_theta) = cosine.transpose();
@@ -84,7 +84,7 @@ RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
   return result;
 }
 
-RowMatrix TargetFrame::nodes(const GradedRule& rule) const { return rule.fourier * amplitudes(rule); }
+RowMatrix TargetFrame::nodes(const GradedRule& rule) const { return rule.azimuths.values(amplitudes(rule)); }
 
 RowMatrix TargetFrame::rotated_back(const std::vector<Matrix>& rotated) const {
   const Index n_columns = rotated.front().cols() / 2;

@@ -46,4 +46,51 @@ PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint
   return point_derivatives(coefficients, point, order_of(coefficients.rows()));
 }
 
+std::vector<PointDerivatives> point_derivatives(const Matrix& coefficients, const std::vector<SpherePoint>& points) {
+  const int order = order_of(coefficients.rows());
+  const Index n_points = static_cast<Index>(points.size()), n_fields = coefficients.cols();
+  Vector theta(n_points);
+  Eigen::ArrayXd phi(n_points);
+  for (Index i = 0; i < n_points; ++i) {
+    theta[i] = points[static_cast<std::size_t>(i)].theta;
+    phi[i] = points[static_cast<std::size_t>(i)].phi;
+  }
+  const LegendreTables tables = legendre_tables(order, theta);
+  Matrix value = Matrix::Zero(n_points, n_fields), d1 = value, d2 = value, d11 = value, d12 = value, laplacian = value;
+  Matrix factors, scaled, amplitudes;
+  for (int m = 0; m <= order; ++m) {
+    const Vector cosine = (m * phi).cos(), sine = (m * phi).sin();
+    factors.setZero(order + 1 - m, 2 * n_fields);  // of cos mφ, then of sin mφ
+    for (int n = m; n <= order; ++n) {
+      factors.row(n - m).head(n_fields) = coefficients.row(coefficient_index(n, m));
+      if (m > 0) factors.row(n - m).tail(n_fields) = coefficients.row(coefficient_index(n, -m));
+    }
+    scaled = factors;
+    for (int n = m; n <= order; ++n) scaled.row(n - m) *= -double(n) * (n + 1);
+    const auto add_even = [&](const Matrix& table, const Matrix& of, Matrix& sum) {
+      amplitudes.noalias() = table * of;
+      sum += cosine.asDiagonal() * amplitudes.leftCols(n_fields);
+      sum += sine.asDiagonal() * amplitudes.rightCols(n_fields);
+    };
+    const auto add_odd = [&](const Matrix& table, Matrix& sum) {
+      amplitudes.noalias() = table * factors;
+      sum += cosine.asDiagonal() * amplitudes.rightCols(n_fields);
+      sum -= sine.asDiagonal() * amplitudes.leftCols(n_fields);
+    };
+    add_even(tables.value[m], factors, value);
+    add_even(tables.value[m], scaled, laplacian);
+    add_even(tables.d_theta[m], factors, d1);
+    add_even(tables.d2_theta[m], factors, d11);
+    if (m > 0) {
+      add_odd(tables.m_over_sin[m], d2);
+      add_odd(tables.d_m_over_sin[m], d12);
+    }
+  }
+  std::vector<PointDerivatives> result;
+  for (Index i = 0; i < n_points; ++i) {
+    result.push_back({value.row(i), d1.row(i), d2.row(i), d11.row(i), d12.row(i), laplacian.row(i) - d11.row(i)});
+  }
+  return result;
+}
+
 }  // namespace vehd

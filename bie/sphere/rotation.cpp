@@ -13,84 +13,72 @@ namespace {
 
 double parity(int m) { return m % 2 == 0 ? 1.0 : -1.0; }
 
-/// d^n_{n,k}(β) in Wigner's convention, with c = cos β/2, s = sin β/2.
-double highest_row(int n, int k, double c, double s) {
-  double value = 1.0;
-  // √binomial(2n, n−k) multiplied in step with the powers: neither factor overflows alone.
-  const int down = n - k;
-  const int up = n + k;
-  for (int i = 1; i <= down; ++i) value *= -s * std::sqrt(double(2 * n - down + i) / i);
-  for (int i = 0; i < up; ++i) value *= c;
-  return value;
-}
-
-/// First entry of the sequence in n: n = max(|m|, |k|).
-double start_value(int m, int k, double c, double s) {
-  const int n = std::max(std::abs(m), std::abs(k));
-  if (m == n) return highest_row(n, k, c, s);
-  if (m == -n) return parity(n + k) * highest_row(n, -k, c, s);
-  if (k == n) return parity(n - m) * highest_row(n, m, c, s);
-  return highest_row(n, -m, c, s);  // k = -n: d_{m,-n} = d_{n,-m}
-}
-
-/// An angle β by what the sequences of all m and k take of it.
-struct Angle {
-  double cosine, half_cosine, half_sine;
-
-  explicit Angle(double beta)
-      : cosine(std::cos(beta)), half_cosine(std::cos(beta / 2)), half_sine(std::sin(beta / 2)) {}
-};
-
-/// d^n_{m,k}(β) for n = 0..order, zero below max(|m|, |k|).
-Vector wigner_sequence(int order, int m, int k, const Angle& beta) {
-  Vector d = Vector::Zero(order + 1);
-  const int first = std::max(std::abs(m), std::abs(k));
-  d[first] = start_value(m, k, beta.half_cosine, beta.half_sine);
-  const double x = beta.cosine;
+/// d^n_{m,k}(β) and d^n_{−m,k}(β) in Wigner's convention for n = k..order, 0 ≤ m ≤ k: their recurrences share the
+/// roots.
+/// @param cosine       cos β
+/// @param plus, minus  the entries of n = k are there
+void wigner_sequences(int order, int m, int k, double cosine, Vector& plus, Vector& minus) {
   const double mm = double(m) * m;
   const double kk = double(k) * k;
+  const double mk = double(m) * k;
   double root_below = 1.0;  // √((n² − m²)(n² − k²)), for the next n
-  for (int n = first; n < order; ++n) {
+  for (int n = k; n < order; ++n) {
     if (n == 0) {
-      d[1] = x;
+      plus[1] = minus[1] = cosine;
       continue;
     }
     const double nn = n;
-    const double below = n > first ? (nn + 1) * root_below * d[n - 1] : 0.0;
+    const double below = n > k ? (nn + 1) * root_below : 0.0;
     const double root = std::sqrt(((nn + 1) * (nn + 1) - mm) * ((nn + 1) * (nn + 1) - kk));
-    d[n + 1] = ((2 * nn + 1) * (nn * (nn + 1) * x - double(m) * k) * d[n] - below) / (nn * root);
+    const double inverse = 1.0 / (nn * root);
+    const auto next = [&](const Vector& d, double product) {
+      const double before = n > k ? below * d[n - 1] : 0.0;
+      return ((2 * nn + 1) * (nn * (nn + 1) * cosine - product) * d[n] - before) * inverse;
+    };
+    plus[n + 1] = next(plus, mk);
+    minus[n + 1] = next(minus, -mk);
     root_below = root;
   }
-  return d;
 }
 
 }  // namespace
 
 RotationY rotation_y(int order, double beta) {
-  const Angle angle(beta);
+  const double half_cosine = std::cos(beta / 2), half_sine = std::sin(beta / 2);
   RotationY rotation;
   for (int n = 0; n <= order; ++n) {
     rotation.cosine.emplace_back(Matrix::Zero(n + 1, n + 1));
     rotation.sine.emplace_back(Matrix::Zero(n, n));
   }
+  Vector plus(order + 1), minus(order + 1);
   for (int before = 0; before <= order; ++before) {
-    for (int after = 0; after <= order; ++after) {
-      const Vector plus = wigner_sequence(order, before, after, angle);
-      const Vector minus = wigner_sequence(order, -before, after, angle);
+    // d^k_{m,k} = √binomial(2k, k−m) cos^{k+m} β/2 sin^{k−m} β/2, with m = ± before and k = after
+    double first_plus = std::pow(half_cosine, 2 * before), first_minus = std::pow(half_sine, 2 * before);
+    for (int after = before; after <= order; ++after) {
+      if (after > before) {
+        const double k = after, m = before;
+        const double factor = half_cosine * half_sine * std::sqrt(2 * k * (2 * k - 1) / ((k - m) * (k + m)));
+        first_plus *= factor;
+        first_minus *= factor;
+      }
+      plus[after] = first_plus;
+      minus[after] = first_minus;
+      wigner_sequences(order, before, after, std::cos(beta), plus, minus);
       const double sign_after = parity(after);
       const double sign_before = parity(before);
-      for (int n = std::max(before, after); n <= order; ++n) {
-        double& cosine = rotation.cosine[n](after, before);
-        if (before == 0 && after == 0) {
-          cosine = plus[n];
-        } else if (before == 0) {
-          cosine = std::numbers::sqrt2 * sign_after * plus[n];
-        } else if (after == 0) {
-          cosine = std::numbers::sqrt2 * sign_before * plus[n];
-        } else {
+      // d^n_{m,k} = (−1)^{m−k} d^n_{k,m} = d^n_{−k,−m}
+      const double sign = sign_before * sign_after;
+      for (int n = after; n <= order; ++n) {
+        double cosine = plus[n];
+        if (before == 0 && after > 0) cosine *= std::numbers::sqrt2 * sign_after;
+        if (before > 0) {
           cosine = sign_after * (sign_before * plus[n] + minus[n]);
-          rotation.sine[n](after - 1, before - 1) = sign_after * (sign_before * plus[n] - minus[n]);
+          const double sine = sign_after * (sign_before * plus[n] - minus[n]);
+          rotation.sine[n](after - 1, before - 1) = sine;
+          rotation.sine[n](before - 1, after - 1) = sign * sine;
         }
+        rotation.cosine[n](after, before) = cosine;
+        rotation.cosine[n](before, after) = sign * cosine;
       }
     }
   }
