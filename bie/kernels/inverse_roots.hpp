@@ -12,11 +12,11 @@ namespace vehd {
 
 /// Replaces each number s by 1/√s. Where the processor has an estimate to 14 bits two Newton steps,
 /// y ← y + y (½ − ½ s y²), make it one to 53 in a third of the time that a root and a division take.
-/// @param squares  > 0, as many as instructions handle together: four or eight
+/// @param squares  > 0, as many as instructions handle together: two, four or eight
 /// Accuracy: two units in the last place (tests/potentials/inverse_roots_test.cpp)
 template <std::size_t kCount>
 void invert_roots(std::array<double, kCount>& squares) {
-  static_assert(kCount == 4 || kCount == 8);
+  static_assert(kCount == 2 || kCount == 4 || kCount == 8);
 #ifdef __AVX512VL__
   if constexpr (kCount == 8) {
     const __m512d half = _mm512_set1_pd(0.5), s = _mm512_mul_pd(half, _mm512_loadu_pd(squares.data()));
@@ -25,18 +25,19 @@ void invert_roots(std::array<double, kCount>& squares) {
       y = _mm512_fmadd_pd(y, _mm512_fnmadd_pd(_mm512_mul_pd(s, y), y, half), y);
     }
     _mm512_storeu_pd(squares.data(), y);
-  } else {
+  } else if constexpr (kCount == 4) {
     const __m256d half = _mm256_set1_pd(0.5), s = _mm256_mul_pd(half, _mm256_loadu_pd(squares.data()));
     __m256d y = _mm256_rsqrt14_pd(_mm256_add_pd(s, s));
     for (int step = 0; step < 2; ++step) {
       y = _mm256_fmadd_pd(y, _mm256_fnmadd_pd(_mm256_mul_pd(s, y), y, half), y);
     }
     _mm256_storeu_pd(squares.data(), y);
-  }
-#else
-#pragma omp simd
-  for (std::size_t i = 0; i < kCount; ++i) squares[i] = 1.0 / std::sqrt(squares[i]);
+  } else
 #endif
+  {
+#pragma omp simd
+    for (std::size_t i = 0; i < kCount; ++i) squares[i] = 1.0 / std::sqrt(squares[i]);
+  }
 }
 
 }  // namespace vehd

@@ -22,7 +22,7 @@ struct NodeSeparation {
       : x(target[0] - few(at.col(0).data() + i)),
         y(target[1] - few(at.col(1).data() + i)),
         z(target[2] - few(at.col(2).data() + i)),
-        inverse((x * x + y * y + z * z).rsqrt()),
+        inverse(inverse_root(x * x + y * y + z * z)),
         nx(few(at.col(3).data() + i)),
         ny(few(at.col(4).data() + i)),
         nz(few(at.col(5).data() + i)) {}
@@ -34,12 +34,12 @@ constexpr auto kSingle = [](const NodeSeparation& r) -> Few { return r.inverse; 
 constexpr auto kDouble = [](const NodeSeparation& r) -> Few { return laplace_double_kernel(r.source(), r.inverse); };
 
 struct SingleNormal {
-  const Vector3& normal;
+  Vector3 normal;
   Few operator()(const NodeSeparation& r) const { return laplace_adjoint_kernel(r.dot(normal), r.inverse); }
 };
 
 struct DoubleNormal {
-  const Vector3& normal;
+  Vector3 normal;
   Few operator()(const NodeSeparation& r) const {
     const Few inverse2 = r.inverse * r.inverse;
     const Few both = r.nx * normal[0] + r.ny * normal[1] + r.nz * normal[2];
@@ -47,40 +47,67 @@ struct DoubleNormal {
   }
 };
 
-/// Σ kernel(r) f over the nodes.
-template <class Kernel>
-double scalar_sum(const Matrix& at, const Vector3& target, const double* f, const Kernel& kernel) {
-  Few sum = Few::Zero();
-  for (Index i = 0; i < at.rows(); i += kTogether) sum += few(f + i) * kernel(NodeSeparation(at, i, target));
-  return sum.sum();
+/// Σ over the nodes, times the prefactor, for some targets at once: each node is then read once for all of them.
+template <Index kTargets, int kComponents, class Term>
+void sum_nodes(const Matrix& at, const Matrix& points, Index first, double prefactor, const Term& term,
+               Matrix& result) {
+  Vector3 x[kTargets];
+  Few sums[kTargets][kComponents];
+  for (Index t = 0; t < kTargets; ++t) {
+    x[t] = points.row(first + t).transpose();
+    std::fill_n(sums[t], kComponents, Few{});
+  }
+  for (Index i = 0; i < at.rows(); i += kTogether) {
+#pragma GCC unroll 2
+    for (Index t = 0; t < kTargets; ++t) {
+      const std::array<Few, kComponents> terms = term(NodeSeparation(at, i, x[t]), i, first + t);
+      for (std::size_t c = 0; c < kComponents; ++c) sums[t][c] += terms[c];
+    }
+  }
+  for (Index t = 0; t < kTargets; ++t) {
+    for (int c = 0; c < kComponents; ++c) result(first + t, c) = prefactor * sum(sums[t][c]);
+  }
 }
 
-constexpr auto kStokesSingle = [](const NodeSeparation& r, const Few& fx, const Few& fy, const Few& fz) {
-  return stokeslet_flow(r.x, r.y, r.z, r.inverse, fx, fy, fz);
-};
-constexpr auto kStokesDouble = [](const NodeSeparation& r, const Few& vx, const Few& vy, const Few& vz) {
-  return stokes_double_flow(r.x, r.y, r.z, r.source(), r.inverse, vx, vy, vz);
-};
-
-/// Σ flow(r, f) over the nodes. @param charges  f, [n_nodes x 3]
-template <class Flow>
-Vector3 flow_sum(const Matrix& at, const Vector3& target, const Matrix& charges, const Flow& flow) {
-  const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
-  Few sx = Few::Zero(), sy = Few::Zero(), sz = Few::Zero();
-  for (Index i = 0; i < at.rows(); i += kTogether) {
-    const std::array<Few, 3> u = flow(NodeSeparation(at, i, target), few(fx + i), few(fy + i), few(fz + i));
-    sx += u[0];
-    sy += u[1];
-    sz += u[2];
+/// The same for all targets: term(separation, node, target), [n_targets x kComponents].
+template <int kComponents, class Term>
+Matrix node_sums(const Matrix& at, const Matrix& points, double prefactor, const Term& term) {
+  constexpr Index kTargets = 2;
+  Matrix result(points.rows(), kComponents);
+  Index first = 0;
+  for (; first + kTargets <= points.rows(); first += kTargets) {
+    sum_nodes<kTargets, kComponents>(at, points, first, prefactor, term, result);
   }
-  return {sx.sum(), sy.sum(), sz.sum()};
+  for (; first < points.rows(); ++first) sum_nodes<1, kComponents>(at, points, first, prefactor, term, result);
+  return result;
+}
+
+/// Σ kernel(r) f. @param kernel  of a target
+template <class Kernel>
+Vector scalar_sums(const Matrix& at, const Matrix& points, const Matrix& charges, const Kernel& kernel) {
+  const double* f = charges.data();
+  return node_sums<1>(
+      at, points,
+      kLaplacePrefactor, [&](const NodeSeparation& r, Index i, Index target) __attribute__((always_inline)) {
+        return std::array<Few, 1>{few(f + i) * kernel(target)(r)};
+      });
+}
+
+/// Σ flow(r, f). @param charges  f, [n_nodes x 3]
+template <class Flow>
+Matrix flow_sums(const Matrix& at, const Matrix& points, const Matrix& charges, double prefactor, const Flow& flow) {
+  const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
+  return node_sums<3>(
+      at, points, prefactor, [&](const NodeSeparation& r, Index i, Index) __attribute__((always_inline)) {
+        return flow(r, few(fx + i), few(fy + i), few(fz + i));
+      });
 }
 
 /// A kernel at the nodes, prefactor included.
 template <class Kernel>
 void scalar_kernels(const Matrix& at, const Vector3& target, const Kernel& kernel, double* kernels) {
   for (Index i = 0; i < at.rows(); i += kTogether) {
-    Eigen::Map<Few>(kernels + i) = kLaplacePrefactor * kernel(NodeSeparation(at, i, target));
+    store(kernels + i, kLaplacePrefactor * kernel(NodeSeparation(at, i, target)));
   }
 }
 
@@ -89,7 +116,7 @@ void stokes_double_kernels(const Matrix& at, const Vector3& target, double* kern
   for (Index i = 0; i < at.rows(); i += kTogether) {
     const NodeSeparation r(at, i, target);
     const std::array<Few, 6> g = stokes_double_kernel(r.x, r.y, r.z, r.source(), r.inverse);
-    for (int k = 0; k < 6; ++k) Eigen::Map<Few>(kernels + k * at.rows() + i) = kStokesDoubleLayerPrefactor * g[k];
+    for (int k = 0; k < 6; ++k) store(kernels + k * at.rows() + i, kStokesDoubleLayerPrefactor * g[k]);
   }
 }
 
@@ -117,28 +144,37 @@ Matrix FarRule::charges(const Matrix& density) const {
   return result;
 }
 
-double FarRule::laplace_single(const Vector3& x, const Matrix& charges) const {
-  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), kSingle);
+Vector FarRule::laplace_single(const Matrix& points, const Matrix& charges) const {
+  return scalar_sums(nodes_, points, charges, [](Index) { return kSingle; });
 }
 
-double FarRule::laplace_single_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const {
-  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), SingleNormal{normal});
+Vector FarRule::laplace_single_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const {
+  return scalar_sums(nodes_, points, charges,
+                     [&normals](Index target) { return SingleNormal{normals.row(target).transpose()}; });
 }
 
-double FarRule::laplace_double(const Vector3& x, const Matrix& charges) const {
-  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), kDouble);
+Vector FarRule::laplace_double(const Matrix& points, const Matrix& charges) const {
+  return scalar_sums(nodes_, points, charges, [](Index) { return kDouble; });
 }
 
-double FarRule::laplace_double_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const {
-  return kLaplacePrefactor * scalar_sum(nodes_, x, charges.data(), DoubleNormal{normal});
+Vector FarRule::laplace_double_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const {
+  return scalar_sums(nodes_, points, charges,
+                     [&normals](Index target) { return DoubleNormal{normals.row(target).transpose()}; });
 }
 
-Vector3 FarRule::stokes_single(const Vector3& x, const Matrix& charges) const {
-  return stokes_single_layer_prefactor(1.0) * flow_sum(nodes_, x, charges, kStokesSingle);
+Matrix FarRule::stokes_single(const Matrix& points, const Matrix& charges) const {
+  return flow_sums(
+      nodes_, points, charges, stokes_single_layer_prefactor(1.0),
+      [](const NodeSeparation& r, const Few& fx, const Few& fy, const Few& fz)
+          __attribute__((always_inline)) { return stokeslet_flow(r.x, r.y, r.z, r.inverse, fx, fy, fz); });
 }
 
-Vector3 FarRule::stokes_double(const Vector3& x, const Matrix& charges) const {
-  return kStokesDoubleLayerPrefactor * flow_sum(nodes_, x, charges, kStokesDouble);
+Matrix FarRule::stokes_double(const Matrix& points, const Matrix& charges) const {
+  return flow_sums(
+      nodes_, points, charges, kStokesDoubleLayerPrefactor,
+      [](const NodeSeparation& r, const Few& vx, const Few& vy, const Few& vz) __attribute__((always_inline)) {
+        return stokes_double_flow(r.x, r.y, r.z, r.source(), r.inverse, vx, vy, vz);
+      });
 }
 
 template <class Kernel>
@@ -167,6 +203,6 @@ Matrix FarRule::stokes_double_rows(const Matrix& points) const {
   return transform_.analyze(kernels.topRows(n_nodes_));
 }
 
-double FarRule::enclosure(const Vector3& x) const { return laplace_double(x, weight_); }
+Vector FarRule::enclosures(const Matrix& points) const { return laplace_double(points, weight_); }
 
 }  // namespace vehd

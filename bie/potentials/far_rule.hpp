@@ -20,15 +20,16 @@ class FarRule {
   /// A density at the nodes times their weights. @param density  [n_coefficients x fields] @return [n x fields]
   [[nodiscard]] Matrix charges(const Matrix& density) const;
 
-  /// Sums over the nodes for a target x with normal N there, prefactors included: S, N·∇S of J f; D, N·∇D of f.
-  /// @param charges  of J f or f
-  [[nodiscard]] double laplace_single(const Vector3& x, const Matrix& charges) const;
-  [[nodiscard]] double laplace_single_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const;
-  [[nodiscard]] double laplace_double(const Vector3& x, const Matrix& charges) const;
-  [[nodiscard]] double laplace_double_normal(const Vector3& x, const Vector3& normal, const Matrix& charges) const;
-  /// Stokes single layer at μ = 1 of J f and double layer of v. @param charges  [n x 3]
-  [[nodiscard]] Vector3 stokes_single(const Vector3& x, const Matrix& charges) const;
-  [[nodiscard]] Vector3 stokes_double(const Vector3& x, const Matrix& charges) const;
+  /// Sums over the nodes for targets with normals N there, prefactors included: S, N·∇S of J f; D, N·∇D of f.
+  /// @param points, normals  [n_targets x 3]
+  /// @param charges          of J f or f
+  [[nodiscard]] Vector laplace_single(const Matrix& points, const Matrix& charges) const;
+  [[nodiscard]] Vector laplace_single_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const;
+  [[nodiscard]] Vector laplace_double(const Matrix& points, const Matrix& charges) const;
+  [[nodiscard]] Vector laplace_double_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const;
+  /// Stokes single layer at μ = 1 of J f and double layer of v. @param charges  [n x 3] @return [n_targets x 3]
+  [[nodiscard]] Matrix stokes_single(const Matrix& points, const Matrix& charges) const;
+  [[nodiscard]] Matrix stokes_double(const Matrix& points, const Matrix& charges) const;
 
   /// Layers at several targets as rows over the coefficients of their densities: quadrature and the adjoint of the
   /// synthesis in one. N·∇S and N·∇D. @param points, normals  [n_targets x 3] @return [n_coefficients x n_targets]
@@ -37,8 +38,8 @@ class FarRule {
   /// The Stokes double layer. @return [n_coefficients x 6] of xx, xy, xz, yy, yz, zz, of one target behind the other
   [[nodiscard]] Matrix stokes_double_rows(const Matrix& points) const;
 
-  /// D[1]: 0 outside, −1 inside, up to the error of the rule.
-  [[nodiscard]] double enclosure(const Vector3& x) const;
+  /// D[1] at targets: 0 outside, −1 inside, up to the error of the rule.
+  [[nodiscard]] Vector enclosures(const Matrix& points) const;
   [[nodiscard]] Index n_nodes() const { return n_nodes_; }
 
  private:

@@ -1,17 +1,41 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
 
+#include "bie/kernels/inverse_roots.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
 
 /// Nodes that are looked at together, as many as a register holds: one instruction each of what compilers would else do
 /// one by one.
-constexpr Index kTogether = std::max(4, int{Eigen::internal::packet_traits<double>::size});
-using Few = Eigen::Array<double, kTogether, 1>;
+constexpr Index kTogether = Eigen::internal::packet_traits<double>::size;
+/// A register of the compiler's own kind: arrays of classes go through memory.
+using Few [[gnu::vector_size(kTogether * sizeof(double))]] = double;
 
 /// The values that stand from there on.
-inline Few few(const double* at) { return Eigen::Map<const Few>(at); }
+inline Few few(const double* at) {
+  Few values;
+  std::memcpy(&values, at, sizeof values);
+  return values;
+}
+
+inline void store(double* at, const Few& values) { std::memcpy(at, &values, sizeof values); }
+
+/// 1/√s of each.
+inline Few inverse_root(const Few& squares) {
+  auto roots = std::bit_cast<std::array<double, kTogether>>(squares);
+  invert_roots(roots);
+  return std::bit_cast<Few>(roots);
+}
+
+/// Of those from a given one on.
+inline double sum(const Few& values, Index from = 0) {
+  double result = 0.0;
+  for (Index i = from; i < kTogether; ++i) result += values[i];
+  return result;
+}
 
 }  // namespace vehd

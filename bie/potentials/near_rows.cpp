@@ -65,16 +65,16 @@ double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& 
   for (Index next = 0; next < n; next += kTogether) {
     // The last ones begin earlier, so that they end with the circle, and find some of the nodes before them again.
     const Index i = std::min(next, n - kTogether);
-    const auto put = [&](int row, const Few& values) { Eigen::Map<Few>(kernels + row * n + i) = values; };
+    const auto put = [&](int row, const Few& values) { store(kernels + row * n + i, values); };
     const Few x = offset[0] - field(at.position, i), y = offset[1] - field(at.position + 1, i),
               z = offset[2] - field(at.position + 2, i);
     const Few ux = field(at.tangent_1, i), uy = field(at.tangent_1 + 1, i), uz = field(at.tangent_1 + 2, i);
     const Few vx = field(at.tangent_2, i), vy = field(at.tangent_2 + 1, i), vz = field(at.tangent_2 + 2, i);
-    const Few inverse = (x * x + y * y + z * z).rsqrt();
+    const Few inverse = inverse_root(x * x + y * y + z * z);
     const Few w = few(weight.data() + i);
     const Few area = x * (uy * vz - uz * vy) + y * (uz * vx - ux * vz) + z * (ux * vy - uy * vx);  // r·(u × v)
     const Few solid_angle = w * laplace_double_kernel(area, inverse);
-    angle += solid_angle.tail(i + kTogether - next).sum();
+    angle += sum(solid_angle, next - i);
     if (columns.single >= 0) put(columns.single, w * laplace_single_kernel(inverse));
     if (columns.single_normal >= 0) {
       put(columns.single_normal, w * laplace_adjoint_kernel(dot(normal, x, y, z), inverse));

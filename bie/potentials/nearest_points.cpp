@@ -115,7 +115,7 @@ bool is_inside(const SampledMembrane& membrane, const FarRule& rule, const Vecto
   const Index node = nearest_node(membrane, point, distance);
   // About the distance of its nodes.
   const double spacing = membrane.reach * std::numbers::pi / static_cast<double>(membrane.grid.n_theta);
-  if (distance > 2.0 * spacing) return rule.enclosure(point) < -0.5;
+  if (distance > 2.0 * spacing) return rule.enclosures(point.transpose())[0] < -0.5;
   constexpr double kTouching = 1e-12;
   return find_foot_point(membrane.position, membrane.direction_of(node), point).height <= kTouching * membrane.reach;
 }

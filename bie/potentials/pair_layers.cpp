@@ -36,6 +36,17 @@ struct RowTargets {
   [[nodiscard]] auto row(Index k, int column) const { return rows.col(k * columns.count + column); }
 };
 
+/// body(number of the first, targets) for targets that are looked at together.
+template <class Body>
+void for_each_batch(const std::vector<Index>& targets, const Body& body) {
+  constexpr Index kBatch = 16;
+  const Index n = static_cast<Index>(targets.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (Index first = 0; first < n; first += kBatch) {
+    body(first, std::vector<Index>(targets.begin() + first, targets.begin() + std::min(n, first + kBatch)));
+  }
+}
+
 /// A kind of layers at far targets: some by rows, the others summed at every application.
 struct FarLayers {
   bool selected;
@@ -156,13 +167,12 @@ struct PairLayers::Data {
       if (found == by_order.end()) continue;
       const std::vector<Index>& targets = found->second;
       const FarRule& rule = *rules.of_order(q);
-      std::vector<char> settled(targets.size());
-#pragma omp parallel for schedule(static)
+      std::vector<double> enclosures(targets.size());
+      for_each_batch(targets, [&](Index first, const std::vector<Index>& batch) {
+        Vector::Map(enclosures.data() + first, static_cast<Index>(batch.size())) = rule.enclosures(points(batch));
+      });
       for (std::size_t k = 0; k < targets.size(); ++k) {
-        settled[k] = std::abs(rule.enclosure(at.point(targets[k]))) <= settings.tolerance;
-      }
-      for (std::size_t k = 0; k < targets.size(); ++k) {
-        if (settled[k]) {
+        if (std::abs(enclosures[k]) <= settings.tolerance) {
           sorted[q].push_back(targets[k]);
         } else if (q + kOrderStep <= highest) {
           by_order[q + kOrderStep].push_back(targets[k]);
@@ -227,32 +237,23 @@ struct PairLayers::Data {
   }
 
   void fill_rows(const FarGroup& group, Index first, RowTargets& all) const {
-    constexpr Index kBatch = 16;
-    const Index n = static_cast<Index>(group.targets.size()), n_columns = all.columns.count;
-#pragma omp parallel for schedule(dynamic, 1)
-    for (Index start = 0; start < n; start += kBatch) {
-      const Index size = std::min(kBatch, n - start);
-      const std::vector<Index> batch(group.targets.begin() + start, group.targets.begin() + start + size);
-      const Matrix points = at.points(batch, Eigen::all);
-      const Matrix normals = at.normals(batch, Eigen::all);
-      all.rows.middleCols((first + start) * n_columns, size * n_columns) =
-          all.columns.single_normal >= 0   ? group.rule->single_normal_rows(points, normals)
-          : all.columns.double_normal >= 0 ? group.rule->double_normal_rows(points, normals)
-                                           : group.rule->stokes_double_rows(points);
-    }
+    const Index n_columns = all.columns.count;
+    for_each_batch(group.targets, [&](Index start, const std::vector<Index>& batch) {
+      all.rows.middleCols((first + start) * n_columns, static_cast<Index>(batch.size()) * n_columns) =
+          all.columns.single_normal >= 0   ? group.rule->single_normal_rows(points(batch), normals(batch))
+          : all.columns.double_normal >= 0 ? group.rule->double_normal_rows(points(batch), normals(batch))
+                                           : group.rule->stokes_double_rows(points(batch));
+    });
   }
 
-  /// Every target that is summed: `sum(rule, target, charges)`.
+  /// Every target that is summed: `sum(rule, targets, charges)`.
   template <class Sum>
   static void add_sums(const FarLayers& far, const Matrix& density, Matrix& values, const Sum& sum) {
     for (const FarGroup& group : far.groups) {
       const Matrix charges = group.rule->charges(density);
-      const Index n = static_cast<Index>(group.targets.size());
-#pragma omp parallel for schedule(static)
-      for (Index k = 0; k < n; ++k) {
-        const Index i = group.targets[k];
-        values.row(i) = sum(*group.rule, i, charges);
-      }
+      for_each_batch(group.targets, [&](Index, const std::vector<Index>& batch) {
+        values(batch, Eigen::all) = sum(*group.rule, batch, charges);
+      });
     }
   }
 
@@ -263,6 +264,9 @@ struct PairLayers::Data {
 #pragma omp parallel for schedule(static)
     for (Index k = 0; k < n; ++k) values.row(all.targets[k]) = value(all, k, all.columns.*first);
   }
+
+  [[nodiscard]] Matrix points(const std::vector<Index>& targets) const { return at.points(targets, Eigen::all); }
+  [[nodiscard]] Matrix normals(const std::vector<Index>& targets) const { return at.normals(targets, Eigen::all); }
 
   void require_selected(int PairColumns::*column) const {
     if (near.columns.*column < 0) throw std::logic_error("a layer between two membranes was not selected");
@@ -275,9 +279,7 @@ struct PairLayers::Data {
     require_selected(column);
     require_size("density", density.size(), at.source.rows());
     Matrix values(at.points.rows(), 1);
-    add_sums(far, density, values, [&sum](const FarRule& rule, Index i, const Matrix& charges) {
-      return Eigen::Matrix<double, 1, 1>(sum(rule, i, charges));
-    });
+    add_sums(far, density, values, sum);
     const auto value = [&density](const RowTargets& all, Index k, int first) {
       return Eigen::Matrix<double, 1, 1>(all.row(k, first).dot(density));
     };
@@ -293,9 +295,7 @@ struct PairLayers::Data {
     require_selected(column);
     require_size("density", density.rows(), at.source.rows());
     Matrix values(at.points.rows(), 3);
-    add_sums(far, density, values, [&sum](const FarRule& rule, Index i, const Matrix& charges) -> Eigen::RowVector3d {
-      return sum(rule, i, charges).transpose();
-    });
+    add_sums(far, density, values, sum);
     const auto value = [&density](const RowTargets& all, Index k, int first) {
       constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
       Eigen::RowVector3d v = Eigen::RowVector3d::Zero();
@@ -329,43 +329,43 @@ const PairCounts& PairLayers::counts() const { return data_->counts; }
 
 Vector PairLayers::laplace_single(const Vector& weighted) const {
   return data_->scalar(data_->single, &PairColumns::single, weighted,
-                       [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.laplace_single(data_->at.point(i), charges);
+                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
+                         return rule.laplace_single(data_->points(targets), charges);
                        });
 }
 
 Vector PairLayers::laplace_single_normal(const Vector& weighted) const {
   return data_->scalar(data_->single_normal, &PairColumns::single_normal, weighted,
-                       [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.laplace_single_normal(data_->at.point(i), data_->at.normal(i), charges);
+                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
+                         return rule.laplace_single_normal(data_->points(targets), data_->normals(targets), charges);
                        });
 }
 
 Vector PairLayers::laplace_double(const Vector& density) const {
   return data_->scalar(data_->double_layer, &PairColumns::double_layer, density,
-                       [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.laplace_double(data_->at.point(i), charges);
+                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
+                         return rule.laplace_double(data_->points(targets), charges);
                        });
 }
 
 Vector PairLayers::laplace_double_normal(const Vector& density) const {
   return data_->scalar(data_->double_normal, &PairColumns::double_normal, density,
-                       [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.laplace_double_normal(data_->at.point(i), data_->at.normal(i), charges);
+                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
+                         return rule.laplace_double_normal(data_->points(targets), data_->normals(targets), charges);
                        });
 }
 
 Matrix PairLayers::stokes_single(const Matrix& weighted) const {
   return data_->stokes(data_->single, &PairColumns::stokes, weighted,
-                       [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.stokes_single(data_->at.point(i), charges);
+                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
+                         return rule.stokes_single(data_->points(targets), charges);
                        });
 }
 
 Matrix PairLayers::stokes_double(const Matrix& velocity) const {
   return data_->stokes(data_->stokes_double_layer, &PairColumns::stokes_double, velocity,
-                       [this](const FarRule& rule, Index i, const Matrix& charges) {
-                         return rule.stokes_double(data_->at.point(i), charges);
+                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
+                         return rule.stokes_double(data_->points(targets), charges);
                        });
 }
 
