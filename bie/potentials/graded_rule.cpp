@@ -6,6 +6,7 @@
 
 #include "bie/sphere/grid.hpp"
 #include "bie/sphere/legendre.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
@@ -43,6 +44,7 @@ Matrix legendre_minus_one(int order, const Vector& theta) {
 }  // namespace
 
 GradedRule make_graded_rule(int order, double scale, int n_theta, int n_phi) {
+  require_size("colatitudes (a multiple of four)", n_theta % kLanes, 0);
   GradedRule rule;
   rule.n_phi = n_phi;
   rule.theta.resize(n_theta);
@@ -67,6 +69,9 @@ GradedRule make_graded_rule(int order, double scale, int n_theta, int n_phi) {
         stack.col(n).head(n_theta) = std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi)) * difference.col(n);
       }
     }
+    RowMatrix by_rows = RowMatrix::Zero(3 * n_theta, filled_up(stack.cols()));
+    by_rows.leftCols(stack.cols()) = stack;
+    rule.adjoint.push_back(std::move(by_rows));
     rule.synthesis.push_back(std::move(stack));
   }
 

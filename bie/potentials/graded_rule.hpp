@@ -20,13 +20,14 @@ struct GradedRule {
   /// Per m tables [3 n_theta x (order + 1 − m)] of T(t) − T(0), dT/dt, m T/sin t, the first to full relative accuracy
   /// also at tiny t.
   std::vector<Matrix> synthesis;
+  std::vector<RowMatrix> adjoint;  ///< the same by rows, filled up with zeros to a multiple of kLanes
   AzimuthSums azimuths;
 
   [[nodiscard]] Index n_nodes() const { return theta.size() * n_phi; }
 };
 
 /// @param order    degree p of the harmonics that the tables are for
-/// @param n_phi    a multiple of 4
+/// @param n_theta, n_phi  multiples of 4
 /// @param scale    smallest angle that is resolved, > 0; height over largest stretch of a foot point
 /// Accuracy: spectral in n_theta and n_phi; a peak of width 1e-8 and more is integrated to 1e-11
 /// (tests/potentials/foot_point_test.cpp)

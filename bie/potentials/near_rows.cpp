@@ -115,33 +115,35 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
   const RowMatrix circles = rule.azimuths.adjoint(kernels);
   const std::vector<KernelKind> kinds = kinds_of(columns);
   const int order = static_cast<int>(rule.synthesis.size()) - 1;
-  std::vector<Matrix> rotated;
+  std::vector<RowMatrix> rotated;
   for (int m = 0; m <= order; ++m) {
-    const auto table = [&](Index kind) { return rule.synthesis[m].middleRows(kind * n_theta, n_theta).transpose(); };
-    // of all columns, one beside the other, on all circles
-    const Eigen::Map<const Matrix> cosines(circles.row(m).data(), n_theta, n_all);
-    const Eigen::Map<const Matrix> sines(circles.row(order + m).data(), n_theta, n_all);
-    Matrix part(order + 1 - m, 2 * columns.count);
-    part.leftCols(columns.count).noalias() = table(0) * cosines.leftCols(columns.count);
-    if (m > 0) {
-      part.rightCols(columns.count).noalias() = table(0) * sines.leftCols(columns.count);
-    } else {
-      part.rightCols(columns.count).setZero();
-    }
+    const RowMatrix& table = rule.adjoint[m];
+    const Index width = table.cols();
+    RowMatrix part = RowMatrix::Zero(2 * columns.count, width);
+    Eigen::RowVectorXd tangent(width);
+    // Rows of all columns from that of the circles' mode, by a kind of table.
+    const auto sum_circles = [&](Index kind, Index mode, Index column, Index count, double* to) {
+      small_product(count, n_theta, width, {circles.row(mode).data() + column * n_theta, n_theta, 1},
+                    table.data() + kind * n_theta * width, width, to, width);
+    };
+    sum_circles(0, m, 0, columns.count, part.data());
+    if (m > 0) sum_circles(0, order + m, 0, columns.count, part.row(columns.count).data());
     for (int c = 0; c < columns.count; ++c) {
-      auto cosine = part.col(c);
-      auto sine = part.col(columns.count + c);
+      auto cosine = part.row(c);
+      auto sine = part.row(columns.count + c);
       if (kinds[c].factor == NodeFactor::tangents) {
-        cosine.noalias() = table(1) * cosines.col(c);
+        sum_circles(1, m, c, 1, cosine.data());
         if (m > 0) {
-          cosine.noalias() -= table(2) * sines.col(columns.count);
-          sine.noalias() = table(1) * sines.col(c);
-          sine.noalias() += table(2) * cosines.col(columns.count);
+          sum_circles(1, order + m, c, 1, sine.data());
+          sum_circles(2, order + m, columns.count, 1, tangent.data());
+          cosine -= tangent;
+          sum_circles(2, m, columns.count, 1, tangent.data());
+          sine += tangent;
         }
       }
       if (m == 0 && kinds[c].factor == NodeFactor::value) {
         // The tables hold differences from the pole.
-        const double sum = cosines.col(c).sum();
+        const double sum = circles.row(m).segment(c * n_theta, n_theta).sum();
         for (int n = 0; n <= order; ++n) cosine[n] += std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi)) * sum;
       }
       cosine *= kinds[c].prefactor;

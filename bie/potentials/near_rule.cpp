@@ -13,7 +13,7 @@ constexpr double kNodeGrowth = 1.25;
 /// Finest grading, t = 2^−50: beyond it every distance is rounding.
 constexpr int kFinestLevel = 50;
 
-/// As AzimuthSums needs it.
+/// As make_graded_rule needs it.
 int multiple_of_four(double n) { return 4 * static_cast<int>(std::ceil(0.25 * n)); }
 int least_n_theta(int order, int level) { return static_cast<int>(std::ceil(1.15 * order)) + 8 + level; }
 int least_n_phi(int order) { return 2 * order + 12; }
@@ -41,10 +41,9 @@ NearRule near_rule(const FootPoint& foot, int order, double tolerance, bool on_m
 }
 
 GradedRule make_near_rule(int order, const NearRule& choice, int stage) {
-  return make_graded_rule(
-      order, std::exp2(-choice.level),
-      static_cast<int>(std::ceil(least_n_theta(order, choice.level) * std::pow(kNodeGrowth, stage))),
-      multiple_of_four(least_n_phi(order) * std::pow(kNodeGrowth, choice.azimuth + stage)));
+  return make_graded_rule(order, std::exp2(-choice.level),
+                          multiple_of_four(least_n_theta(order, choice.level) * std::pow(kNodeGrowth, stage)),
+                          multiple_of_four(least_n_phi(order) * std::pow(kNodeGrowth, choice.azimuth + stage)));
 }
 
 FootPoint nearest_foot(const Matrix& position, const SmoothGrid& grid, const NearestNodes& nearest,

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -138,11 +139,8 @@ struct PairLayers::Data {
 
   /// Order of the grid that resolves the kernel of a target, J n and a density of degree p: the kernel's coefficients
   /// fall like (1 + distance/reach)^−n as on a sphere, and the rule is exact up to the degree 2q + 1 of their product.
-  [[nodiscard]] int grid_order(const Vector3& x) const {
-    const auto component2 = [&](int i) { return (at.grid.nodes.col(i).array() - x[i]).square(); };
-    const double ratio =
-        std::sqrt(((component2(0) + component2(1) + component2(2)) * inverse_reach2.array()).minCoeff());
-    const double degree_of_kernel = std::log(1.0 / settings.tolerance) / std::log1p(ratio);
+  [[nodiscard]] int grid_order(double least_ratio2) const {
+    const double degree_of_kernel = std::log(1.0 / settings.tolerance) / std::log1p(std::sqrt(least_ratio2));
     return next_multiple(std::clamp(0.5 * (order + area_degree + degree_of_kernel), static_cast<double>(order), 1e6));
   }
 
@@ -155,9 +153,13 @@ struct PairLayers::Data {
   std::map<int, std::vector<Index>> sort_targets(FarRules& rules) {
     const int highest = highest_grid_order(order);
     std::map<int, std::vector<Index>> by_order, sorted;
-    std::vector<int> wanted(static_cast<std::size_t>(at.points.rows()));
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = grid_order(at.point(static_cast<Index>(i)));
+    std::vector<Index> all(static_cast<std::size_t>(at.points.rows()));
+    std::iota(all.begin(), all.end(), Index{0});
+    std::vector<int> wanted(all.size());
+    for_each_batch(all, [&](Index first, const std::vector<Index>& batch) {
+      const Vector ratios2 = least_weighted_squares(at.grid, inverse_reach2, points(batch));
+      for (Index k = 0; k < ratios2.size(); ++k) wanted[static_cast<std::size_t>(first + k)] = grid_order(ratios2[k]);
+    });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       (wanted[i] > highest ? near.targets : by_order[wanted[i]]).push_back(static_cast<Index>(i));
     }

@@ -1,8 +1,11 @@
 #include "bie/potentials/smooth_grid.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "bie/potentials/few_nodes.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
 
@@ -91,6 +94,36 @@ NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target) {
     nearest.opposite_counts = true;
   }
   return nearest;
+}
+
+Vector least_weighted_squares(const SmoothGrid& grid, const Vector& weights, const Matrix& x) {
+  constexpr Index kTargets = 4;  // for which a node is read once
+  const double *px = grid.nodes.col(0).data(), *py = grid.nodes.col(1).data(), *pz = grid.nodes.col(2).data();
+  const Index n = weights.size();
+  Vector result(x.rows());
+  for (Index first = 0; first < x.rows(); first += kTargets) {
+    // Where fewer are left the last one is asked again.
+    const auto target = [&](Index t) { return std::min(first + t, x.rows() - 1); };
+    Few least[kTargets];
+    std::fill_n(least, kTargets, std::numeric_limits<double>::max() - Few{});
+    for (Index next = 0; next < n; next += kTogether) {
+      const Index i = std::min(next, n - kTogether);
+      const Few weight = few(weights.data() + i);
+#pragma GCC unroll 4
+      for (Index t = 0; t < kTargets; ++t) {
+        const Few dx = few(px + i) - x(target(t), 0), dy = few(py + i) - x(target(t), 1),
+                  dz = few(pz + i) - x(target(t), 2);
+        const Few square = (dx * dx + dy * dy + dz * dz) * weight;
+        least[t] = square < least[t] ? square : least[t];
+      }
+    }
+    for (Index t = 0; t < kTargets; ++t) {
+      double smallest = least[t][0];
+      for (Index k = 1; k < kTogether; ++k) smallest = std::min(smallest, least[t][k]);
+      result[target(t)] = smallest;
+    }
+  }
+  return result;
 }
 
 }  // namespace vehd

@@ -44,4 +44,9 @@ struct NearestNodes {
 /// The nodes nearest to a target by a look at all of them.
 NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target);
 
+/// Least weighted |x − y|² between each target x and the nodes y of a grid.
+/// @param weights  of the nodes
+/// @param x        [n_targets x 3]
+Vector least_weighted_squares(const SmoothGrid& grid, const Vector& weights, const Matrix& x);
+
 }  // namespace vehd

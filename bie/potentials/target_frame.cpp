@@ -7,6 +7,18 @@
 
 namespace vehd {
 
+namespace {
+
+/// The block of one degree, or its transpose, times coefficients. @param before  [m x fields filled up to lanes]
+void rotate(const Matrix& block, bool back, const RowMatrix& before, RowMatrix& after) {
+  after.resize(before.rows(), before.cols());
+  const Index n = block.rows();
+  small_product(n, n, before.cols(), {block.data(), back ? n : 1, back ? 1 : n}, before.data(), before.cols(),
+                after.data(), before.cols());
+}
+
+}  // namespace
+
 TargetFrame::TargetFrame(const LayerFields& fields, double theta, double phi)
     : fields_(fields),
       order_(order_of(fields.coefficients.rows())),
@@ -20,29 +32,30 @@ TargetFrame::TargetFrame(const LayerFields& fields, double theta, double phi)
     azimuth_sine_[m] = std::sin(m * phi);
     rotated_.emplace_back(Matrix::Zero(order_ + 1 - m, 2 * n_fields_));
   }
-  Matrix cosine, sine;
+  RowMatrix cosine, sine, cosine_after, sine_after;
+  const Index width = filled_up(n_fields_);
   for (int n = 0; n <= order_; ++n) {
-    cosine.resize(n + 1, n_fields_);
-    sine.resize(n, n_fields_);
+    cosine.setZero(n + 1, width);
+    sine.setZero(n, width);
     for (int m = 0; m <= n; ++m) {
       const double c = azimuth_cosine_[m];
       const double s = azimuth_sine_[m];
       const auto a = fields.coefficients.row(coefficient_index(n, m));
       const auto b = fields.coefficients.row(coefficient_index(n, -m));
       if (m == 0) {
-        cosine.row(0) = a;
+        cosine.row(0).head(n_fields_) = a;
         continue;
       }
-      cosine.row(m) = c * a + s * b;
-      sine.row(m - 1) = c * b - s * a;
+      cosine.row(m).head(n_fields_) = c * a + s * b;
+      sine.row(m - 1).head(n_fields_) = c * b - s * a;
     }
-    const Matrix cosine_after = rotation_.cosine[n] * cosine;
-    const Matrix sine_after = rotation_.sine[n] * sine;
+    rotate(rotation_.cosine[n], false, cosine, cosine_after);
+    rotate(rotation_.sine[n], false, sine, sine_after);
     for (int m = 0; m <= n; ++m) {
-      rotated_[m].row(n - m).head(n_fields_) = cosine_after.row(m);
-      if (m > 0) rotated_[m].row(n - m).tail(n_fields_) = sine_after.row(m - 1);
+      rotated_[m].row(n - m).head(n_fields_) = cosine_after.row(m).head(n_fields_);
+      if (m > 0) rotated_[m].row(n - m).tail(n_fields_) = sine_after.row(m - 1).head(n_fields_);
     }
-    pole_ += std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi)) * cosine_after.row(0);
+    pole_ += std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi)) * cosine_after.row(0).head(n_fields_);
   }
 }
 
@@ -50,14 +63,16 @@ RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
   const NodeColumns& columns = fields_.columns;
   const Index n_theta = rule.theta.size();
   RowMatrix result = RowMatrix::Zero(rule.azimuths.n_modes(), filled_up(columns.count * n_theta));
-  Matrix product;
+  RowMatrix product(2 * n_fields_, 3 * n_theta);  // kinds of one field, one behind the other
   const auto put = [&](int m, int column, const auto& cosine, const auto& sine) {
-    result.row(m).segment(column * n_theta, n_theta) = cosine.transpose();
-    if (m > 0) result.row(order_ + m).segment(column * n_theta, n_theta) = sine.transpose();
+    result.row(m).segment(column * n_theta, n_theta) = cosine;
+    if (m > 0) result.row(order_ + m).segment(column * n_theta, n_theta) = sine;
   };
   for (int m = 0; m <= order_; ++m) {
-    product.noalias() = rule.synthesis[m] * rotated_[m];
-    const auto part = [&](Index kind, Index field) { return product.col(field).segment(kind * n_theta, n_theta); };
+    const Index n_degrees = order_ + 1 - m;
+    small_product(2 * n_fields_, n_degrees, 3 * n_theta, {rotated_[m].data(), n_degrees, 1}, rule.synthesis[m].data(),
+                  3 * n_theta, product.data(), 3 * n_theta);
+    const auto part = [&](Index kind, Index field) { return product.row(field).segment(kind * n_theta, n_theta); };
     const auto put_value = [&](int column, Index field) { put(m, column, part(0, field), part(0, n_fields_ + field)); };
     const auto put_tangents = [&](int column_1, int column_2, Index field) {
       put(m, column_1, part(1, field), part(1, n_fields_ + field));
@@ -86,25 +101,28 @@ RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
 
 RowMatrix TargetFrame::nodes(const GradedRule& rule) const { return rule.azimuths.values(amplitudes(rule)); }
 
-RowMatrix TargetFrame::rotated_back(const std::vector<Matrix>& rotated) const {
-  const Index n_columns = rotated.front().cols() / 2;
+RowMatrix TargetFrame::rotated_back(const std::vector<RowMatrix>& rotated) const {
+  const Index n_columns = rotated.front().rows() / 2;
   RowMatrix result(n_columns, fields_.coefficients.rows());
-  Matrix cosine, sine;
+  RowMatrix cosine, sine, cosine_before, sine_before;
+  const Index width = filled_up(n_columns);
   for (int n = 0; n <= order_; ++n) {
-    cosine.resize(n + 1, n_columns);
-    sine.resize(n, n_columns);
+    cosine.setZero(n + 1, width);
+    sine.setZero(n, width);
     for (int m = 0; m <= n; ++m) {
-      cosine.row(m) = rotated[m].row(n - m).head(n_columns);
-      if (m > 0) sine.row(m - 1) = rotated[m].row(n - m).tail(n_columns);
+      cosine.row(m).head(n_columns) = rotated[m].col(n - m).head(n_columns).transpose();
+      if (m > 0) sine.row(m - 1).head(n_columns) = rotated[m].col(n - m).tail(n_columns).transpose();
     }
-    const Matrix cosine_before = rotation_.cosine[n].transpose() * cosine;
-    const Matrix sine_before = rotation_.sine[n].transpose() * sine;
-    result.col(coefficient_index(n, 0)) = cosine_before.row(0).transpose();
+    rotate(rotation_.cosine[n], true, cosine, cosine_before);
+    rotate(rotation_.sine[n], true, sine, sine_before);
+    result.col(coefficient_index(n, 0)) = cosine_before.row(0).head(n_columns).transpose();
     for (int m = 1; m <= n; ++m) {
       const double c = azimuth_cosine_[m];
       const double s = azimuth_sine_[m];
-      result.col(coefficient_index(n, m)) = (c * cosine_before.row(m) - s * sine_before.row(m - 1)).transpose();
-      result.col(coefficient_index(n, -m)) = (s * cosine_before.row(m) + c * sine_before.row(m - 1)).transpose();
+      const auto before_cosine = cosine_before.row(m).head(n_columns);
+      const auto before_sine = sine_before.row(m - 1).head(n_columns);
+      result.col(coefficient_index(n, m)) = (c * before_cosine - s * before_sine).transpose();
+      result.col(coefficient_index(n, -m)) = (s * before_cosine + c * before_sine).transpose();
     }
   }
   return result;

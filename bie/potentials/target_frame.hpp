@@ -26,9 +26,9 @@ class TargetFrame {
   [[nodiscard]] RowMatrix nodes(const GradedRule& rule) const;
   /// Coefficients of the pole's frame taken back to those of the sphere, by the adjoint of the rotation: a row over the
   /// former that is applied to rotated densities becomes one that is applied to the densities.
-  /// @param rotated  per m [(order + 1 − m) x 2 columns], cosines and sines
+  /// @param rotated  per m [2 columns x (order + 1 − m), filled up], cosines and sines
   /// @return         [columns x n_coefficients]
-  [[nodiscard]] RowMatrix rotated_back(const std::vector<Matrix>& rotated) const;
+  [[nodiscard]] RowMatrix rotated_back(const std::vector<RowMatrix>& rotated) const;
 
   /// Sums over the nodes of a rule for a target at `offset` from the position of the pole. The double layers are those
   /// of f − f(pole): the rest of D is the caller's.
