@@ -88,8 +88,13 @@ struct SphereTransform::Tables {
  private:
   /// Amplitudes of the modes of one m along all latitudes.
   void sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const;
-  /// Coefficients of one m from [field, latitude] rows of amplitudes.
-  void find_degrees(const RowMatrix& amplitudes, int m, Matrix& coefficients) const;
+  /// Amplitudes of fields on northern latitudes plus, in the second, minus those of their images beyond the equator:
+  /// rows are cosines of all fields, then sines, of one m behind the other.
+  using Folded = std::array<RowMatrix, 2>;
+  /// Those of one field.
+  void find_orders(const double* values, Index field, Index n_fields, Folded& folded) const;
+  /// Coefficients of one m.
+  void find_degrees(const Folded& folded, int m, Matrix& coefficients) const;
 };
 
 void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const {
@@ -153,31 +158,37 @@ std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int
   return values;
 }
 
-void SphereTransform::Tables::find_degrees(const RowMatrix& amplitudes, int m, Matrix& coefficients) const {
-  const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
-  RowMatrix folded[2], sums;
-  for (auto& of_parity : folded) of_parity.resize((m == 0 ? 1 : 2) * n_fields, n_half);
-  for (const bool sine : {false, true}) {
-    if (sine && m == 0) continue;
-    const Index mode = sine ? fourier.sine_mode(m) : fourier.cosine_mode(m);
-    for (Index f = 0; f < n_fields; ++f) {
-      const Index row = sine ? n_fields + f : f;
+void SphereTransform::Tables::find_orders(const double* values, Index field, Index n_fields, Folded& folded) const {
+  const Index n_theta = grid.n_theta;
+  RowMatrix amplitudes(n_theta, fourier.n_modes());
+  fourier.analyze(n_theta, values, amplitudes.data());
+  for (int m = 0; m <= azimuthal_order; ++m) {
+    for (const bool sine : {false, true}) {
+      if (sine && m == 0) continue;
+      const Index mode = sine ? fourier.sine_mode(m) : fourier.cosine_mode(m);
+      const Index row = (2 * m + (sine ? 1 : 0)) * n_fields + field;
+      double* even = folded[0].row(row).data();
+      double* odd = folded[1].row(row).data();
       for (Index i = 0; i < n_half; ++i) {
         const Index mirror_image = n_theta - 1 - i;
-        const double north = amplitudes(f * n_theta + i, mode);
+        const double north = amplitudes(i, mode);
         // The equator is its own image.
-        const double south = mirror_image > i ? amplitudes(f * n_theta + mirror_image, mode) : 0.0;
-        folded[0](row, i) = north + south;
-        folded[1](row, i) = north - south;
+        const double south = mirror_image > i ? amplitudes(mirror_image, mode) : 0.0;
+        even[i] = north + south;
+        odd[i] = north - south;
       }
     }
   }
+}
+
+void SphereTransform::Tables::find_degrees(const Folded& folded, int m, Matrix& coefficients) const {
+  const Index n_fields = coefficients.cols(), rows = (m == 0 ? 1 : 2) * n_fields;
+  RowMatrix sums;
   for (const int parity : {0, 1}) {
     const RowMatrix& table = analysis[m][parity];
-    const Index rows = folded[parity].rows();
     sums.resize(rows, table.cols());
-    small_product(rows, n_half, table.cols(), {folded[parity].data(), n_half, 1}, table.data(), table.cols(),
-                  sums.data(), table.cols());
+    small_product(rows, n_half, table.cols(), {folded[parity].row(2 * m * n_fields).data(), n_half, 1}, table.data(),
+                  table.cols(), sums.data(), table.cols());
     for (Index i = 0; i < n_degrees(m, parity); ++i) {
       const int n = m + parity + 2 * static_cast<int>(i);
       coefficients.row(coefficient_index(n, m)) = sums.col(i).head(n_fields).transpose();
@@ -188,24 +199,22 @@ void SphereTransform::Tables::find_degrees(const RowMatrix& amplitudes, int m, M
 
 Matrix SphereTransform::Tables::analyze(const Matrix& values) const {
   require_size("field on the grid", values.rows(), grid.n_points());
-  const Index n_fields = values.cols(), n_theta = grid.n_theta;
+  const Index n_fields = values.cols();
   Matrix coefficients(n_coefficients(order), n_fields);
   if (azimuthal_order < order) coefficients.setZero();
-  RowMatrix amplitudes(n_fields * n_theta, fourier.n_modes());
-  const auto find_orders = [&](Index f) {
-    fourier.analyze(n_theta, values.col(f).data(), amplitudes.row(f * n_theta).data());
-  };
+  Folded folded;
+  for (RowMatrix& of_parity : folded) of_parity.resize(2 * (azimuthal_order + 1) * n_fields, n_half);
   if (!is_parallel(values.size())) {
-    for (Index f = 0; f < n_fields; ++f) find_orders(f);
-    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(amplitudes, m, coefficients);
+    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, folded);
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, coefficients);
     return coefficients;
   }
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
-    for (Index f = 0; f < n_fields; ++f) find_orders(f);
+    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, folded);
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(amplitudes, m, coefficients);
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, coefficients);
   }
   return coefficients;
 }

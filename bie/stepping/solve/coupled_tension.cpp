@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "bie/linear/recycled_gcr.hpp"
@@ -200,6 +201,42 @@ class Layout {
   StackedEntries normal_, tension_;
 };
 
+/// Velocities on the membranes of this rank as one vector.
+class OwnVelocities {
+ public:
+  OwnVelocities(const std::vector<OneTension>& all, const std::vector<std::size_t>& own) : n_(all.size()), own_(own) {
+    for (const std::size_t a : own_) rows_.push_back(n_coefficients(all[a].membrane().fine.order()));
+  }
+
+  [[nodiscard]] Index size() const { return 3 * std::accumulate(rows_.begin(), rows_.end(), Index{0}); }
+
+  [[nodiscard]] Vector stack(const std::vector<Matrix>& velocities) const {
+    Vector result(size());
+    Index first = 0;
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+      result.segment(first, 3 * rows_[i]) = velocities[own_[i]].reshaped();
+      first += 3 * rows_[i];
+    }
+    return result;
+  }
+
+  /// The other way; those of others are empty.
+  [[nodiscard]] std::vector<Matrix> velocities(const Vector& stacked) const {
+    std::vector<Matrix> result(n_);
+    Index first = 0;
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+      result[own_[i]] = stacked.segment(first, 3 * rows_[i]).reshaped(rows_[i], 3);
+      first += 3 * rows_[i];
+    }
+    return result;
+  }
+
+ private:
+  std::size_t n_;
+  std::vector<std::size_t> own_;
+  std::vector<Index> rows_;
+};
+
 /// Preconditioners of many membranes, of those of this rank.
 void find_inverses(std::vector<OneTension>& all, const std::vector<std::size_t>& own) {
   std::map<int, TensionGrid> grids;
@@ -238,13 +275,17 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   if (many) find_inverses(all, own);
   const Layout layout(all);
   const Vector scales = layout.scales(all);
+  const OwnVelocities of_own(all, own);
   const LinearMap map = [&](const Vector& v) {
     const std::vector<ScalarPair> unknowns = layout.scalars(v.cwiseProduct(scales));
     const std::vector<Matrix> velocities = velocities_of(all, flow, unknowns);
     std::vector<ScalarPair> result(all.size());
     for_each_member(own, [&](std::size_t a) { result[a] = all[a].response(velocities[a], unknowns[a]); });
     gather(result);
-    return layout.stack(result);
+    // The velocities go along: those of the solution are then known without another application.
+    Vector response(layout.size() + of_own.size());
+    response << layout.stack(result), of_own.stack(velocities);
+    return response;
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
     std::vector<ScalarPair> parts = layout.scalars(residual);
@@ -268,7 +309,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   }
   const bool recycles = !many && std::ranges::count(is_sphere, true) == 0;
   const RecycledSubspace former = recycles ? layout.joined(known, scales) : RecycledSubspace{};
-  RecycledGcr solver(map, preconditioner, layout.size(), 0, former);
+  RecycledGcr solver(map, preconditioner, layout.size(), of_own.size(), former);
   const RecycledGcr::Solution solution = solver.solve(layout.stack(rhs), layout.stack(guess).cwiseQuotient(scales),
                                                       {tolerance, thresholds::most_flow_iterations});
   CoupledTension result{{}, {}, {}, std::vector<RecycledSubspace>(all.size()), solution.report};
@@ -278,7 +319,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     if (learned.count() > 0) result.learned = layout.of_each(learned, scales);
   }
   const std::vector<ScalarPair> unknowns = layout.scalars(solution.x.cwiseProduct(scales));
-  result.velocities = velocities_of(all, flow, unknowns);
+  result.velocities = of_own.velocities(solution.further);
   for (std::size_t a = 0; a < all.size(); ++a) {
     result.tension.push_back(membranes[a].parameters.inextensible ? unknowns[a].tension : Vector());
     result.force.push_back(flow.shares().owns(a) ? all[a].force(unknowns[a]) : Matrix());
