@@ -16,6 +16,7 @@ struct FlowProblem {
   PerVesicle<double> viscosity_in = 1.0;
   double viscosity_out = 1.0;
   double tolerance = 1e-10;  ///< of the linear solver, relative
+  int exterior_degree = usual_exterior_degree;
 };
 
 /// Velocity on the membrane.
@@ -36,9 +37,6 @@ class FlowSolution {
   [[nodiscard]] Vectors velocity(const VolumePoints& points) const;
   /// Pressure, zero far away.
   [[nodiscard]] Vector pressure(const VolumePoints& points) const;
-  /// ∫ f dA and ∫ (x − centre) × f dA, centre that of the outer sphere: both enter the outer condition.
-  [[nodiscard]] const Vector3& net_force() const;
-  [[nodiscard]] const Vector3& net_torque() const;
   /// What the solve took.
   [[nodiscard]] const Cost& cost() const;
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fem_check/exterior_field.hpp"
 #include "fem_check/krylov.hpp"
 #include "fem_check/membrane_condition.hpp"
 #include "fem_check/multigrid.hpp"
@@ -57,7 +58,12 @@ class PotentialEquations {
         unit_(data.problem.conductivity_out * space_.length),
         multigrid_(space_, fixed_nodes(data.problem, space_.n_vesicles),
                    {over_outside(1.0, data.problem.conductivity_in), 1.0, over_outside(space_.length, membrane_),
-                    data.problem.outer.kind == OuterCondition::Kind::radiation ? 2.0 : 0.0}) {
+                    radiates() ? dipole_coefficient : 0.0}) {
+    if (radiates()) {
+      const Stiffness& finest = multigrid_.finest();
+      exterior_ = std::make_unique<HarmonicTerms>(space_, finest.handler(), finest.constraints(), finest.outer(), 1,
+                                                  exterior_potential(data.problem.exterior_degree, dipole_coefficient));
+    }
     take_field();
     multigrid_.finest().initialize(unknowns_);
   }
@@ -104,7 +110,17 @@ class PotentialEquations {
     return trace_.project(functional);
   }
 
+  /// The operator of the equations: what the exterior field does to the outer sphere is no part of the form.
+  void vmult(Distributed& to, const Distributed& from) const {
+    multigrid_.finest().vmult(to, from);
+    if (exterior_) exterior_->add({&to}, {&from});
+  }
+
  private:
+  /// −R ∂u/∂r over u of a dipole, which the preconditioner has for every field on the outer sphere.
+  static constexpr double dipole_coefficient = 2.0;
+
+  [[nodiscard]] bool radiates() const { return data_.problem.outer.kind == OuterCondition::Kind::radiation; }
   /// Whether the inside conducts better than the outside.
   [[nodiscard]] bool conducts_better(int vesicle) const {
     return data_.problem.conductivity_in[vesicle] > data_.problem.conductivity_out;
@@ -173,7 +189,7 @@ class PotentialEquations {
     data_.cost.solver_error = 0.0;
     if (size > 0.0) {
       data_.cost.solver_error =
-          minimal_residuals(stiffness, multigrid_, b, unknowns_, tolerance * size, data_.cost.iterations, "potential") /
+          minimal_residuals(*this, multigrid_, b, unknowns_, tolerance * size, data_.cost.iterations, "potential") /
           size;
     } else {
       unknowns_ = 0.0;
@@ -206,6 +222,7 @@ class PotentialEquations {
   PerVesicle<double> membrane_;  // coefficient of [[u]][[w]]
   double unit_;                  // of functionals: σ_e R
   Multigrid multigrid_;
+  std::unique_ptr<HarmonicTerms> exterior_;
   Vector current_data_;  // c − σ_e E·n
   Distributed unknowns_;
 };

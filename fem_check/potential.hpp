@@ -44,7 +44,7 @@ using MembraneCondition = std::variant<PrescribedJump, SteadyMembrane, ChargedMe
 struct OuterCondition {
   /// Which condition holds.
   enum class Kind {
-    radiation,  ///< ∂ψ/∂r = −2ψ/R: exact for the dipole, error R⁻⁷ in a uniform field
+    radiation,  ///< ∂ψ/∂r of the field outside: exact for harmonics up to the exterior degree
     dirichlet,  ///< ψ given
     neumann     ///< ∂ψ/∂r given
   };
@@ -63,6 +63,7 @@ struct PotentialProblem {
   ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous
   OuterCondition outer;
   double tolerance = 1e-11;  ///< of the linear solver, relative
+  int exterior_degree = usual_exterior_degree;
 };
 
 /// Everything on γ that the boundary-integral side knows too. E = −∇φ.

@@ -87,6 +87,18 @@ Vector OuterSphere::integrate(const std::function<double(const Vector3&)>& f) co
   return result;
 }
 
+Eigen::MatrixXd OuterSphere::moments(const std::function<Eigen::MatrixXd(const Vectors&)>& values) const {
+  Eigen::MatrixXd result;
+  for (const Face& face : faces_) {
+    const Eigen::MatrixXd local = face.value.transpose() * face.weight.asDiagonal() * values(face.position).transpose();
+    if (result.size() == 0) result = Eigen::MatrixXd::Zero(size(), local.cols());
+    for (std::size_t i = 0; i < face.nodes.size(); ++i) {
+      result.row(face.nodes[i]) += local.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return result;
+}
+
 SurfaceTerms::SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& handler, const Constraints& constraints,
                            std::vector<DofIndex> dofs, Eigen::SparseMatrix<double> matrix)
     : communicator_(space.communicator), dofs_(std::move(dofs)), matrix_(std::move(matrix)) {

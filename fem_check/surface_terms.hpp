@@ -21,6 +21,9 @@ class OuterSphere {
   [[nodiscard]] Eigen::SparseMatrix<double> rotation(unsigned a, unsigned b) const;
   /// ∫ f w dA for every node, f given at places as users know them.
   [[nodiscard]] Vector integrate(const std::function<double(const Vector3&)>& f) const;
+  /// The same of many functions, [nodes x functions].
+  /// @param values  [functions x points] from the places of points
+  [[nodiscard]] Eigen::MatrixXd moments(const std::function<Eigen::MatrixXd(const Vectors&)>& values) const;
 
  private:
   struct Face {

@@ -19,7 +19,7 @@ class StepRefinement {
 
   [[nodiscard]] Eigen::MatrixXd operator()(int degree, int steps, const ShapePath* path) const {
     const auto solve = [&](const Discretisation& space) {
-      return run_.solve(space, {.steps = steps, .tolerance = tolerance_, .path = path});
+      return run_.solve(space, {.steps = steps, .settings = {tolerance_}, .path = path});
     };
     const std::string name = fmt::format("{} in {} steps", charging_problem, steps);
     return solve_level(name, meshes_.discretise(degree), meshes_.outer_radius(), report_, solve).surface.at("Vm");
@@ -47,8 +47,8 @@ ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& mesh
                        refinement.charging_target,
                        {"Vm"}};
   ChargingLevels result;
-  result.sequence = run_levels(plan, meshes, report, [&](const Discretisation& space, double tolerance) {
-    return run.solve(space, {fewest_steps, tolerance, path, space.n_cells() != meshes.n_cells()});
+  result.sequence = run_levels(plan, meshes, report, [&](const Discretisation& space, const SolveSettings& settings) {
+    return run.solve(space, {fewest_steps, settings, path});
   });
 
   const StepRefinement refined(run, meshes, report, refinement.potential_tolerance);
@@ -77,7 +77,7 @@ ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& mesh
   const Eigen::MatrixXd added = finest - lowest;
   LevelSequence& sequence = result.sequence;
   for (Level& level : sequence.levels) level.surface.at("Vm") += added;
-  for (Level* level : {&sequence.far, &sequence.rough}) level->surface.at("Vm") += added;
+  for (Level* level : {&sequence.truncated, &sequence.rough}) level->surface.at("Vm") += added;
   return result;
 }
 

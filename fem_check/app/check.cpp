@@ -69,7 +69,6 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& mes
   // Fields are taken at the same points of γ on every level: those of the finest geometry that any level has.
   solved.places = {geometry.quadrature_points(refinement.points_per_edge), shape.radius(), shape.centroid()};
   solved.outer_radius = meshes.outer_radius();
-  solved.far_outer_radius = meshes.far_outer_radius();
   const bool single = inputs.size() == 1;
   if (input.electric()) solved.potential = solve_potential_levels(inputs, meshes, refinement, report);
   if (input.in_time && single) solved.charging = solve_charging_levels(input, meshes, refinement, report);
@@ -100,7 +99,7 @@ class OneVesicle {
  private:
   void keep(LevelSequence& sequence) const {
     for (Level& level : sequence.levels) keep(level);
-    keep(sequence.far);
+    keep(sequence.truncated);
     keep(sequence.rough);
   }
   void keep(Level& level) const {
@@ -118,7 +117,6 @@ CheckResult result_of(const CheckInput& input, const SolvedState& solved, double
   result.time = input.time;
   result.required = required;
   result.outer_radius = solved.outer_radius;
-  result.far_outer_radius = solved.far_outer_radius;
   return result;
 }
 

@@ -30,7 +30,7 @@ struct SolvedState {
   std::optional<FlowLevels> flow;
   std::optional<LevelSequence> shape_flow;
   std::optional<ChargingLevels> charging;
-  double outer_radius = 0.0, far_outer_radius = 0.0;
+  double outer_radius = 0.0;
 };
 
 /// Solves the problems that the inputs of all vesicles have, at rising degree: of several vesicles those in which V_m

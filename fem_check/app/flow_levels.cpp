@@ -28,8 +28,9 @@ FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, const Meshes
   problem.force = [&](const SurfacePoints& points) { return Vectors(force(points)); };
 
   FlowLevels result;
-  const auto solve = [&](const Discretisation& discretisation, double tolerance) {
-    problem.tolerance = tolerance;
+  const auto solve = [&](const Discretisation& discretisation, const SolveSettings& settings) {
+    problem.tolerance = settings.tolerance;
+    problem.exterior_degree = settings.exterior_degree;
     const FlowSolution solution = solve_flow(discretisation, problem);
     const FlowTraces traces = solution.on_surface(discretisation.quadrature_points(refinement.points_per_edge));
     Solved solved{solution.cost(), {{"velocity", traces.velocity}, {"divergence", traces.divergence.transpose()}}, {}};
@@ -109,7 +110,7 @@ void add_own_force(const std::vector<CheckInput>& inputs, const Meshes& meshes, 
   before.surface["velocity_own_force"] =
       before.surface.at("velocity") + coarse + flows.velocity(first, electric_change);
   Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
-  for (Level* level : {&sequence.far, &sequence.rough, &repeated}) {
+  for (Level* level : {&sequence.truncated, &sequence.rough, &repeated}) {
     level->surface["velocity_own_force"] = level->surface.at("velocity") + fine;
   }
 }

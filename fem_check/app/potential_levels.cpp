@@ -57,8 +57,9 @@ PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, co
 
   PotentialLevels result;
   std::vector<PotentialSolution> steady_solutions;
-  const auto solve = [&](const Discretisation& discretisation, double tolerance) {
-    given.tolerance = steady.tolerance = tolerance;
+  const auto solve = [&](const Discretisation& discretisation, const SolveSettings& settings) {
+    given.tolerance = steady.tolerance = settings.tolerance;
+    given.exterior_degree = steady.exterior_degree = settings.exterior_degree;
     const SurfacePoints points = discretisation.quadrature_points(refinement.points_per_edge);
     const PotentialSolution solution = solve_potential(discretisation, given);
     const PotentialTraces traces = solution.on_surface(points);

@@ -15,11 +15,14 @@ namespace vehd::fem_check {
 struct Refinement {
   int cells_per_edge = 3;
   int blend_layers = 1;
-  int shell_layers = 3;
+  int shell_layers = 2;
   /// Of the layers' thickness: the fine structure of the fields ends in a thin inner layer, and the layers outside
   /// carry the smooth rest at high degree.
-  double shell_growth = 3.0;
-  double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape, or of two together
+  double shell_growth = 4.0;
+  /// Of the outer sphere from the farthest point of the membrane, over the radius √(area/4π) of the shape: it encloses
+  /// all points off the membrane.
+  double outer_distance = 3.2;
+  double outer_radius_of_two = 8.0;  ///< over the radius of two together
   // Of two vesicles: between a membrane and its box, and from the boxes to the outer sphere.
   int box_layers = 2, outer_layers = 2;
   double box_growth = 2.0, outer_growth = 2.0;
@@ -44,30 +47,24 @@ struct DegreeRange {
   int last;
 };
 
-/// Of a shape with this radius.
-/// @param far  with one more layer of cells, outside the others
-meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double radius, bool far);
+/// Of a shape.
+meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const meshes::FrozenShape& shape);
 
 /// About two shapes.
-/// @param far  with one more layer of cells, outside the others
 meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
-                                              const std::array<meshes::FrozenShape, 2>& shapes, bool far);
+                                              const std::array<meshes::FrozenShape, 2>& shapes);
 
-/// Meshes of one or two shapes at both radii of the outer sphere.
+/// The mesh of one or two shapes.
 class Meshes {
  public:
   /// @throws MeshError if there are more shapes, or if the blocks cannot follow them
   Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement);
 
-  [[nodiscard]] Discretisation discretise(int degree) const { return {near_, degree}; }
-  [[nodiscard]] double outer_radius() const { return near_->outer_radius(); }
-  [[nodiscard]] int n_cells() const { return near_->n_cells(); }
-  /// With one more layer of cells, outside the others.
-  [[nodiscard]] Discretisation discretise_far(int degree) const { return {far_, degree}; }
-  [[nodiscard]] double far_outer_radius() const { return far_->outer_radius(); }
+  [[nodiscard]] Discretisation discretise(int degree) const { return {mesh_, degree}; }
+  [[nodiscard]] double outer_radius() const { return mesh_->outer_radius(); }
 
  private:
-  std::shared_ptr<const meshes::VolumeMesh> near_, far_;
+  std::shared_ptr<const meshes::VolumeMesh> mesh_;
 };
 
 }  // namespace vehd::fem_check

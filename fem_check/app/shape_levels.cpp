@@ -24,7 +24,8 @@ class ShapeFlow {
         points_per_edge_(refinement.points_per_edge) {}
 
   /// @param electric  f_E; empty: none
-  [[nodiscard]] Solved solve(const Discretisation& space, double tolerance, const VectorOnSurface& electric) const {
+  [[nodiscard]] Solved solve(const Discretisation& space, const SolveSettings& settings,
+                             const VectorOnSurface& electric) const {
     const SurfacePoints points = space.quadrature_points(points_per_edge_);
     Solved solved;
     VectorOnSurface bending;
@@ -39,7 +40,7 @@ class ShapeFlow {
       if (curvature != 0.0) solved.surface["spontaneous_curvature"] = field(curvature) - solved.surface["bending"];
       bending = bending_force(space, {modulus, curvature}, degree);
     }
-    FlowProblem problem = problem_with(tolerance);
+    FlowProblem problem = problem_with(settings);
     problem.gradient = physics_.flow_gradient;
     problem.force = [&](const SurfacePoints& at) {
       Vectors force = at.normal * (physics_.weight.transpose() * (at.position.colwise() - centre_)).asDiagonal();
@@ -52,9 +53,9 @@ class ShapeFlow {
   }
 
   /// Of f_E alone, in a fluid at rest.
-  [[nodiscard]] Solved solve_electric(const Discretisation& space, double tolerance,
+  [[nodiscard]] Solved solve_electric(const Discretisation& space, const SolveSettings& settings,
                                       const VectorOnSurface& electric) const {
-    FlowProblem problem = problem_with(tolerance);
+    FlowProblem problem = problem_with(settings);
     problem.force = [&](const SurfacePoints& at) { return Vectors(-electric(at)); };
     Solved solved;
     add_flow(space, problem, space.quadrature_points(points_per_edge_), solved);
@@ -62,11 +63,12 @@ class ShapeFlow {
   }
 
  private:
-  [[nodiscard]] FlowProblem problem_with(double tolerance) const {
+  [[nodiscard]] FlowProblem problem_with(const SolveSettings& settings) const {
     FlowProblem problem;
     problem.viscosity_in = physics_.viscosity_in;
     problem.viscosity_out = physics_.viscosity_out;
-    problem.tolerance = tolerance;
+    problem.tolerance = settings.tolerance;
+    problem.exterior_degree = settings.exterior_degree;
     return problem;
   }
 
@@ -96,7 +98,7 @@ class ShapeFlow {
 
 Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, const Refinement& refinement,
                         const VectorOnSurface& electric) {
-  return ShapeFlow(input, refinement).solve(space, refinement.flow_tolerance, electric);
+  return ShapeFlow(input, refinement).solve(space, {refinement.flow_tolerance}, electric);
 }
 
 LevelSequence solve_shape_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
@@ -111,9 +113,10 @@ LevelSequence solve_shape_levels(const CheckInput& input, const Meshes& meshes, 
                        refinement.flow_tolerance,
                        refinement.flow_target,
                        {"velocity", "tension"}};
-  LevelSequence sequence = run_levels(plan, meshes, report, [&](const Discretisation& space, double tolerance) {
-    return flow.solve(space, tolerance, electric);
-  });
+  LevelSequence sequence =
+      run_levels(plan, meshes, report, [&](const Discretisation& space, const SolveSettings& settings) {
+        return flow.solve(space, settings, electric);
+      });
   if (potential == nullptr) return sequence;
 
   const PotentialSolution& before = potential->solutions[potential->solutions.size() - 2];
@@ -122,7 +125,7 @@ LevelSequence solve_shape_levels(const CheckInput& input, const Meshes& meshes, 
   };
   const Level moved = solve_level(
       "flow by the change of f_E", meshes.discretise(refinement.flow_first), meshes.outer_radius(), report,
-      [&](const Discretisation& space) { return flow.solve_electric(space, refinement.flow_tolerance, change); });
+      [&](const Discretisation& space) { return flow.solve_electric(space, {refinement.flow_tolerance}, change); });
   for (const auto& [name, values] : moved.surface)
     sequence.levels[sequence.levels.size() - 2].surface.at(name) += values;
   return sequence;

@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(potential_rides_on_the_material_of_a_sphere_that_turns) {
   const Eigen::MatrixXd exact = exact_potential(input, start).transpose() * points.position;
   std::vector<double> errors;
   for (const int steps : {4, 8, 16}) {
-    const Solved solved = run.solve(space, {.steps = steps, .tolerance = 1e-8, .path = &path});
+    const Solved solved = run.solve(space, {.steps = steps, .settings = {1e-8}, .path = &path});
     errors.push_back(relative_l2(points, solved.surface.at("Vm"), exact));
   }
   BOOST_TEST_CONTEXT(errors[0] << " " << errors[1] << " " << errors[2]) {
