@@ -46,12 +46,24 @@ FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& proble
   return FlowSolution(data);
 }
 
-FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem) {
+void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& solution) {
+  const FlowData& data = start.data();
+  const Stiffness& scalar = system.diffusion();
+  for (unsigned d = 0; d < 3; ++d) {
+    interpolate(data.space->dofs, data.velocity[d], scalar.handler(), scalar.constraints(), solution.block(d));
+  }
+  const Constraints none;
+  interpolate(*data.pressure_dofs, data.pressure, *system.pressure_dofs(), none, solution.block(3));
+  solution.block(3) *= 1.0 / system.pressure_unit();
+}
+
+FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem, const FlowSolution* start) {
   Stopwatch watch;
   Cost cost;
   const StokesSystem system(discretisation, {problem.viscosity_in, problem.viscosity_out}, problem.exterior_degree);
   cost.seconds_assembly = watch.lap();
   Blocks solution = system.zero();
+  if (start != nullptr) begin_from(*start, system, solution);
   system.solve(system.load(problem.force, problem.gradient), problem.tolerance, solution, cost);
   cost.seconds_solve = watch.lap();
   return flow_solution(system, problem, solution, cost);

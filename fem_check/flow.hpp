@@ -39,15 +39,19 @@ class FlowSolution {
   [[nodiscard]] Vector pressure(const VolumePoints& points) const;
   /// What the solve took.
   [[nodiscard]] const Cost& cost() const;
+  /// For solvers that begin from it.
+  [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
   std::shared_ptr<const Data> data_;
 };
 
+/// @param start  what the linear solver begins from, on the same mesh with elements of any degree; null: zero
 /// @throws std::invalid_argument for a degree below 2, a viscosity that is not positive or a gradient with a trace
 /// @throws SolveError if the linear solver does not converge
 /// Accuracy: converges with the degree of the elements (tests/fem_check/exact_flow_test.cpp)
 /// Source: weak form in docs/weak_forms.md; Taylor–Hood elements
-FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem);
+FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                        const FlowSolution* start = nullptr);
 
 }  // namespace vehd::fem_check

@@ -127,7 +127,8 @@ struct InextensiblePreconditioner {
 
 }  // namespace
 
-InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem) {
+InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                                         const InextensibleFlow* start) {
   if (discretisation.space()->n_vesicles > 1) {
     throw std::invalid_argument("tensions are found for one vesicle alone");
   }
@@ -151,8 +152,16 @@ InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, c
   // Without a force on the fluid, minimal residuals would break down in its first step: the residual would have no part
   // in the equation of momentum, and the matrix has nothing on the diagonal of the others. So it starts from a tension.
   Blocks x = system.zero();
-  InextensibleSystem::set_tension(
-      space.length * space.length / stokes.functional_unit() * tension_preconditioner.apply(system.tension_of(b)), x);
+  if (start != nullptr) {
+    begin_from(start->flow(), stokes, x);
+    InextensibleSystem::set_tension(
+        space.length / stokes.functional_unit() *
+            interpolated(start->data().tension, start->data().elements->tension_nodes(), elements->tension_nodes()),
+        x);
+  } else {
+    InextensibleSystem::set_tension(
+        space.length * space.length / stokes.functional_unit() * tension_preconditioner.apply(system.tension_of(b)), x);
+  }
   const double size = energy_of_residual(preconditioner, b);
   if (!std::isfinite(size)) throw SolveError("the right-hand side of the inextensible flow is not finite");
   if (size > 0.0) {

@@ -303,7 +303,7 @@ dealii::Vector<double> StokesSystem::velocity(const Blocks& solution, unsigned c
 
 dealii::Vector<double> StokesSystem::pressure(const Blocks& solution) const {
   dealii::Vector<double> result = on_all_ranks(solution.block(3), space().communicator);
-  result *= implementation_->viscosity.outside / space().length;
+  result *= pressure_unit();
   return result;
 }
 
@@ -313,5 +313,6 @@ const std::shared_ptr<const dealii::DoFHandler<3>>& StokesSystem::pressure_dofs(
 }
 const Stiffness& StokesSystem::diffusion() const { return implementation_->multigrid.finest(); }
 double StokesSystem::functional_unit() const { return implementation_->viscosity.outside * space().length; }
+double StokesSystem::pressure_unit() const { return implementation_->viscosity.outside / space().length; }
 
 }  // namespace vehd::fem_check

@@ -54,11 +54,16 @@ class StokesSystem {
   [[nodiscard]] const Stiffness& diffusion() const;
   /// What the functional of a force is divided by, μ_e R.
   [[nodiscard]] double functional_unit() const;
+  /// Of the block of the pressure, μ_e/R.
+  [[nodiscard]] double pressure_unit() const;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// Velocity and pressure of another solution on the same mesh, into the first four blocks.
+void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& solution);
 
 /// The flow of a solution, of whose blocks the first four are used.
 FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& problem, const Blocks& solution, Cost cost);

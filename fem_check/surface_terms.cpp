@@ -139,4 +139,25 @@ dealii::Vector<double> on_all_ranks(const Distributed& vector, MPI_Comm communic
   return result;
 }
 
+void interpolate(const dealii::DoFHandler<3>& from, const dealii::Vector<double>& nodal,
+                 const dealii::DoFHandler<3>& to_handler, const Constraints& constraints, Distributed& to) {
+  const auto &source = from.get_fe(), &element = to_handler.get_fe();
+  dealii::FullMatrix<double> matrix(element.n_dofs_per_cell(), source.n_dofs_per_cell());
+  element.get_interpolation_matrix(source, matrix);
+  dealii::Vector<double> values(source.n_dofs_per_cell()), at_nodes(element.n_dofs_per_cell());
+  std::vector<DofIndex> dofs(element.n_dofs_per_cell());
+  auto cell = from.begin_active();
+  for (const auto& target : to_handler.active_cell_iterators()) {
+    cell->get_dof_values(nodal, values);
+    matrix.vmult(at_nodes, values);
+    target->get_dof_indices(dofs);
+    for (unsigned i = 0; i < dofs.size(); ++i) {
+      if (to.locally_owned_elements().is_element(dofs[i]) && !constraints.is_constrained(dofs[i])) {
+        to(dofs[i]) = at_nodes[i];
+      }
+    }
+    ++cell;
+  }
+}
+
 }  // namespace vehd::fem_check

@@ -69,4 +69,10 @@ class SurfaceTerms {
 /// Values at the nodes of all degrees of freedom, on all ranks.
 dealii::Vector<double> on_all_ranks(const Distributed& vector, MPI_Comm communicator);
 
+/// The function with these values at the nodes of one handler, at the nodes of another one, of any degree on the same
+/// cells; zero at fixed and tied nodes.
+/// @param nodal  on all ranks
+void interpolate(const dealii::DoFHandler<3>& from, const dealii::Vector<double>& nodal,
+                 const dealii::DoFHandler<3>& to_handler, const Constraints& constraints, Distributed& to);
+
 }  // namespace vehd::fem_check

@@ -9,6 +9,7 @@
 #include "fem_check/app/questions.hpp"
 #include "fem_check/app/shape_levels.hpp"
 #include "fem_check/app/surface_series.hpp"
+#include "meshes/block_axes.hpp"
 
 namespace vehd::fem_check {
 namespace {
@@ -51,17 +52,26 @@ double stored_velocity_difference(const CheckInput& input, const SurfacePoints& 
   return root_mean_square(change, points.weight) / std::max(root_mean_square(own, points.weight), 1e-300);
 }
 
-/// Targets that leave room for what is required.
-Refinement refined_for(Refinement refinement, double required) {
+/// Of the checks that are asked for: targets that leave room for what is required, and cells that follow the bends.
+Refinement refinement_for(const CheckTask& task, const std::vector<meshes::FrozenShape>& shapes) {
+  /// Along an edge of a block.
+  constexpr int most_further_cells = 2;
+  const bool single = shapes.size() == 1;
+  const Refinement quick = single ? Refinement::quick() : Refinement::quick_of_two();
+  Refinement refinement = task.quick ? quick : Refinement::finest();
+  if (single) {
+    refinement.cells_per_edge = meshes::cells_for_bending(shapes.front(), refinement.cells_per_edge,
+                                                          refinement.cells_per_edge + most_further_cells);
+  }
   constexpr double share = 0.5;
-  refinement.potential_target = std::min(refinement.potential_target, share * required);
-  refinement.flow_target = std::min(refinement.flow_target, share * required);
+  refinement.potential_target = std::min(refinement.potential_target, share * task.required);
+  refinement.flow_target = std::min(refinement.flow_target, share * task.required);
   return refinement;
 }
 
 }  // namespace
 
-SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Discretisation& geometry,
+SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, const Discretisation& geometry,
                         const Refinement& refinement, const Report& report) {
   const CheckInput& input = inputs.front();
   const meshes::FrozenShape shape(input.position);
@@ -172,11 +182,11 @@ std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) 
   std::vector<std::vector<CheckInput>> further;
   for (const std::filesystem::path& path : task.further_inputs) further.push_back(read_check_inputs(path));
   if (task.writes) require_directory(task.directory);
-  const Refinement refinement = refined_for(task.refinement, task.required);
   std::vector<meshes::FrozenShape> shapes;
   for (const CheckInput& input : inputs) shapes.emplace_back(input.position);
-  const Meshes meshes(shapes, refinement);
-  const Discretisation geometry = meshes.discretise(refinement.potential_last);
+  const Refinement refinement = refinement_for(task, shapes);
+  Meshes meshes(shapes, refinement);
+  const Discretisation& geometry = meshes.discretise(refinement.potential_degrees.back());
   const SolvedState solved = solve_state(inputs, meshes, geometry, refinement, report);
 
   std::vector<CheckResult> results{judge(inputs, solved, task.required)};

@@ -34,7 +34,11 @@ struct Level {
 struct SolveSettings {
   double tolerance;  ///< of the linear solvers
   int exterior_degree = usual_exterior_degree;
+  bool from_zero = false;  ///< the linear solvers do not begin from the level before
 };
+
+/// Of the linear solvers, at least, for a flow that is a small part of another one.
+constexpr double tolerance_of_changes = 1e-4;
 
 /// Tolerance of LevelSequence::rough over that of the levels.
 constexpr double rough_factor = 100.0;

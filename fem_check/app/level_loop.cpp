@@ -42,7 +42,7 @@ Level solve_level(const std::string& problem, const Discretisation& discretisati
   return level;
 }
 
-LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Report& report, const SolveLevel& solve) {
+LevelSequence run_levels(const LevelPlan& plan, Meshes& meshes, const Report& report, const SolveLevel& solve) {
   const auto solve_level_with = [&](const std::string& problem, int degree, const SolveSettings& settings) {
     return solve_level(problem, meshes.discretise(degree), meshes.outer_radius(), report,
                        [&](const Discretisation& discretisation) { return solve(discretisation, settings); });
@@ -51,7 +51,7 @@ LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Repo
   constexpr std::size_t fewest = 3;
   LevelSequence result;
   auto& levels = result.levels;
-  for (int degree = plan.degrees.first; degree <= plan.degrees.last; ++degree) {
+  for (const int degree : plan.degrees) {
     levels.push_back(solve_level_with(plan.problem, degree, {plan.tolerance}));
     if (levels.size() < fewest) continue;
     if (largest_change(levels[levels.size() - 2], levels.back(), plan.judged_by) <= plan.target) break;
@@ -60,7 +60,8 @@ LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Repo
   const int degree = levels[static_cast<std::size_t>(result.repeated)].degree;
   result.truncated = solve_level_with(plan.problem + " with fewer harmonics outside", degree,
                                       {plan.tolerance, truncated_exterior_degree});
-  result.rough = solve_level_with(plan.problem + " with a coarse solver", degree, {rough_factor * plan.tolerance});
+  result.rough = solve_level_with(plan.problem + " with a coarse solver", degree,
+                                  {.tolerance = rough_factor * plan.tolerance, .from_zero = true});
   return result;
 }
 

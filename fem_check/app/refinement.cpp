@@ -6,19 +6,23 @@
 #include <cmath>
 
 namespace vehd::fem_check {
-
 Refinement Refinement::quick() {
   Refinement refinement;
-  refinement.cells_per_edge = 2;
-  refinement.points_per_edge = 12;
-  refinement.potential_first = 4;
-  refinement.potential_last = 6;
-  refinement.flow_first = 4;
-  refinement.flow_last = 6;
+  refinement.potential_degrees = {3, 5, 6};
+  refinement.flow_degrees = {3, 5, 7};
+  refinement.shape_flow_degrees = {3, 4, 5};
   refinement.potential_target = 0.0;
   refinement.flow_target = 0.0;
-  refinement.potential_tolerance = 1e-9;
-  refinement.flow_tolerance = 1e-7;
+  refinement.potential_tolerance = 1e-8;
+  refinement.flow_tolerance = 1e-6;
+  return refinement;
+}
+
+Refinement Refinement::quick_of_two() {
+  Refinement refinement = quick();
+  refinement.cells_per_edge = 2;
+  refinement.potential_degrees = {4, 5, 6};
+  refinement.flow_degrees = {4, 5, 6};
   return refinement;
 }
 
@@ -59,6 +63,12 @@ Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement&
   if (shapes.size() != 1) throw meshes::MeshError(fmt::format("has {} vesicles; accepted: one or two", shapes.size()));
   const meshes::FrozenShape& shape = shapes.front();
   mesh_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement, shape)));
+}
+
+const Discretisation& Meshes::discretise(int degree) {
+  const auto found = discretisations_.find(degree);
+  if (found != discretisations_.end()) return found->second;
+  return discretisations_.emplace(degree, Discretisation(mesh_, degree)).first->second;
 }
 
 }  // namespace vehd::fem_check

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace vehd::fem_check {
 
 /// How fine the finite elements get: one coarse curved mesh, rising degrees.
 struct Refinement {
-  int cells_per_edge = 3;
+  int cells_per_edge = 3;  ///< of a block; up to two more for a strongly bent shape
   int blend_layers = 1;
   int shell_layers = 2;
   /// Of the layers' thickness: the fine structure of the fields ends in a thin inner layer, and the layers outside
@@ -28,23 +29,20 @@ struct Refinement {
   double box_growth = 2.0, outer_growth = 2.0;
   int points_per_edge = 12;  ///< of the comparison, Gauss points on each face of γ
 
-  int potential_first = 4, potential_last = 9;  ///< degrees
-  int flow_first = 4, flow_last = 8;
+  // Degrees, rising, three at least.
+  std::vector<int> potential_degrees{4, 5, 6, 7, 8, 9};
+  std::vector<int> flow_degrees{4, 5, 6, 7, 8};  ///< force given
+  std::vector<int> shape_flow_degrees{4, 5, 6, 7, 8};
   double potential_target = 1e-5;  ///< relative change at which degrees stop rising before the last
   double flow_target = 1e-4;
   double charging_target = 1e-3;       ///< the same of V_m that is advanced in time, of its steps too
-  double potential_tolerance = 1e-11;  ///< of the linear solvers
+  double potential_tolerance = 3e-12;  ///< of the linear solvers
   double flow_tolerance = 1e-7;
 
   static Refinement finest() { return {}; }
   /// Three levels each.
   static Refinement quick();
-};
-
-/// Degrees of one problem.
-struct DegreeRange {
-  int first;
-  int last;
+  static Refinement quick_of_two();
 };
 
 /// Of a shape.
@@ -60,11 +58,13 @@ class Meshes {
   /// @throws MeshError if there are more shapes, or if the blocks cannot follow them
   Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement);
 
-  [[nodiscard]] Discretisation discretise(int degree) const { return {mesh_, degree}; }
+  /// Made once for each degree.
+  [[nodiscard]] const Discretisation& discretise(int degree);
   [[nodiscard]] double outer_radius() const { return mesh_->outer_radius(); }
 
  private:
   std::shared_ptr<const meshes::VolumeMesh> mesh_;
+  std::map<int, Discretisation> discretisations_;
 };
 
 }  // namespace vehd::fem_check

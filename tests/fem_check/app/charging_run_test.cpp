@@ -79,8 +79,8 @@ BOOST_AUTO_TEST_CASE(potential_rides_on_the_material_of_a_sphere_that_turns) {
   const Vector3 start(0.9, 0.1, -0.4);
   const CheckInput input = turning_sphere(start);
   const Refinement refinement = coarse();
-  const Meshes meshes({vehd::meshes::FrozenShape(input.position)}, refinement);
-  const Discretisation space = meshes.discretise(4);
+  Meshes meshes({vehd::meshes::FrozenShape(input.position)}, refinement);
+  const Discretisation space = meshes.discretise(5);
   const SurfacePoints points = space.quadrature_points(refinement.points_per_edge);
   const ChargingRun run(input, refinement);
   const ShapePath path(*input.in_time);
