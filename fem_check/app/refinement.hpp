@@ -14,7 +14,7 @@ namespace vehd::fem_check {
 
 /// How fine the finite elements get: one coarse curved mesh, rising degrees.
 struct Refinement {
-  int cells_per_edge = 3;  ///< of a block; up to two more for a strongly bent shape
+  int cells_per_edge = 3;  ///< of a block; one more for a strongly bent shape in a check that is not quick
   int blend_layers = 1;
   int shell_layers = 2;
   /// Of the layers' thickness: the fine structure of the fields ends in a thin inner layer, and the layers outside
