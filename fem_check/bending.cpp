@@ -153,17 +153,18 @@ void require_holds(int degree, int field_degree) {
 
 }  // namespace
 
-VectorOnSurface bending_field(const Discretisation& discretisation, const BendingEnergy& energy, int field_degree,
-                              int surface_degree) {
-  require_holds(surface_degree, field_degree);
-  const meshes::VolumeMesh& mesh = *discretisation.space()->mesh;
-  const BendingElements elements(mesh, surface_degree);
-  const SurfaceElements& surface = elements.surface();
-  const auto nodes = std::make_shared<const FaceNodes>(mesh, field_degree);
+BendingForce::BendingForce(const Discretisation& discretisation, const BendingEnergy& energy, int degree)
+    : space_(discretisation.space()),
+      elements_(*space_->mesh, degree),
+      functional_(elements_.force_functional(energy, elements_.surface().positions())) {}
+
+VectorOnSurface BendingForce::field(int degree) const {
+  const SurfaceElements& surface = elements_.surface();
+  require_holds(surface.nodes().degree(), degree);
+  const auto nodes = std::make_shared<const FaceNodes>(*space_->mesh, degree);
   const Eigen::SimplicialLLT<SurfaceMatrix> mass(mass_matrix(surface, surface.positions(), *nodes));
   if (mass.info() != Eigen::Success) throw SolveError("the mass matrix of the bending force is not positive definite");
-  const Vectors functional =
-      restricted(elements.force_functional(energy, surface.positions()), surface.nodes(), *nodes);
+  const Vectors functional = restricted(functional_, surface.nodes(), *nodes);
   const Eigen::MatrixX3d solved = mass.solve(Eigen::MatrixX3d(functional.transpose()));
   return [nodes, nodal = Vectors(solved.transpose())](const SurfacePoints& points) {
     Vectors result(3, points.size());
@@ -176,14 +177,12 @@ VectorOnSurface bending_field(const Discretisation& discretisation, const Bendin
   };
 }
 
-VectorOnSurface bending_force(const Discretisation& discretisation, const BendingEnergy& energy, int degree) {
-  require_holds(degree, discretisation.degree());
-  const Space& space = *discretisation.space();
-  const BendingElements elements(*space.mesh, degree);
-  const FaceNodes trace_nodes(*space.mesh, discretisation.degree());
-  const Vectors functional = restricted(elements.force_functional(energy, elements.surface().positions()),
-                                        elements.surface().nodes(), trace_nodes);
-  const std::shared_ptr<const MembraneTrace> trace = space.trace;
+VectorOnSurface BendingForce::on_trace() const {
+  const auto degree = static_cast<int>(space_->element.degree);
+  require_holds(elements_.surface().nodes().degree(), degree);
+  const FaceNodes trace_nodes(*space_->mesh, degree);
+  const Vectors functional = restricted(functional_, elements_.surface().nodes(), trace_nodes);
+  const std::shared_ptr<const MembraneTrace> trace = space_->trace;
   Eigen::MatrixX3d in_pairs(trace->size(), 3);
   for (int f = 0; f < trace_nodes.n_faces(); ++f) {
     for (std::size_t i = 0; i < trace_nodes.of_face(f).size(); ++i) {
@@ -197,6 +196,10 @@ VectorOnSurface bending_force(const Discretisation& discretisation, const Bendin
     for (int d = 0; d < 3; ++d) result.row(d) = trace->evaluate(nodal.col(d), points).transpose();
     return result;
   };
+}
+
+VectorOnSurface bending_force(const Discretisation& discretisation, const BendingEnergy& energy, int degree) {
+  return BendingForce(discretisation, energy, degree).on_trace();
 }
 
 }  // namespace vehd::fem_check

@@ -48,19 +48,30 @@ class BendingElements {
 /// A functional on nodal fields of one degree, on those of a lower degree on the same faces, which are among them.
 Vectors restricted(const Vectors& functional, const FaceNodes& from, const FaceNodes& to);
 
-/// f_b of the finite elements as a field: the nodal field of this degree with ∫ f_b·w dA = −δE_b[w] for every nodal w
-/// of that degree. It holds more of a rough force than bending_force(), whose degree is that of the flow.
-/// @param field_degree    of the field
-/// @param surface_degree  of the surface on which the energy is taken; at least that of the field
-/// @throws std::invalid_argument for a lower degree
+/// f_b of the finite elements on the mesh of a discretisation: −δE_b[w], found once, as fields of several kinds.
 /// Accuracy: of a 2:1 prolate to 1e-3 (tests/fem_check/bending_test.cpp)
-VectorOnSurface bending_field(const Discretisation& discretisation, const BendingEnergy& energy, int field_degree,
-                              int surface_degree);
+class BendingForce {
+ public:
+  /// @param degree  of the surface on which the energy is taken
+  /// @throws std::invalid_argument for a degree below 2
+  BendingForce(const Discretisation& discretisation, const BendingEnergy& energy, int degree);
 
-/// f_b of the finite elements as a flow takes it: the function of the trace space of the discretisation with
-/// ∫ f_b·w dA = −δE_b[w] for every trace function w, for FlowProblem::force.
-/// @param degree  of the surface on which the energy is taken; at least that of the discretisation
-/// @throws std::invalid_argument for a lower degree
+  /// The nodal field of this degree with ∫ f_b·w dA = −δE_b[w] for every nodal w of that degree. It holds more of a
+  /// rough force than on_trace(), whose degree is that of the flow.
+  /// @throws std::invalid_argument for a degree above that of the surface
+  [[nodiscard]] VectorOnSurface field(int degree) const;
+  /// As a flow takes it: the function of the trace space of the discretisation with ∫ f_b·w dA = −δE_b[w] for every
+  /// trace function w, for FlowProblem::force.
+  /// @throws std::invalid_argument if the degree of the discretisation is above that of the surface
+  [[nodiscard]] VectorOnSurface on_trace() const;
+
+ private:
+  std::shared_ptr<const Space> space_;
+  BendingElements elements_;
+  Vectors functional_;
+};
+
+/// BendingForce::on_trace() of a surface of this degree.
 VectorOnSurface bending_force(const Discretisation& discretisation, const BendingEnergy& energy, int degree);
 
 }  // namespace vehd::fem_check

@@ -11,8 +11,6 @@ struct FlowSolution::Data {
   Matrix3 gradient;
   std::array<dealii::Vector<double>, 3> velocity;
   dealii::Vector<double> pressure;
-  Vector3 force = Vector3::Zero();
-  Vector3 torque = Vector3::Zero();
   Cost cost;
 };
 
@@ -33,14 +31,11 @@ Vector values_at(const Space& space, const dealii::DoFHandler<3>& handler, const
 
 }  // namespace
 
-FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& problem, const FlowLoad& load,
-                           const Blocks& solution, Cost cost) {
+FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& problem, const Blocks& solution, Cost cost) {
   const auto data = std::make_shared<FlowData>();
   data->space = system.shared_space();
   data->pressure_dofs = system.pressure_dofs();
   data->gradient = problem.gradient;
-  data->force = load.net_force;
-  data->torque = load.net_torque;
   for (unsigned d = 0; d < 3; ++d) data->velocity[d] = system.velocity(solution, d);
   data->pressure = system.pressure(solution);
   cost.n_cells = static_cast<int>(data->space->triangulation.n_active_cells());
@@ -51,16 +46,27 @@ FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& proble
   return FlowSolution(data);
 }
 
-FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem) {
+void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& solution) {
+  const FlowData& data = start.data();
+  const Stiffness& scalar = system.diffusion();
+  for (unsigned d = 0; d < 3; ++d) {
+    interpolate(data.space->dofs, data.velocity[d], scalar.handler(), scalar.constraints(), solution.block(d));
+  }
+  const Constraints none;
+  interpolate(*data.pressure_dofs, data.pressure, *system.pressure_dofs(), none, solution.block(3));
+  solution.block(3) *= 1.0 / system.pressure_unit();
+}
+
+FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem, const FlowSolution* start) {
   Stopwatch watch;
   Cost cost;
-  const StokesSystem system(discretisation, {problem.viscosity_in, problem.viscosity_out});
+  const StokesSystem system(discretisation, {problem.viscosity_in, problem.viscosity_out}, problem.exterior_degree);
   cost.seconds_assembly = watch.lap();
-  const FlowLoad load = system.load(problem.force, problem.gradient);
   Blocks solution = system.zero();
-  system.solve(load.functional, problem.tolerance, solution, cost);
+  if (start != nullptr) begin_from(*start, system, solution);
+  system.solve(system.load(problem.force, problem.gradient), problem.tolerance, solution, cost);
   cost.seconds_solve = watch.lap();
-  return flow_solution(system, problem, load, solution, cost);
+  return flow_solution(system, problem, solution, cost);
 }
 
 FlowTraces FlowSolution::on_surface(const SurfacePoints& points) const {
@@ -97,8 +103,6 @@ Vector FlowSolution::pressure(const VolumePoints& points) const {
   return values_at(*data_->space, *data_->pressure_dofs, data_->pressure, points);
 }
 
-const Vector3& FlowSolution::net_force() const { return data_->force; }
-const Vector3& FlowSolution::net_torque() const { return data_->torque; }
 const Cost& FlowSolution::cost() const { return data_->cost; }
 
 }  // namespace vehd::fem_check

@@ -16,6 +16,7 @@ struct FlowProblem {
   PerVesicle<double> viscosity_in = 1.0;
   double viscosity_out = 1.0;
   double tolerance = 1e-10;  ///< of the linear solver, relative
+  int exterior_degree = usual_exterior_degree;
 };
 
 /// Velocity on the membrane.
@@ -36,20 +37,21 @@ class FlowSolution {
   [[nodiscard]] Vectors velocity(const VolumePoints& points) const;
   /// Pressure, zero far away.
   [[nodiscard]] Vector pressure(const VolumePoints& points) const;
-  /// ∫ f dA and ∫ (x − centre) × f dA, centre that of the outer sphere: both enter the outer condition.
-  [[nodiscard]] const Vector3& net_force() const;
-  [[nodiscard]] const Vector3& net_torque() const;
   /// What the solve took.
   [[nodiscard]] const Cost& cost() const;
+  /// For solvers that begin from it.
+  [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
   std::shared_ptr<const Data> data_;
 };
 
+/// @param start  what the linear solver begins from, on the same mesh with elements of any degree; null: zero
 /// @throws std::invalid_argument for a degree below 2, a viscosity that is not positive or a gradient with a trace
 /// @throws SolveError if the linear solver does not converge
 /// Accuracy: converges with the degree of the elements (tests/fem_check/exact_flow_test.cpp)
 /// Source: weak form in docs/weak_forms.md; Taylor–Hood elements
-FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem);
+FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                        const FlowSolution* start = nullptr);
 
 }  // namespace vehd::fem_check

@@ -127,12 +127,13 @@ struct InextensiblePreconditioner {
 
 }  // namespace
 
-InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem) {
+InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                                         const InextensibleFlow* start) {
   if (discretisation.space()->n_vesicles > 1) {
     throw std::invalid_argument("tensions are found for one vesicle alone");
   }
   Stopwatch watch;
-  const StokesSystem stokes(discretisation, {problem.viscosity_in, problem.viscosity_out});
+  const StokesSystem stokes(discretisation, {problem.viscosity_in, problem.viscosity_out}, problem.exterior_degree);
   const Space& space = stokes.space();
   const int degree = discretisation.degree();
   const auto elements = std::make_shared<const TensionElements>(*space.mesh, degree, degree - 1);
@@ -144,16 +145,23 @@ InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, c
   Cost cost;
   cost.seconds_assembly = watch.lap();
 
-  // f_λ has neither net force nor torque: the outer condition does not know it.
-  const FlowLoad load = stokes.load(problem.force, problem.gradient);
+  const Blocks load = stokes.load(problem.force, problem.gradient);
   Blocks b = system.zero();
-  for (unsigned block = 0; block < tension_block; ++block) b.block(block) = load.functional.block(block);
+  for (unsigned block = 0; block < tension_block; ++block) b.block(block) = load.block(block);
   InextensibleSystem::set_tension(-elements->divergence_of_linear_flow(problem.gradient) / space.length, b);
   // Without a force on the fluid, minimal residuals would break down in its first step: the residual would have no part
   // in the equation of momentum, and the matrix has nothing on the diagonal of the others. So it starts from a tension.
   Blocks x = system.zero();
-  InextensibleSystem::set_tension(
-      space.length * space.length / stokes.functional_unit() * tension_preconditioner.apply(system.tension_of(b)), x);
+  if (start != nullptr) {
+    begin_from(start->flow(), stokes, x);
+    InextensibleSystem::set_tension(
+        space.length / stokes.functional_unit() *
+            interpolated(start->data().tension, start->data().elements->tension_nodes(), elements->tension_nodes()),
+        x);
+  } else {
+    InextensibleSystem::set_tension(
+        space.length * space.length / stokes.functional_unit() * tension_preconditioner.apply(system.tension_of(b)), x);
+  }
   const double size = energy_of_residual(preconditioner, b);
   if (!std::isfinite(size)) throw SolveError("the right-hand side of the inextensible flow is not finite");
   if (size > 0.0) {
@@ -169,7 +177,7 @@ InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, c
     force.col(d) = space.trace->project(system.in_pairs(-(elements->divergence()[d].transpose() * tension)));
   }
   return InextensibleFlow(std::make_shared<const InextensibleFlow::Data>(InextensibleFlow::Data{
-      flow_solution(stokes, problem, load, x, cost), space.trace, elements,
+      flow_solution(stokes, problem, x, cost), space.trace, elements,
       constant_is_determined ? tension : elements->without_mean(tension), force, constant_is_determined}));
 }
 

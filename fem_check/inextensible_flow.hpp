@@ -20,6 +20,8 @@ class InextensibleFlow {
   [[nodiscard]] Vectors tension_force(const SurfacePoints& points) const;
   /// False on a sphere, where a constant tension is a pressure inside and nothing else.
   [[nodiscard]] bool constant_is_determined() const;
+  /// For solvers that begin from it.
+  [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
   std::shared_ptr<const Data> data_;
@@ -30,10 +32,12 @@ class InextensibleFlow {
 ///   2μ∫ D(v):D(w) − ∫ p div w + ∫_γ λ ∇_γ·w dA = ∫_γ f·w dA,  ∫ q div v = 0,  ∫_γ χ ∇_γ·v dA = 0,
 ///
 /// with v of degree k, p and λ of degree k − 1. λ > 0 is tension.
+/// @param start  what the linear solver begins from, on the same mesh with elements of any degree; null: zero
 /// @throws std::invalid_argument, SolveError as solve_flow
 /// Accuracy: spheres in linear flows at every viscosity ratio, and orders of convergence
 /// (tests/fem_check/inextensible_flow_test.cpp)
 /// Source: paper Eqs. (1e), (2); weak form and stability in docs/weak_forms.md
-InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem);
+InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                                         const InextensibleFlow* start = nullptr);
 
 }  // namespace vehd::fem_check

@@ -123,8 +123,8 @@ class CoarseSolver : public dealii::MGCoarseGridBase<Distributed> {
 
 Smoother::AdditionalData smoother_data(const Stiffness& level) {
   Smoother::AdditionalData data;
-  data.degree = 5;
-  data.smoothing_range = 20.0;
+  data.degree = 2;
+  data.smoothing_range = 8.0;
   data.eig_cg_n_iterations = 15;
   data.preconditioner = std::make_shared<dealii::DiagonalMatrix<Distributed>>();
   data.preconditioner->get_vector() = level.inverse_diagonal();

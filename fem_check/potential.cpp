@@ -2,49 +2,15 @@
 
 #include <cmath>
 
+#include "fem_check/exterior_field.hpp"
 #include "fem_check/krylov.hpp"
 #include "fem_check/membrane_condition.hpp"
 #include "fem_check/multigrid.hpp"
+#include "fem_check/potential_data.hpp"
 
 namespace vehd::fem_check {
 
-/// Inside the unknown is v = φ + E_∞·x_0 − c, outside the disturbance ψ = φ + E_∞·x, x_0 the centre of the outer sphere
-/// and c a constant of each vesicle close to its mean: the nearly constant field inside a good conductor, and the far
-/// field, are then not differences of large discrete numbers. V_m = v − ψ + E_∞·(x − x_0) + c.
-struct PotentialSolution::Data {
-  std::shared_ptr<const Space> space;
-  PotentialProblem problem;
-  dealii::Vector<double> nodal;
-  std::vector<double> constant;  ///< c
-  Vector voltage;                ///< V_m at the nodes of γ, L2 projection
-  Vector current;                ///< σ_i ∂φ_i/∂n at the nodes of γ, L2 projection of the residual of one side
-  Cost cost;
-
-  /// What V_m is more than v − ψ.
-  [[nodiscard]] Vector background(const SurfacePoints& points) const {
-    Vector result = (points.position.colwise() - space->centre).transpose() * problem.field;
-    for (Eigen::Index i = 0; i < result.size(); ++i) result[i] += constant[points.vesicle[i]];
-    return result;
-  }
-};
-
-namespace {
-
 using PotentialData = PotentialSolution::Data;
-
-/// v − ψ at the nodes of γ.
-Vector sheet_difference(const Space& space, const dealii::Vector<double>& nodal) {
-  const auto& pairs = space.trace->pairs().pairs;
-  Vector result(space.trace->size());
-  for (std::size_t p = 0; p < pairs.size(); ++p) result[p] = nodal[pairs[p][0]] - nodal[pairs[p][1]];
-  return result;
-}
-
-Vector membrane_voltage(const PotentialData& data, const SurfacePoints& points) {
-  return data.space->trace->evaluate(sheet_difference(*data.space, data.nodal), points) + data.background(points);
-}
-
-}  // namespace
 
 /// The equations of one problem; lengths in units of the space, conductivities over that of the outside.
 class PotentialEquations {
@@ -57,7 +23,12 @@ class PotentialEquations {
         unit_(data.problem.conductivity_out * space_.length),
         multigrid_(space_, fixed_nodes(data.problem, space_.n_vesicles),
                    {over_outside(1.0, data.problem.conductivity_in), 1.0, over_outside(space_.length, membrane_),
-                    data.problem.outer.kind == OuterCondition::Kind::radiation ? 2.0 : 0.0}) {
+                    radiates() ? dipole_coefficient : 0.0}) {
+    if (radiates()) {
+      const Stiffness& finest = multigrid_.finest();
+      exterior_ = std::make_unique<HarmonicTerms>(space_, finest.handler(), finest.constraints(), finest.outer(), 1,
+                                                  exterior_potential(data.problem.exterior_degree, dipole_coefficient));
+    }
     take_field();
     multigrid_.finest().initialize(unknowns_);
   }
@@ -66,6 +37,17 @@ class PotentialEquations {
   void take_field() {
     current_data_ = -data_.problem.conductivity_out * (trace_.rule().normal.transpose() * data_.problem.field);
     if (data_.problem.current_jump) current_data_ += data_.problem.current_jump(trace_.rule());
+  }
+
+  /// The linear solver goes on from another solution on the same mesh.
+  void begin_from(const PotentialData& start) {
+    data_.constant = start.constant;
+    const Stiffness& stiffness = multigrid_.finest();
+    interpolate(start.space->dofs, start.nodal, stiffness.handler(), stiffness.constraints(), unknowns_);
+    const dealii::Vector<double> lift = lifting();
+    for (const DofIndex dof : unknowns_.locally_owned_elements()) {
+      if (!stiffness.constraints().is_constrained(dof)) unknowns_(dof) -= lift[dof];
+    }
   }
 
   /// @param memory  added to the current −g V_m of the membrane law, at the rule's points
@@ -104,7 +86,17 @@ class PotentialEquations {
     return trace_.project(functional);
   }
 
+  /// The operator of the equations: what the exterior field does to the outer sphere is no part of the form.
+  void vmult(Distributed& to, const Distributed& from) const {
+    multigrid_.finest().vmult(to, from);
+    if (exterior_) exterior_->add({&to}, {&from});
+  }
+
  private:
+  /// −R ∂u/∂r over u of a dipole, which the preconditioner has for every field on the outer sphere.
+  static constexpr double dipole_coefficient = 2.0;
+
+  [[nodiscard]] bool radiates() const { return data_.problem.outer.kind == OuterCondition::Kind::radiation; }
   /// Whether the inside conducts better than the outside.
   [[nodiscard]] bool conducts_better(int vesicle) const {
     return data_.problem.conductivity_in[vesicle] > data_.problem.conductivity_out;
@@ -173,7 +165,7 @@ class PotentialEquations {
     data_.cost.solver_error = 0.0;
     if (size > 0.0) {
       data_.cost.solver_error =
-          minimal_residuals(stiffness, multigrid_, b, unknowns_, tolerance * size, data_.cost.iterations, "potential") /
+          minimal_residuals(*this, multigrid_, b, unknowns_, tolerance * size, data_.cost.iterations, "potential") /
           size;
     } else {
       unknowns_ = 0.0;
@@ -206,6 +198,7 @@ class PotentialEquations {
   PerVesicle<double> membrane_;  // coefficient of [[u]][[w]]
   double unit_;                  // of functionals: σ_e R
   Multigrid multigrid_;
+  std::unique_ptr<HarmonicTerms> exterior_;
   Vector current_data_;  // c − σ_e E·n
   Distributed unknowns_;
 };
@@ -242,7 +235,8 @@ void set_free_means(PotentialData& data) {
 
 }  // namespace
 
-PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem) {
+PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem,
+                                  const PotentialSolution* start) {
   const auto data = data_of(discretisation, problem);
   const Space& space = *data->space;
   const MembraneTrace& trace = *space.trace;
@@ -252,6 +246,7 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
 
   PotentialEquations equations(*data);
   cost.seconds_assembly = watch.lap();
+  if (start != nullptr) equations.begin_from(start->data());
   if (const auto* charging = std::get_if<ChargingMembrane>(&problem.membrane)) {
     Vector voltage = charging->initial(rule);
     for (int step = 0; step < charging->steps; ++step) {
@@ -272,80 +267,6 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
   cost.peak_memory_bytes = peak_memory_bytes();
   return PotentialSolution(data);
 }
-
-PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const {
-  const Space& space = *data_->space;
-  const PotentialProblem& problem = data_->problem;
-  const double sigma_out = problem.conductivity_out;
-  const Vector jump = problem.current_jump ? problem.current_jump(points) : Vector(Vector::Zero(points.size()));
-  const Vector current = space.trace->evaluate(data_->current, points);
-
-  PotentialTraces result;
-  result.transmembrane_potential = space.trace->evaluate(data_->voltage, points);
-  if (const auto* prescribed = std::get_if<PrescribedJump>(&problem.membrane)) {
-    result.transmembrane_potential = prescribed->potential_jump(points);
-  }
-  const Vector flux_out = (current - jump) / sigma_out;
-  result.flux_in.resize(points.size());
-  result.charge.resize(points.size());
-  for (Eigen::Index p = 0; p < points.size(); ++p) {
-    const double sigma_in = problem.conductivity_in[points.vesicle[p]];
-    result.flux_in[p] = current[p] / sigma_in;
-    // Not flux_in − flux_out: that would not vanish to the last digit at equal conductivities.
-    result.charge[p] = (1.0 / sigma_in - 1.0 / sigma_out) * current[p] + jump[p] / sigma_out;
-  }
-
-  result.flux_in_from_gradient.resize(points.size());
-  result.charge_from_gradient.resize(points.size());
-  result.force.resize(3, points.size());
-  const auto normal_stress = [](double permittivity, const Vector3& tangential, double normal_field, const Vector3& n) {
-    // n·Σ with E = E_t + E_n n: ε (E_n E_t + ½ (E_n² − E_t²) n).
-    return Vector3(permittivity *
-                   (normal_field * tangential + 0.5 * (normal_field * normal_field - tangential.squaredNorm()) * n));
-  };
-  CellPoints cell(space, space.dofs);
-  for (const FaceRun& run : face_runs(points)) {
-    const MembraneFace& face = space.membrane[run.face];
-    cell.reinit(face.inner_cell, unit_points(space, points, run, Side::inside));
-    const Vectors inner = cell.gradients(data_->nodal);
-    cell.reinit(face.outer_cell, unit_points(space, points, run, Side::outside));
-    const Vectors outer = cell.gradients(data_->nodal);
-    for (Eigen::Index i = 0; i < run.size; ++i) {
-      const Eigen::Index p = run.begin + i;
-      const Vector3 n = points.normal.col(p);
-      const auto tangential = [&](const Vector3& v) { return Vector3(v - n.dot(v) * n); };
-      const Vector3 field_in = -inner.col(i);
-      const Vector3 field_out = problem.field - outer.col(i);
-      result.flux_in_from_gradient[p] = n.dot(inner.col(i));
-      const int vesicle = points.vesicle[p];
-      result.charge_from_gradient[p] =
-          (1.0 - problem.conductivity_in[vesicle] / sigma_out) * result.flux_in_from_gradient[p] + jump[p] / sigma_out;
-      result.force.col(p) =
-          normal_stress(problem.permittivity_in[vesicle], tangential(field_in), -result.flux_in[p], n) -
-          normal_stress(problem.permittivity_out, tangential(field_out), -flux_out[p], n);
-    }
-  }
-  return result;
-}
-
-Vector PotentialSolution::potential(const VolumePoints& points) const {
-  const Space& space = *data_->space;
-  Vector result(points.size());
-  CellPoints cell(space, space.dofs);
-  for (const CellRun& run : cell_runs(points)) {
-    cell.reinit(run.cell, run.units);
-    result.segment(run.begin, run.size) = cell.values(data_->nodal);
-  }
-  const Vector3& field = data_->problem.field;
-  for (Eigen::Index i = 0; i < points.size(); ++i) {
-    const int vesicle = space.vesicle(static_cast<unsigned>(points.cell[i]));
-    result[i] +=
-        points.inside[i] ? data_->constant[vesicle] - field.dot(space.centre) : -field.dot(points.position.col(i));
-  }
-  return result;
-}
-
-const Cost& PotentialSolution::cost() const { return data_->cost; }
 
 struct ChargingSteps::Implementation {
   std::shared_ptr<PotentialData> data;

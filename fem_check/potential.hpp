@@ -44,7 +44,7 @@ using MembraneCondition = std::variant<PrescribedJump, SteadyMembrane, ChargedMe
 struct OuterCondition {
   /// Which condition holds.
   enum class Kind {
-    radiation,  ///< ∂ψ/∂r = −2ψ/R: exact for the dipole, error R⁻⁷ in a uniform field
+    radiation,  ///< ∂ψ/∂r of the field outside: exact for harmonics up to the exterior degree
     dirichlet,  ///< ψ given
     neumann     ///< ∂ψ/∂r given
   };
@@ -62,7 +62,8 @@ struct PotentialProblem {
   MembraneCondition membrane = SteadyMembrane{};
   ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous
   OuterCondition outer;
-  double tolerance = 1e-11;  ///< of the linear solver, relative
+  double tolerance = 3e-12;  ///< of the linear solver, relative
+  int exterior_degree = usual_exterior_degree;
 };
 
 /// Everything on γ that the boundary-integral side knows too. E = −∇φ.
@@ -87,16 +88,20 @@ class PotentialSolution {
   [[nodiscard]] Vector potential(const VolumePoints& points) const;
   /// What the solve took.
   [[nodiscard]] const Cost& cost() const;
+  /// For solvers that begin from it.
+  [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
   std::shared_ptr<const Data> data_;
 };
 
+/// @param start  what the linear solver begins from, on the same mesh with elements of any degree; null: zero
 /// @throws std::invalid_argument if a conductivity, conductance, capacitance or time step is out of range
 /// @throws SolveError if the linear solver does not converge
 /// Accuracy: φ and V_m of order degree + 1, fluxes of order degree (tests/fem_check/convergence_test.cpp)
 /// Source: paper Eqs. (4), (30); weak form in docs/weak_forms.md
-PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem);
+PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem,
+                                  const PotentialSolution* start = nullptr);
 
 /// Implicit steps of one size of a membrane that charges, for any rule that is made of such steps; the operators are
 /// set up once. V_m is its values at rule().

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "fem_check/exterior_field.hpp"
 #include "fem_check/krylov.hpp"
 #include "fem_check/rigid_part.hpp"
 #include "fem_check/stokes_cells.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 /// The velocities of both sides are one.
 Fixed sheets_tied() { return {.tie = Tie::inner_follows_outer}; }
-/// −p n + μ ∂u/∂r = −(4μ/R) u of a stresslet.
+/// −p n + μ ∂u/∂r = −(4μ/R) u of a stresslet; the preconditioner has it for every flow on the outer sphere.
 constexpr double kOuterCoefficient = 4.0;
 
 void require_valid(const Discretisation& discretisation, const Viscosities& viscosities) {
@@ -38,18 +39,6 @@ void require_valid(const VectorOnSurface& force, const Matrix3& gradient) {
                                 "; an incompressible fluid has none");
   }
   if (!force) throw std::invalid_argument("the force of the membrane is missing");
-}
-
-/// −p n + μ ∂u/∂r + (4μ/R) u of the Stokeslet and the rotlet that carry the force and the torque: zero for every
-/// stresslet.
-Vector3 outer_data(const Vector3& r, const Vector3& force, const Vector3& torque, double viscosity) {
-  const double radius = r.norm();
-  const Vector3 n = r / radius;
-  const double scale = 1.0 / (8.0 * std::numbers::pi * viscosity * radius);
-  const Vector3 stokeslet = scale * (force + n.dot(force) * n);
-  const Vector3 rotlet = scale / radius * torque.cross(n);
-  const double pressure = force.dot(n) / (4.0 * std::numbers::pi * radius * radius);
-  return 3.0 * viscosity / radius * stokeslet + 2.0 * viscosity / radius * rotlet - pressure * n;
 }
 
 /// The condition on the outer sphere for all components. ∇u:∇wᵀ outside brings (∇u)ᵀn there, which is not part of the
@@ -115,6 +104,7 @@ struct StokesSystem::Implementation {
   Multigrid multigrid;
   StokesCells cells;
   SurfaceTerms outer;
+  HarmonicTerms exterior;
   std::vector<unsigned> tied;  // local numbers
   PressureMass pressure_mass;
   PressureInverse pressure_inverse;
@@ -129,14 +119,15 @@ struct StokesSystem::Implementation {
   };
   std::vector<InnerPressure> inner_pressures;
 
-  Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities);
+  Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities, int exterior_degree);
   /// Adds those of one vesicle.
   void add_rotations(const StokesSystem& system, int vesicle);
   void find_rotation_energies(const StokesSystem& system);
   void add_inner_pressure(int vesicle);
 };
 
-StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities)
+StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities,
+                                             int exterior_degree)
     : space(std::move(where)),
       viscosity(viscosities),
       ratio(per_vesicle(space->n_vesicles,
@@ -149,6 +140,8 @@ StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where,
       multigrid(*space, sheets_tied(), {ratio, 1.0, 0.0, kOuterCoefficient}),
       cells(*space, *pressure_dofs, multigrid.finest().constraints(), ratio),
       outer(outer_terms(multigrid.finest(), cells.contrast_outside())),
+      exterior(*space, multigrid.finest().handler(), multigrid.finest().constraints(), multigrid.finest().outer(), 3,
+               exterior_flow(exterior_degree, kOuterCoefficient)),
       pressure_mass(cells, pressure_dofs->n_dofs()) {
   Distributed velocity;
   cells.initialize_velocity(velocity);
@@ -209,9 +202,9 @@ void StokesSystem::Implementation::add_inner_pressure(int vesicle) {
   pressure.factor = 1.0 / volume;
 }
 
-StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity) {
+StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity, int exterior_degree) {
   require_valid(discretisation, viscosity);
-  implementation_ = std::make_unique<Implementation>(discretisation.space(), viscosity);
+  implementation_ = std::make_unique<Implementation>(discretisation.space(), viscosity, exterior_degree);
   for (int vesicle = 0; vesicle < space().n_vesicles; ++vesicle) {
     if (implementation_->ratio[vesicle] > 1.0) implementation_->add_rotations(*this, vesicle);
     if (implementation_->ratio[vesicle] < 1.0) implementation_->add_inner_pressure(vesicle);
@@ -229,35 +222,22 @@ Blocks StokesSystem::zero() const {
   return result;
 }
 
-FlowLoad StokesSystem::load(const VectorOnSurface& force, const Matrix3& gradient) const {
+Blocks StokesSystem::load(const VectorOnSurface& force, const Matrix3& gradient) const {
   require_valid(force, gradient);
   const Space& place = space();
   const SurfacePoints& rule = place.trace->rule();
   const Viscosities& viscosity = implementation_->viscosity;
-  const Vectors density = force(rule);
-  FlowLoad result;
-  for (Eigen::Index i = 0; i < rule.size(); ++i) {
-    result.net_force += rule.weight[i] * density.col(i);
-    result.net_torque += rule.weight[i] * (rule.position.col(i) - place.centre).cross(Vector3(density.col(i)));
-  }
   // The background flow has a traction jump of its own where viscosities differ.
-  Vectors traction = density;
+  Vectors traction = force(rule);
   for (Eigen::Index i = 0; i < rule.size(); ++i) {
     const double difference = viscosity.inside[rule.vesicle[i]] - viscosity.outside;
     traction.col(i) -= difference * (gradient + gradient.transpose()) * rule.normal.col(i);
   }
   std::vector<DofIndex> nodes;
   for (const auto& pair : place.trace->pairs().pairs) nodes.push_back(pair[0]);
-  const OuterSphere& sphere = diffusion().outer();
-  const double area = place.length * place.length;
-  result.functional = zero();
+  Blocks result = zero();
   for (unsigned d = 0; d < 3; ++d) {
-    diffusion().add_at(result.functional.block(d), nodes,
-                       place.trace->integrate(traction.row(d).transpose()) / functional_unit());
-    const Vector outer = sphere.integrate([&](const Vector3& x) {
-      return outer_data(x - place.centre, result.net_force, result.net_torque, viscosity.outside)[d];
-    });
-    diffusion().add_at(result.functional.block(d), sphere.dofs(), area / functional_unit() * outer);
+    diffusion().add_at(result.block(d), nodes, place.trace->integrate(traction.row(d).transpose()) / functional_unit());
   }
   return result;
 }
@@ -268,8 +248,10 @@ void StokesSystem::vmult(Blocks& to, const Blocks& from) const {
   const StokesCells::Parts to_parts{&to.block(0), &to.block(1), &to.block(2), &to.block(3)};
   const StokesCells::Parts from_parts{&source.block(0), &source.block(1), &source.block(2), &source.block(3)};
   implementation_->cells.apply(to_parts, from_parts);
-  implementation_->outer.add({&to.block(0), &to.block(1), &to.block(2)},
-                             {&from.block(0), &from.block(1), &from.block(2)});
+  const std::vector<Distributed*> to_velocity{&to.block(0), &to.block(1), &to.block(2)};
+  const std::vector<const Distributed*> velocity{&from.block(0), &from.block(1), &from.block(2)};
+  implementation_->outer.add(to_velocity, velocity);
+  implementation_->exterior.add(to_velocity, velocity);
   for (unsigned d = 0; d < 3; ++d) {
     for (const unsigned dof : implementation_->tied) to.block(d).local_element(dof) = from.block(d).local_element(dof);
   }
@@ -321,7 +303,7 @@ dealii::Vector<double> StokesSystem::velocity(const Blocks& solution, unsigned c
 
 dealii::Vector<double> StokesSystem::pressure(const Blocks& solution) const {
   dealii::Vector<double> result = on_all_ranks(solution.block(3), space().communicator);
-  result *= implementation_->viscosity.outside / space().length;
+  result *= pressure_unit();
   return result;
 }
 
@@ -331,5 +313,6 @@ const std::shared_ptr<const dealii::DoFHandler<3>>& StokesSystem::pressure_dofs(
 }
 const Stiffness& StokesSystem::diffusion() const { return implementation_->multigrid.finest(); }
 double StokesSystem::functional_unit() const { return implementation_->viscosity.outside * space().length; }
+double StokesSystem::pressure_unit() const { return implementation_->viscosity.outside / space().length; }
 
 }  // namespace vehd::fem_check

@@ -15,13 +15,6 @@ struct Viscosities {
   double outside;
 };
 
-/// Right-hand side of the flow, and what of the membrane's force it had to know.
-struct FlowLoad {
-  Blocks functional;
-  Vector3 net_force = Vector3::Zero();   ///< ∫ f dA
-  Vector3 net_torque = Vector3::Zero();  ///< ∫ (x − centre) × f dA
-};
-
 /// Taylor–Hood system of Stokes flow, blocks u_x, u_y, u_z, p. The velocity form is μ∇u:∇w; where viscosities differ,
 /// what each is more than the smallest of them multiplies ∇u:∇wᵀ. Lengths in units R of the space, viscosities over
 /// that of the outside: the velocity has its own unit, the pressure is p R/μ_e, and functionals of forces are divided
@@ -29,14 +22,15 @@ struct FlowLoad {
 class StokesSystem {
  public:
   /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive
-  StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity);
+  StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity,
+               int exterior_degree = usual_exterior_degree);
   ~StokesSystem();
 
   /// A vector of zeros with these blocks.
   [[nodiscard]] Blocks zero() const;
   /// Functional of the force per area of the membrane on the fluid in the background flow A x.
   /// @throws std::invalid_argument for a missing force or a gradient with a trace
-  [[nodiscard]] FlowLoad load(const VectorOnSurface& force, const Matrix3& gradient) const;
+  [[nodiscard]] Blocks load(const VectorOnSurface& force, const Matrix3& gradient) const;
 
   /// Symmetric: [[A, Bᵀ], [B, 0]] with B = −∫ q div u. Uses the first four blocks only, as precondition() does.
   void vmult(Blocks& to, const Blocks& from) const;
@@ -60,14 +54,18 @@ class StokesSystem {
   [[nodiscard]] const Stiffness& diffusion() const;
   /// What the functional of a force is divided by, μ_e R.
   [[nodiscard]] double functional_unit() const;
+  /// Of the block of the pressure, μ_e/R.
+  [[nodiscard]] double pressure_unit() const;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Velocity and pressure of another solution on the same mesh, into the first four blocks.
+void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& solution);
+
 /// The flow of a solution, of whose blocks the first four are used.
-FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& problem, const FlowLoad& load,
-                           const Blocks& solution, Cost cost);
+FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& problem, const Blocks& solution, Cost cost);
 
 }  // namespace vehd::fem_check

@@ -148,4 +148,11 @@ FacePatch SurfaceElements::patch(int face, const Vectors& positions) const {
 
 Vectors at_nodes(const Vectors& nodal, const std::vector<int>& of_face) { return nodal(Eigen::all, of_face); }
 
+Vector interpolated(const Vector& nodal, const FaceNodes& from, const FaceNodes& to) {
+  const Eigen::MatrixXd value = face_shape(from.degree(), face_node_points(to.degree())).value;
+  Vector result(to.size());
+  for (int f = 0; f < to.n_faces(); ++f) result(to.of_face(f)) = value * nodal(from.of_face(f));
+  return result;
+}
+
 }  // namespace vehd::fem_check

@@ -39,6 +39,9 @@ FaceShape face_shape(int degree, const Eigen::Matrix2Xd& points);
 /// The nodes themselves, in the order of FaceNodes::of_face.
 Eigen::Matrix2Xd face_node_points(int degree);
 
+/// A nodal function at the nodes of another degree on the same faces.
+Vector interpolated(const Vector& nodal, const FaceNodes& from, const FaceNodes& to);
+
 /// Geometry of one face at the points of a rule.
 struct FacePatch {
   std::array<Vectors, 2> tangent;  ///< t_a = ∂x/∂s_a

@@ -87,6 +87,18 @@ Vector OuterSphere::integrate(const std::function<double(const Vector3&)>& f) co
   return result;
 }
 
+Eigen::MatrixXd OuterSphere::moments(const std::function<Eigen::MatrixXd(const Vectors&)>& values) const {
+  Eigen::MatrixXd result;
+  for (const Face& face : faces_) {
+    const Eigen::MatrixXd local = face.value.transpose() * face.weight.asDiagonal() * values(face.position).transpose();
+    if (result.size() == 0) result = Eigen::MatrixXd::Zero(size(), local.cols());
+    for (std::size_t i = 0; i < face.nodes.size(); ++i) {
+      result.row(face.nodes[i]) += local.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return result;
+}
+
 SurfaceTerms::SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& handler, const Constraints& constraints,
                            std::vector<DofIndex> dofs, Eigen::SparseMatrix<double> matrix)
     : communicator_(space.communicator), dofs_(std::move(dofs)), matrix_(std::move(matrix)) {
@@ -125,6 +137,27 @@ dealii::Vector<double> on_all_ranks(const Distributed& vector, MPI_Comm communic
   const dealii::ArrayView<double> all(result.begin(), result.size());
   dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(all), communicator, all);
   return result;
+}
+
+void interpolate(const dealii::DoFHandler<3>& from, const dealii::Vector<double>& nodal,
+                 const dealii::DoFHandler<3>& to_handler, const Constraints& constraints, Distributed& to) {
+  const auto &source = from.get_fe(), &element = to_handler.get_fe();
+  dealii::FullMatrix<double> matrix(element.n_dofs_per_cell(), source.n_dofs_per_cell());
+  element.get_interpolation_matrix(source, matrix);
+  dealii::Vector<double> values(source.n_dofs_per_cell()), at_nodes(element.n_dofs_per_cell());
+  std::vector<DofIndex> dofs(element.n_dofs_per_cell());
+  auto cell = from.begin_active();
+  for (const auto& target : to_handler.active_cell_iterators()) {
+    cell->get_dof_values(nodal, values);
+    matrix.vmult(at_nodes, values);
+    target->get_dof_indices(dofs);
+    for (unsigned i = 0; i < dofs.size(); ++i) {
+      if (to.locally_owned_elements().is_element(dofs[i]) && !constraints.is_constrained(dofs[i])) {
+        to(dofs[i]) = at_nodes[i];
+      }
+    }
+    ++cell;
+  }
 }
 
 }  // namespace vehd::fem_check

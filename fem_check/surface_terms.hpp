@@ -21,6 +21,9 @@ class OuterSphere {
   [[nodiscard]] Eigen::SparseMatrix<double> rotation(unsigned a, unsigned b) const;
   /// ∫ f w dA for every node, f given at places as users know them.
   [[nodiscard]] Vector integrate(const std::function<double(const Vector3&)>& f) const;
+  /// The same of many functions, [nodes x functions].
+  /// @param values  [functions x points] from the places of points
+  [[nodiscard]] Eigen::MatrixXd moments(const std::function<Eigen::MatrixXd(const Vectors&)>& values) const;
 
  private:
   struct Face {
@@ -65,5 +68,11 @@ class SurfaceTerms {
 
 /// Values at the nodes of all degrees of freedom, on all ranks.
 dealii::Vector<double> on_all_ranks(const Distributed& vector, MPI_Comm communicator);
+
+/// The function with these values at the nodes of one handler, at the nodes of another one, of any degree on the same
+/// cells; zero at fixed and tied nodes.
+/// @param nodal  on all ranks
+void interpolate(const dealii::DoFHandler<3>& from, const dealii::Vector<double>& nodal,
+                 const dealii::DoFHandler<3>& to_handler, const Constraints& constraints, Distributed& to);
 
 }  // namespace vehd::fem_check

@@ -63,6 +63,10 @@ struct VolumePoints {
 using ScalarOnSurface = std::function<Vector(const SurfacePoints&)>;
 using VectorOnSurface = std::function<Vectors(const SurfacePoints&)>;
 
+/// Largest degree of the spherical harmonics on the outer sphere whose exterior fields a solution has exactly. What is
+/// left of the next one returns to a membrane that reaches out to a as (a/R)^17 of it, R the radius of the sphere.
+constexpr int usual_exterior_degree = 8;
+
 /// What a solution took. Peak memory is that of the process up to its end, on this rank.
 struct Cost {
   int n_cells = 0;

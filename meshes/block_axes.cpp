@@ -122,27 +122,49 @@ Eigen::VectorXd highest_mode(const GaussRule& rule) {
   return result;
 }
 
-}  // namespace
+/// Nodes of a face in each direction at which a field is taken: the part of one degree below is looked for.
+constexpr int kNodes = 7;
 
-double truncation_error(const FrozenShape& shape, const Matrix3& in_directions) {
-  constexpr int kDegree = 6;
-  constexpr int kCellsPerEdge = 3;
-  constexpr int kNodes = kDegree + 1;
-  const GaussRule rule = gauss_rule(kNodes);
+/// Root mean square over all faces of the part of a field of degree 6 in a face coordinate.
+/// @param values  [components x points], points as face_points() has them
+double part_of_highest_degree(const Eigen::MatrixXd& values, const GaussRule& rule) {
   const Eigen::VectorXd mode = highest_mode(rule);
   const Eigen::Map<const Eigen::VectorXd> weight(rule.weight.data(), kNodes);
-  const Eigen::Matrix3Xd x = shape.positions(in_directions * face_points(kCellsPerEdge, rule));
   double squares = 0.0;
   double area = 0.0;
-  for (Eigen::Index begin = 0; begin < x.cols(); begin += kNodes * kNodes) {
-    for (int component = 0; component < 3; ++component) {
-      const Eigen::VectorXd row = x.row(component).segment(begin, kNodes * kNodes);
+  for (Eigen::Index begin = 0; begin < values.cols(); begin += kNodes * kNodes) {
+    for (Eigen::Index component = 0; component < values.rows(); ++component) {
+      const Eigen::VectorXd row = values.row(component).segment(begin, kNodes * kNodes);
       const Eigen::Map<const Eigen::MatrixXd> on_face(row.data(), kNodes, kNodes);
       squares += weight.dot((on_face.transpose() * mode).cwiseAbs2()) + weight.dot((on_face * mode).cwiseAbs2());
     }
     area += weight.sum() * weight.sum();
   }
   return std::sqrt(squares / area);
+}
+
+}  // namespace
+
+double truncation_error(const FrozenShape& shape, const Matrix3& in_directions) {
+  constexpr int kCellsPerEdge = 3;
+  const GaussRule rule = gauss_rule(kNodes);
+  return part_of_highest_degree(shape.positions(in_directions * face_points(kCellsPerEdge, rule)), rule);
+}
+
+double normal_truncation_error(const FrozenShape& shape, const Matrix3& in_directions, int cells_per_edge) {
+  const GaussRule rule = gauss_rule(kNodes);
+  const Eigen::Matrix3Xd directions = in_directions * face_points(cells_per_edge, rule);
+  Eigen::Matrix3Xd normals(3, directions.cols());
+  for (Eigen::Index i = 0; i < directions.cols(); ++i) normals.col(i) = shape.area_vector(directions.col(i));
+  return part_of_highest_degree(normals.colwise().normalized(), rule);
+}
+
+int cells_for_bending(const FrozenShape& shape, int fewest, int most) {
+  constexpr double kAccepted = 5e-4;
+  const BlockAxes axes = best_axes(shape);
+  int cells = fewest;
+  while (cells < most && normal_truncation_error(shape, axes.in_directions, cells) > kAccepted) ++cells;
+  return cells;
 }
 
 BlockAxes axes_along(const FrozenShape& shape, const Matrix3& in_directions) {

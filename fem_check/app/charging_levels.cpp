@@ -14,12 +14,12 @@ namespace {
 /// V_m at the points of the comparison by elements of the lowest degrees, in any number of steps.
 class StepRefinement {
  public:
-  StepRefinement(const ChargingRun& run, const Meshes& meshes, const Report& report, double tolerance)
+  StepRefinement(const ChargingRun& run, Meshes& meshes, const Report& report, double tolerance)
       : run_(run), meshes_(meshes), report_(report), tolerance_(tolerance) {}
 
   [[nodiscard]] Eigen::MatrixXd operator()(int degree, int steps, const ShapePath* path) const {
     const auto solve = [&](const Discretisation& space) {
-      return run_.solve(space, {.steps = steps, .tolerance = tolerance_, .path = path});
+      return run_.solve(space, {.steps = steps, .settings = {tolerance_}, .path = path});
     };
     const std::string name = fmt::format("{} in {} steps", charging_problem, steps);
     return solve_level(name, meshes_.discretise(degree), meshes_.outer_radius(), report_, solve).surface.at("Vm");
@@ -27,14 +27,14 @@ class StepRefinement {
 
  private:
   const ChargingRun& run_;
-  const Meshes& meshes_;
+  Meshes& meshes_;
   const Report& report_;
   double tolerance_;
 };
 
 }  // namespace
 
-ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
                                      const Report& report) {
   constexpr int fewest_steps = 4;
   const int most_steps = input.in_time->intervals / 3;
@@ -42,13 +42,13 @@ ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& mesh
   const ShapePath whole_path(*input.in_time);
   const ShapePath* path = input.in_time->moves() ? &whole_path : nullptr;
   const LevelPlan plan{charging_problem,
-                       {refinement.potential_first, refinement.potential_last},
+                       refinement.potential_degrees,
                        refinement.potential_tolerance,
                        refinement.charging_target,
                        {"Vm"}};
   ChargingLevels result;
-  result.sequence = run_levels(plan, meshes, report, [&](const Discretisation& space, double tolerance) {
-    return run.solve(space, {fewest_steps, tolerance, path, space.n_cells() != meshes.n_cells()});
+  result.sequence = run_levels(plan, meshes, report, [&](const Discretisation& space, const SolveSettings& settings) {
+    return run.solve(space, {fewest_steps, settings, path});
   });
 
   const StepRefinement refined(run, meshes, report, refinement.potential_tolerance);
@@ -59,7 +59,7 @@ ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& mesh
   Eigen::MatrixXd finest = refined(degree, result.steps, path), change = finest - lowest;
   // What the lowest degree gets wrong of the change by more steps, from the first doubling; then what the snapshots
   // leave open of the way between them.
-  Eigen::MatrixXd further = (refined(degree + 1, result.steps, path) - next - change).cwiseAbs();
+  Eigen::MatrixXd further = (refined(levels[1].degree, result.steps, path) - next - change).cwiseAbs();
   if (path != nullptr) {
     const ShapePath coarser = path->coarser();
     further += (refined(degree, fewest_steps, &coarser) - lowest).cwiseAbs();
@@ -77,7 +77,7 @@ ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& mesh
   const Eigen::MatrixXd added = finest - lowest;
   LevelSequence& sequence = result.sequence;
   for (Level& level : sequence.levels) level.surface.at("Vm") += added;
-  for (Level* level : {&sequence.far, &sequence.rough}) level->surface.at("Vm") += added;
+  for (Level* level : {&sequence.truncated, &sequence.rough}) level->surface.at("Vm") += added;
   return result;
 }
 

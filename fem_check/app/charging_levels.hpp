@@ -22,7 +22,7 @@ struct ChargingLevels {
 /// degree; those of higher degrees take few steps, and what more of them change is added.
 /// @param input  with in_time
 /// @throws SolveError, meshes::MeshError
-ChargingLevels solve_charging_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
                                      const Report& report);
 
 }  // namespace vehd::fem_check

@@ -40,10 +40,10 @@ ChargingRun::ChargingRun(const CheckInput& input, const Refinement& refinement)
       refinement_(refinement),
       in_directions_(meshes::best_axes(meshes::FrozenShape(input.position)).in_directions) {}
 
-Discretisation ChargingRun::discretise(const Eigen::MatrixXd& position, int degree, bool far) const {
+Discretisation ChargingRun::discretise(const Eigen::MatrixXd& position, int degree) const {
   const meshes::FrozenShape shape(position);
-  return {std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(
-              shape, block_mesh_options(refinement_, shape.radius(), far), meshes::axes_along(shape, in_directions_))),
+  return {std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement_, shape),
+                                                                    meshes::axes_along(shape, in_directions_))),
           degree};
 }
 
@@ -52,7 +52,8 @@ Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan)
   PotentialProblem problem;
   problem.conductivity_in = input_.physics.conductivity_in;
   problem.conductivity_out = input_.physics.conductivity_out;
-  problem.tolerance = plan.tolerance;
+  problem.tolerance = plan.settings.tolerance;
+  problem.exterior_degree = plan.settings.exterior_degree;
   // The points at which the steps have V_m.
   const SurfacePoints rule = space.quadrature_points(space.degree() + 2);
   Vector value = SurfaceSeries(in_time.potential)(rule).row(0);
@@ -65,7 +66,7 @@ Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan)
     if (plan.path == nullptr) charging.emplace(space, problem);
     TimeLaw law{[&](const Vector& from, double, double time) {
       if (plan.path != nullptr) {
-        charging.emplace(discretise(plan.path->position(time), space.degree(), plan.far), problem);
+        charging.emplace(discretise(plan.path->position(time), space.degree()), problem);
       }
       return charging->step(from, piece.at(time));
     }};

@@ -10,9 +10,8 @@ namespace vehd::fem_check {
 /// How V_m is advanced.
 struct ChargingPlan {
   int steps;  ///< between two discontinuities of the field
-  double tolerance;
+  SolveSettings settings;
   const ShapePath* path = nullptr;  ///< null: the shape stands still
-  bool far = false;                 ///< which outer sphere the meshes on the path get
 };
 
 /// V_m on its way from an earlier snapshot to the state of the input. On a shape that moves, every step has its own
@@ -29,7 +28,7 @@ class ChargingRun {
   [[nodiscard]] Solved solve(const Discretisation& space, const ChargingPlan& plan) const;
 
  private:
-  [[nodiscard]] Discretisation discretise(const Eigen::MatrixXd& position, int degree, bool far) const;
+  [[nodiscard]] Discretisation discretise(const Eigen::MatrixXd& position, int degree) const;
 
   const CheckInput& input_;
   const Refinement& refinement_;

@@ -9,6 +9,7 @@
 #include "fem_check/app/questions.hpp"
 #include "fem_check/app/shape_levels.hpp"
 #include "fem_check/app/surface_series.hpp"
+#include "meshes/block_axes.hpp"
 
 namespace vehd::fem_check {
 namespace {
@@ -51,17 +52,30 @@ double stored_velocity_difference(const CheckInput& input, const SurfacePoints& 
   return root_mean_square(change, points.weight) / std::max(root_mean_square(own, points.weight), 1e-300);
 }
 
-/// Targets that leave room for what is required.
-Refinement refined_for(Refinement refinement, double required) {
+/// Of the checks that are asked for: targets that leave room for what is required, and cells that follow the bends.
+Refinement refinement_for(const CheckTask& task, const std::vector<meshes::FrozenShape>& shapes) {
+  /// Along an edge of a block, and from the membrane outwards and inwards, where the flow is as narrow as the bend.
+  constexpr int most_further_cells = 1, further_shell_layers = 2, further_blend_layers = 1;
+  const bool single = shapes.size() == 1;
+  const Refinement quick = single ? Refinement::quick() : Refinement::quick_of_two();
+  Refinement refinement = task.quick ? quick : Refinement::finest();
+  if (single && !task.quick) {
+    const int usual = refinement.cells_per_edge;
+    refinement.cells_per_edge = meshes::cells_for_bending(shapes.front(), usual, usual + most_further_cells);
+    if (refinement.cells_per_edge > usual) {
+      refinement.shell_layers += further_shell_layers;
+      refinement.blend_layers += further_blend_layers;
+    }
+  }
   constexpr double share = 0.5;
-  refinement.potential_target = std::min(refinement.potential_target, share * required);
-  refinement.flow_target = std::min(refinement.flow_target, share * required);
+  refinement.potential_target = std::min(refinement.potential_target, share * task.required);
+  refinement.flow_target = std::min(refinement.flow_target, share * task.required);
   return refinement;
 }
 
 }  // namespace
 
-SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Discretisation& geometry,
+SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, const Discretisation& geometry,
                         const Refinement& refinement, const Report& report) {
   const CheckInput& input = inputs.front();
   const meshes::FrozenShape shape(input.position);
@@ -69,7 +83,6 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& mes
   // Fields are taken at the same points of γ on every level: those of the finest geometry that any level has.
   solved.places = {geometry.quadrature_points(refinement.points_per_edge), shape.radius(), shape.centroid()};
   solved.outer_radius = meshes.outer_radius();
-  solved.far_outer_radius = meshes.far_outer_radius();
   const bool single = inputs.size() == 1;
   if (input.electric()) solved.potential = solve_potential_levels(inputs, meshes, refinement, report);
   if (input.in_time && single) solved.charging = solve_charging_levels(input, meshes, refinement, report);
@@ -100,7 +113,7 @@ class OneVesicle {
  private:
   void keep(LevelSequence& sequence) const {
     for (Level& level : sequence.levels) keep(level);
-    keep(sequence.far);
+    keep(sequence.truncated);
     keep(sequence.rough);
   }
   void keep(Level& level) const {
@@ -118,7 +131,6 @@ CheckResult result_of(const CheckInput& input, const SolvedState& solved, double
   result.time = input.time;
   result.required = required;
   result.outer_radius = solved.outer_radius;
-  result.far_outer_radius = solved.far_outer_radius;
   return result;
 }
 
@@ -174,11 +186,11 @@ std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) 
   std::vector<std::vector<CheckInput>> further;
   for (const std::filesystem::path& path : task.further_inputs) further.push_back(read_check_inputs(path));
   if (task.writes) require_directory(task.directory);
-  const Refinement refinement = refined_for(task.refinement, task.required);
   std::vector<meshes::FrozenShape> shapes;
   for (const CheckInput& input : inputs) shapes.emplace_back(input.position);
-  const Meshes meshes(shapes, refinement);
-  const Discretisation geometry = meshes.discretise(refinement.potential_last);
+  const Refinement refinement = refinement_for(task, shapes);
+  Meshes meshes(shapes, refinement);
+  const Discretisation& geometry = meshes.discretise(refinement.potential_degrees.back());
   const SolvedState solved = solve_state(inputs, meshes, geometry, refinement, report);
 
   std::vector<CheckResult> results{judge(inputs, solved, task.required)};

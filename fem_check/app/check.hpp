@@ -18,9 +18,9 @@ struct CheckTask {
   std::filesystem::path input;
   std::filesystem::path directory;                      ///< for the files of fields
   std::vector<std::filesystem::path> further_inputs{};  ///< of the same state, see run_check()
-  Refinement refinement;
-  double required = default_requirement;  ///< see compare()
-  bool writes = true;                     ///< false on all ranks but the first
+  bool quick = false;                                   ///< coarse elements
+  double required = default_requirement;                ///< see compare()
+  bool writes = true;                                   ///< false on all ranks but the first
 };
 
 /// What the finite elements find for one state: everything that boundary-integral numbers are compared with.
@@ -30,13 +30,13 @@ struct SolvedState {
   std::optional<FlowLevels> flow;
   std::optional<LevelSequence> shape_flow;
   std::optional<ChargingLevels> charging;
-  double outer_radius = 0.0, far_outer_radius = 0.0;
+  double outer_radius = 0.0;
 };
 
 /// Solves the problems that the inputs of all vesicles have, at rising degree: of several vesicles those in which V_m
 /// and the force are given. @throws SolveError
 /// @param geometry  mesh of the finest geometry, on which fields are compared
-SolvedState solve_state(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Discretisation& geometry,
+SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, const Discretisation& geometry,
                         const Refinement& refinement, const Report& report);
 
 /// Compares; nothing is solved. The rows of the table are made here.

@@ -76,7 +76,6 @@ int run_program(int argc, char** argv) {
   std::string json_file;
 
   CheckTask check_task;
-  bool quick = false;
   CLI::App* check_command = program.add_subcommand("check", "Solve and compare");
   check_command->add_option("INPUT", check_task.input, "check_input.h5")->required();
   check_command->add_option("-o,--output", check_task.directory, "Directory for the results")->required();
@@ -85,7 +84,7 @@ int run_program(int argc, char** argv) {
           ->check(CLI::Range(1e-9, 1.0));
   check_command->add_option("--further", check_task.further_inputs,
                             "Inputs of the same state with other numbers, judged as well; for the JSON");
-  check_command->add_flag("--quick", quick, "Coarse elements");
+  check_command->add_flag("--quick", check_task.quick, "Coarse elements");
   check_command->add_option("--json", json_file, "Also write the result as JSON");
 
   MeshTask mesh_task;
@@ -126,8 +125,7 @@ int run_program(int argc, char** argv) {
       write_json(json_file, json_of(run_shape_flow(level_task)));
       return done;
     }
-    check_task.refinement = quick ? Refinement::quick() : Refinement::finest();
-    if (quick && required->empty()) check_task.required = required_when_quick;
+    if (check_task.quick && required->empty()) check_task.required = required_when_quick;
     return check(check_task, json_file, session.rank() == 0);
   } catch (const InputError& error) {
     return fail(refused, error.what());

@@ -14,19 +14,11 @@ constexpr double rounding = 1e-9;
 /// Error that a tolerance leaves over what it changes when it is made coarser by rough_factor: ten times what it would
 /// be if errors fell like residuals.
 constexpr double solver_share = 10.0 / rough_factor;
-/// Slowest power of the radius with which the error of the outer sphere falls: with u = 0 there.
-constexpr double slowest_truncation_order = 3.0;
 /// Slowest power of the mesh size that levels are taken to converge with.
 constexpr double slowest_order = 1.0;
 /// Power of the degree that boundary integrals are not taken to converge faster than: at twice the degree a sixteenth
 /// is left.
 constexpr double slowest_degree_order = 4.0;
-
-/// The whole error of the nearer sphere over what moving it out changes.
-double truncation_tail(const LevelSequence& sequence) {
-  const double ratio = sequence.levels[sequence.repeated].outer_radius / sequence.far.outer_radius;
-  return 1.0 / (1.0 - std::pow(ratio, slowest_truncation_order));
-}
 
 /// What the last level leaves over the change to it, if errors are a power of the mesh size N^(−1/3); never less than
 /// all of that change, as a high order is known from two changes alone.
@@ -119,12 +111,8 @@ void compare_with_levels(const FieldQuestion& question, const LevelSequence& seq
   const double unknown = std::numeric_limits<double>::infinity();
   result.levels_change = last > 0 ? measure(values[last] - values[last - 1]) : Norms{unknown, unknown};
   const Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
-  const Eigen::MatrixXd far = values_of(question, sequence.far);
-  if (far.size() > 0) {
-    const double tail = truncation_tail(sequence);
-    const Norms change = measure(far - values_of(question, repeated));
-    result.truncation = {tail * change.l2, tail * change.max};
-  }
+  const Eigen::MatrixXd truncated = values_of(question, sequence.truncated);
+  if (truncated.size() > 0) result.truncation = measure(truncated - values_of(question, repeated));
   const Eigen::MatrixXd rough = values_of(question, sequence.rough);
   if (rough.size() > 0) {
     result.solver = solver_share * measure(rough - values_of(question, repeated)).l2;

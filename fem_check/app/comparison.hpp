@@ -41,7 +41,7 @@ struct FieldComparison {
   Norms difference;
   Norms levels_change;           ///< last level against the one before
   double tail = 1.0;             ///< what the last level leaves, over that change; above 1 where levels converge slowly
-  Norms truncation;              ///< of the outer sphere, from one further out
+  Norms truncation;              ///< of the outer sphere, from fewer harmonics that are exact there
   double solver = 0.0;           ///< what the linear solvers leave, from coarser ones
   double time = 0.0;             ///< of the steps in time; FieldQuestion::time_error
   Norms bie_change;              ///< degree p against the other degree

@@ -19,7 +19,7 @@ FlowProblem problem_of(const std::vector<CheckInput>& inputs, const Refinement& 
 
 }  // namespace
 
-FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Refinement& refinement,
+FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement,
                              const Report& report) {
   const CheckInput& input = inputs.front();
   FlowProblem problem = problem_of(inputs, refinement);
@@ -28,9 +28,10 @@ FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, const Meshes
   problem.force = [&](const SurfacePoints& points) { return Vectors(force(points)); };
 
   FlowLevels result;
-  const auto solve = [&](const Discretisation& discretisation, double tolerance) {
-    problem.tolerance = tolerance;
-    const FlowSolution solution = solve_flow(discretisation, problem);
+  const auto solve = [&](const Discretisation& discretisation, const SolveSettings& settings) {
+    problem.tolerance = settings.tolerance;
+    problem.exterior_degree = settings.exterior_degree;
+    const FlowSolution solution = solve_flow(discretisation, problem, start_of(result.solutions, settings));
     const FlowTraces traces = solution.on_surface(discretisation.quadrature_points(refinement.points_per_edge));
     Solved solved{solution.cost(), {{"velocity", traces.velocity}, {"divergence", traces.divergence.transpose()}}, {}};
     if (input.bie.sample_velocity.size() > 0) {
@@ -41,11 +42,8 @@ FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, const Meshes
     result.solutions.push_back(solution);
     return solved;
   };
-  const LevelPlan plan{"flow",
-                       {refinement.flow_first, refinement.flow_last},
-                       refinement.flow_tolerance,
-                       refinement.flow_target,
-                       {"velocity"}};
+  const LevelPlan plan{
+      "flow", refinement.flow_degrees, refinement.flow_tolerance, refinement.flow_target, {"velocity"}};
   result.sequence = run_levels(plan, meshes, report, solve);
   result.solutions.erase(result.solutions.begin() + static_cast<std::ptrdiff_t>(result.sequence.levels.size()),
                          result.solutions.end());
@@ -57,9 +55,11 @@ namespace {
 /// Velocity on γ of forces alone, without a background flow, at any degree.
 class ForceFlows {
  public:
-  ForceFlows(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Refinement& refinement,
-             const Report& report)
-      : meshes_(meshes), refinement_(refinement), report_(report), problem_(problem_of(inputs, refinement)) {}
+  ForceFlows(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement, const Report& report)
+      : meshes_(meshes), refinement_(refinement), report_(report), problem_(problem_of(inputs, refinement)) {
+    // Of a flow that is small beside the one that it is added to.
+    problem_.tolerance = std::max(problem_.tolerance, tolerance_of_changes);
+  }
 
   [[nodiscard]] Eigen::MatrixXd velocity(int degree, VectorOnSurface force) {
     problem_.force = std::move(force);
@@ -73,7 +73,7 @@ class ForceFlows {
   }
 
  private:
-  const Meshes& meshes_;
+  Meshes& meshes_;
   const Refinement& refinement_;
   const Report& report_;
   FlowProblem problem_;
@@ -81,7 +81,7 @@ class ForceFlows {
 
 }  // namespace
 
-void add_own_force(const std::vector<CheckInput>& inputs, const Meshes& meshes, const Refinement& refinement,
+void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement,
                    const PotentialLevels& potential, LevelSequence& sequence, const Report& report) {
   // An error of this share of the flow's own hides behind it.
   constexpr double negligible_share = 0.25;
@@ -109,7 +109,7 @@ void add_own_force(const std::vector<CheckInput>& inputs, const Meshes& meshes, 
   before.surface["velocity_own_force"] =
       before.surface.at("velocity") + coarse + flows.velocity(first, electric_change);
   Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
-  for (Level* level : {&sequence.far, &sequence.rough, &repeated}) {
+  for (Level* level : {&sequence.truncated, &sequence.rough, &repeated}) {
     level->surface["velocity_own_force"] = level->surface.at("velocity") + fine;
   }
 }

@@ -30,15 +30,28 @@ struct Level {
   FieldValues samples;
 };
 
+/// What is solved with beside the elements.
+struct SolveSettings {
+  double tolerance;  ///< of the linear solvers
+  int exterior_degree = usual_exterior_degree;
+  bool from_zero = false;  ///< the linear solvers do not begin from the level before
+};
+
+/// Of the linear solvers, at least, for a flow that is a small part of another one.
+constexpr double tolerance_of_changes = 1e-4;
+
 /// Tolerance of LevelSequence::rough over that of the levels.
 constexpr double rough_factor = 100.0;
+/// Exterior degree of LevelSequence::truncated: two below that of the levels, as shapes with a centre of symmetry make
+/// every other harmonic alone.
+constexpr int truncated_exterior_degree = usual_exterior_degree - 2;
 
-/// All levels of one problem on one mesh, coarse to fine, and one of them twice again: with the outer sphere further
-/// out, and with linear solvers that stop sooner.
+/// All levels of one problem on one mesh, coarse to fine, and one of them twice again: with fewer harmonics exact at
+/// the outer sphere, and with linear solvers that stop sooner.
 struct LevelSequence {
   std::vector<Level> levels;
   int repeated = 0;  ///< which of them
-  Level far;         ///< its repetition with the outer sphere further out
+  Level truncated;   ///< its repetition with truncated_exterior_degree
   Level rough;       ///< its repetition with a tolerance larger by rough_factor
 };
 

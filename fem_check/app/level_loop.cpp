@@ -42,26 +42,26 @@ Level solve_level(const std::string& problem, const Discretisation& discretisati
   return level;
 }
 
-LevelSequence run_levels(const LevelPlan& plan, const Meshes& meshes, const Report& report, const SolveLevel& solve) {
-  const auto solve_to = [&](double tolerance) {
-    return [&solve, tolerance](const Discretisation& discretisation) { return solve(discretisation, tolerance); };
+LevelSequence run_levels(const LevelPlan& plan, Meshes& meshes, const Report& report, const SolveLevel& solve) {
+  const auto solve_level_with = [&](const std::string& problem, int degree, const SolveSettings& settings) {
+    return solve_level(problem, meshes.discretise(degree), meshes.outer_radius(), report,
+                       [&](const Discretisation& discretisation) { return solve(discretisation, settings); });
   };
   // An observed order takes three levels.
   constexpr std::size_t fewest = 3;
   LevelSequence result;
   auto& levels = result.levels;
-  for (int degree = plan.degrees.first; degree <= plan.degrees.last; ++degree) {
-    levels.push_back(
-        solve_level(plan.problem, meshes.discretise(degree), meshes.outer_radius(), report, solve_to(plan.tolerance)));
+  for (const int degree : plan.degrees) {
+    levels.push_back(solve_level_with(plan.problem, degree, {plan.tolerance}));
     if (levels.size() < fewest) continue;
     if (largest_change(levels[levels.size() - 2], levels.back(), plan.judged_by) <= plan.target) break;
   }
   result.repeated = static_cast<int>(levels.size() - fewest);
   const int degree = levels[static_cast<std::size_t>(result.repeated)].degree;
-  result.far = solve_level(plan.problem, meshes.discretise_far(degree), meshes.far_outer_radius(), report,
-                           solve_to(plan.tolerance));
-  result.rough = solve_level(plan.problem + " with a coarse solver", meshes.discretise(degree), meshes.outer_radius(),
-                             report, solve_to(rough_factor * plan.tolerance));
+  result.truncated = solve_level_with(plan.problem + " with fewer harmonics outside", degree,
+                                      {plan.tolerance, truncated_exterior_degree});
+  result.rough = solve_level_with(plan.problem + " with a coarse solver", degree,
+                                  {.tolerance = rough_factor * plan.tolerance, .from_zero = true});
   return result;
 }
 

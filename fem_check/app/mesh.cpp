@@ -42,7 +42,7 @@ MeshResult written(const MeshTask& task, const std::vector<meshes::FrozenShape>&
 MeshResult mesh_of_two(const MeshTask& task, const std::vector<meshes::FrozenShape>& shapes, double factor) {
   if (task.family == "tet") throw InputError("--family tet: knows one vesicle; accepted for two: hex");
   const std::array pair{shapes[0], shapes[1]};
-  meshes::TwoVesicleOptions options = two_vesicle_options({}, pair, false);
+  meshes::TwoVesicleOptions options = two_vesicle_options({}, pair);
   const meshes::BlockMeshOptions of_one;
   options.cells_per_edge = refined(of_one.cells_per_edge, factor);
   options.blend_layers = refined(of_one.blend_layers, factor);

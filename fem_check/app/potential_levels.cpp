@@ -49,7 +49,7 @@ PotentialProblem given_problem(const std::vector<CheckInput>& inputs) {
   return problem;
 }
 
-PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, const Meshes& meshes,
+PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, Meshes& meshes,
                                        const Refinement& refinement, const Report& report) {
   const CheckInput& input = inputs.front();
   PotentialProblem given = given_problem(inputs), steady = base_problem(inputs);
@@ -57,10 +57,11 @@ PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, co
 
   PotentialLevels result;
   std::vector<PotentialSolution> steady_solutions;
-  const auto solve = [&](const Discretisation& discretisation, double tolerance) {
-    given.tolerance = steady.tolerance = tolerance;
+  const auto solve = [&](const Discretisation& discretisation, const SolveSettings& settings) {
+    given.tolerance = steady.tolerance = settings.tolerance;
+    given.exterior_degree = steady.exterior_degree = settings.exterior_degree;
     const SurfacePoints points = discretisation.quadrature_points(refinement.points_per_edge);
-    const PotentialSolution solution = solve_potential(discretisation, given);
+    const PotentialSolution solution = solve_potential(discretisation, given, start_of(result.solutions, settings));
     const PotentialTraces traces = solution.on_surface(points);
     Solved solved{solution.cost(),
                   {{"q", traces.charge.transpose()}, {"flux_in", traces.flux_in.transpose()}, {"force", traces.force}},
@@ -75,7 +76,7 @@ PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, co
       });
     }
     if (input.steady()) {
-      steady_solutions.push_back(solve_potential(discretisation, steady));
+      steady_solutions.push_back(solve_potential(discretisation, steady, start_of(steady_solutions, settings)));
       const PotentialTraces steady_traces = steady_solutions.back().on_surface(points);
       solved.surface["Vm"] = steady_traces.transmembrane_potential.transpose();
       solved.surface["q_steady"] = steady_traces.charge.transpose();
@@ -84,7 +85,7 @@ PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, co
     return solved;
   };
   const LevelPlan plan{"potential",
-                       {refinement.potential_first, refinement.potential_last},
+                       refinement.potential_degrees,
                        refinement.potential_tolerance,
                        refinement.potential_target,
                        {"q", "Vm", "q_steady", "Vm_of_charges"}};

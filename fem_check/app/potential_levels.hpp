@@ -27,7 +27,7 @@ PotentialProblem given_problem(const std::vector<CheckInput>& inputs);
 /// Solves the potential with V_m or charges given, and under the membrane law where the inputs have that.
 /// @param inputs  of all vesicles of the meshes; samples are those of the first
 /// @throws SolveError
-PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, const Meshes& meshes,
+PotentialLevels solve_potential_levels(const std::vector<CheckInput>& inputs, Meshes& meshes,
                                        const Refinement& refinement, const Report& report);
 
 }  // namespace vehd::fem_check

@@ -17,7 +17,7 @@ std::vector<bool> found_by_all(const LevelSequence& sequence, const std::string&
     }
   };
   for (const Level& level : sequence.levels) look_at(level);
-  look_at(sequence.far);
+  look_at(sequence.truncated);
   look_at(sequence.rough);
   return found;
 }

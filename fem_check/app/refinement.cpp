@@ -6,41 +6,38 @@
 #include <cmath>
 
 namespace vehd::fem_check {
-
 Refinement Refinement::quick() {
   Refinement refinement;
-  refinement.cells_per_edge = 2;
-  refinement.points_per_edge = 12;
-  refinement.potential_first = 4;
-  refinement.potential_last = 6;
-  refinement.flow_first = 4;
-  refinement.flow_last = 6;
+  refinement.potential_degrees = {3, 5, 6};
+  refinement.flow_degrees = {3, 5, 7};
+  refinement.shape_flow_degrees = {3, 4, 5};
   refinement.potential_target = 0.0;
   refinement.flow_target = 0.0;
-  refinement.potential_tolerance = 1e-9;
-  refinement.flow_tolerance = 1e-7;
+  refinement.potential_tolerance = 1e-8;
+  refinement.flow_tolerance = 1e-6;
   return refinement;
 }
 
-meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double radius, bool far) {
+Refinement Refinement::quick_of_two() {
+  Refinement refinement = quick();
+  refinement.cells_per_edge = 2;
+  refinement.potential_degrees = {4, 5, 6};
+  refinement.flow_degrees = {4, 5, 6};
+  return refinement;
+}
+
+meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const meshes::FrozenShape& shape) {
   meshes::BlockMeshOptions options;
   options.cells_per_edge = refinement.cells_per_edge;
   options.blend_layers = refinement.blend_layers;
   options.shell_layers = refinement.shell_layers;
   options.shell_growth = refinement.shell_growth;
-  options.outer_radius = refinement.outer_radius * radius;
-  if (!far) return options;
-  // Layers grow by a constant factor, so that the inner ones stay where they are.
-  const auto thickness = [&](int layers) { return std::pow(refinement.shell_growth, layers) - 1.0; };
-  options.outer_radius = radius * (1.0 + (refinement.outer_radius - 1.0) * thickness(refinement.shell_layers + 1) /
-                                             thickness(refinement.shell_layers));
-  options.shell_layers += 1;
+  options.outer_radius = shape.largest_distance(shape.centroid()) + refinement.outer_distance * shape.radius();
   return options;
 }
 
 meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
-                                              const std::array<meshes::FrozenShape, 2>& shapes, bool far) {
-  constexpr double far_ratio = 2.5;
+                                              const std::array<meshes::FrozenShape, 2>& shapes) {
   meshes::TwoVesicleOptions options;
   options.cells_per_edge = refinement.cells_per_edge;
   options.blend_layers = refinement.blend_layers;
@@ -52,29 +49,26 @@ meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
   const double reach = std::max(shapes[0].largest_distance(middle), shapes[1].largest_distance(middle));
   // Two that are far from one another fill the sphere more than a single one does.
   const double size = std::max(std::hypot(shapes[0].radius(), shapes[1].radius()), 0.5 * reach);
-  options.boxes.outer_radius = refinement.outer_radius * size;
-  if (far) options.boxes.far_radius = far_ratio * options.boxes.outer_radius;
+  options.boxes.outer_radius = refinement.outer_radius_of_two * size;
   return options;
 }
 
 Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement) {
   if (shapes.size() == 2) {
     const std::array pair{shapes[0], shapes[1]};
-    const auto make = [&](bool far) {
-      return std::make_shared<meshes::TwoVesicleMesh>(
-          meshes::make_two_vesicle_mesh(pair, two_vesicle_options(refinement, pair, far)));
-    };
-    near_ = make(false);
-    far_ = make(true);
+    mesh_ = std::make_shared<meshes::TwoVesicleMesh>(
+        meshes::make_two_vesicle_mesh(pair, two_vesicle_options(refinement, pair)));
     return;
   }
   if (shapes.size() != 1) throw meshes::MeshError(fmt::format("has {} vesicles; accepted: one or two", shapes.size()));
   const meshes::FrozenShape& shape = shapes.front();
-  std::vector<meshes::HexMesh> both = meshes::make_block_meshes(
-      shape,
-      {block_mesh_options(refinement, shape.radius(), false), block_mesh_options(refinement, shape.radius(), true)});
-  near_ = std::make_shared<meshes::HexMesh>(std::move(both.front()));
-  far_ = std::make_shared<meshes::HexMesh>(std::move(both.back()));
+  mesh_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement, shape)));
+}
+
+const Discretisation& Meshes::discretise(int degree) {
+  const auto found = discretisations_.find(degree);
+  if (found != discretisations_.end()) return found->second;
+  return discretisations_.emplace(degree, Discretisation(mesh_, degree)).first->second;
 }
 
 }  // namespace vehd::fem_check

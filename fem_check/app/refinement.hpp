@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -13,61 +14,57 @@ namespace vehd::fem_check {
 
 /// How fine the finite elements get: one coarse curved mesh, rising degrees.
 struct Refinement {
-  int cells_per_edge = 3;
+  int cells_per_edge = 3;  ///< of a block; one more for a strongly bent shape in a check that is not quick
   int blend_layers = 1;
-  int shell_layers = 3;
+  int shell_layers = 2;
   /// Of the layers' thickness: the fine structure of the fields ends in a thin inner layer, and the layers outside
   /// carry the smooth rest at high degree.
-  double shell_growth = 3.0;
-  double outer_radius = 8.0;  ///< over the radius √(area/4π) of the shape, or of two together
+  double shell_growth = 4.0;
+  /// Of the outer sphere from the farthest point of the membrane, over the radius √(area/4π) of the shape: it encloses
+  /// all points off the membrane.
+  double outer_distance = 3.2;
+  double outer_radius_of_two = 8.0;  ///< over the radius of two together
   // Of two vesicles: between a membrane and its box, and from the boxes to the outer sphere.
   int box_layers = 2, outer_layers = 2;
   double box_growth = 2.0, outer_growth = 2.0;
   int points_per_edge = 12;  ///< of the comparison, Gauss points on each face of γ
 
-  int potential_first = 4, potential_last = 9;  ///< degrees
-  int flow_first = 4, flow_last = 8;
+  // Degrees, rising, three at least.
+  std::vector<int> potential_degrees{4, 5, 6, 7, 8, 9};
+  std::vector<int> flow_degrees{4, 5, 6, 7, 8};  ///< force given
+  std::vector<int> shape_flow_degrees{4, 5, 6, 7, 8};
   double potential_target = 1e-5;  ///< relative change at which degrees stop rising before the last
   double flow_target = 1e-4;
   double charging_target = 1e-3;       ///< the same of V_m that is advanced in time, of its steps too
-  double potential_tolerance = 1e-11;  ///< of the linear solvers
+  double potential_tolerance = 3e-12;  ///< of the linear solvers
   double flow_tolerance = 1e-7;
 
   static Refinement finest() { return {}; }
   /// Three levels each.
   static Refinement quick();
+  static Refinement quick_of_two();
 };
 
-/// Degrees of one problem.
-struct DegreeRange {
-  int first;
-  int last;
-};
-
-/// Of a shape with this radius.
-/// @param far  with one more layer of cells, outside the others
-meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, double radius, bool far);
+/// Of a shape.
+meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const meshes::FrozenShape& shape);
 
 /// About two shapes.
-/// @param far  with one more layer of cells, outside the others
 meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
-                                              const std::array<meshes::FrozenShape, 2>& shapes, bool far);
+                                              const std::array<meshes::FrozenShape, 2>& shapes);
 
-/// Meshes of one or two shapes at both radii of the outer sphere.
+/// The mesh of one or two shapes.
 class Meshes {
  public:
   /// @throws MeshError if there are more shapes, or if the blocks cannot follow them
   Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement);
 
-  [[nodiscard]] Discretisation discretise(int degree) const { return {near_, degree}; }
-  [[nodiscard]] double outer_radius() const { return near_->outer_radius(); }
-  [[nodiscard]] int n_cells() const { return near_->n_cells(); }
-  /// With one more layer of cells, outside the others.
-  [[nodiscard]] Discretisation discretise_far(int degree) const { return {far_, degree}; }
-  [[nodiscard]] double far_outer_radius() const { return far_->outer_radius(); }
+  /// Made once for each degree.
+  [[nodiscard]] const Discretisation& discretise(int degree);
+  [[nodiscard]] double outer_radius() const { return mesh_->outer_radius(); }
 
  private:
-  std::shared_ptr<const meshes::VolumeMesh> near_, far_;
+  std::shared_ptr<const meshes::VolumeMesh> mesh_;
+  std::map<int, Discretisation> discretisations_;
 };
 
 }  // namespace vehd::fem_check

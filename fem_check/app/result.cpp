@@ -198,7 +198,8 @@ nlohmann::json json_of(const CheckResult& result) {
   json["required"] = result.required;
   json["verdict"] = name_of(result.verdict());
   json["truncation_radius"] = result.outer_radius;
-  json["truncation_radius_second"] = result.far_outer_radius;
+  json["exterior_degree"] = usual_exterior_degree;
+  json["exterior_degree_second"] = truncated_exterior_degree;
   json["seconds"] = result.seconds;
   return json;
 }

@@ -38,7 +38,7 @@ struct CheckResult {
   std::optional<SurfaceDivergence> divergence;
   std::optional<InTimeResult> in_time;
   std::optional<double> stored_velocity;  ///< relative L2 of the snapshot's dx/dt against v of its truncated forces
-  double outer_radius = 0.0, far_outer_radius = 0.0;
+  double outer_radius = 0.0;
   double seconds = 0.0;
   std::vector<CheckResult> vesicles{};
 

@@ -23,7 +23,7 @@ Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, co
 /// @param potential  null without a field; f_E is that of its finest level. What the level before has instead stands
 ///                   between the last two levels, as an error of the last
 /// @throws SolveError
-LevelSequence solve_shape_levels(const CheckInput& input, const Meshes& meshes, const Refinement& refinement,
+LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
                                  const PotentialLevels* potential, const Report& report);
 
 }  // namespace vehd::fem_check

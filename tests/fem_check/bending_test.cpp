@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(prolate_has_the_force_of_the_formula_as_a_functional_and_as
     const Vectors force = sampled_vectors(
         points, [&](const Vector3& x, const Vector3& n) { return Vector3(ProlateCurvature(x.z()).force(c) * n); });
     BOOST_TEST(relative_l2(points, bending_force(space, energy, 8)(points), force) < 1e-2);
-    const double error = relative_l2(points, bending_field(space, energy, 9, 12)(points), force);
+    const double error = relative_l2(points, BendingForce(space, energy, 12).field(9)(points), force);
     BOOST_TEST_MESSAGE("field " << error);
     BOOST_TEST(error < 1e-3);
   }
@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(degrees_that_do_not_fit_are_refused) {
   BOOST_CHECK_THROW(BendingElements(membrane_mesh(unit_sphere(), 1), 1), std::invalid_argument);
   const Discretisation space = discretise(unit_sphere(), {.degree = 4});
   BOOST_CHECK_THROW(bending_force(space, {1.0, 0.0}, 3), std::invalid_argument);
-  BOOST_CHECK_THROW(bending_field(space, {1.0, 0.0}, 6, 5), std::invalid_argument);
+  BOOST_CHECK_THROW(BendingForce(space, {1.0, 0.0}, 5).field(6), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -67,26 +67,4 @@ BOOST_AUTO_TEST_CASE(raising_the_degree_converges_exponentially) {
   for (std::size_t i = 1; i < errors.size(); ++i) BOOST_TEST(errors[i] < 0.35 * errors[i - 1]);
 }
 
-BOOST_AUTO_TEST_CASE(radiation_condition_leaves_the_seventh_power_of_the_radius) {
-  // The prolate of no jump: the difference to the exact field inside, against that with the disturbance set to zero.
-  const auto error = [](double radius, OuterCondition::Kind kind) {
-    const Discretisation space =
-        discretise(shapes::prolate(), {.cells_per_edge = 3, .shell_layers = 4, .degree = 5, .outer_radius = radius});
-    PotentialProblem problem;
-    problem.field = {0.0, 0.0, 1.0};
-    problem.conductivity_in = 20.0;
-    problem.membrane = PrescribedJump{on_surface([](const Vector3&, const Vector3&) { return 0.0; })};
-    problem.outer.kind = kind;
-    const Vector value = solve_potential(space, problem).potential(space.locate(Vector3(0.0, 0.0, 0.5)));
-    return std::abs(-value[0] / 0.5 * (1.0 + kDepolarisation * 19.0) - 1.0);
-  };
-  const double near = error(3.0, OuterCondition::Kind::radiation);
-  const double far = error(4.5, OuterCondition::Kind::radiation);
-  BOOST_TEST(observed_order(near, far, 1.5) > 5.0);
-  const double near_fixed = error(3.0, OuterCondition::Kind::dirichlet);
-  const double far_fixed = error(4.5, OuterCondition::Kind::dirichlet);
-  BOOST_TEST(std::abs(observed_order(near_fixed, far_fixed, 1.5) - 3.0) < 0.6);
-  BOOST_TEST(near < 0.1 * near_fixed);
-}
-
 BOOST_AUTO_TEST_SUITE_END()

@@ -69,6 +69,22 @@ BOOST_AUTO_TEST_CASE(truncation_error_is_the_highest_legendre_mode_of_the_faces)
   BOOST_TEST(std::abs(rotated / truncation_error(shape_33(), Matrix3::Identity()) - 1.0) < 1e-9);
 }
 
+BOOST_AUTO_TEST_CASE(strongly_bent_shapes_take_more_cells) {
+  const auto ellipsoid = [](double a, double b, double c) {
+    return FrozenShape(project(1, [&](const Point& r) { return Point(a * r.x(), b * r.y(), c * r.z()); }));
+  };
+  BOOST_TEST(cells_for_bending(off_centre_sphere(), 3, 5) == 3);
+  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.15, 1.3), 3, 5) == 3);
+  BOOST_TEST(cells_for_bending(shape_33(), 3, 5) == 3);
+  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.0, 5.0), 3, 5) == 4);
+  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.0, 0.2), 3, 5) == 4);
+  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.0, 20.0), 3, 5) == 5);
+  // The ends lie in the middle of a cell, or on a corner of four.
+  const FrozenShape needle = ellipsoid(1.0, 1.0, 5.0);
+  BOOST_TEST(normal_truncation_error(needle, Matrix3::Identity(), 4) <
+             0.2 * normal_truncation_error(needle, Matrix3::Identity(), 3));
+}
+
 BOOST_AUTO_TEST_CASE(corners_of_the_cube_lie_on_the_bumps_of_shape_33) {
   // Y_3^2 rotated by 45 degrees about z is proportional to xyz, whose extremes are the corners of the cube.
   const BlockAxes axes = best_axes(shape_33());

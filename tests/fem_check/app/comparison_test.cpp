@@ -19,11 +19,10 @@ constexpr double fine_error = 1e-4, solver_error = 1e-6;
 /// A field with the values 1 … n over equal weights.
 Eigen::MatrixXd field(double factor = 1.0) { return factor * Vector::LinSpaced(50, 1.0, 50.0).transpose(); }
 
-Level level(double error, long n_unknowns, double radius = 8.0) {
+Level level(double error, long n_unknowns) {
   Level result;
   result.problem = "potential";
   result.n_unknowns = n_unknowns;
-  result.outer_radius = radius;
   result.surface["q"] = field(1.0 + error);
   return result;
 }
@@ -32,7 +31,7 @@ Level level(double error, long n_unknowns, double radius = 8.0) {
 LevelSequence levels() {
   LevelSequence sequence;
   sequence.levels = {level(100 * fine_error, 1000), level(10 * fine_error, 8000), level(fine_error, 64000)};
-  sequence.far = level(100 * fine_error, 1000, 16.0);
+  sequence.truncated = level(100 * fine_error, 1000);
   sequence.rough = level(100 * fine_error + solver_error, 1000);
   return sequence;
 }
@@ -109,7 +108,7 @@ BOOST_AUTO_TEST_CASE(zero_is_judged_by_the_natural_size) {
   BOOST_TEST((verdict(zero) == Verdict::does_not), "the elements have a field");
   zero.natural_size = 1e6;
   LevelSequence rounded = levels();
-  for (Level* each : {&rounded.levels[0], &rounded.levels[1], &rounded.levels[2], &rounded.far, &rounded.rough}) {
+  for (Level* each : {&rounded.levels[0], &rounded.levels[1], &rounded.levels[2], &rounded.truncated, &rounded.rough}) {
     each->surface["q"].setZero();
   }
   BOOST_TEST((compare(zero, rounded, 0.02).verdict == Verdict::agree));
@@ -131,7 +130,7 @@ BOOST_AUTO_TEST_CASE(background_does_not_hide_what_is_left) {
   FieldQuestion asked = question();
   const Eigen::MatrixXd background = Eigen::MatrixXd::Constant(1, 50, 1e5);
   LevelSequence shifted = levels();
-  for (Level* each : {&shifted.levels[0], &shifted.levels[1], &shifted.levels[2], &shifted.far, &shifted.rough}) {
+  for (Level* each : {&shifted.levels[0], &shifted.levels[1], &shifted.levels[2], &shifted.truncated, &shifted.rough}) {
     each->surface["q"] += background;
   }
   for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers = 1.01 * *numbers + background;
@@ -209,7 +208,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
     asked.bie_high = field(1.0 - other_error);
     asked.degrees = {degree, other, {}};
     LevelSequence exact = levels();
-    for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.far, &exact.rough}) {
+    for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.truncated, &exact.rough}) {
       each->surface["q"] = field();
     }
     return compare(asked, exact, 0.05);
