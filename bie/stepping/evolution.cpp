@@ -191,6 +191,12 @@ StepGoal Evolution::goal_for(const EventTimes& events) const {
   goal.growth = growth_.steps;
   goal.memory = memory_of_shapes(setup_.model, state_, evaluation_, events.end_time);
   goal.truncation = truncation_target();
+  // Beyond the highest degree the shape is not known to what growth and memory ask for, and no step is small enough to
+  // change that: it need not leave less than the degree leaves out, which the verdict tells of.
+  const double left_out = truncation(state_);
+  if (left_out > goal.truncation) {
+    goal.most_weight = std::max(1.0, thresholds::step_share * goal.tolerance / left_out);
+  }
   goal.too_coarse = [this](const State& reached) {
     std::vector<std::size_t> result;
     for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {

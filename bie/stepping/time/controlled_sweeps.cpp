@@ -17,7 +17,8 @@ namespace {
 /// How many times what a step leaves of shape and V_m counts.
 VisibleDifference lasting_weights(const StepGoal& goal, double dt) {
   const double remembered = std::min(goal.memory / dt, thresholds::most_remembered);
-  return {std::max(goal.growth, thresholds::remembered_share * remembered), goal.growth};
+  const double of_shape = std::max(goal.growth, thresholds::remembered_share * remembered);
+  return {std::min(goal.most_weight, of_shape), std::min(goal.most_weight, goal.growth)};
 }
 
 /// What the sweeps so far have changed of all that counts, each as many times as it does.

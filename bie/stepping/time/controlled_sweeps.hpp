@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct StepGoal {
   double growth = 1.0;
   /// For how long what is wrong with the shape at its end is remembered, with what former steps have left.
   double memory = 0.0;
+  /// By which what is wrong at its end counts at most, whatever it grows by.
+  double most_weight = std::numeric_limits<double>::infinity();
   double truncation = 0.0;  ///< what a grid of another degree may move the surface by, over the radius
   /// Vesicles whose degree is too low for a state.
   std::function<std::vector<std::size_t>(const State&)> too_coarse;
