@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bie/stepping/evolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
@@ -13,7 +14,7 @@ namespace vehd {
 int Evolution::lowest_order() const { return std::min(lowest_adaptive_order, setup_.settings.order); }
 
 double Evolution::truncation_target() const {
-  return thresholds::truncation_share * setup_.control.tolerance / growth_;
+  return thresholds::truncation_share * setup_.control.tolerance / growth_.degrees;
 }
 
 void Evolution::lower_quadrature_if_idle(std::size_t a) {
@@ -71,9 +72,17 @@ bool Evolution::raise_orders_for(const State& reached) {
 void Evolution::lower_order_if_idle(std::size_t a) {
   const int lowest = std::max(lowest_order(), order_of_gap(gap_, a));
   if (!adapts() || order(a) <= lowest) return;
-  const int enough =
-      resolution(state_, a).order_for(thresholds::idle_truncation * truncation_target(), lowest, order(a));
-  if (enough <= order(a) - thresholds::worthwhile_degrees) change_space(a, enough, state_.vesicles[a].quadrature_level);
+  const double idle = thresholds::idle_truncation * truncation_target();
+  const int highest = order(a) - thresholds::worthwhile_degrees;
+  // Of the degrees that would be the upper half then, another share can be seen than of those that are it now.
+  const auto is_idle_at = [&](int order) {
+    State cut = state_;
+    cut.vesicles[a] = resized(std::move(cut.vesicles[a]), order);
+    return resolution(cut, a).remainder() <= idle;
+  };
+  int enough = resolution(state_, a).order_for(idle, lowest, order(a));
+  while (enough <= highest && !is_idle_at(enough)) enough += thresholds::least_raise;
+  if (enough <= highest) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 
 void Evolution::economise() {

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/evaluation/growth.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
+#include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/resized.hpp"
@@ -74,8 +74,10 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
 void Evolution::expect_growth(double until) {
-  if (adapts())
-    growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, until, setup_.settings.order);
+  if (!adapts()) return;
+  const double delay = state_.dt_next > 0.0 ? state_.dt_next : first_step(setup_, evaluation_, state_);
+  const Outlook outlook = look_ahead(setup_.model, discretisation_, state_, evaluation_, until, delay, instruments_);
+  growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, outlook);
 }
 
 double Evolution::truncation(const State& state) const {
@@ -186,7 +188,15 @@ void Evolution::arrive(State state) {
 StepGoal Evolution::goal_for(const EventTimes& events) const {
   StepGoal goal;
   goal.tolerance = setup_.control.tolerance;
-  goal.growth = growth_;
+  goal.growth = growth_.steps;
+  goal.memory = memory_of_shapes(setup_.model, state_, evaluation_, events.end_time);
+  goal.truncation = truncation_target();
+  // Beyond the highest degree the shape is not known to what growth and memory ask for, and no step is small enough to
+  // change that: it need not leave less than the degree leaves out, which the verdict tells of.
+  const double left_out = truncation(state_);
+  if (left_out > goal.truncation) {
+    goal.most_weight = std::max(1.0, thresholds::step_share * goal.tolerance / left_out);
+  }
   goal.too_coarse = [this](const State& reached) {
     std::vector<std::size_t> result;
     for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/stepping/evaluation/growth.hpp"
 #include "bie/stepping/evaluation/initial_state.hpp"
 #include "bie/stepping/evaluation/smallest_gap.hpp"
 #include "bie/stepping/space/resolution.hpp"
@@ -122,7 +123,7 @@ class Evolution {
   State state_;
   SmallestGap gap_;
   Evaluation evaluation_;
-  double growth_ = 1.0;               // expected of what is wrong now, with a tolerance
+  ErrorGrowth growth_;                // expected of what is wrong now, with a tolerance
   std::vector<StartMembrane> start_;  // until it is evaluated
   std::optional<Evaluation> before_jump_;
   std::vector<Moment> passed_;

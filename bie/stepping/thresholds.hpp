@@ -74,11 +74,22 @@ constexpr double most_step_factor = 4.0;
 constexpr double most_after_rejection = 0.9;
 /// Share of the tolerance that one step may leave: the errors of about three steps are felt at a time. Measured.
 constexpr double step_share = 0.3;
-/// What is wrong with a compressed membrane is expected to grow by this at most until the run ends: so much less is
+/// Where errors of a shape are remembered for more steps, so many of those remembered count in full, as they add up
+/// with the same sign: a part of them dies away. Measured.
+constexpr double remembered_share = 0.6;
+/// And no more steps than this are supposed to be remembered. Measured.
+constexpr double most_remembered = 6.0;
+/// What steps leave of a compressed membrane is expected to grow by this at most until the run ends: so much less is
 /// allowed. Measured.
-constexpr double most_growth = 5.0;
+constexpr double most_growth_of_steps = 30.0;
+/// What degrees leave out by this: it has the highest degrees, which grow most. Measured.
+constexpr double most_growth_of_degrees = 100.0;
+/// By this at most where V_m and the field seem to end the compression soon. Measured.
+constexpr double unsure_growth = 5.0;
+/// What the degrees leave out is felt first by those above the highest over this. Measured.
+constexpr int degrees_that_feel_the_cut = 4;
 /// Share of the tolerance that what is found within a step may be wrong by. Measured.
-constexpr double moment_share = 0.7;
+constexpr double moment_share = 0.25;
 /// Corrections that seem to contract more than this are not believed. One ratio is one number, and the next may be
 /// larger.
 constexpr double best_contraction = 0.05;

@@ -38,15 +38,20 @@ struct SolvedFields {
   bool electric_inactive = false;  ///< see electric_inactive()
 };
 
+/// Whose operators serve.
+enum class Shapes { of_state, of_previous };
+
 /// Solves everything at a frozen state; collective, see Discretisation::shares.
 /// @param previous  of the same run, if there is one: where shapes are frozen its operators serve again
 /// @param limit     which value counts where a waveform jumps at the time of the state
+/// @param shapes    whether they are known to be those of `previous`, so that its operators serve again
 /// @throws ConvergenceError naming the solve that failed
 /// Accuracy: spectral; an inextensible sphere in linear flows has the exact velocity to 1e-12 and the exact tension to
 /// 1e-11 (tests/stepping/evaluation/evaluation_test.cpp)
 /// Source: paper Eqs. (2), (3), (5), (12), with ∇_γ·v = 0 for the tension
 SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
-                          Instruments& instruments, const SolvedFields* previous = nullptr, Limit limit = Limit::after);
+                          Instruments& instruments, const SolvedFields* previous = nullptr, Limit limit = Limit::after,
+                          Shapes shapes = Shapes::of_state);
 
 /// The same with what a history tells of it and with checks of its operators.
 struct Evaluation : SolvedFields {

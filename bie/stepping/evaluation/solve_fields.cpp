@@ -97,14 +97,15 @@ std::shared_ptr<const Membrane> assembled(const Model& model, const VesicleModel
 }
 
 SolvedFields solve_all(const Model& model, const Discretisation& discretisation, const State& state,
-                       Instruments& instruments, const SolvedFields* previous, Limit limit) {
+                       Instruments& instruments, const SolvedFields* previous, Limit limit, Shapes shapes) {
   const std::size_t n = state.vesicles.size();
   const Shares& shares = discretisation.shares();
   SolvedFields solved;
   solved.electric_inactive = electric_inactive(model, state, limit);
   solved.fields.vesicles.resize(n);
   solved.vesicles.resize(n);
-  const bool reuse = !model.mobile && previous != nullptr && (solved.electric_inactive || !previous->electric_inactive);
+  const bool same_shapes = shapes == Shapes::of_previous || !model.mobile;
+  const bool reuse = same_shapes && previous != nullptr && (solved.electric_inactive || !previous->electric_inactive);
   for_each_member(static_cast<Index>(n), instruments, [&](Index i, Instruments& of_one) {
     const auto a = static_cast<std::size_t>(i);
     VesicleSolution& solution = solved.vesicles[a];
@@ -132,9 +133,9 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
 }  // namespace
 
 SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
-                          Instruments& instruments, const SolvedFields* previous, Limit limit) {
+                          Instruments& instruments, const SolvedFields* previous, Limit limit, Shapes shapes) {
   return discretisation.shares().ranks().together(
-      [&] { return solve_all(model, discretisation, state, instruments, previous, limit); });
+      [&] { return solve_all(model, discretisation, state, instruments, previous, limit, shapes); });
 }
 
 }  // namespace vehd

@@ -12,15 +12,19 @@ double wrinkle_degree(const FlowParameters& parameters, double least_tension, do
   return radius * std::sqrt(-2.0 * least_tension / (3.0 * parameters.bending->modulus));
 }
 
-double wrinkling_rate(const FlowParameters& parameters, double tension, double radius, int highest_degree) {
+double disturbance_rate(const FlowParameters& parameters, double tension, double radius, int degree) {
   const double rigidity = parameters.bending ? 0.5 * parameters.bending->modulus : 0.0;
+  const double n = degree, product = n * (n + 1.0);
+  const double driving = -rigidity * product / (radius * radius) - tension;
+  const double cubic = (2.0 * n + 3.0) * n * n;
+  const double friction = (cubic - 5.0) * parameters.viscosity_ratio + cubic + 4.0;
+  return (n - 1.0) * product * (n + 2.0) * driving / (parameters.viscosity * radius * friction);
+}
+
+double wrinkling_rate(const FlowParameters& parameters, double tension, double radius, int highest_degree) {
   double fastest = 0.0;
   for (int degree = 2; degree <= highest_degree; ++degree) {
-    const double n = degree, product = n * (n + 1.0);
-    const double driving = -rigidity * product / (radius * radius) - tension;
-    const double cubic = (2.0 * n + 3.0) * n * n;
-    const double friction = (cubic - 5.0) * parameters.viscosity_ratio + cubic + 4.0;
-    fastest = std::max(fastest, (n - 1.0) * product * (n + 2.0) * driving / (parameters.viscosity * radius * friction));
+    fastest = std::max(fastest, disturbance_rate(parameters, tension, radius, degree));
   }
   return fastest;
 }

@@ -14,13 +14,21 @@ namespace vehd {
 
 namespace {
 
-/// What the sweeps so far have changed of all that counts.
+/// How many times what a step leaves of shape and V_m counts.
+VisibleDifference lasting_weights(const StepGoal& goal, double dt) {
+  const double remembered = std::min(goal.memory / dt, thresholds::most_remembered);
+  const double of_shape = std::max(goal.growth, thresholds::remembered_share * remembered);
+  return {std::min(goal.most_weight, of_shape), std::min(goal.most_weight, goal.growth)};
+}
+
+/// What the sweeps so far have changed of all that counts, each as many times as it does.
 class SweepErrors {
  public:
+  explicit SweepErrors(const VisibleDifference& weights) : weights_(weights) {}
   /// Of the shape and V_m by a sweep.
   void add(const VisibleDifference& change) {
-    shape_.add(change.shape);
-    potential_.add(change.potential);
+    shape_.add(weights_.shape * change.shape);
+    potential_.add(weights_.potential * change.potential);
   }
   /// Of tension and charge, each by the sweep before.
   void add(const InstantaneousDifference& change) {
@@ -47,12 +55,13 @@ class SweepErrors {
   /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as by the first
   /// sweep, whose changes have all degrees.
   [[nodiscard]] double magnification() const {
-    const double visible = std::max(shape_.first(), potential_.first());
+    const double visible = std::max(shape_.first() / weights_.shape, potential_.first() / weights_.potential);
     if (visible <= 0.0) return 1.0;
     return std::clamp(std::max(tension_.first(), charge_.first()) / visible, 1.0, thresholds::most_magnification);
   }
 
  private:
+  VisibleDifference weights_;
   Corrections shape_, potential_, tension_, charge_;
 };
 
@@ -88,8 +97,7 @@ std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolu
   std::vector<std::size_t> result = goal.too_coarse(physics.end_state(end));
   for (std::size_t a = 0; a < end.vesicles.size(); ++a) {
     // The degree does not hold the same surface on another grid.
-    const double allowed = thresholds::truncation_share * goal.tolerance / goal.growth;
-    if (end.vesicles[a].arrival_shift > allowed && physics.may_rise(a)) result.push_back(a);
+    if (end.vesicles[a].arrival_shift > goal.truncation && physics.may_rise(a)) result.push_back(a);
   }
   std::ranges::sort(result);
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -139,9 +147,9 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     result.state = physics.end_state(y.node(last));
     return result;
   }
-  SweepErrors errors;
+  SweepErrors errors(lasting_weights(goal, dt));
   std::vector<double> found;
-  const double allowed = thresholds::step_share * goal.tolerance / goal.growth;
+  const double allowed = thresholds::step_share * goal.tolerance;
   for (int left = order - 2;; --left) {
     y.evaluate_rates();
     if (const auto change = y.change_at_last(); change && !errors.all_known()) errors.add(*change);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -11,9 +12,14 @@ namespace vehd {
 /// What a step with a tolerance is to deliver.
 struct StepGoal {
   double tolerance = 0.0;
-  /// By what is wrong at its end is expected to grow: it may leave so much less. What is found within it is delivered
-  /// at once.
+  /// By what is wrong with shape and V_m at its end is expected to grow: it may leave so much less of them. Tension and
+  /// charge follow from both at every time anew, and what is found within the step is delivered at once.
   double growth = 1.0;
+  /// For how long what is wrong with the shape at its end is remembered, with what former steps have left.
+  double memory = 0.0;
+  /// By which what is wrong at its end counts at most, whatever it grows by.
+  double most_weight = std::numeric_limits<double>::infinity();
+  double truncation = 0.0;  ///< what a grid of another degree may move the surface by, over the radius
   /// Vesicles whose degree is too low for a state.
   std::function<std::vector<std::size_t>(const State&)> too_coarse;
   /// When states are wanted before the end of a step that goes that far, ascending.
@@ -39,8 +45,8 @@ struct ControlledSweeps {
 ///   the sum of a geometric series, or by δ_k where they hardly contract. This is the error of what is kept. What the
 ///   last sweep did to tension and charge is continued from those before, or solved for where it might decide.
 /// - Share: a membrane forgets the errors of all but its last few steps, whatever the time units and however long the
-///   run, so each step may leave a fixed share of the tolerance, over the growth of what is wrong where that is
-///   expected.
+///   run, so each step may leave a fixed share of the tolerance. What is wrong with the shape counts more where it is
+///   remembered for more steps, and with V_m where it is expected to grow.
 /// - Order: e_j, the error after sweep j, is known for every sweep made and falls like dt^(j+1) at least. The size
 ///   that makes (1 + sweeps × nodes)/dt smallest is that of the next step; more sweeps are made if need be.
 /// - Degree: judged at the end of the first-order step already, before any sweep is paid for.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/wrinkling.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "tests/support/runs.hpp"
@@ -34,8 +35,21 @@ struct CompressedStart {
     Instruments instruments;
     evaluation = evaluate(model, discretisation, state, instruments);
   }
-  [[nodiscard]] double growth(const Model& model, double until, int highest_degree = 64) const {
-    return expected_growth(model, discretisation, state, evaluation, until, highest_degree);
+  /// To V_m = amplitude cos θ.
+  void charge(const Model& model, double amplitude) {
+    Vector& potential = state.vesicles[0].transmembrane_potential;
+    potential[coefficient_index(1, 0)] = amplitude * std::sqrt(4.0 * std::numbers::pi / 3.0);
+    Instruments instruments;
+    evaluation = evaluate(model, discretisation, state, instruments);
+  }
+  /// Without a look ahead.
+  [[nodiscard]] double growth(const Model& model, double until) const { return growth(model, Outlook{until}).steps; }
+  [[nodiscard]] ErrorGrowth growth(const Model& model, const Outlook& outlook) const {
+    return expected_growth(model, discretisation, state, evaluation, outlook);
+  }
+  [[nodiscard]] Outlook outlook(const Model& model, double until, double delay) const {
+    Instruments instruments;
+    return look_ahead(model, discretisation, state, evaluation, until, delay, instruments);
   }
 };
 
@@ -54,8 +68,8 @@ BOOST_AUTO_TEST_CASE(errors_of_a_compressed_membrane_grow_at_the_rate_of_its_wri
   for (const double time : {0.1, 1.0}) {
     BOOST_TEST(found.growth(model, time) == std::exp(rate * time), boost::test_tools::tolerance(1e-12));
   }
-  BOOST_TEST(found.growth(model, 20.0) == thresholds::most_growth, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(found.growth(model, std::numeric_limits<double>::infinity()) == thresholds::most_growth,
+  BOOST_TEST(found.growth(model, 20.0) == thresholds::most_growth_of_steps, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(found.growth(model, std::numeric_limits<double>::infinity()) == thresholds::most_growth_of_steps,
              boost::test_tools::tolerance(1e-12));
   BOOST_TEST(found.growth(model, 0.0) == 1.0);
 }
@@ -69,12 +83,70 @@ BOOST_AUTO_TEST_CASE(nothing_grows_on_membranes_that_are_stretched_or_frozen) {
   BOOST_TEST(CompressedStart(frozen).growth(frozen, 1e3) == 1.0);
 }
 
-BOOST_AUTO_TEST_CASE(of_wrinkles_finer_than_every_degree_nothing_is_expected) {
+// The field charges the membrane, whose stress weakens the compression.
+BOOST_AUTO_TEST_CASE(a_compression_that_weakens_lasts_until_it_would_be_gone) {
   const Model model = compressed();
   const CompressedStart found(model);
-  const double finest = found.evaluation.diagnostics.vesicles[0].wrinkle_degree;
-  BOOST_TEST(found.growth(model, 1.0, static_cast<int>(finest)) == 1.0);
-  BOOST_TEST(found.growth(model, 1.0, static_cast<int>(finest) + 1) > 1.3);
+  constexpr double kDelay = 1e-3;
+  Outlook outlook = found.outlook(model, 1e3, kDelay);
+  BOOST_REQUIRE(outlook.soon.has_value());
+  const VesicleDiagnostics& now = found.evaluation.diagnostics.vesicles[0];
+  const Membrane& membrane = *outlook.soon->vesicles[0].membrane;
+  const double soon =
+      membrane.fine.synthesize(outlook.soon->fields.vesicles[0].tension).col(0).dot(membrane.surface.quadrature) /
+      now.area;
+  const double tension = now.tension_integral / now.area;
+  BOOST_REQUIRE(soon > tension);
+  const double time = 0.5 * tension * kDelay / (tension - soon);
+  BOOST_REQUIRE(time > 0.0);
+  BOOST_TEST(time < 20.0);
+  const double sure = std::exp(now.wrinkling_rate * time);
+  const double expected = std::max(sure, thresholds::unsure_growth);
+  BOOST_TEST(found.growth(model, outlook).steps == expected, boost::test_tools::tolerance(1e-6));
+  outlook.soon.reset();
+  BOOST_TEST(found.growth(model, outlook).steps == thresholds::most_growth_of_steps,
+             boost::test_tools::tolerance(1e-12));
+}
+
+// The field becomes thirty times as strong.
+BOOST_AUTO_TEST_CASE(a_jump_that_will_compress_is_seen_before) {
+  Model model = compressed();
+  model.electric->waveform = Waveform::table({0.0, 1.0, 1.0, 20.0}, {1.0, 1.0, 30.0, 30.0});
+  CompressedStart found(model);
+  found.charge(model, 1.0);
+  const Outlook outlook = found.outlook(model, 2.0, 1e-3);
+  BOOST_REQUIRE(outlook.jump.has_value());
+  BOOST_TEST(*outlook.jump == 1.0);
+  BOOST_REQUIRE(outlook.after_jump.has_value());
+  Outlook blind = outlook;
+  blind.after_jump.reset();
+  BOOST_TEST(found.growth(model, outlook).steps > 2.0 * found.growth(model, blind).steps);
+}
+
+BOOST_AUTO_TEST_CASE(what_degrees_leave_out_is_not_felt_by_the_lowest) {
+  const Model model = compressed();
+  const CompressedStart found(model);
+  const VesicleDiagnostics& now = found.evaluation.diagnostics.vesicles[0];
+  const double radius = std::sqrt(found.state.vesicles[0].reference_area / (4.0 * std::numbers::pi));
+  double fastest = 0.0;
+  for (int degree = kCompressedOrder / thresholds::degrees_that_feel_the_cut; degree <= kCompressedOrder; ++degree) {
+    fastest = std::max(fastest, disturbance_rate(flow_parameters(model, model.vesicles[0]),
+                                                 now.tension_integral / now.area, radius, degree));
+  }
+  BOOST_TEST(found.growth(model, Outlook{1.0}).degrees == std::max(1.0, std::exp(fastest)),
+             boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(errors_are_remembered_until_points_have_moved_by_the_radius) {
+  const Model model = shear_model();
+  const CompressedStart found(model, ellipsoid(kCompressedOrder, {2.0, 1.0, 1.0}));
+  const double long_time = memory_of_shapes(model, found.state, found.evaluation, 1e6);
+  BOOST_TEST(long_time > 1.0);
+  BOOST_TEST(long_time < 4.0);
+  BOOST_TEST(memory_of_shapes(model, found.state, found.evaluation, 0.25) == 0.25);
+  Model frozen = model;
+  frozen.mobile = false;
+  BOOST_TEST(memory_of_shapes(frozen, found.state, found.evaluation, 1e6) == 0.0);
 }
 
 // The shear that compresses a prolate along its axis at first soon has it turned.
