@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "bie/physics/bending.hpp"
@@ -129,7 +130,12 @@ class Iteration {
       weighted_strain_[0] = errors_.area * context_.state.reference_area / std::sqrt(4.0 * std::numbers::pi);
       rhs_.divergence = -weighted_strain_ / dt_ - push * normal_divergence_;
     }
-    const FlowSystem::Solution increment = flow.solve(rhs_, {}, pass_tolerance(excess()));
+    // The norm of the solve weighs curvature and strain together, those of high degrees least: with the roughest
+    // tolerance what is left of one may hide in what the other brings anew, the rounding of the area elements.
+    if (excess() > thresholds::gainless_pass * excess_before_) sharpening_ *= thresholds::sharper_pass;
+    excess_before_ = excess();
+    const double tolerance = std::max(sharpening_ * pass_tolerance(excess()), thresholds::sharpest_pass);
+    const FlowSystem::Solution increment = flow.solve(rhs_, {}, tolerance);
     iterations += increment.report.iterations;
     // What a pass leaves the next one answers for, as long as it gains.
     if (!increment.report.converged() && !(increment.report.residual < thresholds::gainless_pass)) {
@@ -172,6 +178,8 @@ class Iteration {
   double mean_curvature_ = 0.0;
   double curvature_scale_ = 0.0;
   int pass_ = 0;
+  double excess_before_ = std::numeric_limits<double>::infinity();
+  double sharpening_ = 1.0;
   Matrix velocity_;
   Vector curvature_;  // h of Eq. (28), accumulated
   Measure after_;
