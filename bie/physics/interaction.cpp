@@ -177,11 +177,10 @@ struct Interaction::Parts {
 };
 
 Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
-                         Instruments& instruments, Shares shares, Exchange exchange) {
+                         Instruments& instruments, Shares shares, Exchange exchange, SharedTransforms transforms) {
   auto parts = std::make_unique<Parts>();
   parts->shares = std::move(shares);
   parts->exchange = std::move(exchange);
-  SharedTransforms transforms;
   PairSettings of_one = settings;
   of_one.row_bytes /= static_cast<double>(parts->exchange.n_originals(membranes.size()));
   std::vector<TargetNodes> nodes;

@@ -39,9 +39,10 @@ class Interaction {
   /// @param settings     memory for rows is that of all
   /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
   /// @param exchange     which membranes are images of others, as the shares have it; most_summed_membranes then
+  /// @param transforms   those known already; others are made
   /// @throws ConvergenceError if two membranes intersect or are too near for any rule, on the rank of one of them
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings, Instruments& instruments,
-              Shares shares = {}, Exchange exchange = {});
+              Shares shares = {}, Exchange exchange = {}, SharedTransforms transforms = {});
 
   ~Interaction();
   Interaction(Interaction&&) noexcept;

@@ -68,9 +68,9 @@ int highest_grid_order(int order) { return next_multiple(2 * order + 8); }
 double nodes_of_grid(int order) { return 2.0 * (order + 1.0) * (order + 1.0); }
 
 /// Gives targets of a grid to the next finer one where those are too few to bring a density to a grid of their own,
-/// which takes as long as the sums over its nodes for some forty targets.
+/// which takes as long as the sums over its nodes for some ten targets.
 std::map<int, std::vector<Index>> merged(const std::map<int, std::vector<Index>>& targets_of_order) {
-  constexpr double kTargetsOfSynthesis = 40.0;
+  constexpr double kTargetsOfSynthesis = 10.0;
   std::map<int, std::vector<Index>> result;
   std::vector<Index> waiting;
   for (auto it = targets_of_order.begin(); it != targets_of_order.end(); ++it) {
@@ -104,6 +104,12 @@ class FarRules {
 };
 
 }  // namespace
+
+void prepare_pair_transforms(int order, SharedTransforms& transforms) {
+  const int highest = highest_grid_order(order);
+  for (int q = next_multiple(order); q <= highest; q += kOrderStep) transforms.of(order, q);
+  transforms.of(2 * order, highest);
+}
 
 struct PairLayers::Data {
   PairSettings settings;

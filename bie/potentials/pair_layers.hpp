@@ -30,6 +30,10 @@ struct PairCounts {
   Index expanded = 0;   ///< by multipole expansions
 };
 
+/// Makes the transforms that layers of a membrane of this degree need, for all membranes and steps to have them in
+/// common.
+void prepare_pair_transforms(int order, SharedTransforms& transforms);
+
 /// Layers of one membrane at points of another, all outside the first, as linear maps that are made once and applied
 /// many times. Far targets take the smooth rule of a grid as coarse as their distance allows, near ones the rule about
 /// the nearest point (near_rows), which becomes a row over the coefficients of the density, by the adjoint of the

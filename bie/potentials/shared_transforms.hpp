@@ -11,9 +11,10 @@ namespace vehd {
 /// make than to use. Not thread safe.
 class SharedTransforms {
  public:
+  /// Makes it where it is missing.
   /// @param order       degree of the coefficients
   /// @param grid_order  of the grid, not below it
-  [[nodiscard]] const SphereTransform& of(int order, int grid_order) {
+  const SphereTransform& of(int order, int grid_order) {
     auto found = made_.find({order, grid_order});
     if (found == made_.end()) {
       const SphereGrid grid = make_grid(grid_order, fast_longitudes(2 * grid_order + 2));

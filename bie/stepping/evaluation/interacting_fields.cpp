@@ -1,6 +1,7 @@
 #include "bie/stepping/evaluation/interacting_fields.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bie/physics/coupled_electric.hpp"
 #include "bie/stepping/evaluation/averaged_forces.hpp"
@@ -83,9 +84,8 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
     known.push_back(recycled ? recycled->in(task.space.subspace().scalars(), 1) : RecycledSubspace{});
   }
   CoupledFlow flow(membranes, *solved.interaction);
-  std::vector<Matrix> velocities = flow.velocities(weighted, background);
-  const CoupledTension tensions =
-      solve_tensions(membranes, is_sphere, flow, velocities, start, known, tasks.front().settings.flow_tolerance);
+  const CoupledTension tensions = solve_tensions(membranes, is_sphere, flow, std::move(weighted), background, start,
+                                                 known, tasks.front().settings.flow_tolerance);
   require_converged(tensions.report, "tensions, Eq. (27b)");
   solved.iterations_flow += tensions.report.iterations;
   for (std::size_t a = 0; a < tasks.size(); ++a) {
@@ -94,7 +94,7 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
   }
   for_each_member(own, [&](std::size_t a) {
     const VesicleTask& task = tasks[a];
-    task.fields.velocity = symmetric(task.membrane, velocities[a] + tensions.velocities[a]);
+    task.fields.velocity = symmetric(task.membrane, tensions.velocities[a]);
     if (!task.vesicle.inextensible) return;
     task.fields.tension = tensions.tension[a];
     task.fields.force_tension = task.membrane.fine.analyze(tensions.force[a]);
@@ -125,7 +125,8 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
     membranes.push_back({task.state.position, task.space.targets(), selection});
   }
   return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments,
-                                             discretisation.shares(), discretisation.symmetry().exchange);
+                                             discretisation.shares(), discretisation.symmetry().exchange,
+                                             discretisation.pair_transforms());
 }
 
 void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,

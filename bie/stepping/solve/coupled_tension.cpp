@@ -177,6 +177,14 @@ class Layout {
     return result;
   }
 
+  /// The uniform parts of the tensions left out.
+  [[nodiscard]] Vector without_means(Vector stacked) const {
+    for (std::size_t a = 0; a < tension_.n_parts(); ++a) {
+      if (tension_.count_of(a) > 0) stacked[normal_.size() + tension_.first_of(a)] = 0.0;
+    }
+    return stacked;
+  }
+
   /// c and λ over their scales, which are alike for membranes of any size.
   [[nodiscard]] Vector scales(const std::vector<OneTension>& all) const {
     std::vector<double> radii;
@@ -247,21 +255,23 @@ void find_inverses(std::vector<OneTension>& all, const std::vector<std::size_t>&
   for_each_member(own, [&](std::size_t a) { all[a].find_inverse(grids.at(all[a].membrane().fine.order())); });
 }
 
-std::vector<Matrix> velocities_of(const std::vector<OneTension>& all, CoupledFlow& flow,
-                                  const std::vector<ScalarPair>& unknowns) {
-  std::vector<Matrix> weighted(all.size());
-  for_each_member(flow.shares().own(all.size()), [&](std::size_t a) {
+/// Adds J f_λ (and J c n on spheres) of the membranes of this rank.
+void add_forces(const std::vector<OneTension>& all, const std::vector<std::size_t>& own,
+                const std::vector<ScalarPair>& unknowns, std::vector<Matrix>& weighted) {
+  for_each_member(own, [&](std::size_t a) {
     const Matrix force = all[a].force(unknowns[a]);
-    if (force.size() > 0) weighted[a] = all[a].membrane().weighted(force);
+    if (force.size() == 0) return;
+    const Matrix of_tension = all[a].membrane().weighted(force);
+    weighted[a] = weighted[a].size() == 0 ? of_tension : Matrix(weighted[a] + of_tension);
   });
-  return flow.velocities(weighted);
 }
 
 }  // namespace
 
 CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
-                              CoupledFlow& flow, const std::vector<Matrix>& driven, const std::vector<Vector>& start,
-                              const std::vector<RecycledSubspace>& known, double tolerance) {
+                              CoupledFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
+                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
+                              double tolerance) {
   std::vector<OneTension> all;
   for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a]);
   const std::vector<std::size_t> own = flow.shares().own(all.size());
@@ -278,7 +288,9 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   const OwnVelocities of_own(all, own);
   const LinearMap map = [&](const Vector& v) {
     const std::vector<ScalarPair> unknowns = layout.scalars(v.cwiseProduct(scales));
-    const std::vector<Matrix> velocities = velocities_of(all, flow, unknowns);
+    std::vector<Matrix> of_tensions(all.size());
+    add_forces(all, own, unknowns, of_tensions);
+    const std::vector<Matrix> velocities = flow.velocities(of_tensions);
     std::vector<ScalarPair> result(all.size());
     for_each_member(own, [&](std::size_t a) { result[a] = all[a].response(velocities[a], unknowns[a]); });
     gather(result);
@@ -298,28 +310,44 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     }
     return layout.stack(parts).cwiseQuotient(scales);
   };
-  std::vector<ScalarPair> rhs(all.size()), guess;
-  for (const std::size_t a : own) rhs[a] = all[a].constraints(-driven[a]);
-  gather(rhs);
+  std::vector<ScalarPair> guess;
   for (std::size_t a = 0; a < all.size(); ++a) {
     const Vector none = Vector::Zero(n_coefficients(all[a].membrane().fine.order()));
     guess.push_back({none, start[a].size() > 0 ? start[a] : none});
     // The mean does nothing on a sphere, and is none of the unknowns' business.
     if (is_sphere[a]) guess.back().tension[0] = 0.0;
   }
+  add_forces(all, own, guess, weighted);
+  const std::vector<Matrix> before = flow.velocities(weighted, background);
+  std::vector<ScalarPair> left(all.size());
+  for (const std::size_t a : own) left[a] = all[a].constraints(-before[a]);
+  gather(left);
   const bool recycles = !many && std::ranges::count(is_sphere, true) == 0;
   const RecycledSubspace former = recycles ? layout.joined(known, scales) : RecycledSubspace{};
   RecycledGcr solver(map, preconditioner, layout.size(), of_own.size(), former);
-  const RecycledGcr::Solution solution = solver.solve(layout.stack(rhs), layout.stack(guess).cwiseQuotient(scales),
-                                                      {tolerance, thresholds::most_flow_iterations});
+  const Vector first = layout.stack(guess).cwiseQuotient(scales), rhs = layout.stack(left);
+  const double goal = preconditioner(rhs).norm();
+  RecycledGcr::Solution solution;
+  int iterations = 0;
+  // A start that was much larger than the solution says nothing of the tensions: then they do themselves.
+  for (double size = layout.without_means(first).norm();;) {
+    const double over_goal = goal > 0.0 ? std::max(1.0, size / goal) : 1.0;
+    solution = solver.solve(rhs, {}, {tolerance * over_goal, thresholds::most_flow_iterations});
+    iterations += solution.report.iterations;
+    solution.report.residual /= over_goal;
+    const double found = layout.without_means(first + solution.x).norm();
+    if (!solution.report.converged() || size <= 2.0 * found || size <= goal) break;
+    size = found;
+  }
+  solution.report.iterations = iterations;
   CoupledTension result{{}, {}, {}, std::vector<RecycledSubspace>(all.size()), solution.report};
   if (recycles) {
     const RecycledSubspace learned =
         joined(solver.learned(), selected(former, solver.kept()), thresholds::most_recycled);
     if (learned.count() > 0) result.learned = layout.of_each(learned, scales);
   }
-  const std::vector<ScalarPair> unknowns = layout.scalars(solution.x.cwiseProduct(scales));
-  result.velocities = of_own.velocities(solution.further);
+  const std::vector<ScalarPair> unknowns = layout.scalars((first + solution.x).cwiseProduct(scales));
+  result.velocities = of_own.velocities(of_own.stack(before) + solution.further);
   for (std::size_t a = 0; a < all.size(); ++a) {
     result.tension.push_back(membranes[a].parameters.inextensible ? unknowns[a].tension : Vector());
     result.force.push_back(flow.shares().owns(a) ? all[a].force(unknowns[a]) : Matrix());

@@ -12,32 +12,35 @@ namespace vehd {
 struct CoupledTension {
   std::vector<Vector> tension;     ///< λ of each, coefficients; empty where the membrane may extend
   std::vector<Matrix> force;       ///< f_λ on the fluid, values on the upsampled grid; empty likewise
-  std::vector<Matrix> velocities;  ///< of the membranes under these forces alone, coefficients
+  std::vector<Matrix> velocities;  ///< u + w of the membranes, coefficients
   /// What all solves so far have learned, for the next: of each membrane its rows of the map of all, λ ↦ J ∇_γ·u; the
   /// columns are in common. Empty of many membranes, and where one is a sphere.
   std::vector<RecycledSubspace> learned;
   SolveReport report;
 };
 
-/// Solves ∇_γ·(u + w) = 0 on every inextensible membrane, Eq. (27b), u the velocity under the tensions of all and w the
-/// given one. The unknowns are λ/R, preconditioned with the sphere's inverse on each membrane, or with that of each
-/// membrane's own response (TensionInverse) where there are many.
+/// Solves ∇_γ·(u + w) = 0 on every inextensible membrane, Eq. (27b), u the velocity under the tensions of all and w
+/// that under the other forces. The unknowns are λ/R, preconditioned with the sphere's inverse on each membrane, or
+/// with that of each membrane's own response (TensionInverse) where there are many.
 ///
 /// An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp): there a force c n of degrees 2 … p − 1
 /// holds it in shape, the limit of a large uniform tension on a shape that hardly differs from a sphere; it is an
 /// unknown beside λ, and counts as force of the tension. The mean of λ stays zero there.
-/// Of several ranks, see Interaction, each needs w of its own membranes and gets forces and velocities of these, the
-/// tensions and what is learned of all.
-/// @param is_sphere  of each membrane, see uniform_tension_is_free
-/// @param driven     w on each, coefficients
-/// @param start      λ of each to start from; empty ones are zero
-/// @param known      CoupledTension::learned on membranes that were nearly the same; counts if all of them have it
-/// @param tolerance  of the preconditioned residual, relative
+/// Of several ranks, see Interaction, each needs the forces on its own membranes and gets forces and velocities of
+/// these, the tensions and what is learned of all.
+/// @param is_sphere   of each membrane, see uniform_tension_is_free
+/// @param weighted    of J f, f the other forces, as CoupledFlow::velocities has them; likewise the background
+/// @param start       λ of each to start from; empty ones are zero. What they make of the flow is found together with
+/// w.
+/// @param known       CoupledTension::learned on membranes that were nearly the same; counts if all of them have it
+/// @param tolerance   of the preconditioned residual, over the preconditioned ∇_γ·w or, from a start, over the tensions
+///                    without their means, of which it is the error
 /// Accuracy: two spheres along their line of centres as Stimson and Jeffery say to 1e-8 down to gaps of half a radius
 /// (tests/stepping/solve/coupled_tension_test.cpp)
 /// Source: paper Eq. (27b), the layers being those of all membranes
 CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
-                              CoupledFlow& flow, const std::vector<Matrix>& driven, const std::vector<Vector>& start,
-                              const std::vector<RecycledSubspace>& known, double tolerance);
+                              CoupledFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
+                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
+                              double tolerance);
 
 }  // namespace vehd

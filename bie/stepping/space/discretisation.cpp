@@ -3,9 +3,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "bie/potentials/pair_layers.hpp"
+
 namespace vehd {
 
 namespace {
+
+/// Degree up to which transforms for layers between vesicles are kept: some 20 MB.
+constexpr int kHighestPrepared = 32;
 
 /// The least even number of longitudes that integrates products of harmonics and that the turns map onto itself; a few
 /// more where that makes transforms fast.
@@ -39,12 +44,16 @@ Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry
                                const std::vector<Fineness>& vesicles, const Ranks& ranks)
     : settings_(settings), symmetry_(symmetry) {
   for (const Fineness& fineness : vesicles) vesicles_.push_back(space_of(fineness));
-  share(ranks);
+  prepare_pairs(ranks);
 }
 
-/// By the sizes of the operators.
-void Discretisation::share(const Ranks& ranks) {
+/// Ranks share the vesicles by the sizes of the operators.
+void Discretisation::prepare_pairs(const Ranks& ranks) {
   if (n_vesicles() < 2) return;
+  for (const auto& space : vesicles_) {
+    // Tables grow with the cube of the degree, and take ever less of a step.
+    if (space->order() <= kHighestPrepared) prepare_pair_transforms(space->order(), pair_transforms_);
+  }
   std::vector<double> costs;
   for (const auto& space : vesicles_) costs.push_back(std::pow(space->order() + 1.0, 4));
   shares_ = Shares(ranks, costs, symmetry_.exchange.originals());
@@ -53,7 +62,7 @@ void Discretisation::share(const Ranks& ranks) {
 Discretisation Discretisation::with(std::size_t vesicle, const Fineness& fineness) const {
   Discretisation result = *this;
   result.vesicles_[vesicle] = space_of(fineness);
-  result.share(shares_.ranks());
+  result.prepare_pairs(shares_.ranks());
   return result;
 }
 

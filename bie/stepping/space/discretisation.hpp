@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bie/potentials/rotated_quadrature.hpp"
+#include "bie/potentials/shared_transforms.hpp"
 #include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/ranks/shares.hpp"
@@ -83,15 +84,18 @@ class Discretisation {
   [[nodiscard]] std::size_t n_vesicles() const { return vesicles_.size(); }
   /// Which vesicle has its operators on which rank.
   [[nodiscard]] const Shares& shares() const { return shares_; }
+  /// What layers between the vesicles need at every step and what takes little memory of it.
+  [[nodiscard]] const SharedTransforms& pair_transforms() const { return pair_transforms_; }
 
  private:
-  void share(const Ranks& ranks);
+  void prepare_pairs(const Ranks& ranks);
   [[nodiscard]] std::shared_ptr<const MembraneSpace> space_of(const Fineness& fineness) const;
 
   NumericalSettings settings_;
   Symmetry symmetry_;
   std::vector<std::shared_ptr<const MembraneSpace>> vesicles_;
   Shares shares_;
+  SharedTransforms pair_transforms_;
 };
 
 }  // namespace vehd
