@@ -247,6 +247,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
   double wanted = state_.dt_next;
   const double from = state_.time;
   StepAttempt attempt;
+  std::vector<std::size_t> raised;
   for (;;) {
     attempt = step_within(plan, wanted, attempt, goal);
     const bool at_event = plan.reaches_event && attempt.dt == plan.dt_limit;
@@ -255,6 +256,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
         for (const std::size_t a : attempt.too_coarse) {
           const Resolution reached = resolution(attempt.state, a);
           raise_order(a, reached, raised_order(reached, a));
+          raised.push_back(a);
         }
         continue;
       }
@@ -282,7 +284,17 @@ StepAttempt Evolution::step(const EventTimes& events) {
     const bool is_due = at_event && plan.is_snapshot;
     attempt.at_snapshot = is_due || (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
     // Nothing is idle where the forcing has just changed.
-    if (!before_jump_) economise();
+    if (before_jump_) return attempt;
+    // What the first-order step asked for may be more than the step needs, and degrees that are not needed do harm
+    // where their errors grow.
+    for (const std::size_t a : raised) {
+      try {
+        lower_order_if_idle(a);
+      } catch (const ConvergenceError&) {
+        // It goes on with the higher one.
+      }
+    }
+    economise();
     return attempt;
   }
 }

@@ -85,7 +85,7 @@ constexpr double remembered_share = 0.6;
 constexpr double most_remembered = 6.0;
 /// What steps leave of a compressed membrane is expected to grow by this at most until the run ends: so much less is
 /// allowed. Measured.
-constexpr double most_growth_of_steps = 30.0;
+constexpr double most_growth_of_steps = 50.0;
 /// What degrees leave out by this: it has the highest degrees, which grow most. Measured.
 constexpr double most_growth_of_degrees = 100.0;
 /// By this at most where V_m and the field seem to end the compression soon. Measured.
@@ -94,6 +94,9 @@ constexpr double unsure_growth = 5.0;
 constexpr int degrees_that_feel_the_cut = 4;
 /// Share of the tolerance that what is found within a step may be wrong by. Measured.
 constexpr double moment_share = 0.25;
+/// From one derivative of the rates to the last but one after it, with the time over the step, no more than this is
+/// continued: what changes faster dies away within the step, which the rule and the sweeps see to. Measured.
+constexpr double largest_change_of_derivative = 1.0;
 /// Corrections that seem to contract more than this are not believed. One ratio is one number, and the next may be
 /// larger.
 constexpr double best_contraction = 0.05;

@@ -1,6 +1,10 @@
 #include "bie/stepping/time/collocation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -32,7 +36,7 @@ InstantaneousDifference Collocation::change_to(const NodeSolution& end) {
 }
 
 /// y_0 + dt Σ_j q_j F_j − y.
-Residual Collocation::residual(const Vector& weights, const NodeSolution& y) const {
+Residual Collocation::residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const {
   const State& start = physics_.start();
   Residual residual;
   for (std::size_t a = 0; a < start.vesicles.size(); ++a) {
@@ -40,9 +44,9 @@ Residual Collocation::residual(const Vector& weights, const NodeSolution& y) con
     const SurfaceFields& to = y.vesicles[a].material;
     Residual::OfVesicle r{from.position - to.position, from.transmembrane_potential - to.transmembrane_potential,
                           from.free_charge - to.free_charge, from.poration - to.poration};
-    for (std::size_t j = 0; j < rates_.size(); ++j) {
+    for (std::size_t j = 0; j < rates.size(); ++j) {
       const double weight = dt_ * weights[static_cast<Index>(j)];
-      const Rate::OfVesicle& rate = rates_[j].vesicles[a];
+      const Rate::OfVesicle& rate = rates[j].vesicles[a];
       if (rate.velocity.size() > 0) r.position += weight * rate.velocity;
       if (rate.potential.size() > 0) r.potential += weight * rate.potential;
       if (rate.free_charge.size() > 0) r.free_charge += weight * rate.free_charge;
@@ -55,12 +59,88 @@ Residual Collocation::residual(const Vector& weights, const NodeSolution& y) con
 
 NodeSolution Collocation::corrected(std::size_t m, NodeEnd end) {
   const Vector weights = rule_.weights.row(static_cast<Index>(m));
-  return physics_.implicit_solve(nodes_[m], residual(weights, nodes_[m]), rule_.implicit_sizes[m] * dt_, end);
+  return physics_.implicit_solve(nodes_[m], residual(weights, nodes_[m], rates_), rule_.implicit_sizes[m] * dt_, end);
 }
 
 NodeSolution Collocation::corrected(const NodeSolution& y, NodeEnd end) {
-  const Vector weights = integration_weights(rule_, (y.time - physics_.start().time) / dt_);
-  return physics_.implicit_solve(y, residual(weights, y), rule_.implicit_sizes.back() * dt_, end);
+  const Vector weights = integration_weights(points_of(rule_), place_of(y.time));
+  return physics_.implicit_solve(y, residual(weights, y, rates_), rule_.implicit_sizes.back() * dt_, end);
+}
+
+NodeSolution Collocation::corrected_with_rate(const NodeSolution& y, NodeEnd end) {
+  std::vector<double> points = points_of(rule_);
+  points.push_back(place_of(y.time));
+  std::vector<Rate> rates = rates_;
+  rates.push_back(physics_.rate(y));
+  const Vector weights = integration_weights(points, points.back());
+  return physics_.implicit_solve(y, residual(weights, y, rates), rule_.implicit_sizes.back() * dt_, end);
+}
+
+double Collocation::place_of(double time) const { return (time - physics_.start().time) / dt_; }
+
+VisibleDifference Collocation::polynomial_derivative(int k) const {
+  const Vector weights = dt_ * derivative_weights(points_of(rule_), k);
+  const NodeSolution& end = nodes_.back();
+  NodeSolution moved = end;
+  for (std::size_t a = 0; a < moved.vesicles.size(); ++a) {
+    SurfaceFields& fields = moved.vesicles[a].material;
+    for (std::size_t j = 0; j < rates_.size(); ++j) {
+      const double weight = weights[static_cast<Index>(j)];
+      const Rate::OfVesicle& rate = rates_[j].vesicles[a];
+      if (rate.velocity.size() > 0) fields.position += weight * rate.velocity;
+      if (rate.potential.size() > 0) fields.transmembrane_potential += weight * rate.potential;
+      if (rate.poration.size() > 0) fields.poration += weight * rate.poration;
+    }
+  }
+  return physics_.visible_difference(moved, end);
+}
+
+VisibleDifference Collocation::derivative(int k) const {
+  const int known = static_cast<int>(nodes_.size());
+  // One node knows too little to continue anything.
+  if (k <= known || known < 2) return polynomial_derivative(std::min(k, known));
+  const VisibleDifference highest = polynomial_derivative(known), former = polynomial_derivative(known - 2);
+  // Of the same parity: a sine and its derivatives of the other vanish at other times.
+  const int base = known - (k - known) % 2;
+  const VisibleDifference from = base == known ? highest : polynomial_derivative(base);
+  const auto continued = [&](double size, double last, double last_but_one) {
+    if (last_but_one <= 0.0) return 0.0;
+    return size * std::pow(std::min(thresholds::largest_change_of_derivative, last / last_but_one), (k - base) / 2);
+  };
+  return {continued(from.shape, highest.shape, former.shape),
+          continued(from.potential, highest.potential, former.potential)};
+}
+
+namespace {
+
+VisibleDifference scaled(double factor, const VisibleDifference& of) {
+  return {std::abs(factor) * of.shape, std::abs(factor) * of.potential};
+}
+
+}  // namespace
+
+VisibleDifference Collocation::rule_error() const {
+  const int n_nodes = static_cast<int>(nodes_.size());
+  if (n_nodes < 2) return {};
+  const int power = 2 * n_nodes - 1;
+  return scaled(integration_error(points_of(rule_), 1.0, power), derivative(power));
+}
+
+VisibleDifference Collocation::stage_error() const {
+  double largest = 0.0;
+  const int power = static_cast<int>(nodes_.size());
+  for (const double node : rule_.nodes) {
+    largest = std::max(largest, std::abs(integration_error(rule_.nodes, node, power)));
+  }
+  return scaled(largest, derivative(power));
+}
+
+VisibleDifference Collocation::rule_error(double time, int n_more) const {
+  const double place = place_of(time);
+  std::vector<double> points = points_of(rule_);
+  for (int i = 0; i < n_more; ++i) points.push_back(place);
+  const int power = static_cast<int>(points.size());
+  return scaled(integration_error(points, place, power), derivative(power));
 }
 
 }  // namespace vehd

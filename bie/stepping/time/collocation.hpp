@@ -30,14 +30,32 @@ class Collocation {
   /// How the rate at a correction of the last node differs from that before it. It serves the next evaluation, for
   /// which this has to have become the last node.
   InstantaneousDifference change_to(const NodeSolution& end);
+  /// How large derivatives of F with the time over dt are within the step, times dt: what they would move the last node
+  /// by. Where no polynomial through the rates tells, each is the last but one times the same, as in a motion that
+  /// oscillates or dies away; of motions that change by all they are within a step sweeps tell.
+  [[nodiscard]] VisibleDifference derivative(int k) const;
+  /// Estimated error of the rule itself at the last node, which no sweep takes away; nothing of rules with one node,
+  /// whose sweeps change more than that.
+  /// Accuracy: within a factor of 2 of a charge in an alternating field (tests/stepping/alternating_charge_test.cpp)
+  [[nodiscard]] VisibleDifference rule_error() const;
+  /// The same of a solution within the step that is `corrected`.
+  /// @param n_more  rates there are beside those at the nodes
+  [[nodiscard]] VisibleDifference rule_error(double time, int n_more) const;
+  /// Estimated error of the rule at the nodes but the last, where its order is that of its polynomial.
+  [[nodiscard]] VisibleDifference stage_error() const;
   /// Node m after a correction with the rates as they are: y + (1 − d_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F_j − y).
   [[nodiscard]] NodeSolution corrected(std::size_t m, NodeEnd end);
   /// A solution at any time within the step after a correction with these rates: y + (1 − d dt L)⁻¹ (y_0 + ∫F dt − y),
   /// F being the polynomial through the rates at the start and at every node, and d that of the last node.
   [[nodiscard]] NodeSolution corrected(const NodeSolution& y, NodeEnd end);
+  /// The same with the rate at y as well, which costs an evaluation.
+  [[nodiscard]] NodeSolution corrected_with_rate(const NodeSolution& y, NodeEnd end);
 
  private:
-  [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y) const;
+  [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
+  [[nodiscard]] VisibleDifference polynomial_derivative(int k) const;
+
+  [[nodiscard]] double place_of(double time) const;
 
   StepOperations& physics_;
   const TimeRule& rule_;

@@ -35,6 +35,10 @@ class SweepErrors {
     tension_.add(change.tension);
     charge_.add(change.charge);
   }
+  /// Largest of the errors of shape and V_m, each as many times as it counts.
+  [[nodiscard]] double weighted(const VisibleDifference& error) const {
+    return std::max(weights_.shape * error.shape, weights_.potential * error.potential);
+  }
   [[nodiscard]] int sweeps() const { return static_cast<int>(shape_.count()); }
   /// Whether tension and charge are known after the last sweep as well.
   [[nodiscard]] bool all_known() const { return tension_.count() == shape_.count(); }
@@ -52,6 +56,8 @@ class SweepErrors {
     return std::max({shape_.error_after(j), potential_.error_after(j), tension_.error_after(j, supposed(tension_)),
                      charge_.error_after(j, supposed(charge_))});
   }
+  /// By the last sweep.
+  [[nodiscard]] VisibleDifference contraction() const { return {shape_.contraction(), potential_.contraction()}; }
   /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as by the first
   /// sweep, whose changes have all degrees.
   [[nodiscard]] double magnification() const {
@@ -104,29 +110,57 @@ std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolu
   return result;
 }
 
+double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
+
 /// Error of a solution that one more correction has changed so much.
 double error_left(const VisibleDifference& change) {
   constexpr double ratio = thresholds::cautious_contraction;
-  return std::max(change.shape, change.potential) * ratio / (1.0 - ratio);
+  return largest_of(change) * ratio / (1.0 - ratio);
+}
+
+/// A solution within the step.
+struct Moment {
+  NodeSolution solution;
+  double error = 0.0;  // estimated, of shape and V_m
+};
+
+/// What the rates at the nodes tell of a time; where that is not enough with the rate there.
+/// @param contraction  of what nodes are wrong by, by a correction with their rates
+Moment moment(double time, const StepPolynomial& within, const StepOperations& physics, double allowed,
+              const VisibleDifference& contraction, Collocation& y) {
+  const VisibleDifference stage = y.stage_error();
+  const auto of_rule = [&](int n_more) {
+    const VisibleDifference rule = y.rule_error(time, n_more);
+    return std::max(rule.shape + contraction.shape * stage.shape,
+                    rule.potential + contraction.potential * stage.potential);
+  };
+  const NodeSolution first = within.at(time);
+  NodeSolution second = y.corrected(first, NodeEnd::remapped);
+  const double error =
+      std::max({within.error(time), error_left(physics.visible_difference(first, second)), of_rule(0)});
+  if (error <= allowed) return {std::move(second), error};
+  NodeSolution third = y.corrected_with_rate(second, NodeEnd::remapped);
+  const double left = error_left(physics.visible_difference(second, third));
+  return {std::move(third), std::max(left, of_rule(1))};
 }
 
 /// Finds the states at these times.
-/// @param magnification  of errors of shape and V_m by tension and charge
+/// @param errors  of the sweeps
 /// @returns whether all are within what is allowed; if not there are none
 bool pass(const std::vector<double>& times, StepOperations& physics, const TimeRule& rule, double dt, double allowed,
-          double magnification, Collocation& y, ControlledSweeps& result) {
+          const SweepErrors& errors, Collocation& y, ControlledSweeps& result) {
   // The last sweep was made at the last node alone; its rates serve the others as well.
   for (std::size_t m = 0; m < y.last(); ++m) y.node(m) = y.corrected(m, NodeEnd::material);
   const StepPolynomial within(physics, rule, dt, y);
   // It falls like dt⁴ or faster. Where the moments of the next steps lie is chance.
   result.factor = std::min(result.factor, size_factor(within.error(), allowed, 3));
+  // Tension and charge are wrong by so much more.
+  const double magnification = errors.magnification();
   double largest = 0.0;
-  for (const double time : times) largest = std::max(largest, magnification * within.error(time));
   for (auto time = times.begin(); time != times.end() && largest <= allowed; ++time) {
-    const NodeSolution first = within.at(*time);
-    const NodeSolution second = y.corrected(first, NodeEnd::remapped);
-    largest = std::max(largest, error_left(physics.visible_difference(first, second)));
-    result.passed.push_back(physics.passed_state(second));
+    const Moment found = moment(*time, within, physics, allowed / magnification, errors.contraction(), y);
+    largest = std::max(largest, magnification * found.error);
+    result.passed.push_back(physics.passed_state(found.solution));
   }
   if (largest <= allowed) return true;
   result.passed.clear();
@@ -148,6 +182,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     return result;
   }
   SweepErrors errors(lasting_weights(goal, dt));
+  double of_rule = 0.0;
   std::vector<double> found;
   const double allowed = thresholds::step_share * goal.tolerance;
   for (int left = order - 2;; --left) {
@@ -163,13 +198,17 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
       // Tension and charge follow from what has converged, but nobody knows how they magnify what is left.
       errors.add(y.change_to(end));
     }
-    const double error = errors.error_after(errors.sweeps());
-    found.push_back(error);
+    of_rule = errors.weighted(y.rule_error());
+    const double of_sweeps = errors.error_after(errors.sweeps());
+    const double error = std::max(of_sweeps, of_rule);
+    found.push_back(of_sweeps);
     const bool enough = known && error <= allowed;
     if (enough && !likely) end = y.corrected(last, NodeEnd::remapped);
-    if (enough || left == 0 || (known && errors.error_after(order - 1) > thresholds::hopeless * allowed)) {
+    if (enough || left == 0 || (known && errors.error_after(order - 1) > thresholds::hopeless * allowed) ||
+        (known && of_rule > allowed)) {
       result.excess = error / allowed;
-      result.factor = best_factor(errors, found, allowed, order, rule.nodes.size());
+      result.factor = std::min(best_factor(errors, found, allowed, order, rule.nodes.size()),
+                               size_factor(of_rule, allowed, 2 * static_cast<int>(rule.nodes.size()) - 1));
       if (!enough) return result;
       y.node(last) = std::move(end);
       break;
@@ -181,7 +220,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   result.state = physics.end_state(y.node(last));
   const std::vector<double> times = goal.times_before(physics.start().time + dt);
   const double allowed_within = thresholds::moment_share * goal.tolerance;
-  if (!times.empty() && !pass(times, physics, rule, dt, allowed_within, errors.magnification(), y, result)) {
+  if (!times.empty() && !pass(times, physics, rule, dt, allowed_within, errors, y, result)) {
     return result;
   }
   result.end = std::move(y.node(last));

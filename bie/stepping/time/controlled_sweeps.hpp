@@ -44,6 +44,8 @@ struct ControlledSweeps {
 /// - Estimate: sweep k changes the end by δ_k; with ρ = δ_k/δ_{k−1} the sweeps to come would change it by δ_k ρ/(1−ρ),
 ///   the sum of a geometric series, or by δ_k where they hardly contract. This is the error of what is kept. What the
 ///   last sweep did to tension and charge is continued from those before, or solved for where it might decide.
+/// - Rule: what the sweeps converge to has an error of its own, that of its quadrature. It is estimated from the rates
+///   at the nodes, and no sweep takes it away: where it is too large the step is given up.
 /// - Share: a membrane forgets the errors of all but its last few steps, whatever the time units and however long the
 ///   run, so each step may leave a fixed share of the tolerance. What is wrong with the shape counts more where it is
 ///   remembered for more steps, and with V_m where it is expected to grow.

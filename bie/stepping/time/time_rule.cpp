@@ -1,6 +1,7 @@
 #include "bie/stepping/time/time_rule.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace vehd {
 
@@ -22,18 +23,50 @@ TimeRule time_rule(int order) {
           {0.10404994025001671, 0.33281274542850664, 0.4812901402100925}};
 }
 
-Vector integration_weights(const TimeRule& rule, double c) {
-  // Those that are exact for every power.
-  const Index n = static_cast<Index>(rule.nodes.size()) + 1;
-  Matrix powers(n, n);
-  Vector integrals(n);
-  for (Index k = 0; k < n; ++k) {
-    const double degree = static_cast<double>(k);
-    integrals[k] = std::pow(c, degree + 1.0) / (degree + 1.0);
-    powers(k, 0) = k == 0 ? 1.0 : 0.0;
-    for (Index j = 1; j < n; ++j) powers(k, j) = std::pow(rule.nodes[static_cast<std::size_t>(j - 1)], degree);
+std::vector<double> points_of(const TimeRule& rule) {
+  std::vector<double> points{0.0};
+  points.insert(points.end(), rule.nodes.begin(), rule.nodes.end());
+  return points;
+}
+
+namespace {
+
+double power_of(double x, Index k) { return k == 0 ? 1.0 : std::pow(x, static_cast<double>(k)); }
+
+/// Those with which Σ_j w_j x_j^k is the kth moment.
+Vector weights_of_moments(const std::vector<double>& points, const Vector& moments) {
+  Matrix powers(moments.size(), moments.size());
+  for (Index k = 0; k < moments.size(); ++k) {
+    for (Index j = 0; j < moments.size(); ++j) powers(k, j) = power_of(points[static_cast<std::size_t>(j)], k);
   }
-  return powers.partialPivLu().solve(integrals);
+  return powers.partialPivLu().solve(moments);
+}
+
+}  // namespace
+
+Vector integration_weights(const std::vector<double>& points, double c) {
+  Vector integrals(static_cast<Index>(points.size()));
+  for (Index k = 0; k < integrals.size(); ++k) integrals[k] = power_of(c, k + 1) / static_cast<double>(k + 1);
+  return weights_of_moments(points, integrals);
+}
+
+double integration_error(const std::vector<double>& points, double c, int power) {
+  const Vector weights = integration_weights(points, c);
+  double lacks = power_of(c, power + 1) / (power + 1.0);
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    lacks -= weights[static_cast<Index>(j)] * power_of(points[j], power);
+  }
+  return lacks / std::tgamma(power + 1.0);
+}
+
+Vector derivative_weights(const std::vector<double>& points, int derivative) {
+  const double mean = std::accumulate(points.begin(), points.end(), 0.0) / static_cast<double>(points.size());
+  Vector derivatives = Vector::Zero(static_cast<Index>(points.size()));
+  for (Index k = derivative; k < derivatives.size(); ++k) {
+    derivatives[k] = power_of(mean, k - derivative);
+    for (int i = 0; i < derivative; ++i) derivatives[k] *= static_cast<double>(k - i);
+  }
+  return weights_of_moments(points, derivatives);
 }
 
 }  // namespace vehd

@@ -23,9 +23,20 @@ struct TimeRule {
 /// Source: Radau IIA methods, Hairer and Wanner 1996; sizes as in van der Houwen and Sommeijer 1991
 TimeRule time_rule(int order);
 
-/// q_j of ∫_0^c of the polynomial through values at the points 0, c_1, …, c_M, [M + 1].
-/// Accuracy: 1e-13 for polynomials of degree M (tests/stepping/time/time_rules_test.cpp)
-Vector integration_weights(const TimeRule& rule, double c);
+/// 0, c_1, …, c_M.
+std::vector<double> points_of(const TimeRule& rule);
+
+/// q_j of ∫_0^c of the polynomial through values at these points, [number of points].
+/// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
+Vector integration_weights(const std::vector<double>& points, double c);
+
+/// What such an integral lacks of that of x^k/k!, the factor of f^(k) in its error.
+double integration_error(const std::vector<double>& points, double c, int power);
+
+/// Weights of values at these points for a derivative of the polynomial through them, at the mean of the points,
+/// where the highest two are most exact, [number of points].
+/// Accuracy: 1e-12 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
+Vector derivative_weights(const std::vector<double>& points, int derivative);
 
 /// Highest order that has a rule.
 constexpr int highest_time_order = 5;

@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(weights_integrate_polynomials_through_all_points_to_any_tim
     const TimeRule rule = time_rule(order);
     const int n_nodes = static_cast<int>(rule.nodes.size());
     for (const double c : {0.0, 0.1, 0.37, 0.8, 1.0}) {
-      const Vector weights = integration_weights(rule, c);
+      const Vector weights = integration_weights(points_of(rule), c);
       BOOST_TEST_REQUIRE(weights.size() == n_nodes + 1);
       for (int degree = 0; degree <= n_nodes; ++degree) {
         double sum = degree == 0 ? weights[0] : 0.0;
@@ -36,6 +36,36 @@ BOOST_AUTO_TEST_CASE(weights_integrate_polynomials_through_all_points_to_any_tim
       }
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(what_an_integral_lacks_is_known_of_the_first_powers_it_is_not_exact_for) {
+  const std::vector<double> points{0.0, 0.3, 0.55, 1.0};
+  for (const double c : {0.2, 0.7, 1.0}) {
+    for (int power = 0; power < 4; ++power) BOOST_TEST(std::abs(integration_error(points, c, power)) < 1e-14);
+    const Vector weights = integration_weights(points, c);
+    double factorial = 6.0;
+    for (const int power : {4, 5}) {
+      factorial *= power;
+      double exact = std::pow(c, power + 1) / (power + 1.0);
+      for (Index j = 1; j < 4; ++j) exact -= weights[j] * std::pow(points[static_cast<std::size_t>(j)], power);
+      BOOST_TEST(integration_error(points, c, power) == exact / factorial, boost::test_tools::tolerance(1e-9));
+    }
+  }
+  // Radau IIA with three nodes: s/2 ((s - 1)!)⁴ / ((2s - 1)!)³ for s = 3 points.
+  BOOST_TEST(integration_error(points_of(time_rule(5)), 1.0, 5) == -1.0 / 72000.0, boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(derivatives_of_polynomials_are_exact_at_the_mean_of_the_points) {
+  const std::vector<double> points{0.0, 0.2, 0.6, 1.0};
+  constexpr double kMean = 0.45;
+  Vector values(4);
+  for (Index j = 0; j < 4; ++j) {
+    const double x = points[static_cast<std::size_t>(j)];
+    values[j] = 2.0 - x + 3.0 * x * x - 5.0 * x * x * x;
+  }
+  BOOST_TEST(std::abs(derivative_weights(points, 1).dot(values) - (-1.0 + 6.0 * kMean - 15.0 * kMean * kMean)) < 1e-12);
+  BOOST_TEST(std::abs(derivative_weights(points, 2).dot(values) - (6.0 - 30.0 * kMean)) < 1e-12);
+  BOOST_TEST(std::abs(derivative_weights(points, 3).dot(values) + 30.0) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(whole_step_is_integrated_to_the_order_of_radau) {
