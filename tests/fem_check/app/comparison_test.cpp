@@ -259,12 +259,10 @@ BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
     return values;
   };
   for (const auto& [judged, other] : {std::pair{8, 10}, std::pair{10, 8}}) {
-    CheckInput input;
-    input.bie.order = judged;
-    input.bie_high.order = other;
-    const FieldQuestion asked =
-        QuestionMaker(input, places)
-            .on_surface("q", "q", "q", series(judged, 0.7), series(judged, 0.7), series(other, 0.7), 1.0);
+    const FieldQuestion asked = QuestionMaker(places).on_surface("q", "q", "q", series(judged, 0.7),
+                                                                 series(judged, 0.7), series(other, 0.7), 1.0);
+    BOOST_TEST(asked.degrees.judged == judged);
+    BOOST_TEST(asked.degrees.other == other);
     BOOST_TEST(asked.degrees.decay.value() == 0.49, boost::test_tools::tolerance(1e-10));
   }
 }
