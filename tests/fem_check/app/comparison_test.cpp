@@ -199,6 +199,23 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
   BOOST_TEST(with_order(0.1).tail == with_order(1.0).tail, boost::test_tools::tolerance(1e-2));
 }
 
+// A field that elements have hardly begun to follow may seem to converge, by changes that are less than its error.
+BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
+  const auto with_errors = [](double coarse, double middle, double fine) {
+    LevelSequence sequence = levels();
+    sequence.levels = {level(coarse, 1000), level(middle, 2000), level(fine, 4000)};
+    sequence.truncated = sequence.rough = sequence.levels.front();
+    return compare(question(), sequence, 0.02);
+  };
+  const FieldComparison far = with_errors(0.8, 0.45, 0.26);
+  BOOST_TEST(far.order.value() > 2.5);
+  BOOST_TEST(far.levels_change.l2 < far.difference.l2);
+  BOOST_TEST((far.verdict == Verdict::undecided));
+  const FieldComparison near = with_errors(0.08, 0.045, 0.026);
+  BOOST_TEST(near.order.value() == far.order.value(), boost::test_tools::tolerance(1e-3));
+  BOOST_TEST((near.verdict == Verdict::does_not));
+}
+
 // Elements know the work of f_b to 1e-11, so a difference of all that degree p misses meets the estimate from the other
 // degree alone, which misses something as well.
 BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_leaves) {
