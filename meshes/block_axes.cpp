@@ -159,12 +159,9 @@ double normal_truncation_error(const FrozenShape& shape, const Matrix3& in_direc
   return part_of_highest_degree(normals.colwise().normalized(), rule);
 }
 
-int cells_for_bending(const FrozenShape& shape, int fewest, int most) {
+bool is_strongly_bent(const FrozenShape& shape, int cells_per_edge) {
   constexpr double kAccepted = 5e-4;
-  const BlockAxes axes = best_axes(shape);
-  int cells = fewest;
-  while (cells < most && normal_truncation_error(shape, axes.in_directions, cells) > kAccepted) ++cells;
-  return cells;
+  return normal_truncation_error(shape, best_axes(shape).in_directions, cells_per_edge) > kAccepted;
 }
 
 BlockAxes axes_along(const FrozenShape& shape, const Matrix3& in_directions) {

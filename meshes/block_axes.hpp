@@ -38,8 +38,8 @@ double truncation_error(const FrozenShape& shape, const Matrix3& in_directions);
 /// within a small part of a face, however smooth x(θ, φ) is.
 double normal_truncation_error(const FrozenShape& shape, const Matrix3& in_directions, int cells_per_edge);
 
-/// Fewest cells per edge, but no more than `most`, whose normal_truncation_error() is at most 5e-4: ellipsoids 1:1:5
-/// and 1:1:0.2 take one more than three, shapes that are bent no more than shape (33) three.
-int cells_for_bending(const FrozenShape& shape, int fewest, int most);
+/// Whether normal_truncation_error() is above 5e-4: with three cells per edge of the ellipsoids 1:1:5 and 1:1:0.2, not
+/// of shapes that are bent no more than shape (33).
+bool is_strongly_bent(const FrozenShape& shape, int cells_per_edge);
 
 }  // namespace vehd::meshes

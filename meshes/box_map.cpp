@@ -67,7 +67,7 @@ Matrix3 BoxMap::core_of(const Box& box, const Matrix3& widths, double fraction) 
 }
 
 BoxMap::BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& options)
-    : centre_(Point::Zero()), outer_radius_(options.outer_radius), far_radius_(options.far_radius) {
+    : centre_(Point::Zero()), outer_radius_(options.outer_radius) {
   const SeparatingPlane plane = separating_plane(shapes[0], shapes[1]);
   const Matrix3 axes = axes_along(plane.normal, shapes);
   std::array<Extent, 2> extents;
@@ -133,9 +133,9 @@ BoxMap::SurfacePoint BoxMap::on_box(const BoxBlock& block, const CubePoint& poin
   return {box.middle + box.half * point.g, box.half * point.g_slopes};
 }
 
-BoxMap::SurfacePoint BoxMap::on_sphere(const SurfacePoint& on_box, double radius) const {
+BoxMap::SurfacePoint BoxMap::on_sphere(const SurfacePoint& on_box) const {
   const Point away = on_box.at - centre_;
-  return {centre_ + radius * away.normalized(), radius * unit_slopes(away, on_box.slopes)};
+  return {centre_ + outer_radius_ * away.normalized(), outer_radius_ * unit_slopes(away, on_box.slopes)};
 }
 
 Point BoxMap::place(const BoxBlock& block, const Point& at, const Point& on_membrane) const {
@@ -144,9 +144,7 @@ Point BoxMap::place(const BoxBlock& block, const Point& at, const Point& on_memb
   if (block.layer == BoxBlock::Layer::blend) return (1.0 - t) * on_core(block, point).at + t * on_membrane;
   const SurfacePoint box = on_box(block, point);
   if (block.layer == BoxBlock::Layer::box) return (1.0 - t) * on_membrane + t * box.at;
-  const Point sphere = on_sphere(box, outer_radius_).at;
-  if (t <= 1.0) return (1.0 - t) * box.at + t * sphere;
-  return (2.0 - t) * sphere + (t - 1.0) * on_sphere(box, far_radius_).at;
+  return (1.0 - t) * box.at + t * on_sphere(box).at;
 }
 
 Point BoxMap::position(const BoxBlock& block, const Point& at) const { return positions(block, at).col(0); }
@@ -166,7 +164,7 @@ Eigen::Matrix3Xd BoxMap::positions(const BoxBlock& block, const Eigen::Matrix3Xd
 Matrix3 BoxMap::derivative(const BoxBlock& block, const Point& at) const {
   if (block.layer == BoxBlock::Layer::core) return boxes_[block.vesicle].core;
   const CubePoint point = cube_point(block, at);
-  double t = at.z();
+  const double t = at.z();
   SurfacePoint from, to;
   if (block.layer == BoxBlock::Layer::blend) {
     from = on_core(block, point);
@@ -175,11 +173,8 @@ Matrix3 BoxMap::derivative(const BoxBlock& block, const Point& at) const {
     from = on_membrane(block, point);
     to = on_box(block, point);
   } else {
-    const SurfacePoint box = on_box(block, point), sphere = on_sphere(box, outer_radius_);
-    const bool beyond = t > 1.0;
-    from = beyond ? sphere : box;
-    to = beyond ? on_sphere(box, far_radius_) : sphere;
-    if (beyond) t -= 1.0;
+    from = on_box(block, point);
+    to = on_sphere(from);
   }
   Matrix3 result;
   result << (1.0 - t) * from.slopes + t * to.slopes, to.at - from.at;

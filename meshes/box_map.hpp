@@ -23,7 +23,6 @@ struct BoxOptions {
   double core_fraction = 0.6;  ///< half-width of the cores over the width that the shapes leave them
   double margin = 0.6;         ///< of the boxes about their membranes, over the larger radius
   double outer_radius = 8.0;   ///< R, about the middle of both boxes
-  double far_radius = 0.0;     ///< of a second sphere that a further layer of cells ends on; 0: none
 };
 
 /// Blocks about two membranes on either side of a plane.
@@ -41,9 +40,8 @@ class BoxMap {
   /// Middle of both boxes.
   [[nodiscard]] const Point& centre() const { return centre_; }
 
-  /// @param at  across the block in [−1, 1] twice, the third outwards in [0, 1], of an outer block in [0, 2] if there
-  /// is
-  ///            a far sphere, from 1 on beyond the near one; in a core all three in [−1, 1]. Right-handed
+  /// @param at  across the block in [−1, 1] twice, the third outwards in [0, 1]; in a core all three in [−1, 1].
+  /// Right-handed
   [[nodiscard]] Point position(const BoxBlock& block, const Point& at) const;
   /// Many columns at once.
   [[nodiscard]] Eigen::Matrix3Xd positions(const BoxBlock& block, const Eigen::Matrix3Xd& at) const;
@@ -69,7 +67,7 @@ class BoxMap {
   [[nodiscard]] SurfacePoint on_core(const BoxBlock& block, const CubePoint& point) const;
   [[nodiscard]] SurfacePoint on_membrane(const BoxBlock& block, const CubePoint& point) const;
   [[nodiscard]] SurfacePoint on_box(const BoxBlock& block, const CubePoint& point) const;
-  [[nodiscard]] SurfacePoint on_sphere(const SurfacePoint& on_box, double radius) const;
+  [[nodiscard]] SurfacePoint on_sphere(const SurfacePoint& on_box) const;
   [[nodiscard]] Point place(const BoxBlock& block, const Point& at, const Point& on_membrane) const;
 
   /// What belongs to one vesicle.
@@ -85,7 +83,7 @@ class BoxMap {
 
   std::vector<Box> boxes_;
   Point centre_;
-  double outer_radius_, far_radius_;
+  double outer_radius_;
 };
 
 }  // namespace vehd::meshes

@@ -19,12 +19,11 @@ class BoxMeshBuilder {
   BoxMeshBuilder(const TwoVesicleOptions& options, const BoxMap& map)
       : n_(options.cells_per_edge), map_(map), across_(even_breaks(n_)) {
     topology.shape = CellShape::hexahedron;
-    std::vector<double> outer = layer_breaks(options.outer_layers, options.outer_growth);
-    if (options.boxes.far_radius > 0.0) outer.push_back(2.0);
     int level = 0;
-    for (const auto& [layer, borders] : {std::pair{BoxLayer::blend, layer_breaks(options.blend_layers, 1.0)},
-                                         std::pair{BoxLayer::box, layer_breaks(options.box_layers, options.box_growth)},
-                                         std::pair{BoxLayer::outer, outer}}) {
+    for (const auto& [layer, borders] :
+         {std::pair{BoxLayer::blend, layer_breaks(options.blend_layers, 1.0)},
+          std::pair{BoxLayer::box, layer_breaks(options.box_layers, options.box_growth)},
+          std::pair{BoxLayer::outer, layer_breaks(options.outer_layers, options.outer_growth)}}) {
       const int first_level = level;
       if (layer == BoxLayer::outer) first_outer_level_ = level;
       level += static_cast<int>(borders.size()) - 1;
@@ -147,8 +146,6 @@ void require_options(const TwoVesicleOptions& o) {
   require_two(o.boxes.core_fraction > 0.0 && o.boxes.core_fraction < 1.0, "core_fraction", o.boxes.core_fraction,
               "between 0 and 1");
   require_two(o.boxes.margin > 0.0, "margin", o.boxes.margin, "positive");
-  require_two(o.boxes.far_radius == 0.0 || o.boxes.far_radius > o.boxes.outer_radius, "far_radius", o.boxes.far_radius,
-              "0 or larger than outer_radius");
 }
 
 }  // namespace
@@ -190,8 +187,8 @@ TwoVesicleMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, c
   auto map = std::make_shared<const BoxMap>(shapes, options.boxes);
   BoxMeshBuilder builder(options, *map);
   builder.build();
-  const double radius = options.boxes.far_radius > 0.0 ? options.boxes.far_radius : options.boxes.outer_radius;
-  TwoVesicleMesh mesh(std::move(builder.topology), std::move(builder.places), std::move(map), radius);
+  TwoVesicleMesh mesh(std::move(builder.topology), std::move(builder.places), std::move(map),
+                      options.boxes.outer_radius);
   constexpr int kGaussPoints = 3;
   require_quality(quality(mesh, {shapes[0], shapes[1]}, kGaussPoints), options.smallest_scaled_jacobian);
   return mesh;

@@ -24,8 +24,8 @@ struct CheckTask {
   std::function<void(const CheckFields&)> tell{};
 };
 
-/// Degree of a second solution, whose difference from that of `order` is the estimated error of the latter: a higher
-/// one, or a lower one where no higher one is allowed, which makes the estimate larger than the error.
+/// Degree of a second solution, whose difference from that of `order` is the estimated error of the latter: twice as
+/// high, but beyond highest_order no more than 16 higher.
 /// @param quick  one that costs little
 int estimate_order(int order, bool quick);
 

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <utility>
 
+#include "bie/comparison/local_forces.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
@@ -134,8 +134,7 @@ class FrozenSolver {
 
   void take_flow_of_shape() {
     const VesicleFields& fields = solved_.fields.vesicles.front();
-    result.force_bending = fields.force_bending;
-    result.force_curvature = force_of_curvature();
+    take_local_forces(fields);
     result.force_tension = fields.force_tension;
     result.tension = fields.tension;
     result.tension_is_free = solved_.vesicles.front().is_sphere;
@@ -144,15 +143,14 @@ class FrozenSolver {
     result.velocity_truncation = fields.velocity - velocity_of(total_force(frozen_, fields));
   }
 
-  /// f_c; empty without a spontaneous curvature.
-  [[nodiscard]] Matrix force_of_curvature() const {
-    Forcing forcing{Matrix::Zero(membrane_.surface.n_points(), 3), {}};
-    for (const auto& effect : vesicle_of(frozen_).effects) {
-      if (dynamic_cast<const SpontaneousCurvatureEffect*>(effect.get()) == nullptr) continue;
-      effect->add({membrane_, position_, frozen_.state.time}, forcing);
-      return membrane_.fine.analyze(forcing.force);
-    }
-    return {};
+  void take_local_forces(const VesicleFields& fields) {
+    const int order = order_of(membrane_of(frozen_).position.rows());
+    const bool is_second = result.order != order;
+    result.force_order = is_second ? local_force_order(order, result.order) : order;
+    LocalForces forces =
+        is_second ? local_forces(frozen_, result.force_order) : local_forces(frozen_, membrane_, position_);
+    result.force_bending = is_second ? std::move(forces.bending) : fields.force_bending;
+    result.force_curvature = std::move(forces.curvature);
   }
 
   /// J q of the state, coefficients.

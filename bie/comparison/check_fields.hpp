@@ -18,7 +18,7 @@ struct CheckContents {
 ///                    alone
 CheckContents check_contents(const FrozenState& frozen);
 
-/// Boundary-integral solution at one order: coefficients of that order, empty where absent.
+/// Boundary-integral solution at one order: coefficients of that order but for f_b and f_c, empty where absent.
 struct CheckFields {
   int order = 0;
   // From x, V_m and the time alone, as a run computes them.
@@ -29,6 +29,7 @@ struct CheckFields {
   Vector potential_rate;
   Vector potential_of_charges;   ///< V_m that follows from free charges; with displacement currents alone
   Vector free_charge_rate;       ///< D(q_i + q_e)/Dt over C_m; with displacement currents alone
+  int force_order = 0;           ///< degree of f_b and f_c: local_force_order() where `order` is not that of the state
   Matrix force_bending;          ///< f_b
   Matrix force_curvature;        ///< f_c of a spontaneous curvature; of one vesicle alone
   Matrix force_tension;          ///< f_λ

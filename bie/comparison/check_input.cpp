@@ -150,6 +150,7 @@ void write_stored(VesicleWriter& file, const CheckInput& input) {
 void write_fields(VesicleWriter& file, const std::string& group, const CheckFields& fields) {
   file.group(group);
   file.attribute(group, "order", std::int64_t{fields.order});
+  file.attribute(group, "force_order", std::int64_t{fields.force_order});
   file.attribute(group, "seconds", fields.seconds);
   const auto field = [&](const std::string& name, const Matrix& values, const DatasetLabel& label) {
     write(file, group + "/" + name, values, label);
@@ -160,8 +161,9 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
         {"potential/time", "dV_m/dt of the given V_m, where C_m varies times it over the C_m of /physics"});
   field("Vm_of_charges", fields.potential_of_charges, {"potential", "V_m of the given free charges"});
   field("free_charge_rate", fields.free_charge_rate, {"potential/time", "rate of q_i + q_e over C_m"});
-  field("force_bending", fields.force_bending, {"force/area", "f_b of the shape"});
-  field("force_curvature", fields.force_curvature, {"force/area", "f_c of the spontaneous curvature and the shape"});
+  field("force_bending", fields.force_bending, {"force/area", "f_b of the shape, in the degree force_order"});
+  field("force_curvature", fields.force_curvature,
+        {"force/area", "f_c of the spontaneous curvature and the shape, in the degree force_order"});
   field("force_tension", fields.force_tension, {"force/area", "f_lambda of the shape and the given V_m"});
   field("tension", fields.tension, {"force/length", "lambda of the shape and the given V_m"});
   field("velocity_of_shape", fields.velocity_of_shape, {"velocity", "v of the shape and the given V_m"});

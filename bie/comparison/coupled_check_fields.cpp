@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "bie/comparison/local_forces.hpp"
 #include "bie/physics/coupled_charging.hpp"
 #include "bie/physics/coupled_flow.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -95,7 +96,7 @@ class CoupledFrozenSolver {
     std::vector<Matrix> given, own;
     for (std::size_t a = 0; a < results.size(); ++a) {
       const VesicleFields& fields = solved_.fields.vesicles[a];
-      results[a].force_bending = fields.force_bending;
+      take_bending(a);
       results[a].force_tension = fields.force_tension;
       results[a].tension = fields.tension;
       results[a].tension_is_free = solved_.vesicles[a].is_sphere;
@@ -116,6 +117,14 @@ class CoupledFrozenSolver {
 
  private:
   [[nodiscard]] const Membrane& membrane(std::size_t a) const { return *solved_.vesicles[a].membrane; }
+
+  void take_bending(std::size_t a) {
+    const int order = order_of(frozen_.state.vesicles[a].position.rows());
+    const bool is_second = results[a].order != order;
+    results[a].force_order = is_second ? local_force_order(order, results[a].order) : order;
+    results[a].force_bending =
+        is_second ? local_forces(frozen_, results[a].force_order, a).bending : solved_.fields.vesicles[a].force_bending;
+  }
 
   /// Of the background flow and forces, coefficients.
   [[nodiscard]] std::vector<Matrix> velocities_of(CoupledFlow& flow, const std::vector<Matrix>& forces) const {

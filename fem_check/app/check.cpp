@@ -54,18 +54,11 @@ double stored_velocity_difference(const CheckInput& input, const SurfacePoints& 
 
 /// Of the checks that are asked for: targets that leave room for what is required, and cells that follow the bends.
 Refinement refinement_for(const CheckTask& task, const std::vector<meshes::FrozenShape>& shapes) {
-  /// Along an edge of a block, and from the membrane outwards and inwards, where the flow is as narrow as the bend.
-  constexpr int most_further_cells = 1, further_shell_layers = 2, further_blend_layers = 1;
   const bool single = shapes.size() == 1;
   const Refinement quick = single ? Refinement::quick() : Refinement::quick_of_two();
   Refinement refinement = task.quick ? quick : Refinement::finest();
-  if (single && !task.quick) {
-    const int usual = refinement.cells_per_edge;
-    refinement.cells_per_edge = meshes::cells_for_bending(shapes.front(), usual, usual + most_further_cells);
-    if (refinement.cells_per_edge > usual) {
-      refinement.shell_layers += further_shell_layers;
-      refinement.blend_layers += further_blend_layers;
-    }
+  if (single && !task.quick && meshes::is_strongly_bent(shapes.front(), refinement.cells_per_edge)) {
+    refinement = Refinement::of_strongly_bent();
   }
   constexpr double share = 0.5;
   refinement.potential_target = std::min(refinement.potential_target, share * task.required);

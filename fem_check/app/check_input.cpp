@@ -9,7 +9,7 @@
 namespace vehd::fem_check {
 namespace {
 
-constexpr double schema_version = 2;
+constexpr double schema_version = 3;
 
 void require_schema(const Hdf5Input& file) {
   const double version = file.number("/", "schema_version");
@@ -117,12 +117,13 @@ BieFields read_fields(const VesicleGroup& file, const std::string& group, const 
     if (fields.steady_potential.size() > 0) fields.steady_charge = of.required("q_steady", 1);
   }
   if (!input.flow()) return fields;
+  const Coefficients of_local_forces(file, group, static_cast<int>(file.number(group, "force_order")));
   fields.velocity = of.required("velocity", 3);
   if (input.electric()) fields.velocity_own_force = of.required("velocity_own_force", 3);
   fields.velocity_of_shape = of.required("velocity_of_shape", 3);
   fields.velocity_truncation = of.optional("velocity_truncation", 3);
-  if (input.physics.bending_modulus > 0.0) fields.force_bending = of.required("force_bending", 3);
-  fields.force_curvature = of.optional("force_curvature", 3);
+  if (input.physics.bending_modulus > 0.0) fields.force_bending = of_local_forces.required("force_bending", 3);
+  fields.force_curvature = of_local_forces.optional("force_curvature", 3);
   if (!input.physics.inextensible) return fields;
   fields.force_tension = of.required("force_tension", 3);
   fields.tension = of.required("tension", 1);

@@ -31,8 +31,11 @@ struct BieFields {
   // Of x and V_m alone.
   Eigen::MatrixXd charge, force_electric, potential_rate;
   Eigen::MatrixXd potential_of_charges, free_charge_rate;  ///< with displacement currents alone
-  Eigen::MatrixXd force_bending, force_tension, tension;
-  Eigen::MatrixXd force_curvature;      ///< of a spontaneous curvature; of one vesicle alone
+  // In a degree of their own where `order` is not that of the state.
+  Eigen::MatrixXd force_bending;    ///< f_b
+  Eigen::MatrixXd force_curvature;  ///< f_c of a spontaneous curvature; of one vesicle alone
+
+  Eigen::MatrixXd force_tension, tension;
   bool tension_is_free = false;         ///< a uniform tension does nothing
   Eigen::MatrixXd velocity_of_shape;    ///< of all these forces
   Eigen::MatrixXd velocity_truncation;  ///< of what these forces lose in truncation; in the order of the state only

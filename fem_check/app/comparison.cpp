@@ -16,6 +16,8 @@ constexpr double rounding = 1e-9;
 constexpr double solver_share = 10.0 / rough_factor;
 /// Slowest power of the mesh size that levels are taken to converge with.
 constexpr double slowest_order = 1.0;
+/// Levels that differ by a larger share of the field do not show an order yet.
+constexpr double largest_change_with_an_order = 0.1;
 /// Power of the degree that boundary integrals are not taken to converge faster than: at twice the degree a sixteenth
 /// is left.
 constexpr double slowest_degree_order = 4.0;
@@ -122,7 +124,8 @@ void compare_with_levels(const FieldQuestion& question, const LevelSequence& seq
   if (result.levels_change.l2 > 0.0 && before > 0.0) {
     result.order =
         3.0 * std::log(before / result.levels_change.l2) / std::log(n_unknowns[last - 1] / n_unknowns[last - 2]);
-    result.tail = order_tail(*result.order, n_unknowns[last] / n_unknowns[last - 1]);
+    const bool shows_order = result.levels_change.l2 <= largest_change_with_an_order;
+    result.tail = order_tail(shows_order ? *result.order : slowest_order, n_unknowns[last] / n_unknowns[last - 1]);
   }
 }
 

@@ -40,6 +40,11 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
 
 namespace {
 
+/// Of harmonics, of which there are (p + 1)².
+int degree_of(const Eigen::MatrixXd& coefficients) {
+  return static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients.rows())))) - 1;
+}
+
 /// Over half of the lower degree at least, as the size of coefficients may rise from one degree to the next.
 /// @param finer  coefficients in the higher of both degrees
 std::optional<double> decay_of(const Eigen::MatrixXd& finer, const Degrees& degrees) {
@@ -68,8 +73,8 @@ FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::stri
   question.judged = SurfaceSeries(judged)(points);
   question.bie = SurfaceSeries(bie)(points);
   question.bie_high = SurfaceSeries(bie_high)(points);
-  question.degrees = degrees_;
-  question.degrees.decay = decay_of(degrees_.judged > degrees_.other ? bie : bie_high, degrees_);
+  question.degrees = {degree_of(bie), degree_of(bie_high), {}};
+  question.degrees.decay = decay_of(bie.rows() > bie_high.rows() ? bie : bie_high, question.degrees);
   question.weight = points.weight;
   question.natural_size = natural_size;
   return question;

@@ -32,17 +32,16 @@ double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& point
 /// Makes questions about fields on γ.
 class QuestionMaker {
  public:
-  QuestionMaker(const CheckInput& input, const ComparisonPlaces& places)
-      : places_(places), degrees_{input.bie.order, input.bie_high.order, {}} {}
+  explicit QuestionMaker(const ComparisonPlaces& places) : places_(places) {}
 
-  /// Of coefficients; judged by `values` of the levels, or by `bie` where that is empty.
+  /// Of coefficients, whose numbers tell their degrees; judged by `values` of the levels, or by `bie` where that is
+  /// empty.
   [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label, const std::string& values,
                                          const Eigen::MatrixXd& judged, const Eigen::MatrixXd& bie,
                                          const Eigen::MatrixXd& bie_high, double natural_size) const;
 
  private:
   const ComparisonPlaces& places_;
-  Degrees degrees_;
 };
 
 /// The same question about a tension, or a force of one, that is known up to a uniform one.

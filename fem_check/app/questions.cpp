@@ -25,7 +25,7 @@ std::vector<bool> found_by_all(const LevelSequence& sequence, const std::string&
 class Questions {
  public:
   Questions(const CheckInput& input, const ComparisonPlaces& places, const LevelSequence& sequence)
-      : input_(input), sequence_(sequence), maker_(input, places) {}
+      : input_(input), sequence_(sequence), maker_(places) {}
 
   [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label,
                                          Eigen::MatrixXd BieFields::*field, double size) const {

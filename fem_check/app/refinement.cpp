@@ -6,6 +6,19 @@
 #include <cmath>
 
 namespace vehd::fem_check {
+
+Refinement Refinement::of_strongly_bent() {
+  Refinement refinement;
+  refinement.cells_per_edge = 6;
+  refinement.blend_layers = 2;
+  refinement.blend_growth = 4.0;
+  refinement.shell_layers = 4;
+  refinement.potential_degrees = {3, 4, 5, 6, 7};
+  refinement.flow_degrees = {3, 4, 5, 6};
+  refinement.shape_flow_degrees = {3, 4, 5, 6};
+  return refinement;
+}
+
 Refinement Refinement::quick() {
   Refinement refinement;
   refinement.potential_degrees = {3, 5, 6};
@@ -32,6 +45,7 @@ meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const 
   options.blend_layers = refinement.blend_layers;
   options.shell_layers = refinement.shell_layers;
   options.shell_growth = refinement.shell_growth;
+  options.blend_growth = refinement.blend_growth;
   options.outer_radius = shape.largest_distance(shape.centroid()) + refinement.outer_distance * shape.radius();
   return options;
 }

@@ -14,12 +14,13 @@ namespace vehd::fem_check {
 
 /// How fine the finite elements get: one coarse curved mesh, rising degrees.
 struct Refinement {
-  int cells_per_edge = 3;  ///< of a block; one more for a strongly bent shape in a check that is not quick
+  int cells_per_edge = 3;  ///< of a block
   int blend_layers = 1;
   int shell_layers = 2;
   /// Of the layers' thickness: the fine structure of the fields ends in a thin inner layer, and the layers outside
   /// carry the smooth rest at high degree.
   double shell_growth = 4.0;
+  double blend_growth = 1.0;  ///< thickness of a layer inside over that of the next one towards the membrane
   /// Of the outer sphere from the farthest point of the membrane, over the radius √(area/4π) of the shape: it encloses
   /// all points off the membrane.
   double outer_distance = 3.2;
@@ -40,6 +41,8 @@ struct Refinement {
   double flow_tolerance = 1e-7;
 
   static Refinement finest() { return {}; }
+  /// Where forces are as narrow as ends and rims, smaller cells gain more than degrees do.
+  static Refinement of_strongly_bent();
   /// Three levels each.
   static Refinement quick();
   static Refinement quick_of_two();

@@ -6,7 +6,7 @@ namespace vehd::fem_check {
 
 std::vector<FieldQuestion> shape_questions(const CheckInput& input, const ComparisonPlaces& places) {
   const NaturalSizes sizes = natural_sizes(input, places);
-  const QuestionMaker maker(input, places);
+  const QuestionMaker maker(places);
   std::vector<FieldQuestion> list;
   const auto question = [&](const std::string& name, const std::string& label, Eigen::MatrixXd BieFields::*field,
                             double size) {

@@ -76,7 +76,7 @@ FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlace
 
 std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, const ComparisonPlaces& places) {
   const NaturalSizes sizes = natural_sizes(input, places);
-  const QuestionMaker maker(input, places);
+  const QuestionMaker maker(places);
   std::vector<FieldQuestion> list{
       stored(
           maker.on_surface("q", "q", "q", input.stored.charge, input.bie.charge, input.bie_high.charge, sizes.charge)),
@@ -94,9 +94,8 @@ std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, co
 FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& places,
                                const ChargingLevels& charging) {
   const InTime& in_time = *input.in_time;
-  FieldQuestion question = QuestionMaker(input, places)
-                               .on_surface("Vm", "V_m", "Vm", input.potential, in_time.bie, in_time.bie_high,
-                                           natural_sizes(input, places).potential);
+  FieldQuestion question = QuestionMaker(places).on_surface("Vm", "V_m", "Vm", input.potential, in_time.bie,
+                                                            in_time.bie_high, natural_sizes(input, places).potential);
   question.group = RowGroup::in_time;
   question.time_error = charging.time_error;
   // Of degrees and steps together.
@@ -111,7 +110,7 @@ FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& 
 
 std::vector<FieldQuestion> stored_flow_questions(const CheckInput& input, const ComparisonPlaces& places) {
   const NaturalSizes sizes = natural_sizes(input, places);
-  const QuestionMaker maker(input, places);
+  const QuestionMaker maker(places);
   const SurfacePoints& points = places.surface;
   std::vector<FieldQuestion> list;
   const auto add_reproduced = [&](const std::string& name, const std::string& label, const Eigen::MatrixXd& judged,

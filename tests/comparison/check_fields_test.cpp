@@ -46,14 +46,16 @@ BOOST_AUTO_TEST_CASE(error_is_estimated_from_another_order_at_every_order) {
   for (const bool quick : {false, true}) {
     for (int order = vehd::lowest_order; order <= vehd::highest_order; ++order) {
       const int other = vehd::estimate_order(order, quick);
-      BOOST_TEST(std::abs(other - order) >= 1, order);
-      BOOST_TEST(other >= vehd::lowest_order, order);
-      BOOST_TEST(other <= vehd::highest_order, order);
+      BOOST_TEST(other >= order + 2, order);
+      // A lead of fewer degrees says little about what is left, and memory grows with the fourth power.
+      if (!quick) BOOST_TEST(other >= std::min(2 * order, order + 16), order);
+      BOOST_TEST(other <= std::max(vehd::highest_order, order + 16), order);
     }
   }
   BOOST_TEST(vehd::estimate_order(24, false) == 48);
   BOOST_TEST(vehd::estimate_order(16, true) == 24);
-  BOOST_TEST(vehd::estimate_order(64, false) == 48);
+  BOOST_TEST(vehd::estimate_order(56, false) == 72);
+  BOOST_TEST(vehd::estimate_order(64, false) == 80);
 }
 
 BOOST_AUTO_TEST_CASE(order_of_the_run_gives_the_numbers_of_the_run) {

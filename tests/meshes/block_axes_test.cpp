@@ -73,12 +73,13 @@ BOOST_AUTO_TEST_CASE(strongly_bent_shapes_take_more_cells) {
   const auto ellipsoid = [](double a, double b, double c) {
     return FrozenShape(project(1, [&](const Point& r) { return Point(a * r.x(), b * r.y(), c * r.z()); }));
   };
-  BOOST_TEST(cells_for_bending(off_centre_sphere(), 3, 5) == 3);
-  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.15, 1.3), 3, 5) == 3);
-  BOOST_TEST(cells_for_bending(shape_33(), 3, 5) == 3);
-  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.0, 5.0), 3, 5) == 4);
-  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.0, 0.2), 3, 5) == 4);
-  BOOST_TEST(cells_for_bending(ellipsoid(1.0, 1.0, 20.0), 3, 5) == 5);
+  BOOST_TEST(!is_strongly_bent(off_centre_sphere(), 3));
+  BOOST_TEST(!is_strongly_bent(ellipsoid(1.0, 1.15, 1.3), 3));
+  BOOST_TEST(!is_strongly_bent(shape_33(), 3));
+  BOOST_TEST(is_strongly_bent(ellipsoid(1.0, 1.0, 5.0), 3));
+  BOOST_TEST(is_strongly_bent(ellipsoid(1.0, 1.0, 0.2), 3));
+  BOOST_TEST(!is_strongly_bent(ellipsoid(1.0, 1.0, 5.0), 6));
+  BOOST_TEST(!is_strongly_bent(ellipsoid(1.0, 1.0, 0.2), 6));
   // The ends lie in the middle of a cell, or on a corner of four.
   const FrozenShape needle = ellipsoid(1.0, 1.0, 5.0);
   BOOST_TEST(normal_truncation_error(needle, Matrix3::Identity(), 4) <

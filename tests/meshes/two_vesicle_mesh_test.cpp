@@ -35,10 +35,9 @@ BOOST_AUTO_TEST_CASE(thirty_six_blocks_meet_face_to_face) {
   TwoVesicleOptions options;
   options.cells_per_edge = 2;
   options.boxes.outer_radius = 12.0;
-  options.boxes.far_radius = 20.0;
   const TwoVesicleMesh mesh = make_two_vesicle_mesh(two_shapes(0.2), options);
-  // 2³ in a core, 6 · 2² in each of 3 layers about it, 10 · 2² in each of 3 layers about both boxes.
-  BOOST_TEST(mesh.n_cells() == 2 * (8 + 24 * 3) + 40 * 3);
+  // 2³ in a core, 6 · 2² in each of 3 layers about it, 10 · 2² in each of 2 layers about both boxes.
+  BOOST_TEST(mesh.n_cells() == 2 * (8 + 24 * 3) + 40 * 2);
   BOOST_TEST(mesh.n_vesicles() == 2);
   const FaceCounts faces = count_faces(mesh);
   BOOST_TEST(faces.wrong == 0);
@@ -73,7 +72,6 @@ BOOST_AUTO_TEST_CASE(membranes_lie_on_their_shapes_and_the_outer_boundary_on_its
 BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_map) {
   TwoVesicleOptions options;
   options.boxes.outer_radius = 12.0;
-  options.boxes.far_radius = 16.0;
   const TwoVesicleMesh mesh = make_two_vesicle_mesh(two_shapes(1.0), options);
   BOOST_TEST(jacobian_error(mesh) < 1e-8);
   BOOST_TEST(batch_gap(mesh) < 1e-13);
@@ -115,24 +113,6 @@ BOOST_AUTO_TEST_CASE(elements_are_well_formed_at_every_gap_and_hold_the_volumes)
   }
 }
 
-BOOST_AUTO_TEST_CASE(second_sphere_leaves_all_other_cells_where_they_are) {
-  const std::array<FrozenShape, 2> shapes = two_shapes(1.0);
-  TwoVesicleOptions options;
-  options.boxes.outer_radius = 12.0;
-  const TwoVesicleMesh near = make_two_vesicle_mesh(shapes, options);
-  options.boxes.far_radius = 20.0;
-  const TwoVesicleMesh far = make_two_vesicle_mesh(shapes, options);
-  BOOST_TEST(far.outer_radius() == 20.0);
-  std::vector<Point> centres;
-  for (int c = 0; c < far.n_cells(); ++c) centres.push_back(far.physical(c, {0.5, 0.5, 0.5}));
-  for (int c = 0; c < near.n_cells(); ++c) {
-    const Point x = near.physical(c, {0.5, 0.5, 0.5});
-    double least = 1e300;
-    for (const Point& other : centres) least = std::min(least, (x - other).norm());
-    BOOST_TEST(least < 1e-13);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(mesh_does_not_depend_on_unit_or_place) {
   const std::array<Eigen::MatrixXd, 2> positions = two_positions(0.2);
   const auto moved = [](Eigen::MatrixXd coefficients) {
@@ -158,9 +138,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_meshed_is_refused) {
   BOOST_TEST(mesh_error(shapes, options).find("outer radius 3 does not hold the boxes") == 0);
   options.boxes.outer_radius = 12.0;
   options.box_layers = 0;
-  BOOST_CHECK_THROW(make_two_vesicle_mesh(shapes, options), std::invalid_argument);
-  options.box_layers = 2;
-  options.boxes.far_radius = 12.0;
   BOOST_CHECK_THROW(make_two_vesicle_mesh(shapes, options), std::invalid_argument);
 }
 

@@ -199,6 +199,23 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
   BOOST_TEST(with_order(0.1).tail == with_order(1.0).tail, boost::test_tools::tolerance(1e-2));
 }
 
+// A field that elements have hardly begun to follow may seem to converge, by changes that are less than its error.
+BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
+  const auto with_errors = [](double coarse, double middle, double fine) {
+    LevelSequence sequence = levels();
+    sequence.levels = {level(coarse, 1000), level(middle, 2000), level(fine, 4000)};
+    sequence.truncated = sequence.rough = sequence.levels.front();
+    return compare(question(), sequence, 0.02);
+  };
+  const FieldComparison far = with_errors(0.8, 0.45, 0.26);
+  BOOST_TEST(far.order.value() > 2.5);
+  BOOST_TEST(far.levels_change.l2 < far.difference.l2);
+  BOOST_TEST((far.verdict == Verdict::undecided));
+  const FieldComparison near = with_errors(0.08, 0.045, 0.026);
+  BOOST_TEST(near.order.value() == far.order.value(), boost::test_tools::tolerance(1e-3));
+  BOOST_TEST((near.verdict == Verdict::does_not));
+}
+
 // Elements know the work of f_b to 1e-11, so a difference of all that degree p misses meets the estimate from the other
 // degree alone, which misses something as well.
 BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_leaves) {
@@ -259,12 +276,10 @@ BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
     return values;
   };
   for (const auto& [judged, other] : {std::pair{8, 10}, std::pair{10, 8}}) {
-    CheckInput input;
-    input.bie.order = judged;
-    input.bie_high.order = other;
-    const FieldQuestion asked =
-        QuestionMaker(input, places)
-            .on_surface("q", "q", "q", series(judged, 0.7), series(judged, 0.7), series(other, 0.7), 1.0);
+    const FieldQuestion asked = QuestionMaker(places).on_surface("q", "q", "q", series(judged, 0.7),
+                                                                 series(judged, 0.7), series(other, 0.7), 1.0);
+    BOOST_TEST(asked.degrees.judged == judged);
+    BOOST_TEST(asked.degrees.other == other);
     BOOST_TEST(asked.degrees.decay.value() == 0.49, boost::test_tools::tolerance(1e-10));
   }
 }

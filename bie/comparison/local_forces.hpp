@@ -1,0 +1,28 @@
+#pragma once
+
+#include "bie/comparison/frozen_state.hpp"
+
+namespace vehd {
+
+/// Forces that the shape exerts at each point by its derivatives there, coefficients [n_coefficients x 3]; empty where
+/// the vesicle has none.
+struct LocalForces {
+  Matrix bending;    ///< f_b
+  Matrix curvature;  ///< f_c of a spontaneous curvature
+};
+
+/// On a membrane that needs no layers.
+/// @param position  coefficients of x in its degree
+LocalForces local_forces(const FrozenState& frozen, const Membrane& membrane, const Matrix& position,
+                         std::size_t vesicle = 0);
+
+/// At any degree, also beyond highest_order: they need no layers, and cost as little as some transforms.
+/// Accuracy: spectral; of a 1:1:5 ellipsoid of degree 56 the degrees 112 and 168 differ by less than 1e-5 in f_b
+/// (tests/comparison/local_forces_test.cpp)
+LocalForces local_forces(const FrozenState& frozen, int order, std::size_t vesicle = 0);
+
+/// Degree in which they are found a second time, where all else is found in estimate_order(): twice that of the state,
+/// or `other` if that is higher. f_b has four derivatives of x, and what a few degrees more change of it says little.
+int local_force_order(int order, int other);
+
+}  // namespace vehd
