@@ -132,9 +132,10 @@ class Iteration {
     }
     // The norm of the solve weighs curvature and strain together, those of high degrees least: with the roughest
     // tolerance what is left of one may hide in what the other brings anew, the rounding of the area elements.
-    if (excess() > thresholds::gainless_pass * excess_before_) sharpening_ *= thresholds::sharper_pass;
+    if (excess() > thresholds::gainless_pass * excess_before_) ++gainless_;
     excess_before_ = excess();
-    const double tolerance = std::max(sharpening_ * pass_tolerance(excess()), thresholds::sharpest_pass);
+    const double sharpening = std::pow(thresholds::sharper_pass, std::max(0, gainless_ - thresholds::gainless_passes));
+    const double tolerance = std::max(sharpening * pass_tolerance(excess()), thresholds::sharpest_pass);
     const FlowSystem::Solution increment = flow.solve(rhs_, {}, tolerance);
     iterations += increment.report.iterations;
     // What a pass leaves the next one answers for, as long as it gains.
@@ -179,7 +180,7 @@ class Iteration {
   double curvature_scale_ = 0.0;
   int pass_ = 0;
   double excess_before_ = std::numeric_limits<double>::infinity();
-  double sharpening_ = 1.0;
+  int gainless_ = 0;
   Matrix velocity_;
   Vector curvature_;  // h of Eq. (28), accumulated
   Measure after_;

@@ -119,11 +119,21 @@ VisibleDifference scaled(double factor, const VisibleDifference& of) {
 
 }  // namespace
 
+VisibleDifference Collocation::at_most_the_motion(const VisibleDifference& error) const {
+  VisibleDifference motion{};
+  for (std::size_t m = 0; m < last(); ++m) {
+    const VisibleDifference change = physics_.visible_difference(nodes_[m], nodes_.back());
+    motion.shape = std::max(motion.shape, change.shape);
+    motion.potential = std::max(motion.potential, change.potential);
+  }
+  return {std::min(error.shape, motion.shape), std::min(error.potential, motion.potential)};
+}
+
 VisibleDifference Collocation::rule_error() const {
   const int n_nodes = static_cast<int>(nodes_.size());
   if (n_nodes < 2) return {};
   const int power = 2 * n_nodes - 1;
-  return scaled(integration_error(points_of(rule_), 1.0, power), derivative(power));
+  return at_most_the_motion(scaled(integration_error(points_of(rule_), 1.0, power), derivative(power)));
 }
 
 VisibleDifference Collocation::stage_error() const {
@@ -132,7 +142,7 @@ VisibleDifference Collocation::stage_error() const {
   for (const double node : rule_.nodes) {
     largest = std::max(largest, std::abs(integration_error(rule_.nodes, node, power)));
   }
-  return scaled(largest, derivative(power));
+  return at_most_the_motion(scaled(largest, derivative(power)));
 }
 
 VisibleDifference Collocation::rule_error(double time, int n_more) const {
@@ -140,7 +150,7 @@ VisibleDifference Collocation::rule_error(double time, int n_more) const {
   std::vector<double> points = points_of(rule_);
   for (int i = 0; i < n_more; ++i) points.push_back(place);
   const int power = static_cast<int>(points.size());
-  return scaled(integration_error(points, place, power), derivative(power));
+  return at_most_the_motion(scaled(integration_error(points, place, power), derivative(power)));
 }
 
 }  // namespace vehd

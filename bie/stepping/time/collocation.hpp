@@ -54,7 +54,9 @@ class Collocation {
  private:
   [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
   [[nodiscard]] VisibleDifference polynomial_derivative(int k) const;
-
+  /// An error, or how far the nodes lie apart where that is less. What relaxes in a small part of the step has rates
+  /// that are the solvers' errors over that time, and none of it is left in the nodes.
+  [[nodiscard]] VisibleDifference at_most_the_motion(const VisibleDifference& error) const;
   [[nodiscard]] double place_of(double time) const;
 
   StepOperations& physics_;
