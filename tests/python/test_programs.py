@@ -39,6 +39,13 @@ class Programs(InFolder):
         for key in ("error_q", "error_force"):
             self.assertAlmostEqual(found[key], expected[key], delta=1e-6 * expected[key])
 
+    def test_steps_of_pairs_take_turns_with_those_of_one(self):
+        result = subprocess.run([sys.executable, SOURCE / "docs/examples/pair_step_cost.py", "--steps", "6", "--degree",
+                                 "6"], capture_output=True, text=True, check=True)
+        lines = result.stdout.splitlines()
+        self.assertEqual([line.split(":")[0] for line in lines], ["one alone", "gap 0.10", "gap 0.20", "gap 0.69"])
+        self.assertIn(" 1.00 times one alone", lines[0])
+
     @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
     def test_scripts_of_the_pages_run(self):
         (self.folder / "docs/scenes").mkdir(parents=True)
