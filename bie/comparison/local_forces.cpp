@@ -10,6 +10,7 @@
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
+
 LocalForces local_forces(const FrozenState& frozen, const Membrane& membrane, const Matrix& position,
                          std::size_t vesicle) {
   const VesicleModel& model = frozen.model.vesicles[vesicle];

@@ -85,17 +85,20 @@ void Evolution::lower_order_if_idle(std::size_t a) {
   if (enough <= highest) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 
+void Evolution::try_economy(Economy economy, std::size_t a) {
+  try {
+    (this->*economy)(a);
+  } catch (const ConvergenceError&) {
+    // What cannot be had for less goes on as it is.
+  }
+}
+
 void Evolution::economise() {
   if (state_.step % thresholds::economy_interval != 0) return;
   for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
     if (setup_.symmetry.exchange.is_image(a)) continue;
-    for (const auto economy : {&Evolution::lower_order_if_idle, &Evolution::lower_quadrature_if_idle}) {
-      try {
-        (this->*economy)(a);
-      } catch (const ConvergenceError&) {
-        // What cannot be had for less goes on as it is.
-      }
-    }
+    try_economy(&Evolution::lower_order_if_idle, a);
+    try_economy(&Evolution::lower_quadrature_if_idle, a);
   }
 }
 

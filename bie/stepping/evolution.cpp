@@ -287,13 +287,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
     if (before_jump_) return attempt;
     // What the first-order step asked for may be more than the step needs, and degrees that are not needed do harm
     // where their errors grow.
-    for (const std::size_t a : raised) {
-      try {
-        lower_order_if_idle(a);
-      } catch (const ConvergenceError&) {
-        // It goes on with the higher one.
-      }
-    }
+    for (const std::size_t a : raised) try_economy(&Evolution::lower_order_if_idle, a);
     economise();
     return attempt;
   }

@@ -115,6 +115,8 @@ class Evolution {
   bool raise_orders_for(const State& reached);
   void lower_order_if_idle(std::size_t vesicle);
   void lower_quadrature_if_idle(std::size_t vesicle);
+  using Economy = void (Evolution::*)(std::size_t vesicle);
+  void try_economy(Economy economy, std::size_t vesicle);
   void economise();
 
   EvolutionSetup setup_;

@@ -30,8 +30,7 @@ struct CoupledTension {
 /// these, the tensions and what is learned of all.
 /// @param is_sphere   of each membrane, see uniform_tension_is_free
 /// @param weighted    of J f, f the other forces, as CoupledFlow::velocities has them; likewise the background
-/// @param start       λ of each to start from; empty ones are zero. What they make of the flow is found together with
-/// w.
+/// @param start       λ of each to start from; empty ones are zero. Their flow is found together with w.
 /// @param known       CoupledTension::learned on membranes that were nearly the same; counts if all of them have it
 /// @param tolerance   of the preconditioned residual, over the preconditioned ∇_γ·w or, from a start, over the tensions
 ///                    without their means, of which it is the error
