@@ -30,6 +30,15 @@ bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
   return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target();
 }
 
+/// Is the state resolved, or is what it lacks nothing that more degrees give? A spectrum that goes on as it was is what
+/// the solves of the step leave at every degree, and where errors grow those of more degrees grow faster.
+bool Evolution::has_enough(const Resolution& reached, std::size_t a, const std::vector<Raise>& raised) const {
+  if (resolves(reached, a)) return true;
+  const auto last =
+      std::find_if(raised.rbegin(), raised.rend(), [a](const Raise& raise) { return raise.vesicle == a; });
+  return last != raised.rend() && reached.remainder() > std::sqrt(last->left_out * last->promised);
+}
+
 /// The least even degree for what is in the narrowest gap, of the two that it is between and of their images.
 int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
   const Exchange& exchange = setup_.symmetry.exchange;
@@ -44,7 +53,7 @@ int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
 }
 
 /// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
-void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
+Evolution::Raise Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
   try {
     change_space(a, enough, state_.vesicles[a].quadrature_level);
   } catch (const ConvergenceError& error) {
@@ -52,21 +61,22 @@ void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough
         "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
         setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(), enough, error.what()));
   }
+  return {a, reached.remainder(), reached.remainder_at(enough)};
 }
 
 /// @returns whether any was too low
-bool Evolution::raise_orders_for(const State& reached) {
-  bool raised = false;
+bool Evolution::raise_orders_for(const State& reached, std::vector<Raise>& raised) {
+  const std::size_t before = raised.size();
   const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
   for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
     if (setup_.symmetry.exchange.is_image(a)) continue;
     const Resolution found = resolution(reached, a);
     const int of_gap = order_of_gap(gap, a);
-    if (resolves(found, a) && order(a) >= of_gap) continue;
-    raise_order(a, found, std::max(resolves(found, a) ? 0 : raised_order(found, a), of_gap));
-    raised = true;
+    const bool enough = has_enough(found, a, raised);
+    if (enough && order(a) >= of_gap) continue;
+    raised.push_back(raise_order(a, found, std::max(enough ? 0 : raised_order(found, a), of_gap)));
   }
-  return raised;
+  return raised.size() > before;
 }
 
 void Evolution::lower_order_if_idle(std::size_t a) {

@@ -185,7 +185,7 @@ void Evolution::arrive(State state) {
   before_jump_ = std::move(before);
 }
 
-StepGoal Evolution::goal_for(const EventTimes& events) const {
+StepGoal Evolution::goal_for(const EventTimes& events, const std::vector<Raise>& raised) const {
   StepGoal goal;
   goal.tolerance = setup_.control.tolerance;
   goal.growth = growth_.steps;
@@ -197,10 +197,11 @@ StepGoal Evolution::goal_for(const EventTimes& events) const {
   if (left_out > goal.truncation) {
     goal.most_weight = std::max(1.0, thresholds::step_share * goal.tolerance / left_out);
   }
-  goal.too_coarse = [this](const State& reached) {
+  goal.too_coarse = [this, &raised](const State& reached) {
     std::vector<std::size_t> result;
     for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-      if (!setup_.symmetry.exchange.is_image(a) && !resolves(resolution(reached, a), a)) result.push_back(a);
+      if (setup_.symmetry.exchange.is_image(a)) continue;
+      if (!has_enough(resolution(reached, a), a, raised)) result.push_back(a);
     }
     return result;
   };
@@ -243,11 +244,11 @@ StepAttempt Evolution::step(const EventTimes& events) {
   if (discontinuity) ends.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
   StepPlan plan = plan_step(state_.time, state_.dt_next, ends);
   expect_growth(events.end_time);
-  const StepGoal goal = goal_for(events);
+  std::vector<Raise> raised;
+  const StepGoal goal = goal_for(events, raised);
   double wanted = state_.dt_next;
   const double from = state_.time;
   StepAttempt attempt;
-  std::vector<std::size_t> raised;
   for (;;) {
     attempt = step_within(plan, wanted, attempt, goal);
     const bool at_event = plan.reaches_event && attempt.dt == plan.dt_limit;
@@ -255,12 +256,11 @@ StepAttempt Evolution::step(const EventTimes& events) {
       if (!attempt.too_coarse.empty()) {
         for (const std::size_t a : attempt.too_coarse) {
           const Resolution reached = resolution(attempt.state, a);
-          raise_order(a, reached, raised_order(reached, a));
-          raised.push_back(a);
+          raised.push_back(raise_order(a, reached, raised_order(reached, a)));
         }
         continue;
       }
-      if (raise_orders_for(attempt.state)) {
+      if (raise_orders_for(attempt.state, raised)) {
         ++attempt.rejected;
         continue;
       }
@@ -287,7 +287,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
     if (before_jump_) return attempt;
     // What the first-order step asked for may be more than the step needs, and degrees that are not needed do harm
     // where their errors grow.
-    for (const std::size_t a : raised) try_economy(&Evolution::lower_order_if_idle, a);
+    for (const Raise& raise : raised) try_economy(&Evolution::lower_order_if_idle, raise.vesicle);
     economise();
     return attempt;
   }

@@ -98,6 +98,13 @@ class Evolution {
   void expect_growth(double until);
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
+  /// A degree that has risen within a step.
+  struct Raise {
+    std::size_t vesicle = 0;
+    double left_out = 0.0;  ///< by the degree before
+    double promised = 0.0;  ///< by the higher one, of the same state
+  };
+  [[nodiscard]] bool has_enough(const Resolution& reached, std::size_t vesicle, const std::vector<Raise>& raised) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
@@ -108,11 +115,11 @@ class Evolution {
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);
   void replace(State state, Evaluation evaluation);
-  [[nodiscard]] StepGoal goal_for(const EventTimes& events) const;
+  [[nodiscard]] StepGoal goal_for(const EventTimes& events, const std::vector<Raise>& raised) const;
   StepAttempt step_within(const StepPlan& plan, double wanted, const StepAttempt& former, const StepGoal& goal);
-  void raise_order(std::size_t vesicle, const Resolution& reached, int enough);
+  Raise raise_order(std::size_t vesicle, const Resolution& reached, int enough);
   [[nodiscard]] std::vector<Moment> evaluated(const std::vector<State>& passed, StepAttempt& attempt);
-  bool raise_orders_for(const State& reached);
+  bool raise_orders_for(const State& reached, std::vector<Raise>& raised);
   void lower_order_if_idle(std::size_t vesicle);
   void lower_quadrature_if_idle(std::size_t vesicle);
   using Economy = void (Evolution::*)(std::size_t vesicle);

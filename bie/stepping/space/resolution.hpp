@@ -29,6 +29,8 @@ class Resolution {
   /// Estimate of what the degrees above p would add, in the maximum norm, to x over the radius or to V_m over its
   /// scale, whichever is more. A geometric series continues the upper half of the spectrum.
   [[nodiscard]] double remainder() const;
+  /// The same of a higher degree, or of the state cut at a lower one.
+  [[nodiscard]] double remainder_at(int order) const;
   /// The least even degree, from `lowest` to `highest`, whose remainder is below the target. Of a lower degree than the
   /// state's that holds for the state cut there as well: a spectrum that ends on a plateau leaves out more than the
   /// degrees that were cut.
@@ -43,7 +45,6 @@ class Resolution {
   };
   [[nodiscard]] int last() const { return static_cast<int>(shape_.size()) - 1; }
   [[nodiscard]] Tail tail_of_cut(int order) const;
-  [[nodiscard]] double remainder_at(int order) const;
 
   Vector shape_;                  // bounds of x over the radius, or of the other field, by degree
   Vector potential_;              // of V_m; empty without electricity

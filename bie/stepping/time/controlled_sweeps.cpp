@@ -16,7 +16,7 @@ namespace {
 
 /// How many times what a step leaves of shape and V_m counts.
 VisibleDifference lasting_weights(const StepGoal& goal, double dt) {
-  const double remembered = std::min(goal.memory / dt, thresholds::most_remembered);
+  const double remembered = std::min(1.0 + goal.memory / dt, thresholds::most_remembered);
   const double of_shape = std::max(goal.growth, thresholds::remembered_share * remembered);
   return {std::min(goal.most_weight, of_shape), std::min(goal.most_weight, goal.growth)};
 }
