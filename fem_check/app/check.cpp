@@ -9,7 +9,6 @@
 #include "fem_check/app/questions.hpp"
 #include "fem_check/app/shape_levels.hpp"
 #include "fem_check/app/surface_series.hpp"
-#include "meshes/block_axes.hpp"
 
 namespace vehd::fem_check {
 namespace {
@@ -55,10 +54,11 @@ double stored_velocity_difference(const CheckInput& input, const SurfacePoints& 
 /// Of the checks that are asked for: targets that leave room for what is required, and cells that follow the bends.
 Refinement refinement_for(const CheckTask& task, const std::vector<meshes::FrozenShape>& shapes) {
   const bool single = shapes.size() == 1;
-  const Refinement quick = single ? Refinement::quick() : Refinement::quick_of_two();
-  Refinement refinement = task.quick ? quick : Refinement::finest();
-  if (single && !task.quick && meshes::is_strongly_bent(shapes.front(), refinement.cells_per_edge)) {
-    refinement = Refinement::of_strongly_bent();
+  Refinement refinement = Refinement::finest();
+  if (task.quick) {
+    refinement = single ? Refinement::quick() : Refinement::quick_of_two();
+  } else if (single) {
+    refinement = Refinement::following(shapes.front());
   }
   constexpr double share = 0.5;
   refinement.potential_target = std::min(refinement.potential_target, share * task.required);

@@ -43,6 +43,10 @@ struct Refinement {
   static Refinement finest() { return {}; }
   /// Where forces are as narrow as ends and rims, smaller cells gain more than degrees do.
   static Refinement of_strongly_bent();
+  /// The bent cells of a bowl, see meshes::cells_have_to_be_relaxed(), want degrees more than they want to be small.
+  static Refinement of_strongly_bent_bowl();
+  /// The one of these that follows the bends of the shape.
+  static Refinement following(const meshes::FrozenShape& shape);
   /// Three levels each.
   static Refinement quick();
   static Refinement quick_of_two();
