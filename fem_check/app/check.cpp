@@ -80,11 +80,14 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
   if (input.electric()) solved.potential = solve_potential_levels(inputs, meshes, refinement, report);
   if (input.in_time && single) solved.charging = solve_charging_levels(input, meshes, refinement, report);
   if (!input.flow()) return solved;
-  solved.flow = solve_flow_levels(inputs, meshes, refinement, report);
-  if (solved.potential) add_own_force(inputs, meshes, refinement, *solved.potential, solved.flow->sequence, report);
+  FlowSetups setups(inputs);
+  solved.flow = solve_flow_levels(inputs, meshes, setups, refinement, report);
+  if (solved.potential) {
+    add_own_force(inputs, meshes, setups, refinement, *solved.potential, solved.flow->sequence, report);
+  }
   if (single) {
-    solved.shape_flow =
-        solve_shape_levels(input, meshes, refinement, solved.potential ? &*solved.potential : nullptr, report);
+    const PotentialLevels* potential = solved.potential ? &*solved.potential : nullptr;
+    solved.shape_flow = solve_shape_levels(input, meshes, setups, refinement, potential, report);
   }
   return solved;
 }
