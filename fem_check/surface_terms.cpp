@@ -172,6 +172,21 @@ SurfaceTerms::SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& hand
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     if (owned.is_element(dofs_[i]) && !constraints.is_constrained(dofs_[i])) own_.push_back(i);
   }
+  if (dofs_.empty()) return;
+  // Of a symmetric matrix columns are rows.
+  const auto n_nodes = static_cast<Eigen::Index>(dofs_.size()), n_own = static_cast<Eigen::Index>(own_.size());
+  const Eigen::Index n_components = matrix_.cols() / n_nodes;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index c = 0; c < n_components; ++c) {
+    for (Eigen::Index i = 0; i < n_own; ++i) {
+      const Eigen::Index column = c * n_nodes + static_cast<Eigen::Index>(own_[static_cast<std::size_t>(i)]);
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, column); entry; ++entry) {
+        entries.emplace_back(c * n_own + i, entry.row(), entry.value());
+      }
+    }
+  }
+  own_rows_.resize(n_components * n_own, matrix_.cols());
+  own_rows_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<const Distributed*>& from) const {
@@ -185,9 +200,10 @@ void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<co
   }
   const dealii::ArrayView<double> all(values.data(), static_cast<std::size_t>(values.size()));
   dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(all), communicator_, all);
-  const Vector product = matrix_ * values;
-  for (std::size_t c = 0; c < to.size(); ++c) {
-    for (const std::size_t i : own_) (*to[c])(dofs_[i]) += product[at(c, i)];
+  const Vector product = own_rows_ * values;
+  Eigen::Index row = 0;
+  for (Distributed* component : to) {
+    for (const std::size_t i : own_) (*component)(dofs_[i]) += product[row++];
   }
 }
 

@@ -66,7 +66,8 @@ class SurfaceTerms {
   MPI_Comm communicator_;
   std::vector<DofIndex> dofs_;
   Eigen::SparseMatrix<double> matrix_;
-  std::vector<std::size_t> own_;  // which of them belong to this rank and are free
+  std::vector<std::size_t> own_;                           // which of them belong to this rank and are free
+  Eigen::SparseMatrix<double, Eigen::RowMajor> own_rows_;  // of these, in every component
 };
 
 /// Values at the nodes of all degrees of freedom, on all ranks.
