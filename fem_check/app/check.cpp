@@ -52,13 +52,19 @@ double stored_velocity_difference(const CheckInput& input, const SurfacePoints& 
 }
 
 /// Of the checks that are asked for: targets that leave room for what is required, and cells that follow the bends.
-Refinement refinement_for(const CheckTask& task, const std::vector<meshes::FrozenShape>& shapes) {
+Refinement refinement_for(const CheckTask& task, const std::vector<CheckInput>& inputs,
+                          const std::vector<meshes::FrozenShape>& shapes) {
   const bool single = shapes.size() == 1;
   Refinement refinement = Refinement::finest();
   if (task.quick) {
     refinement = single ? Refinement::quick() : Refinement::quick_of_two();
   } else if (single) {
     refinement = Refinement::following(shapes.front());
+  }
+  for (const CheckInput& input : inputs) {
+    for (const Eigen::MatrixXd* force : {&input.bie.force_bending, &input.bie_high.force_bending}) {
+      if (force->size() > 0) refinement.resolve(degree_of(*force));
+    }
   }
   constexpr double share = 0.5;
   refinement.potential_target = std::min(refinement.potential_target, share * task.required);
@@ -184,7 +190,7 @@ std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) 
   if (task.writes) require_directory(task.directory);
   std::vector<meshes::FrozenShape> shapes;
   for (const CheckInput& input : inputs) shapes.emplace_back(input.position);
-  const Refinement refinement = refinement_for(task, shapes);
+  const Refinement refinement = refinement_for(task, inputs, shapes);
   Meshes meshes(shapes, refinement);
   const Discretisation& geometry = meshes.discretise(refinement.potential_degrees.back());
   const SolvedState solved = solve_state(inputs, meshes, geometry, refinement, report);

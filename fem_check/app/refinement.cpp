@@ -35,6 +35,13 @@ Refinement Refinement::following(const meshes::FrozenShape& shape) {
   return meshes::cells_have_to_be_relaxed(shape, block_mesh_options(bowl, shape)) ? bowl : of_strongly_bent();
 }
 
+void Refinement::resolve(int degree) {
+  // A quarter of the way round has degree/4 waves.
+  constexpr double points_per_wave = 3.0;
+  const double points = points_per_wave * degree / (4.0 * cells_per_edge);
+  points_per_edge = std::max(points_per_edge, static_cast<int>(std::ceil(points)));
+}
+
 Refinement Refinement::quick() {
   Refinement refinement;
   refinement.potential_degrees = {3, 5, 6};

@@ -2,16 +2,17 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "tests/meshes/shapes.hpp"
+#include "meshes/harmonic_series.hpp"
+#include "tests/fem_check/cases.hpp"
 
 BOOST_AUTO_TEST_SUITE(refinement)
 
 namespace {
 
-using vehd::fem_check::Refinement;
+using namespace vehd::fem_check;
+using namespace vehd::fem_check::testing;
 using vehd::meshes::FrozenShape;
 using vehd::meshes::Point;
-namespace shapes = vehd::meshes::testing;
 
 FrozenShape ellipsoid(double width, double height) {
   return FrozenShape(
@@ -47,6 +48,27 @@ BOOST_AUTO_TEST_CASE(strongly_bent_shapes_have_smaller_cells_and_bowls_higher_de
   BOOST_TEST(of_bowl.cells_per_edge == 4);
   BOOST_TEST(of_bowl.shell_layers > usual.shell_layers);
   BOOST_TEST(highest_degree(of_bowl) == highest_degree(usual));
+}
+
+// The mean of Y_n0 over the sphere, and its product with another harmonic, are zero: what a rule finds instead comes
+// from between its points.
+BOOST_AUTO_TEST_CASE(points_of_the_comparison_resolve_waves_of_a_degree) {
+  const auto mean_of = [](int degree, int points_per_edge, int cells_per_edge) {
+    const Discretisation space =
+        discretise(unit_sphere(), {.cells_per_edge = cells_per_edge, .shell_layers = 1, .degree = 4});
+    const SurfacePoints points = space.quadrature_points(points_per_edge);
+    Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero((degree + 1) * (degree + 1), 1);
+    coefficients(degree * degree + degree, 0) = 1.0;
+    const vehd::meshes::HarmonicSeries harmonic(coefficients);
+    return std::abs(harmonic.values(points.direction).row(0).dot(points.weight));
+  };
+  Refinement refinement = Refinement::finest();
+  refinement.resolve(48);
+  BOOST_TEST(refinement.points_per_edge == 12);
+  refinement.resolve(96);
+  BOOST_TEST(refinement.points_per_edge > 12);
+  BOOST_TEST(mean_of(96, refinement.points_per_edge, refinement.cells_per_edge) < 1e-3);
+  BOOST_TEST(mean_of(96, 12, refinement.cells_per_edge) > 1e-2);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
