@@ -16,13 +16,18 @@ constexpr int highest_scalar = 9;
 constexpr int highest_pressure = 8;
 
 /// Calls work() with the loops compiled for the degree and the points of a cell; false where there are none. Elements
-/// of degree k have k + 2 Gauss points per direction, those of the pressure, one degree below its velocity, k + 3.
+/// of degree k have k + 2 Gauss points per direction, k + 1 where they only precondition, those of the pressure, one
+/// degree below its velocity, k + 3.
 template <int degree = 1, typename Work>
 bool with_fast_loops(const CellData& cell, const Work& work) {
   const auto& shape = cell.get_shape_info().data.front();
   if (cell.get_shape_info().element_type > MatrixFreeFunctions::tensor_symmetric) return false;
   if constexpr (degree <= highest_scalar) {
     if (shape.fe_degree != degree) return with_fast_loops<degree + 1>(cell, work);
+    if (shape.n_q_points_1d == degree + 1) {
+      work(FEEvaluationImplTransformToCollocation<3, degree, degree + 1, Lanes>());
+      return true;
+    }
     if (shape.n_q_points_1d == degree + 2) {
       work(FEEvaluationImplTransformToCollocation<3, degree, degree + 2, Lanes>());
       return true;

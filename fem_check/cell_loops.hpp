@@ -23,6 +23,9 @@ using CellValues = dealii::FEEvaluation<3, -1, 0, n_components, double, Lanes>;
 /// Gauss points per direction and cell of every integral of elements of a degree.
 constexpr int points_per_direction(int degree) { return degree + 2; }
 
+/// The same of forms that only precondition: as many as nodes.
+constexpr int preconditioner_points_per_direction(int degree) { return degree + 1; }
+
 /// A finite-element space of the loops.
 struct CellField {
   const dealii::DoFHandler<3>* dofs;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "fem_check/space.hpp"
+#include "fem_check/cell_points.hpp"
 
 namespace vehd::fem_check {
 

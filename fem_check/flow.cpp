@@ -1,5 +1,6 @@
 #include "fem_check/flow.hpp"
 
+#include "fem_check/cell_points.hpp"
 #include "fem_check/stokes_system.hpp"
 
 namespace vehd::fem_check {
@@ -17,17 +18,6 @@ struct FlowSolution::Data {
 namespace {
 
 using FlowData = FlowSolution::Data;
-
-Vector values_at(const Space& space, const dealii::DoFHandler<3>& handler, const dealii::Vector<double>& nodal,
-                 const VolumePoints& points) {
-  Vector result(points.size());
-  CellPoints cell(space, handler);
-  for (const CellRun& run : cell_runs(points)) {
-    cell.reinit(run.cell, run.units);
-    result.segment(run.begin, run.size) = cell.values(nodal);
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -57,11 +47,23 @@ void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& s
   solution.block(3) *= 1.0 / system.pressure_unit();
 }
 
+FlowOperators::FlowOperators(const Discretisation& discretisation, const PerVesicle<double>& viscosity_in,
+                             double viscosity_out)
+    : data_([&] {
+        Stopwatch watch;
+        StokesSystem system(discretisation, {viscosity_in, viscosity_out});
+        return std::make_shared<const Data>(Data{std::move(system), discretisation.degree(), watch.lap()});
+      }()) {}
+
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem, const FlowSolution* start) {
+  return solve_flow(FlowOperators(discretisation, problem.viscosity_in, problem.viscosity_out), problem, start);
+}
+
+FlowSolution solve_flow(const FlowOperators& operators, const FlowProblem& problem, const FlowSolution* start) {
   Stopwatch watch;
   Cost cost;
-  const StokesSystem system(discretisation, {problem.viscosity_in, problem.viscosity_out}, problem.exterior_degree);
-  cost.seconds_assembly = watch.lap();
+  cost.seconds_assembly = operators.data().seconds;
+  const StokesSystem system = system_for(operators, problem);
   Blocks solution = system.zero();
   if (start != nullptr) begin_from(*start, system, solution);
   system.solve(system.load(problem.force, problem.gradient), problem.tolerance, solution, cost);
@@ -93,14 +95,24 @@ FlowTraces FlowSolution::on_surface(const SurfacePoints& points) const {
 
 Vectors FlowSolution::velocity(const VolumePoints& points) const {
   Vectors result = data_->gradient * points.position;
-  for (int d = 0; d < 3; ++d) {
-    result.row(d) += values_at(*data_->space, data_->space->dofs, data_->velocity[d], points).transpose();
+  CellPoints cell(*data_->space, data_->space->dofs);
+  for (const CellRun& run : cell_runs(points)) {
+    cell.reinit(run.cell, run.units);
+    for (int d = 0; d < 3; ++d) {
+      result.row(d).segment(run.begin, run.size) += cell.values(data_->velocity[d]).transpose();
+    }
   }
   return result;
 }
 
 Vector FlowSolution::pressure(const VolumePoints& points) const {
-  return values_at(*data_->space, *data_->pressure_dofs, data_->pressure, points);
+  Vector result(points.size());
+  CellPoints cell(*data_->space, *data_->pressure_dofs);
+  for (const CellRun& run : cell_runs(points)) {
+    cell.reinit(run.cell, run.units);
+    result.segment(run.begin, run.size) = cell.values(data_->pressure);
+  }
+  return result;
 }
 
 const Cost& FlowSolution::cost() const { return data_->cost; }

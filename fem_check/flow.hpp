@@ -19,6 +19,21 @@ struct FlowProblem {
   int exterior_degree = usual_exterior_degree;
 };
 
+/// Operators and preconditioners of flows between fluids of the same viscosities on one discretisation: set up once for
+/// any number of problems. Immutable.
+class FlowOperators {
+ public:
+  struct Data;
+  /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive
+  FlowOperators(const Discretisation& discretisation, const PerVesicle<double>& viscosity_in, double viscosity_out);
+
+  /// For the solvers.
+  [[nodiscard]] const Data& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
 /// Velocity on the membrane.
 struct FlowTraces {
   Vectors velocity;   ///< v on γ
@@ -52,6 +67,10 @@ class FlowSolution {
 /// Accuracy: converges with the degree of the elements (tests/fem_check/exact_flow_test.cpp)
 /// Source: weak form in docs/weak_forms.md; Taylor–Hood elements
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                        const FlowSolution* start = nullptr);
+/// The same with operators at hand.
+/// @throws std::invalid_argument also for a problem with other viscosities
+FlowSolution solve_flow(const FlowOperators& operators, const FlowProblem& problem,
                         const FlowSolution* start = nullptr);
 
 }  // namespace vehd::fem_check

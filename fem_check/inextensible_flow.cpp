@@ -64,19 +64,24 @@ class InextensibleSystem {
   void vmult(Blocks& to, const Blocks& from) const {
     stokes_.vmult(to, from);
     const Vector tension = tension_of(from) / stokes_.space().length;
-    Vector expansion = Vector::Zero(tension.size());
     for (unsigned d = 0; d < 3; ++d) {
       const Vector push = elements_.divergence()[d].transpose() * tension;
-      Vector velocity = Vector::Zero(push.size());
-      for (const auto& [node, place] : own_) {
-        to.block(d).local_element(place) += push[node];
-        velocity[node] = from.block(d).local_element(place);
-      }
+      for (const auto& [node, place] : own_) to.block(d).local_element(place) += push[node];
+    }
+    set_tension(expansion_of(from), to);
+  }
+
+  /// C u/R on all ranks.
+  [[nodiscard]] Vector expansion_of(const Blocks& from) const {
+    Vector expansion = Vector::Zero(elements_.tension_nodes().size());
+    for (unsigned d = 0; d < 3; ++d) {
+      Vector velocity = Vector::Zero(elements_.velocity_nodes().size());
+      for (const auto& [node, place] : own_) velocity[node] = from.block(d).local_element(place);
       expansion += elements_.divergence()[d] * velocity;
     }
     const dealii::ArrayView<double> values(expansion.data(), static_cast<std::size_t>(expansion.size()));
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(values), communicator(), values);
-    set_tension(expansion / stokes_.space().length, to);
+    return expansion / stokes_.space().length;
   }
 
   /// The last block on all ranks.
@@ -112,45 +117,86 @@ class InextensibleSystem {
   std::vector<OwnNode> own_;
 };
 
-struct InextensiblePreconditioner {
+/// Preconditioners of the blocks.
+struct BlockPreconditioners {
   const StokesSystem& stokes;
   const InextensibleSystem& system;
   const TensionPreconditioner& tension;
 
-  void vmult(Blocks& to, const Blocks& from) const {
-    stokes.precondition(to, from);
-    // The operator of the tension in the units of the blocks is μ_e/R of that of the preconditioner.
+  /// Of the last block. The operator of the tension in the units of the blocks is μ_e/R of that of the preconditioner.
+  [[nodiscard]] Vector apply_tension(const Vector& residual) const {
     const double unit = stokes.space().length * stokes.space().length / stokes.functional_unit();
-    InextensibleSystem::set_tension(unit * tension.apply(system.tension_of(from)), to);
+    return unit * tension.apply(residual);
+  }
+};
+
+/// Each block on its own.
+struct DiagonalPreconditioner {
+  const BlockPreconditioners& blocks;
+
+  void vmult(Blocks& to, const Blocks& from) const {
+    blocks.stokes.precondition(to, from);
+    InextensibleSystem::set_tension(blocks.apply_tension(blocks.system.tension_of(from)), to);
+  }
+};
+
+/// Pressure and tension after the velocity, see StokesSystem::precondition_triangular().
+struct TriangularPreconditioner {
+  const BlockPreconditioners& blocks;
+
+  void vmult(Blocks& to, const Blocks& from) const {
+    blocks.stokes.precondition_triangular(to, from);
+    const Vector left = blocks.system.expansion_of(to) - blocks.system.tension_of(from);
+    InextensibleSystem::set_tension(blocks.apply_tension(left), to);
   }
 };
 
 }  // namespace
 
-InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
-                                         const InextensibleFlow* start) {
-  if (discretisation.space()->n_vesicles > 1) {
-    throw std::invalid_argument("tensions are found for one vesicle alone");
-  }
+struct InextensibleOperators::Data {
+  FlowOperators flow;
+  std::shared_ptr<const TensionElements> elements;
+  bool constant_is_determined;
+  TensionPreconditioner preconditioner;
+  double seconds;  ///< that setting up took, without the flow
+};
+
+InextensibleOperators::InextensibleOperators(const Discretisation& discretisation, FlowOperators flow) {
+  const Space& space = *discretisation.space();
+  if (space.n_vesicles > 1) throw std::invalid_argument("tensions are found for one vesicle alone");
   Stopwatch watch;
-  const StokesSystem stokes(discretisation, {problem.viscosity_in, problem.viscosity_out}, problem.exterior_degree);
-  const Space& space = stokes.space();
   const int degree = discretisation.degree();
   const auto elements = std::make_shared<const TensionElements>(*space.mesh, degree, degree - 1);
   const bool constant_is_determined = elements->variation_of_curvature() > least_variation;
-  const TensionPreconditioner tension_preconditioner(*elements, problem.viscosity_in[0], problem.viscosity_out,
-                                                     !constant_is_determined);
+  const Viscosities& viscosities = flow.data().system.viscosities();
+  TensionPreconditioner preconditioner(*elements, viscosities.inside[0], viscosities.outside, !constant_is_determined);
+  data_ = std::make_shared<const Data>(
+      Data{std::move(flow), elements, constant_is_determined, std::move(preconditioner), watch.lap()});
+}
+
+InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                                         const InextensibleFlow* start) {
+  const FlowOperators flow(discretisation, problem.viscosity_in, problem.viscosity_out);
+  return solve_inextensible_flow(InextensibleOperators(discretisation, flow), problem, start);
+}
+
+InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators, const FlowProblem& problem,
+                                         const InextensibleFlow* start) {
+  Stopwatch watch;
+  const InextensibleOperators::Data& set_up = operators.data();
+  const StokesSystem stokes = system_for(set_up.flow, problem);
+  const Space& space = stokes.space();
+  const std::shared_ptr<const TensionElements>& elements = set_up.elements;
   const InextensibleSystem system(stokes, *elements);
-  const InextensiblePreconditioner preconditioner{stokes, system, tension_preconditioner};
+  const BlockPreconditioners blocks{stokes, system, set_up.preconditioner};
+  const DiagonalPreconditioner measure{blocks};
   Cost cost;
-  cost.seconds_assembly = watch.lap();
+  cost.seconds_assembly = set_up.flow.data().seconds + set_up.seconds;
 
   const Blocks load = stokes.load(problem.force, problem.gradient);
   Blocks b = system.zero();
   for (unsigned block = 0; block < tension_block; ++block) b.block(block) = load.block(block);
   InextensibleSystem::set_tension(-elements->divergence_of_linear_flow(problem.gradient) / space.length, b);
-  // Without a force on the fluid, minimal residuals would break down in its first step: the residual would have no part
-  // in the equation of momentum, and the matrix has nothing on the diagonal of the others. So it starts from a tension.
   Blocks x = system.zero();
   if (start != nullptr) {
     begin_from(start->flow(), stokes, x);
@@ -158,16 +204,15 @@ InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, c
         space.length / stokes.functional_unit() *
             interpolated(start->data().tension, start->data().elements->tension_nodes(), elements->tension_nodes()),
         x);
-  } else {
-    InextensibleSystem::set_tension(
-        space.length * space.length / stokes.functional_unit() * tension_preconditioner.apply(system.tension_of(b)), x);
   }
-  const double size = energy_of_residual(preconditioner, b);
+  const double size = energy_of_residual(measure, b);
   if (!std::isfinite(size)) throw SolveError("the right-hand side of the inextensible flow is not finite");
   if (size > 0.0) {
-    const double left =
-        minimal_residuals(system, preconditioner, b, x, problem.tolerance * size, cost.iterations, "inextensible flow");
+    const double left = generalised_minimal_residuals(system, measure, TriangularPreconditioner{blocks}, b, x,
+                                                      problem.tolerance * size, cost.iterations, "inextensible flow");
     cost.solver_error = left / size;
+  } else {
+    x = 0.0;
   }
   cost.seconds_solve = watch.lap();
 
@@ -176,9 +221,10 @@ InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, c
   for (int d = 0; d < 3; ++d) {
     force.col(d) = space.trace->project(system.in_pairs(-(elements->divergence()[d].transpose() * tension)));
   }
-  return InextensibleFlow(std::make_shared<const InextensibleFlow::Data>(InextensibleFlow::Data{
-      flow_solution(stokes, problem, x, cost), space.trace, elements,
-      constant_is_determined ? tension : elements->without_mean(tension), force, constant_is_determined}));
+  return InextensibleFlow(std::make_shared<const InextensibleFlow::Data>(
+      InextensibleFlow::Data{flow_solution(stokes, problem, x, cost), space.trace, elements,
+                             set_up.constant_is_determined ? tension : elements->without_mean(tension), force,
+                             set_up.constant_is_determined}));
 }
 
 const FlowSolution& InextensibleFlow::flow() const { return data_->flow; }

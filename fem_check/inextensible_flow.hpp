@@ -27,6 +27,20 @@ class InextensibleFlow {
   std::shared_ptr<const Data> data_;
 };
 
+/// What is added to FlowOperators where a membrane keeps its area elements. Immutable.
+class InextensibleOperators {
+ public:
+  struct Data;
+  /// @throws std::invalid_argument as FlowOperators, and for several vesicles
+  InextensibleOperators(const Discretisation& discretisation, FlowOperators flow);
+
+  /// For the solver.
+  [[nodiscard]] const Data& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
 /// The flow of `problem` with ∇_γ·v = 0 on γ: the force of the problem does not contain f_λ, which is found,
 ///
 ///   2μ∫ D(v):D(w) − ∫ p div w + ∫_γ λ ∇_γ·w dA = ∫_γ f·w dA,  ∫ q div v = 0,  ∫_γ χ ∇_γ·v dA = 0,
@@ -38,6 +52,10 @@ class InextensibleFlow {
 /// (tests/fem_check/inextensible_flow_test.cpp)
 /// Source: paper Eqs. (1e), (2); weak form and stability in docs/weak_forms.md
 InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
+                                         const InextensibleFlow* start = nullptr);
+/// The same with operators at hand.
+/// @throws std::invalid_argument also for a problem with other viscosities
+InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators, const FlowProblem& problem,
                                          const InextensibleFlow* start = nullptr);
 
 }  // namespace vehd::fem_check

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -16,21 +17,24 @@ double energy_of_residual(const Preconditioner& preconditioner, const VectorType
   return std::sqrt(std::max(0.0, preconditioned * residual));
 }
 
-/// Minimal residuals in the norm of the preconditioner, started again from the true residual until that one is small
-/// enough too: the recursion alone drifts away from it by rounding.
-/// @param x     start and result
-/// @param goal  what energy_of_residual has to fall to
-/// @return      its value at x
+constexpr unsigned most_iterations = 3000;
+
+/// Adds corrections to x until the true residual is small enough: the recursion of a solver alone drifts away from it
+/// by rounding, or measures it differently.
+/// @param measure  P of energy_of_residual
+/// @param x        start and result
+/// @param goal     what energy_of_residual has to fall to
+/// @param correct  finds a correction: correct(correction, residual, its energy), and returns its steps
+/// @return         its value at x
 /// @throws SolveError if it does not
-template <typename Operator, typename Preconditioner, typename VectorType>
-double minimal_residuals(const Operator& a, const Preconditioner& preconditioner, const VectorType& b, VectorType& x,
-                         double goal, int& iterations, const char* what) {
-  constexpr unsigned most_iterations = 3000;
+template <typename Operator, typename Measure, typename VectorType, typename Correct>
+double corrected(const Operator& a, const Measure& measure, const VectorType& b, VectorType& x, double goal,
+                 int& iterations, const char* what, const Correct& correct) {
   VectorType residual(b);
   const auto size_now = [&] {
     a.vmult(residual, x);
     residual.sadd(-1.0, 1.0, b);
-    const double size = energy_of_residual(preconditioner, residual);
+    const double size = energy_of_residual(measure, residual);
     if (!std::isfinite(size)) throw SolveError(std::string("the equations of the ") + what + " are not finite");
     return size;
   };
@@ -38,14 +42,7 @@ double minimal_residuals(const Operator& a, const Preconditioner& preconditioner
   while (size > goal) {
     VectorType correction(x);
     correction = 0.0;
-    dealii::SolverControl control(most_iterations, 0.5 * goal);
-    dealii::SolverMinRes<VectorType> solver(control);
-    try {
-      solver.solve(a, correction, residual, preconditioner);
-    } catch (const dealii::SolverControl::NoConvergence&) {
-      // The true residual says below what was reached.
-    }
-    iterations += static_cast<int>(control.last_step());
+    iterations += correct(correction, residual, size);
     x += correction;
     const double before = size;
     size = size_now();
@@ -57,6 +54,53 @@ double minimal_residuals(const Operator& a, const Preconditioner& preconditioner
     }
   }
   return size;
+}
+
+/// Steps that a solver took, whether it got where it should or not: the true residual says what was reached.
+template <typename Solve>
+int steps_of(const dealii::SolverControl& control, const Solve& solve) {
+  try {
+    solve();
+  } catch (const dealii::SolverControl::NoConvergence&) {
+  }
+  return static_cast<int>(control.last_step());
+}
+
+/// Minimal residuals of symmetric equations in the norm of the preconditioner.
+/// @param x     start and result
+/// @param goal  what energy_of_residual has to fall to
+/// @return      its value at x
+/// @throws SolveError if it does not
+template <typename Operator, typename Preconditioner, typename VectorType>
+double minimal_residuals(const Operator& a, const Preconditioner& preconditioner, const VectorType& b, VectorType& x,
+                         double goal, int& iterations, const char* what) {
+  return corrected(a, preconditioner, b, x, goal, iterations, what,
+                   [&](VectorType& correction, const VectorType& residual, double /*size*/) {
+                     dealii::SolverControl control(most_iterations, 0.5 * goal);
+                     dealii::SolverMinRes<VectorType> solver(control);
+                     return steps_of(control, [&] { solver.solve(a, correction, residual, preconditioner); });
+                   });
+}
+
+/// Generalised minimal residuals: as minimal_residuals, with a preconditioner that need not be symmetric.
+/// @param measure         P of energy_of_residual
+/// @param preconditioner  approximate inverse
+template <typename Operator, typename Measure, typename Preconditioner, typename VectorType>
+double generalised_minimal_residuals(const Operator& a, const Measure& measure, const Preconditioner& preconditioner,
+                                     const VectorType& b, VectorType& x, double goal, int& iterations,
+                                     const char* what) {
+  constexpr unsigned most_directions = 100;
+  // The solver measures the preconditioned residual, node by node: a second correction goes further, so that the energy
+  // falls too.
+  double largest_reduction = 1.0;
+  return corrected(
+      a, measure, b, x, goal, iterations, what, [&](VectorType& correction, const VectorType& residual, double size) {
+        dealii::ReductionControl control(most_iterations, 0.0, 0.5 * std::min(goal / size, largest_reduction));
+        largest_reduction = 0.1;
+        typename dealii::SolverGMRES<VectorType>::AdditionalData data(most_directions + 2);
+        dealii::SolverGMRES<VectorType> solver(control, data);
+        return steps_of(control, [&] { solver.solve(a, correction, residual, preconditioner); });
+      });
 }
 
 }  // namespace vehd::fem_check

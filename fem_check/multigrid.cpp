@@ -146,7 +146,7 @@ struct Multigrid::Implementation {
   std::unique_ptr<dealii::PreconditionMG<3, Distributed, Transfer>> preconditioner;
 };
 
-Multigrid::Multigrid(const Space& space, const Fixed& fixed, const ScalarForm& form)
+Multigrid::Multigrid(const Space& space, const Fixed& fixed, const ScalarForm& form, Finest use_of_finest)
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& mg = *implementation_;
   const std::vector<int> degrees = degrees_of_levels(static_cast<int>(space.element.degree));
@@ -157,7 +157,10 @@ Multigrid::Multigrid(const Space& space, const Fixed& fixed, const ScalarForm& f
   }
   for (unsigned level = 0; level <= finest; ++level) {
     const dealii::DoFHandler<3>& handler = level == finest ? space.dofs : *mg.handlers[level];
-    mg.levels.push_back(std::make_unique<Stiffness>(space, handler, fixed, form));
+    const bool solves = level == finest && use_of_finest == Finest::solves;
+    const int n_points =
+        solves ? points_per_direction(degrees[level]) : preconditioner_points_per_direction(degrees[level]);
+    mg.levels.push_back(std::make_unique<Stiffness>(space, handler, fixed, form, n_points));
     mg.smoothers.push_back(std::make_unique<Smoother>());
     if (level > 0) mg.smoothers.back()->initialize(*mg.levels[level], smoother_data(*mg.levels[level]));
   }

@@ -9,7 +9,10 @@ namespace vehd::fem_check {
 /// rank. One cycle is a symmetric positive definite preconditioner.
 class Multigrid {
  public:
-  Multigrid(const Space& space, const Fixed& fixed, const ScalarForm& form);
+  /// Whether finest() is also the operator of equations, and integrates with their points. A level that only
+  /// preconditions has as many points as nodes: for k = 5 that is half of the work.
+  enum class Finest { solves, preconditions };
+  Multigrid(const Space& space, const Fixed& fixed, const ScalarForm& form, Finest finest);
   ~Multigrid();
 
   /// One cycle from zero.

@@ -23,7 +23,8 @@ class PotentialEquations {
         unit_(data.problem.conductivity_out * space_.length),
         multigrid_(space_, fixed_nodes(data.problem, space_.n_vesicles),
                    {over_outside(1.0, data.problem.conductivity_in), 1.0, over_outside(space_.length, membrane_),
-                    radiates() ? dipole_coefficient : 0.0}) {
+                    radiates() ? dipole_coefficient : 0.0},
+                   Multigrid::Finest::solves) {
     if (radiates()) {
       const Stiffness& finest = multigrid_.finest();
       exterior_ = std::make_unique<HarmonicTerms>(space_, finest.handler(), finest.constraints(), finest.outer(), 1,
@@ -126,8 +127,9 @@ class PotentialEquations {
     }
     if (problem.outer.kind == OuterCondition::Kind::dirichlet && problem.outer.value) {
       const OuterSphere& outer = multigrid_.finest().outer();
+      const Vectors positions = outer.positions();
       for (std::size_t i = 0; i < outer.dofs().size(); ++i) {
-        result[outer.dofs()[i]] = problem.outer.value(outer.positions()[i]);
+        result[outer.dofs()[i]] = problem.outer.value(positions.col(static_cast<Eigen::Index>(i)));
       }
     }
     return result;

@@ -1,3 +1,4 @@
+#include "fem_check/cell_points.hpp"
 #include "fem_check/potential_data.hpp"
 
 namespace vehd::fem_check {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "fem_check/cell_points.hpp"
 #include "fem_check/membrane_trace.hpp"
 
 namespace vehd::fem_check {
@@ -70,6 +71,10 @@ void fill_mapping(Space& space) {
       positions[c].emplace_back(x.x(), x.y(), x.z());
     }
     space.boxes.emplace_back(positions[c]);
+    Vectors& nodes = space.mapping_nodes.emplace_back(3, static_cast<Eigen::Index>(positions[c].size()));
+    for (std::size_t i = 0; i < positions[c].size(); ++i) {
+      for (unsigned d = 0; d < 3; ++d) nodes(d, static_cast<Eigen::Index>(i)) = positions[c][i][d];
+    }
   }
   space.mapping.initialize(space.triangulation, [&](const auto& cell) { return positions[cell->index()]; });
 }
@@ -191,62 +196,6 @@ SheetPairs sheet_pairs(const Space& space, const dealii::DoFHandler<3>& handler)
   return result;
 }
 
-CellPoints::CellPoints(const Space& space, const dealii::DoFHandler<3>& handler)
-    : space_(space),
-      handler_(handler),
-      evaluation_(space.mapping, handler.get_fe(),
-                  dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
-                      dealii::update_jacobians | dealii::update_inverse_jacobians),
-      dofs_(handler.get_fe().n_dofs_per_cell()),
-      local_(dofs_.size()) {}
-
-void CellPoints::reinit(unsigned cell, const std::vector<UnitPoint>& units) {
-  const auto iterator = space_.cell(handler_, cell);
-  evaluation_.reinit(iterator, dealii::ArrayView<const UnitPoint>(units.data(), units.size()));
-  iterator->get_dof_indices(dofs_);
-  n_points_ = units.size();
-}
-
-Vectors CellPoints::positions() const {
-  Vectors result(3, static_cast<Eigen::Index>(n_points_));
-  for (unsigned q = 0; q < n_points_; ++q) {
-    const UnitPoint place = evaluation_.real_point(q);
-    result.col(q) = space_.physical(Vector3(place[0], place[1], place[2]));
-  }
-  return result;
-}
-
-Matrix3 CellPoints::jacobian(std::size_t point) const {
-  const auto derivative = evaluation_.jacobian(static_cast<unsigned>(point));
-  Matrix3 result;
-  for (unsigned d = 0; d < 3; ++d) {
-    for (unsigned e = 0; e < 3; ++e) result(d, e) = space_.length * derivative[d][e];
-  }
-  return result;
-}
-
-void CellPoints::evaluate(const dealii::Vector<double>& nodal, dealii::EvaluationFlags::EvaluationFlags what) {
-  for (std::size_t i = 0; i < dofs_.size(); ++i) local_[i] = nodal[dofs_[i]];
-  evaluation_.evaluate(dealii::ArrayView<const double>(local_.data(), local_.size()), what);
-}
-
-Vector CellPoints::values(const dealii::Vector<double>& nodal) {
-  evaluate(nodal, dealii::EvaluationFlags::values);
-  Vector result(static_cast<Eigen::Index>(n_points_));
-  for (unsigned q = 0; q < n_points_; ++q) result[q] = evaluation_.get_value(q);
-  return result;
-}
-
-Vectors CellPoints::gradients(const dealii::Vector<double>& nodal) {
-  evaluate(nodal, dealii::EvaluationFlags::gradients);
-  Vectors result(3, static_cast<Eigen::Index>(n_points_));
-  for (unsigned q = 0; q < n_points_; ++q) {
-    const auto& gradient = evaluation_.get_gradient(q);
-    result.col(q) = Vector3(gradient[0], gradient[1], gradient[2]) / space_.length;
-  }
-  return result;
-}
-
 std::vector<FaceRun> face_runs(const SurfacePoints& points) {
   std::vector<FaceRun> runs;
   for (Eigen::Index i = 0; i < points.size(); ++i) {
@@ -301,7 +250,7 @@ void fill_geometry(const Space& space, SurfacePoints& points) {
     const Vector3 outward = Vector3(centre[0], centre[1], centre[2]) - Vector3::Constant(0.5);
     const double sign = axis(1).cross(axis(2)).dot(outward) > 0.0 ? 1.0 : -1.0;
     for (Eigen::Index i = 0; i < run.size; ++i) {
-      const Matrix3 jacobian = cell.jacobian(static_cast<std::size_t>(i));
+      const Matrix3 jacobian = cell.jacobian(i);
       const Vector3 area = sign * (jacobian * axis(1)).cross(jacobian * axis(2));
       points.normal.col(run.begin + i) = area.normalized();
       points.direction.col(run.begin + i) =

@@ -63,7 +63,8 @@ struct Space {
   int n_vesicles;
   std::vector<MembraneFace> membrane;
   std::vector<OuterFace> outer;
-  std::vector<dealii::BoundingBox<3>> boxes;  ///< of the cells' mapping nodes
+  std::vector<Vectors> mapping_nodes;         ///< of every cell, in deal.II's order, without unit
+  std::vector<dealii::BoundingBox<3>> boxes;  ///< of these
   std::shared_ptr<const MembraneTrace> trace;
   double seconds_setup = 0.0;
 };
@@ -84,30 +85,6 @@ struct SheetPairs {
 };
 /// The pairs of a handler.
 SheetPairs sheet_pairs(const Space& space, const dealii::DoFHandler<3>& handler);
-
-/// Geometry and fields of one cell at given unit points, by sums over one direction after the other. Places and
-/// gradients as users know them.
-class CellPoints {
- public:
-  CellPoints(const Space& space, const dealii::DoFHandler<3>& handler);
-
-  /// Goes to points of a cell.
-  void reinit(unsigned cell, const std::vector<UnitPoint>& units);
-  [[nodiscard]] Vectors positions() const;
-  [[nodiscard]] Matrix3 jacobian(std::size_t point) const;  ///< ∂x/∂unit
-  [[nodiscard]] Vector values(const dealii::Vector<double>& nodal);
-  [[nodiscard]] Vectors gradients(const dealii::Vector<double>& nodal);  ///< [3 x n_points]
-
- private:
-  void evaluate(const dealii::Vector<double>& nodal, dealii::EvaluationFlags::EvaluationFlags what);
-
-  const Space& space_;
-  const dealii::DoFHandler<3>& handler_;
-  dealii::FEPointEvaluation<1, 3> evaluation_;
-  std::vector<DofIndex> dofs_;
-  std::vector<double> local_;
-  std::size_t n_points_ = 0;
-};
 
 /// Run of points on one face.
 struct FaceRun {

@@ -10,10 +10,36 @@ namespace {
 constexpr unsigned tied_field = 0;
 constexpr unsigned untied_field = 1;
 
+/// Entries 00, 11, 22, 01, 02, 12 of a symmetric tensor.
+constexpr unsigned tensor_size = 6;
+
+/// Gauss weight times J⁻¹J⁻ᵀ at every point of every group of cells, so that ∫ ∇u·∇w = Σ ∂u·metric·∂w with derivatives
+/// by unit coordinates: six numbers to be read where J⁻¹ and the weight have ten.
+dealii::AlignedVector<Lanes> metric_of(const CellLoops& loops) {
+  constexpr unsigned entries[tensor_size][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  CellValues<1> u(loops, tied_field);
+  dealii::AlignedVector<Lanes> result(std::size_t{loops.n_cell_batches()} * u.n_q_points * tensor_size);
+  Lanes* at = result.begin();
+  for (unsigned group = 0; group < loops.n_cell_batches(); ++group) {
+    u.reinit(group);
+    for (unsigned q = 0; q < u.n_q_points; ++q) {
+      const auto inverse = u.inverse_jacobian(q);  // transposed: ∇ = inverse · ∇_unit
+      for (const auto& [i, j] : entries) {
+        Lanes sum = 0.0;
+        for (unsigned d = 0; d < 3; ++d) sum += inverse[d][i] * inverse[d][j];
+        *at++ = u.JxW(q) * sum;
+      }
+    }
+  }
+  return result;
+}
+
 /// to += Σ coefficient ∫ ∇u·∇w over a range of cells.
-void stiffness_cells(const CellLoops& loops, unsigned field, const dealii::AlignedVector<Lanes>& coefficient,
-                     Distributed& to, const Distributed& from, const CellRange& range) {
+void stiffness_cells(const CellLoops& loops, unsigned field, const dealii::AlignedVector<Lanes>& metric,
+                     const dealii::AlignedVector<Lanes>& coefficient, Distributed& to, const Distributed& from,
+                     const CellRange& range) {
   CellValues<1> u(loops, field);
+  const unsigned n = u.n_q_points;
   for (unsigned group = range.first; group < range.second; ++group) {
     u.reinit(group);
     u.read_dof_values(from);
@@ -22,26 +48,19 @@ void stiffness_cells(const CellLoops& loops, unsigned field, const dealii::Align
     const Lanes constant = values[0];
     for (unsigned i = 0; i < u.dofs_per_cell; ++i) values[i] -= constant;
     u.evaluate(dealii::EvaluationFlags::gradients);
-    for (unsigned q = 0; q < u.n_q_points; ++q) u.submit_gradient(coefficient[group] * u.get_gradient(q), q);
+    // By unit coordinates, one direction after the other.
+    Lanes* slope = u.begin_gradients();
+    const Lanes factor = coefficient[group];
+    const Lanes* m = metric.begin() + std::size_t{group} * n * tensor_size;
+    for (unsigned q = 0; q < n; ++q, m += tensor_size) {
+      const Lanes a = factor * slope[q], b = factor * slope[n + q], c = factor * slope[2 * n + q];
+      slope[q] = m[0] * a + m[3] * b + m[4] * c;
+      slope[n + q] = m[3] * a + m[1] * b + m[5] * c;
+      slope[2 * n + q] = m[4] * a + m[5] * b + m[2] * c;
+    }
     u.integrate(dealii::EvaluationFlags::gradients);
     u.distribute_local_to_global(to);
   }
-}
-
-/// Metric of one group of cells, times the coefficient.
-std::array<dealii::AlignedVector<Lanes>, 6> metric(const CellValues<1>& u, const Lanes& coefficient) {
-  constexpr unsigned pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-  std::array<dealii::AlignedVector<Lanes>, 6> result;
-  for (unsigned entry = 0; entry < 6; ++entry) {
-    result[entry].resize(u.n_q_points);
-    for (unsigned q = 0; q < u.n_q_points; ++q) {
-      const auto inverse = u.inverse_jacobian(q);  // transposed: ∇ = inverse · ∇_unit
-      Lanes sum = 0.0;
-      for (unsigned d = 0; d < 3; ++d) sum += inverse[d][pairs[entry][0]] * inverse[d][pairs[entry][1]];
-      result[entry][q] = coefficient * u.JxW(q) * sum;
-    }
-  }
-  return result;
 }
 
 SheetPairs pairs_of(const Space& space, const dealii::DoFHandler<3>& handler) {
@@ -112,16 +131,18 @@ Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPa
 }
 
 Stiffness::Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, const Fixed& fixed,
-                     const ScalarForm& form)
+                     const ScalarForm& form, int n_points)
     : space_(space),
       handler_(handler),
       form_(form),
+      n_points_(n_points),
       pairs_(pairs_of(space, handler)),
       outer_(space, handler),
       constraints_(make_constraints(handler, pairs_, outer_.dofs(), fixed)) {
   none_.reinit(dealii::complete_index_set(handler.n_dofs()));
   none_.close();
-  loops_ = make_cell_loops(space, {{&handler, &constraints_}, {&handler, &none_}}, points_per_direction(degree()));
+  loops_ = make_cell_loops(space, {{&handler, &constraints_}, {&handler, &none_}}, n_points);
+  metric_ = metric_of(*loops_);
   coefficient_ = per_cell(space, *loops_, form.inside, form.outside);
   surface_ = surface_terms(space, handler, constraints_, pairs_, outer_, form);
 }
@@ -129,7 +150,7 @@ Stiffness::Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, c
 void Stiffness::vmult(Distributed& to, const Distributed& from) const {
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
-        stiffness_cells(loops, tied_field, coefficient_, t, f, range);
+        stiffness_cells(loops, tied_field, metric_, coefficient_, t, f, range);
       },
       to, from, true);
   surface_->add({&to}, {&from});
@@ -145,7 +166,7 @@ dealii::Vector<double> Stiffness::cell_product(const dealii::Vector<double>& u,
   for (const DofIndex dof : from.locally_owned_elements()) from(dof) = u[dof];
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
-        stiffness_cells(loops, untied_field, coefficient, t, f, range);
+        stiffness_cells(loops, untied_field, metric_, coefficient, t, f, range);
       },
       product, from, true);
   return on_all_ranks(product, space_.communicator);
@@ -189,15 +210,21 @@ void Stiffness::add_at(Distributed& to, const std::vector<DofIndex>& dofs, const
 Distributed Stiffness::inverse_diagonal() const {
   Distributed diagonal;
   initialize(diagonal);
-  const CellDiagonal cells(degree(), points_per_direction(degree()));
+  const CellDiagonal cells(degree(), n_points_);
   const Distributed unused(diagonal);
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& to, const Distributed&, const CellRange& range) {
         CellValues<1> u(loops, tied_field);
         for (unsigned group = range.first; group < range.second; ++group) {
           u.reinit(group);
-          const dealii::AlignedVector<Lanes> values = cells.of_stiffness(metric(u, coefficient_[group]));
-          for (unsigned i = 0; i < u.dofs_per_cell; ++i) u.begin_dof_values()[i] = values[i];
+          const Lanes* m = metric_.begin() + std::size_t{group} * u.n_q_points * tensor_size;
+          std::array<dealii::AlignedVector<Lanes>, tensor_size> tensor;
+          for (unsigned entry = 0; entry < tensor_size; ++entry) {
+            tensor[entry].resize(u.n_q_points);
+            for (unsigned q = 0; q < u.n_q_points; ++q) tensor[entry][q] = m[q * tensor_size + entry];
+          }
+          const dealii::AlignedVector<Lanes> values = cells.of_stiffness(tensor);
+          for (unsigned i = 0; i < u.dofs_per_cell; ++i) u.begin_dof_values()[i] = coefficient_[group] * values[i];
           u.distribute_local_to_global(to);
         }
       },

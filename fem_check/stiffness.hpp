@@ -32,8 +32,10 @@ Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPa
 /// Rows of fixed and tied nodes are those of the identity.
 class Stiffness : public dealii::Subscriptor {
  public:
-  /// @param handler  of scalar elements; has to live as long as this
-  Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, const Fixed& fixed, const ScalarForm& form);
+  /// @param handler   of scalar elements; has to live as long as this
+  /// @param n_points  Gauss points per direction and cell
+  Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, const Fixed& fixed, const ScalarForm& form,
+            int n_points);
 
   void vmult(Distributed& to, const Distributed& from) const;
   void Tvmult(Distributed& to, const Distributed& from) const { vmult(to, from); }
@@ -69,11 +71,13 @@ class Stiffness : public dealii::Subscriptor {
   const Space& space_;
   const dealii::DoFHandler<3>& handler_;
   ScalarForm form_;
+  int n_points_;
   SheetPairs pairs_;
   OuterSphere outer_;
   Constraints constraints_;
   Constraints none_;
   std::shared_ptr<const CellLoops> loops_;
+  dealii::AlignedVector<Lanes> metric_;
   dealii::AlignedVector<Lanes> coefficient_;
   std::unique_ptr<SurfaceTerms> surface_;
 };

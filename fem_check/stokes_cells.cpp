@@ -71,6 +71,24 @@ void StokesCells::apply(const Parts& to, const Parts& from) const {
       const_cast<Parts&>(to), from, true);
 }
 
+void StokesCells::apply_divergence(Distributed& to, const Parts& from) const {
+  loops_->cell_loop<Distributed, Parts>(
+      [&](const CellLoops& loops, Distributed& t, const Parts& f, const CellRange& range) {
+        CellValues<3> velocity(loops, velocity_field);
+        CellValues<1> pressure(loops, pressure_field);
+        for (unsigned group = range.first; group < range.second; ++group) {
+          velocity.reinit(group);
+          velocity.read_dof_values(f, 0);
+          velocity.evaluate(dealii::EvaluationFlags::gradients);
+          pressure.reinit(group);
+          for (unsigned q = 0; q < velocity.n_q_points; ++q) pressure.submit_value(-velocity.get_divergence(q), q);
+          pressure.integrate(dealii::EvaluationFlags::values);
+          pressure.distribute_local_to_global(t);
+        }
+      },
+      to, from, true);
+}
+
 void StokesCells::apply_pressure_mass(Distributed& to, const Distributed& from) const {
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {

@@ -19,6 +19,9 @@ class StokesCells {
   using Parts = std::vector<Distributed*>;
   /// to = the operator's product with from.
   void apply(const Parts& to, const Parts& from) const;
+  /// to = −∫ q div u, the pressure's part of that product.
+  /// @param from  u_x, u_y, u_z
+  void apply_divergence(Distributed& to, const Parts& from) const;
   /// to = ∫ p q/μ
   void apply_pressure_mass(Distributed& to, const Distributed& from) const;
   [[nodiscard]] Distributed inverse_pressure_diagonal() const;

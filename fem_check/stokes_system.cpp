@@ -4,7 +4,6 @@
 #include <numbers>
 #include <string>
 
-#include "fem_check/exterior_field.hpp"
 #include "fem_check/krylov.hpp"
 #include "fem_check/rigid_part.hpp"
 #include "fem_check/stokes_cells.hpp"
@@ -104,7 +103,6 @@ struct StokesSystem::Implementation {
   Multigrid multigrid;
   StokesCells cells;
   SurfaceTerms outer;
-  HarmonicTerms exterior;
   std::vector<unsigned> tied;  // local numbers
   PressureMass pressure_mass;
   PressureInverse pressure_inverse;
@@ -119,15 +117,16 @@ struct StokesSystem::Implementation {
   };
   std::vector<InnerPressure> inner_pressures;
 
-  Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities, int exterior_degree);
+  Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities);
   /// Adds those of one vesicle.
   void add_rotations(const StokesSystem& system, int vesicle);
   void find_rotation_energies(const StokesSystem& system);
   void add_inner_pressure(int vesicle);
+  void precondition_velocity(Blocks& to, const Blocks& from) const;
+  void precondition_pressure(Distributed& to, const Distributed& from) const;
 };
 
-StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities,
-                                             int exterior_degree)
+StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities)
     : space(std::move(where)),
       viscosity(viscosities),
       ratio(per_vesicle(space->n_vesicles,
@@ -137,11 +136,9 @@ StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where,
         handler->distribute_dofs(dealii::FE_Q<3>(space->element.degree - 1));
         return handler;
       }()),
-      multigrid(*space, sheets_tied(), {ratio, 1.0, 0.0, kOuterCoefficient}),
+      multigrid(*space, sheets_tied(), {ratio, 1.0, 0.0, kOuterCoefficient}, Multigrid::Finest::preconditions),
       cells(*space, *pressure_dofs, multigrid.finest().constraints(), ratio),
       outer(outer_terms(multigrid.finest(), cells.contrast_outside())),
-      exterior(*space, multigrid.finest().handler(), multigrid.finest().constraints(), multigrid.finest().outer(), 3,
-               exterior_flow(exterior_degree, kOuterCoefficient)),
       pressure_mass(cells, pressure_dofs->n_dofs()) {
   Distributed velocity;
   cells.initialize_velocity(velocity);
@@ -202,17 +199,41 @@ void StokesSystem::Implementation::add_inner_pressure(int vesicle) {
   pressure.factor = 1.0 / volume;
 }
 
-StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity, int exterior_degree) {
+StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity, int exterior_degree)
+    : exterior_degree_(exterior_degree) {
   require_valid(discretisation, viscosity);
-  implementation_ = std::make_unique<Implementation>(discretisation.space(), viscosity, exterior_degree);
+  const auto implementation = std::make_shared<Implementation>(discretisation.space(), viscosity);
+  implementation_ = implementation;
+  exterior_ = exterior_terms(exterior_degree);
   for (int vesicle = 0; vesicle < space().n_vesicles; ++vesicle) {
-    if (implementation_->ratio[vesicle] > 1.0) implementation_->add_rotations(*this, vesicle);
-    if (implementation_->ratio[vesicle] < 1.0) implementation_->add_inner_pressure(vesicle);
+    if (implementation->ratio[vesicle] > 1.0) implementation->add_rotations(*this, vesicle);
+    if (implementation->ratio[vesicle] < 1.0) implementation->add_inner_pressure(vesicle);
   }
-  if (!implementation_->rotations.empty()) implementation_->find_rotation_energies(*this);
+  if (!implementation->rotations.empty()) implementation->find_rotation_energies(*this);
 }
 
-StokesSystem::~StokesSystem() = default;
+StokesSystem StokesSystem::with_exterior(int exterior_degree) const {
+  if (exterior_degree == exterior_degree_) return *this;
+  StokesSystem result(*this);
+  result.exterior_degree_ = exterior_degree;
+  result.exterior_ = exterior_terms(exterior_degree);
+  return result;
+}
+
+std::shared_ptr<const HarmonicTerms> StokesSystem::exterior_terms(int exterior_degree) const {
+  return std::make_shared<const HarmonicTerms>(space(), diffusion().handler(), diffusion().constraints(),
+                                               diffusion().outer(), 3,
+                                               exterior_flow(exterior_degree, kOuterCoefficient));
+}
+
+StokesSystem system_for(const FlowOperators& operators, const FlowProblem& problem) {
+  const StokesSystem& system = operators.data().system;
+  const Viscosities& given = system.viscosities();
+  if (given.outside != problem.viscosity_out || given.inside.values() != problem.viscosity_in.values()) {
+    throw std::invalid_argument("the operators of the flow were made for other viscosities than the problem has");
+  }
+  return system.with_exterior(problem.exterior_degree);
+}
 
 Blocks StokesSystem::zero() const {
   Blocks result(4);
@@ -251,47 +272,62 @@ void StokesSystem::vmult(Blocks& to, const Blocks& from) const {
   const std::vector<Distributed*> to_velocity{&to.block(0), &to.block(1), &to.block(2)};
   const std::vector<const Distributed*> velocity{&from.block(0), &from.block(1), &from.block(2)};
   implementation_->outer.add(to_velocity, velocity);
-  implementation_->exterior.add(to_velocity, velocity);
+  exterior_->add(to_velocity, velocity);
   for (unsigned d = 0; d < 3; ++d) {
     for (const unsigned dof : implementation_->tied) to.block(d).local_element(dof) = from.block(d).local_element(dof);
   }
 }
 
-void StokesSystem::precondition(Blocks& to, const Blocks& from) const {
-  const Implementation& system = *implementation_;
-  for (unsigned d = 0; d < 3; ++d) system.multigrid.vmult(to.block(d), from.block(d));
-  if (!system.rotations.empty()) {
-    Vector moments = Vector::Zero(static_cast<Eigen::Index>(system.rotations.size()));
-    for (std::size_t i = 0; i < system.rotations.size(); ++i) {
-      for (unsigned d = 0; d < 3; ++d) moments[static_cast<Eigen::Index>(i)] += system.rotations[i][d] * from.block(d);
-    }
-    const Vector rates = system.rotation_inverse * moments;
-    for (std::size_t i = 0; i < system.rotations.size(); ++i) {
-      for (unsigned d = 0; d < 3; ++d) to.block(d).add(rates[static_cast<Eigen::Index>(i)], system.rotations[i][d]);
-    }
+void StokesSystem::Implementation::precondition_velocity(Blocks& to, const Blocks& from) const {
+  for (unsigned d = 0; d < 3; ++d) multigrid.vmult(to.block(d), from.block(d));
+  if (rotations.empty()) return;
+  Vector moments = Vector::Zero(static_cast<Eigen::Index>(rotations.size()));
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    for (unsigned d = 0; d < 3; ++d) moments[static_cast<Eigen::Index>(i)] += rotations[i][d] * from.block(d);
   }
-  system.pressure_inverse.vmult(to.block(3), from.block(3));
-  for (const auto& pressure : system.inner_pressures) {
-    to.block(3).add(pressure.factor * (pressure.values * from.block(3)), pressure.values);
+  const Vector rates = rotation_inverse * moments;
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    for (unsigned d = 0; d < 3; ++d) to.block(d).add(rates[static_cast<Eigen::Index>(i)], rotations[i][d]);
   }
 }
 
+void StokesSystem::Implementation::precondition_pressure(Distributed& to, const Distributed& from) const {
+  pressure_inverse.vmult(to, from);
+  for (const InnerPressure& pressure : inner_pressures) {
+    to.add(pressure.factor * (pressure.values * from), pressure.values);
+  }
+}
+
+void StokesSystem::precondition(Blocks& to, const Blocks& from) const {
+  implementation_->precondition_velocity(to, from);
+  implementation_->precondition_pressure(to.block(3), from.block(3));
+}
+
+void StokesSystem::precondition_triangular(Blocks& to, const Blocks& from) const {
+  implementation_->precondition_velocity(to, from);
+  Distributed left(from.block(3));
+  implementation_->cells.apply_divergence(left, {&to.block(0), &to.block(1), &to.block(2)});
+  left -= from.block(3);
+  implementation_->precondition_pressure(to.block(3), left);
+}
+
 void StokesSystem::solve(const Blocks& right_side, double tolerance, Blocks& solution, Cost& cost) const {
-  const auto preconditioner = [this] {
-    struct {
-      const StokesSystem& system;
-      void vmult(Blocks& to, const Blocks& from) const { system.precondition(to, from); }
-    } result{*this};
-    return result;
-  }();
-  const double size = energy_of_residual(preconditioner, right_side);
+  struct {
+    const StokesSystem& system;
+    void vmult(Blocks& to, const Blocks& from) const { system.precondition(to, from); }
+  } const measure{*this};
+  struct {
+    const StokesSystem& system;
+    void vmult(Blocks& to, const Blocks& from) const { system.precondition_triangular(to, from); }
+  } const preconditioner{*this};
+  const double size = energy_of_residual(measure, right_side);
   if (!std::isfinite(size)) throw SolveError("the right-hand side of the flow is not finite");
   if (size == 0.0) {
     solution = 0.0;
     return;
   }
-  const double left =
-      minimal_residuals(*this, preconditioner, right_side, solution, tolerance * size, cost.iterations, "flow");
+  const double left = generalised_minimal_residuals(*this, measure, preconditioner, right_side, solution,
+                                                    tolerance * size, cost.iterations, "flow");
   cost.solver_error = left / size;
 }
 
@@ -307,6 +343,7 @@ dealii::Vector<double> StokesSystem::pressure(const Blocks& solution) const {
   return result;
 }
 
+const Viscosities& StokesSystem::viscosities() const { return implementation_->viscosity; }
 const std::shared_ptr<const Space>& StokesSystem::shared_space() const { return implementation_->space; }
 const std::shared_ptr<const dealii::DoFHandler<3>>& StokesSystem::pressure_dofs() const {
   return implementation_->pressure_dofs;

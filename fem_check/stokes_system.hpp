@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_check/discretisation.hpp"
+#include "fem_check/exterior_field.hpp"
 #include "fem_check/flow.hpp"
 #include "fem_check/multigrid.hpp"
 
@@ -24,7 +25,8 @@ class StokesSystem {
   /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive
   StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity,
                int exterior_degree = usual_exterior_degree);
-  ~StokesSystem();
+  /// The same, all but the fields outside shared.
+  [[nodiscard]] StokesSystem with_exterior(int exterior_degree) const;
 
   /// A vector of zeros with these blocks.
   [[nodiscard]] Blocks zero() const;
@@ -37,8 +39,12 @@ class StokesSystem {
   /// Symmetric and positive definite: multigrid for A, the pressure mass over μ for the Schur complement, and
   /// corrections for the few motions and pressures that these miss where viscosities differ much.
   void precondition(Blocks& to, const Blocks& from) const;
-  /// Minimal residuals from `start` to the residual `tolerance` relative to the right-hand side, both in the norm of
-  /// the preconditioner. Adds to iterations and notes the residual in the cost.
+  /// Block triangular, [[P_A⁻¹, 0], [B, −P_S⁻¹]]⁻¹ with the blocks P_A and P_S of precondition(): were they exact, a
+  /// solver that needs no symmetry would take two steps.
+  /// Source: Murphy, Golub and Wathen 2000
+  void precondition_triangular(Blocks& to, const Blocks& from) const;
+  /// Generalised minimal residuals from `start` to the residual `tolerance` relative to the right-hand side, both in
+  /// the norm of precondition(). Adds to iterations and notes the residual in the cost.
   /// @throws SolveError if they do not get there
   void solve(const Blocks& right_side, double tolerance, Blocks& solution, Cost& cost) const;
 
@@ -47,6 +53,7 @@ class StokesSystem {
   /// Nodal values of the pressure on all ranks, in the user's unit.
   [[nodiscard]] dealii::Vector<double> pressure(const Blocks& solution) const;
 
+  [[nodiscard]] const Viscosities& viscosities() const;
   [[nodiscard]] const Space& space() const { return *shared_space(); }
   [[nodiscard]] const std::shared_ptr<const Space>& shared_space() const;
   [[nodiscard]] const std::shared_ptr<const dealii::DoFHandler<3>>& pressure_dofs() const;
@@ -59,8 +66,22 @@ class StokesSystem {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  [[nodiscard]] std::shared_ptr<const HarmonicTerms> exterior_terms(int exterior_degree) const;
+
+  std::shared_ptr<const Implementation> implementation_;
+  int exterior_degree_;
+  std::shared_ptr<const HarmonicTerms> exterior_;
 };
+
+struct FlowOperators::Data {
+  StokesSystem system;  ///< with the usual fields outside
+  int degree;           ///< of the velocity
+  double seconds;       ///< that setting up took
+};
+
+/// That of the operators with the exterior degree of the problem.
+/// @throws std::invalid_argument if the problem has other viscosities
+StokesSystem system_for(const FlowOperators& operators, const FlowProblem& problem);
 
 /// Velocity and pressure of another solution on the same mesh, into the first four blocks.
 void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& solution);

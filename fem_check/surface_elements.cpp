@@ -77,17 +77,26 @@ FaceNodes::FaceNodes(const meshes::VolumeMesh& mesh, int degree) : degree_(degre
 }
 
 FaceShape face_shape(int degree, const Eigen::Matrix2Xd& points) {
-  const dealii::FE_DGQ<2> element(static_cast<unsigned>(degree));
-  const auto n = static_cast<Eigen::Index>(element.n_dofs_per_cell());
+  // Products of polynomials of one coordinate.
+  const dealii::QGaussLobatto<1> lobatto(static_cast<unsigned>(degree) + 1);
+  const auto line = dealii::Polynomials::generate_complete_Lagrange_basis(lobatto.get_points());
+  const auto n_line = static_cast<Eigen::Index>(line.size()), n = n_line * n_line;
   FaceShape result{Eigen::MatrixXd(points.cols(), n),
                    {Eigen::MatrixXd(points.cols(), n), Eigen::MatrixXd(points.cols(), n)}};
+  Eigen::Matrix2Xd value(2, n_line), slope(2, n_line);
+  std::vector<double> derivatives(2);
   for (Eigen::Index q = 0; q < points.cols(); ++q) {
-    const dealii::Point<2> point(points(0, q), points(1, q));
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto node = static_cast<unsigned>(i);
-      const dealii::Tensor<1, 2> slope = element.shape_grad(node, point);
-      result.value(q, i) = element.shape_value(node, point);
-      for (unsigned a = 0; a < 2; ++a) result.derivative[a](q, i) = slope[a];
+    for (Eigen::Index i = 0; i < n_line; ++i) {
+      for (Eigen::Index a = 0; a < 2; ++a) {
+        line[static_cast<std::size_t>(i)].value(points(a, q), derivatives);
+        value(a, i) = derivatives[0];
+        slope(a, i) = derivatives[1];
+      }
+    }
+    for (Eigen::Index j = 0; j < n_line; ++j) {
+      result.value.row(q).segment(j * n_line, n_line) = value(1, j) * value.row(0);
+      result.derivative[0].row(q).segment(j * n_line, n_line) = value(1, j) * slope.row(0);
+      result.derivative[1].row(q).segment(j * n_line, n_line) = slope(1, j) * value.row(0);
     }
   }
   return result;

@@ -1,55 +1,116 @@
 #include "fem_check/surface_terms.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 namespace vehd::fem_check {
 
-OuterSphere::OuterSphere(const Space& space, const dealii::DoFHandler<3>& handler) {
-  const auto& element = handler.get_fe();
-  const unsigned degree = element.degree;
-  dealii::FEFaceValues<3> fe(space.mapping, element,
-                             dealii::QGauss<2>(static_cast<unsigned>(points_per_direction(static_cast<int>(degree)))),
-                             dealii::update_values | dealii::update_gradients | dealii::update_normal_vectors |
-                                 dealii::update_JxW_values | dealii::update_quadrature_points);
-  dealii::FEValues<3> at_nodes(space.mapping, element, dealii::Quadrature<3>(element.get_unit_support_points()),
-                               dealii::update_quadrature_points);
-  const auto as_vector = [](const auto& tensor) { return Vector3(tensor[0], tensor[1], tensor[2]); };
+namespace {
+
+/// Point of a face of the unit cell in deal.II's numbering.
+UnitPoint on_unit_face(unsigned face, double s, double t) {
+  const unsigned axis = face / 2;
+  UnitPoint result;
+  result[axis] = face % 2;
+  result[(axis + 1) % 3] = s;
+  result[(axis + 2) % 3] = t;
+  return result;
+}
+
+std::vector<UnitPoint> on_unit_face(unsigned face, const Eigen::Matrix2Xd& points) {
+  std::vector<UnitPoint> result;
+  for (const auto point : points.colwise()) result.push_back(on_unit_face(face, point[0], point[1]));
+  return result;
+}
+
+/// Numbers in the cell of the nodes on a face, lattice with the first coordinate fastest.
+std::vector<unsigned> nodes_on(unsigned face, const dealii::FiniteElement<3>& element) {
+  const std::vector<UnitPoint>& nodes = element.get_unit_support_points();
+  std::vector<unsigned> result;
+  for (const UnitPoint& place : on_unit_face(face, face_node_points(static_cast<int>(element.degree)))) {
+    const auto found =
+        std::find_if(nodes.begin(), nodes.end(), [&](const UnitPoint& node) { return node.distance(place) < 1e-9; });
+    result.push_back(static_cast<unsigned>(found - nodes.begin()));
+  }
+  return result;
+}
+
+/// Of the nodes of the geometry on a face, without unit.
+Vectors geometry_nodes(const Space& space, const OuterFace& face) {
+  std::vector<meshes::Point> units;
+  for (const UnitPoint& unit :
+       on_unit_face(face.face, face_node_points(static_cast<int>(space.mapping.get_degree())))) {
+    units.push_back(space.mesh_unit(face.cell, unit));
+  }
+  Vectors result(3, static_cast<Eigen::Index>(units.size()));
+  Eigen::Index i = 0;
+  for (const meshes::Point& place : space.mesh->physical_points(static_cast<int>(face.cell), units)) {
+    result.col(i++) = space.dimensionless(place);
+  }
+  return result;
+}
+
+}  // namespace
+
+OuterSphere::OuterSphere(const Space& space, const dealii::DoFHandler<3>& handler) : space_(space), handler_(handler) {
+  const dealii::FiniteElement<3>& element = handler.get_fe();
+  const auto degree = static_cast<int>(element.degree);
+  const dealii::QGauss<2> gauss(static_cast<unsigned>(points_per_direction(degree)));
+  const auto n_points = static_cast<Eigen::Index>(gauss.size());
+  Eigen::Matrix2Xd rule(2, n_points);
+  for (unsigned q = 0; q < gauss.size(); ++q) rule.col(q) << gauss.point(q)[0], gauss.point(q)[1];
+  shape_ = face_shape(degree, rule);
+  const FaceShape geometry = face_shape(static_cast<int>(space.mapping.get_degree()), rule);
+  std::map<unsigned, std::vector<unsigned>> on_face;
   std::vector<int> number(handler.n_dofs(), -1);
   std::vector<DofIndex> dofs(element.n_dofs_per_cell());
   for (const OuterFace& outer : space.outer) {
-    const auto cell = space.cell(handler, outer.cell);
-    fe.reinit(cell, outer.face);
-    at_nodes.reinit(cell);
-    cell->get_dof_indices(dofs);
+    const auto [local, is_new] = on_face.try_emplace(outer.face);
+    if (is_new) local->second = nodes_on(outer.face, element);
+    space.cell(handler, outer.cell)->get_dof_indices(dofs);
     Face& face = faces_.emplace_back();
-    std::vector<unsigned> local;
-    for (unsigned i = 0; i < dofs.size(); ++i) {
-      if (!element.has_support_on_face(i, outer.face)) continue;
-      local.push_back(i);
+    for (const unsigned i : local->second) {
       if (number[dofs[i]] < 0) {
         number[dofs[i]] = static_cast<int>(dofs_.size());
         dofs_.push_back(dofs[i]);
-        positions_.push_back(space.physical(as_vector(at_nodes.quadrature_point(i))));
       }
       face.nodes.push_back(number[dofs[i]]);
     }
-    const auto n_points = static_cast<Eigen::Index>(fe.n_quadrature_points);
-    const auto n_nodes = static_cast<Eigen::Index>(local.size());
-    face.value.resize(n_points, n_nodes);
-    for (auto& gradient : face.gradient) gradient.resize(n_points, n_nodes);
+    const Vectors nodes = geometry_nodes(space, outer);
+    const Vectors first = nodes * geometry.derivative[0].transpose(),
+                  second = nodes * geometry.derivative[1].transpose();
+    face.position = nodes * geometry.value.transpose();
     face.normal.resize(3, n_points);
-    face.position.resize(3, n_points);
+    for (Vectors& dual : face.dual) dual.resize(3, n_points);
     face.weight.resize(n_points);
-    for (unsigned q = 0; q < fe.n_quadrature_points; ++q) {
-      face.normal.col(q) = as_vector(fe.normal_vector(q));
-      face.position.col(q) = space.physical(as_vector(fe.quadrature_point(q)));
-      face.weight[q] = fe.JxW(q);
-      for (Eigen::Index i = 0; i < n_nodes; ++i) {
-        face.value(q, i) = fe.shape_value(local[i], q);
-        for (unsigned d = 0; d < 3; ++d) face.gradient[d](q, i) = fe.shape_grad(local[i], q)[d];
-      }
+    for (Eigen::Index q = 0; q < n_points; ++q) {
+      const Vector3 s = first.col(q), t = second.col(q), area = s.cross(t);
+      const double square = area.squaredNorm(), size = std::sqrt(square);
+      face.dual[0].col(q) = t.cross(area) / square;
+      face.dual[1].col(q) = area.cross(s) / square;
+      face.normal.col(q) = std::copysign(1.0 / size, area.dot(face.position.col(q))) * area;
+      face.weight[q] = size * gauss.weight(static_cast<unsigned>(q));
+      face.position.col(q) = space.physical(face.position.col(q));
     }
   }
-  mass_ = assemble(
-      [](const Face& face) { return Eigen::MatrixXd(face.value.transpose() * face.weight.asDiagonal() * face.value); });
+  mass_ = assemble([&](const Face& face) {
+    return Eigen::MatrixXd(shape_.value.transpose() * face.weight.asDiagonal() * shape_.value);
+  });
+}
+
+Vectors OuterSphere::positions() const {
+  const Eigen::MatrixXd value = face_shape(static_cast<int>(space_.mapping.get_degree()),
+                                           face_node_points(static_cast<int>(handler_.get_fe().degree)))
+                                    .value;
+  Vectors result(3, size());
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Vectors at_nodes = geometry_nodes(space_, space_.outer[f]) * value.transpose();
+    for (std::size_t i = 0; i < faces_[f].nodes.size(); ++i) {
+      result.col(faces_[f].nodes[i]) = space_.physical(at_nodes.col(static_cast<Eigen::Index>(i)));
+    }
+  }
+  return result;
 }
 
 template <typename Local>
@@ -70,9 +131,13 @@ Eigen::SparseMatrix<double> OuterSphere::assemble(const Local& local) const {
 
 Eigen::SparseMatrix<double> OuterSphere::rotation(unsigned a, unsigned b) const {
   return assemble([&](const Face& face) {
-    const Eigen::MatrixXd derivative = face.normal.row(b).transpose().asDiagonal() * face.gradient[a] -
-                                       face.normal.row(a).transpose().asDiagonal() * face.gradient[b];
-    return Eigen::MatrixXd(face.value.transpose() * face.weight.asDiagonal() * derivative);
+    Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(shape_.value.rows(), shape_.value.cols());
+    for (std::size_t k = 0; k < face.dual.size(); ++k) {
+      const auto factor =
+          face.normal.row(b).cwiseProduct(face.dual[k].row(a)) - face.normal.row(a).cwiseProduct(face.dual[k].row(b));
+      derivative += factor.transpose().asDiagonal() * shape_.derivative[k];
+    }
+    return Eigen::MatrixXd(shape_.value.transpose() * face.weight.asDiagonal() * derivative);
   });
 }
 
@@ -81,7 +146,7 @@ Vector OuterSphere::integrate(const std::function<double(const Vector3&)>& f) co
   for (const Face& face : faces_) {
     Vector weighted = face.weight;
     for (Eigen::Index q = 0; q < weighted.size(); ++q) weighted[q] *= f(Vector3(face.position.col(q)));
-    const Vector local = face.value.transpose() * weighted;
+    const Vector local = shape_.value.transpose() * weighted;
     for (std::size_t i = 0; i < face.nodes.size(); ++i) result[face.nodes[i]] += local[static_cast<Eigen::Index>(i)];
   }
   return result;
@@ -90,7 +155,8 @@ Vector OuterSphere::integrate(const std::function<double(const Vector3&)>& f) co
 Eigen::MatrixXd OuterSphere::moments(const std::function<Eigen::MatrixXd(const Vectors&)>& values) const {
   Eigen::MatrixXd result;
   for (const Face& face : faces_) {
-    const Eigen::MatrixXd local = face.value.transpose() * face.weight.asDiagonal() * values(face.position).transpose();
+    const Eigen::MatrixXd local =
+        shape_.value.transpose() * face.weight.asDiagonal() * values(face.position).transpose();
     if (result.size() == 0) result = Eigen::MatrixXd::Zero(size(), local.cols());
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
       result.row(face.nodes[i]) += local.row(static_cast<Eigen::Index>(i));
@@ -106,6 +172,21 @@ SurfaceTerms::SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& hand
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     if (owned.is_element(dofs_[i]) && !constraints.is_constrained(dofs_[i])) own_.push_back(i);
   }
+  if (dofs_.empty()) return;
+  // Of a symmetric matrix columns are rows.
+  const auto n_nodes = static_cast<Eigen::Index>(dofs_.size()), n_own = static_cast<Eigen::Index>(own_.size());
+  const Eigen::Index n_components = matrix_.cols() / n_nodes;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index c = 0; c < n_components; ++c) {
+    for (Eigen::Index i = 0; i < n_own; ++i) {
+      const Eigen::Index column = c * n_nodes + static_cast<Eigen::Index>(own_[static_cast<std::size_t>(i)]);
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, column); entry; ++entry) {
+        entries.emplace_back(c * n_own + i, entry.row(), entry.value());
+      }
+    }
+  }
+  own_rows_.resize(n_components * n_own, matrix_.cols());
+  own_rows_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<const Distributed*>& from) const {
@@ -119,9 +200,10 @@ void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<co
   }
   const dealii::ArrayView<double> all(values.data(), static_cast<std::size_t>(values.size()));
   dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(all), communicator_, all);
-  const Vector product = matrix_ * values;
-  for (std::size_t c = 0; c < to.size(); ++c) {
-    for (const std::size_t i : own_) (*to[c])(dofs_[i]) += product[at(c, i)];
+  const Vector product = own_rows_ * values;
+  Eigen::Index row = 0;
+  for (Distributed* component : to) {
+    for (const std::size_t i : own_) (*component)(dofs_[i]) += product[row++];
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_check/cell_loops.hpp"
+#include "fem_check/surface_elements.hpp"
 
 namespace vehd::fem_check {
 
@@ -8,12 +9,13 @@ namespace vehd::fem_check {
 /// space.
 class OuterSphere {
  public:
+  /// @param space, handler  have to live as long as this
   OuterSphere(const Space& space, const dealii::DoFHandler<3>& handler);
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(dofs_.size()); }
   [[nodiscard]] const std::vector<DofIndex>& dofs() const { return dofs_; }
   /// Places of the nodes, as users know them.
-  [[nodiscard]] const std::vector<Vector3>& positions() const { return positions_; }
+  [[nodiscard]] Vectors positions() const;
 
   /// ∫ u w dA
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
@@ -27,9 +29,8 @@ class OuterSphere {
 
  private:
   struct Face {
-    std::vector<int> nodes;
-    Eigen::MatrixXd value;                    // [points x nodes]
-    std::array<Eigen::MatrixXd, 3> gradient;  // of each direction, [points x nodes]
+    std::vector<int> nodes;       // lattice, first face coordinate fastest
+    std::array<Vectors, 2> dual;  // gradients of the face coordinates along the sphere
     Vectors normal;
     Vectors position;
     Vector weight;
@@ -37,8 +38,10 @@ class OuterSphere {
   template <typename Local>
   [[nodiscard]] Eigen::SparseMatrix<double> assemble(const Local& local) const;
 
+  const Space& space_;
+  const dealii::DoFHandler<3>& handler_;
   std::vector<DofIndex> dofs_;
-  std::vector<Vector3> positions_;
+  FaceShape shape_;  // of the functions of a face at its points
   std::vector<Face> faces_;
   Eigen::SparseMatrix<double> mass_;
 };
@@ -63,7 +66,8 @@ class SurfaceTerms {
   MPI_Comm communicator_;
   std::vector<DofIndex> dofs_;
   Eigen::SparseMatrix<double> matrix_;
-  std::vector<std::size_t> own_;  // which of them belong to this rank and are free
+  std::vector<std::size_t> own_;                           // which of them belong to this rank and are free
+  Eigen::SparseMatrix<double, Eigen::RowMajor> own_rows_;  // of these, in every component
 };
 
 /// Values at the nodes of all degrees of freedom, on all ranks.

@@ -115,23 +115,36 @@ Maps relaxed_maps(const FrozenShape& shape, const std::vector<BlockMeshOptions>&
   return maps;
 }
 
+MeshQuality quality_of(const HexMesh& mesh, const FrozenShape& shape) {
+  constexpr int kGaussPoints = 3;
+  return quality(mesh, shape, kGaussPoints);
+}
+
+/// Of a mesh of straight lines.
+bool is_folded(const HexMesh& mesh, const FrozenShape& shape, const BlockMeshOptions& options) {
+  return quality_of(mesh, shape).smallest_scaled_jacobian < options.smallest_scaled_jacobian;
+}
+
 std::vector<HexMesh> make_meshes(const FrozenShape& shape, std::vector<BlockMeshOptions> options,
                                  const BlockAxes& axes) {
-  constexpr int kGaussPoints = 3;
-  const auto quality_of = [&](const HexMesh& mesh) { return quality(mesh, shape, kGaussPoints); };
   std::vector<HexMesh> meshes = meshes_of(shape, options, blended_maps(shape, options, axes));
-  const double blended = quality_of(meshes.front()).smallest_scaled_jacobian;
-  if (blended < options.front().smallest_scaled_jacobian) {
+  if (is_folded(meshes.front(), shape, options.front())) {
     for (BlockMeshOptions& o : options) o.cells_per_edge += o.cells_per_edge % 2;  // no kink of the map within a cell
     meshes = meshes_of(shape, options, relaxed_maps(shape, options, axes));
   }
   for (std::size_t i = 0; i < options.size(); ++i) {
-    require_quality(quality_of(meshes[i]), options[i].smallest_scaled_jacobian);
+    require_quality(quality_of(meshes[i], shape), options[i].smallest_scaled_jacobian);
   }
   return meshes;
 }
 
 }  // namespace
+
+bool cells_have_to_be_relaxed(const FrozenShape& shape, const BlockMeshOptions& options) {
+  require_options(options);
+  const std::vector<BlockMeshOptions> one{options};
+  return is_folded(meshes_of(shape, one, blended_maps(shape, one, best_axes(shape))).front(), shape, options);
+}
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options) {
   return std::move(make_block_meshes(shape, {options}).front());

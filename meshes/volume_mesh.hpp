@@ -99,6 +99,10 @@ class HexMesh final : public VolumeMesh {
 /// (tests/meshes/block_mesh_test.cpp)
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options = {});
 
+/// Whether make_block_mesh() has to relax the cells: a bowl folds straight lines.
+/// @throws MeshError if the outer sphere does not hold the shape; std::invalid_argument as make_block_mesh
+bool cells_have_to_be_relaxed(const FrozenShape& shape, const BlockMeshOptions& options);
+
 /// Meshes of one shape that differ in the layers of the shell alone, the inner layers at the same places in all: what
 /// it costs to follow a strongly bent shape is paid once.
 /// @throws MeshError, std::invalid_argument as make_block_mesh

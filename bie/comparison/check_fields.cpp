@@ -134,23 +134,16 @@ class FrozenSolver {
 
   void take_flow_of_shape() {
     const VesicleFields& fields = solved_.fields.vesicles.front();
-    take_local_forces(fields);
+    LocalForces local = local_forces_beside(frozen_, membrane_, position_);
+    result.force_order = local.order;
+    result.force_bending = std::move(local.bending);
+    result.force_curvature = std::move(local.curvature);
     result.force_tension = fields.force_tension;
     result.tension = fields.tension;
     result.tension_is_free = solved_.vesicles.front().is_sphere;
     result.velocity_of_shape = fields.velocity;
     if (position_.rows() != membrane_of(frozen_).position.rows()) return;
     result.velocity_truncation = fields.velocity - velocity_of(total_force(frozen_, fields));
-  }
-
-  void take_local_forces(const VesicleFields& fields) {
-    const int order = order_of(membrane_of(frozen_).position.rows());
-    const bool is_second = result.order != order;
-    result.force_order = is_second ? local_force_order(order, result.order) : order;
-    LocalForces forces =
-        is_second ? local_forces(frozen_, result.force_order) : local_forces(frozen_, membrane_, position_);
-    result.force_bending = is_second ? std::move(forces.bending) : fields.force_bending;
-    result.force_curvature = std::move(forces.curvature);
   }
 
   /// J q of the state, coefficients.

@@ -96,7 +96,9 @@ class CoupledFrozenSolver {
     std::vector<Matrix> given, own;
     for (std::size_t a = 0; a < results.size(); ++a) {
       const VesicleFields& fields = solved_.fields.vesicles[a];
-      take_bending(a);
+      LocalForces local = local_forces_beside(frozen_, membrane(a), state_.vesicles[a].position, a);
+      results[a].force_order = local.order;
+      results[a].force_bending = std::move(local.bending);
       results[a].force_tension = fields.force_tension;
       results[a].tension = fields.tension;
       results[a].tension_is_free = solved_.vesicles[a].is_sphere;
@@ -117,14 +119,6 @@ class CoupledFrozenSolver {
 
  private:
   [[nodiscard]] const Membrane& membrane(std::size_t a) const { return *solved_.vesicles[a].membrane; }
-
-  void take_bending(std::size_t a) {
-    const int order = order_of(frozen_.state.vesicles[a].position.rows());
-    const bool is_second = results[a].order != order;
-    results[a].force_order = is_second ? local_force_order(order, results[a].order) : order;
-    results[a].force_bending =
-        is_second ? local_forces(frozen_, results[a].force_order, a).bending : solved_.fields.vesicles[a].force_bending;
-  }
 
   /// Of the background flow and forces, coefficients.
   [[nodiscard]] std::vector<Matrix> velocities_of(CoupledFlow& flow, const std::vector<Matrix>& forces) const {

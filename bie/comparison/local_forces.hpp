@@ -7,6 +7,7 @@ namespace vehd {
 /// Forces that the shape exerts at each point by its derivatives there, coefficients [n_coefficients x 3]; empty where
 /// the vesicle has none.
 struct LocalForces {
+  int order = 0;     ///< degree of these
   Matrix bending;    ///< f_b
   Matrix curvature;  ///< f_c of a spontaneous curvature
 };
@@ -21,8 +22,15 @@ LocalForces local_forces(const FrozenState& frozen, const Membrane& membrane, co
 /// (tests/comparison/local_forces_test.cpp)
 LocalForces local_forces(const FrozenState& frozen, int order, std::size_t vesicle = 0);
 
-/// Degree in which they are found a second time, where all else is found in estimate_order(): twice that of the state,
-/// or `other` if that is higher. f_b has four derivatives of x, and what a few degrees more change of it says little.
-int local_force_order(int order, int other);
+/// Degree in which they are found where all else is found in `solved`: in that of the state as the run has them, beside
+/// another one in twice that of the state at least. f_b has four derivatives of x, and what a few degrees more change
+/// of it says little.
+/// @param order  of the state
+int local_force_order(int order, int solved);
+
+/// In local_force_order() beside a solution.
+/// @param membrane  that of the solution, `position` in its degree
+LocalForces local_forces_beside(const FrozenState& frozen, const Membrane& membrane, const Matrix& position,
+                                std::size_t vesicle = 0);
 
 }  // namespace vehd

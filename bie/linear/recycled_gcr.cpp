@@ -74,17 +74,21 @@ void RecycledGcr::look(const Vector& goal, Iterate& iterate) const {
   iterate.rounding = thresholds::map_rounding * std::max(iterate.x.norm(), image.norm());
 }
 
-RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start, const SolveOptions& options) {
+RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start, const SolveOptions& options,
+                                         double least_size) {
   const Vector goal = preconditioner_(rhs);
-  const double scale = goal.norm();
-  if (scale == 0.0) return {{SolveEnd::converged, 0, 0.0}, Vector::Zero(size_), Vector::Zero(n_further_)};
+  Solution solution;
+  solution.size_of_rhs = goal.norm();
+  if (solution.size_of_rhs == 0.0) {
+    return {{SolveEnd::converged, 0, 0.0}, Vector::Zero(size_), Vector::Zero(n_further_), 0.0};
+  }
+  const double scale = std::max(solution.size_of_rhs, least_size);
   Iterate iterate{Vector::Zero(size_), Vector::Zero(n_further_), goal, Vector(), 0.0};
   if (start.size() > 0 && !start.isZero(0.0)) {
     iterate.x = start;
     look(goal, iterate);
   }
   const double wanted = options.tolerance * scale;
-  Solution solution;
   int& iterations = solution.report.iterations;
   double seen = std::numeric_limits<double>::infinity();  // true residual at the last look
   bool own = directions_.empty();                         // no direction is older than this solve

@@ -8,9 +8,9 @@
 namespace vehd {
 
 /// Solves A x = b for several right-hand sides of one operator, left-preconditioned, by generalised conjugate residuals
-/// (Eisenstat, Elman and Schultz 1983). Directions are kept: each later right-hand side starts from its projection on what
-/// the former ones have found, so that a sequence of rough solves costs little more than one fine solve. What is known
-/// of a similar operator proposes directions and does not change what is solved.
+/// (Eisenstat, Elman and Schultz 1983). Directions are kept: each later right-hand side starts from its projection on
+/// what the former ones have found, so that a sequence of rough solves costs little more than one fine solve. What is
+/// known of a similar operator proposes directions and does not change what is solved.
 ///
 /// Directions are combinations of proposals with coefficients that grow as proposals become dependent, and with them
 /// grows what the map's rounding leaves between A x and what is kept of it. The coefficients are carried along: they
@@ -28,10 +28,12 @@ class RecycledGcr {
   struct Solution {
     SolveReport report;  ///< of a bound of the true residual, a look at which counts as an iteration
     Vector x;
-    Vector further;  ///< the map's further entries at x
+    Vector further;            ///< the map's further entries at x
+    double size_of_rhs = 0.0;  ///< norm of the preconditioned right-hand side
   };
-  /// @param start  where the solve starts, of size 0 for x = 0; options as for gmres
-  Solution solve(const Vector& rhs, const Vector& start, const SolveOptions& options);
+  /// @param start       where the solve starts, of size 0 for x = 0; options as for gmres
+  /// @param least_size  what residuals are relative to where the preconditioned right-hand side is smaller
+  Solution solve(const Vector& rhs, const Vector& start, const SolveOptions& options, double least_size = 0.0);
 
   /// What the solves so far have found of A.
   [[nodiscard]] RecycledSubspace learned() const;

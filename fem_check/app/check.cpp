@@ -9,7 +9,6 @@
 #include "fem_check/app/questions.hpp"
 #include "fem_check/app/shape_levels.hpp"
 #include "fem_check/app/surface_series.hpp"
-#include "meshes/block_axes.hpp"
 
 namespace vehd::fem_check {
 namespace {
@@ -53,12 +52,19 @@ double stored_velocity_difference(const CheckInput& input, const SurfacePoints& 
 }
 
 /// Of the checks that are asked for: targets that leave room for what is required, and cells that follow the bends.
-Refinement refinement_for(const CheckTask& task, const std::vector<meshes::FrozenShape>& shapes) {
+Refinement refinement_for(const CheckTask& task, const std::vector<CheckInput>& inputs,
+                          const std::vector<meshes::FrozenShape>& shapes) {
   const bool single = shapes.size() == 1;
-  const Refinement quick = single ? Refinement::quick() : Refinement::quick_of_two();
-  Refinement refinement = task.quick ? quick : Refinement::finest();
-  if (single && !task.quick && meshes::is_strongly_bent(shapes.front(), refinement.cells_per_edge)) {
-    refinement = Refinement::of_strongly_bent();
+  Refinement refinement = Refinement::finest();
+  if (task.quick) {
+    refinement = single ? Refinement::quick() : Refinement::quick_of_two();
+  } else if (single) {
+    refinement = Refinement::following(shapes.front());
+  }
+  for (const CheckInput& input : inputs) {
+    for (const Eigen::MatrixXd* force : {&input.bie.force_bending, &input.bie_high.force_bending}) {
+      if (force->size() > 0) refinement.resolve(degree_of(*force));
+    }
   }
   constexpr double share = 0.5;
   refinement.potential_target = std::min(refinement.potential_target, share * task.required);
@@ -80,11 +86,14 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
   if (input.electric()) solved.potential = solve_potential_levels(inputs, meshes, refinement, report);
   if (input.in_time && single) solved.charging = solve_charging_levels(input, meshes, refinement, report);
   if (!input.flow()) return solved;
-  solved.flow = solve_flow_levels(inputs, meshes, refinement, report);
-  if (solved.potential) add_own_force(inputs, meshes, refinement, *solved.potential, solved.flow->sequence, report);
+  FlowSetups setups(inputs);
+  solved.flow = solve_flow_levels(inputs, meshes, setups, refinement, report);
+  if (solved.potential) {
+    add_own_force(inputs, meshes, setups, refinement, *solved.potential, solved.flow->sequence, report);
+  }
   if (single) {
-    solved.shape_flow =
-        solve_shape_levels(input, meshes, refinement, solved.potential ? &*solved.potential : nullptr, report);
+    const PotentialLevels* potential = solved.potential ? &*solved.potential : nullptr;
+    solved.shape_flow = solve_shape_levels(input, meshes, setups, refinement, potential, report);
   }
   return solved;
 }
@@ -181,7 +190,7 @@ std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) 
   if (task.writes) require_directory(task.directory);
   std::vector<meshes::FrozenShape> shapes;
   for (const CheckInput& input : inputs) shapes.emplace_back(input.position);
-  const Refinement refinement = refinement_for(task, shapes);
+  const Refinement refinement = refinement_for(task, inputs, shapes);
   Meshes meshes(shapes, refinement);
   const Discretisation& geometry = meshes.discretise(refinement.potential_degrees.back());
   const SolvedState solved = solve_state(inputs, meshes, geometry, refinement, report);

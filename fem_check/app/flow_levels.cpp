@@ -7,22 +7,10 @@
 #include "fem_check/app/vesicle_fields.hpp"
 
 namespace vehd::fem_check {
-namespace {
-
-FlowProblem problem_of(const std::vector<CheckInput>& inputs, const Refinement& refinement) {
-  FlowProblem problem;
-  problem.viscosity_in = number_of(inputs, &Physics::viscosity_in);
-  problem.viscosity_out = inputs.front().physics.viscosity_out;
-  problem.tolerance = refinement.flow_tolerance;
-  return problem;
-}
-
-}  // namespace
-
-FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement,
-                             const Report& report) {
+FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
+                             const Refinement& refinement, const Report& report) {
   const CheckInput& input = inputs.front();
-  FlowProblem problem = problem_of(inputs, refinement);
+  FlowProblem problem = setups.problem();
   problem.gradient = input.physics.flow_gradient;
   const SurfaceSeries force = series_of(inputs, [](const CheckInput& of) { return of.force; });
   problem.force = [&](const SurfacePoints& points) { return Vectors(force(points)); };
@@ -31,7 +19,7 @@ FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& mesh
   const auto solve = [&](const Discretisation& discretisation, const SolveSettings& settings) {
     problem.tolerance = settings.tolerance;
     problem.exterior_degree = settings.exterior_degree;
-    const FlowSolution solution = solve_flow(discretisation, problem, start_of(result.solutions, settings));
+    const FlowSolution solution = solve_flow(setups.at(discretisation), problem, start_of(result.solutions, settings));
     const FlowTraces traces = solution.on_surface(discretisation.quadrature_points(refinement.points_per_edge));
     Solved solved{solution.cost(), {{"velocity", traces.velocity}, {"divergence", traces.divergence.transpose()}}, {}};
     if (input.bie.sample_velocity.size() > 0) {
@@ -55,16 +43,16 @@ namespace {
 /// Velocity on γ of forces alone, without a background flow, at any degree.
 class ForceFlows {
  public:
-  ForceFlows(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement, const Report& report)
-      : meshes_(meshes), refinement_(refinement), report_(report), problem_(problem_of(inputs, refinement)) {
+  ForceFlows(Meshes& meshes, FlowSetups& setups, const Refinement& refinement, const Report& report)
+      : meshes_(meshes), setups_(setups), refinement_(refinement), report_(report), problem_(setups.problem()) {
     // Of a flow that is small beside the one that it is added to.
-    problem_.tolerance = std::max(problem_.tolerance, tolerance_of_changes);
+    problem_.tolerance = std::max(refinement.flow_tolerance, tolerance_of_changes);
   }
 
   [[nodiscard]] Eigen::MatrixXd velocity(int degree, VectorOnSurface force) {
     problem_.force = std::move(force);
     const auto solve = [&](const Discretisation& space) {
-      const FlowSolution solution = solve_flow(space, problem_);
+      const FlowSolution solution = solve_flow(setups_.at(space), problem_);
       const SurfacePoints points = space.quadrature_points(refinement_.points_per_edge);
       return Solved{solution.cost(), {{"velocity", solution.on_surface(points).velocity}}, {}};
     };
@@ -74,6 +62,7 @@ class ForceFlows {
 
  private:
   Meshes& meshes_;
+  FlowSetups& setups_;
   const Refinement& refinement_;
   const Report& report_;
   FlowProblem problem_;
@@ -81,15 +70,16 @@ class ForceFlows {
 
 }  // namespace
 
-void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement,
-                   const PotentialLevels& potential, LevelSequence& sequence, const Report& report) {
+void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
+                   const Refinement& refinement, const PotentialLevels& potential, LevelSequence& sequence,
+                   const Report& report) {
   // An error of this share of the flow's own hides behind it.
   constexpr double negligible_share = 0.25;
   Level &last = sequence.levels.back(), &before = sequence.levels[sequence.levels.size() - 2];
   const SurfaceSeries given = series_of(inputs, [](const CheckInput& input) { return input.stored.force_electric; });
   const PotentialSolution &electric = potential.solutions.back(),
                           &electric_before = potential.solutions[potential.solutions.size() - 2];
-  ForceFlows flows(inputs, meshes, refinement, report);
+  ForceFlows flows(meshes, setups, refinement, report);
   // f = … − f_E: what the elements' own f_E does in place of the snapshot's.
   const VectorOnSurface change = [&](const SurfacePoints& at) {
     return Vectors(given(at) - electric.on_surface(at).force);

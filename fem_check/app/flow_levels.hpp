@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fem_check/app/check_input.hpp"
+#include "fem_check/app/flow_setups.hpp"
 #include "fem_check/app/level.hpp"
 #include "fem_check/app/potential_levels.hpp"
 #include "fem_check/app/progress.hpp"
@@ -20,13 +21,14 @@ struct FlowLevels {
 /// Solves the flow with the given force.
 /// @param inputs  of all vesicles of the meshes; samples are those of the first
 /// @throws SolveError
-FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement,
-                             const Report& report);
+FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
+                             const Refinement& refinement, const Report& report);
 
 /// Adds velocity_own_force, with the f_E of the finite elements in the force in place of the snapshot's, to the last
 /// two levels. Stokes flow is linear: only the change is solved, with the degree rising until its error is small beside
 /// that of the flow; what is left of it, and the error of f_E, stand between the two levels.
-void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement,
-                   const PotentialLevels& potential, LevelSequence& sequence, const Report& report);
+void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
+                   const Refinement& refinement, const PotentialLevels& potential, LevelSequence& sequence,
+                   const Report& report);
 
 }  // namespace vehd::fem_check

@@ -38,12 +38,11 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
   return sizes;
 }
 
-namespace {
-
-/// Of harmonics, of which there are (p + 1)².
 int degree_of(const Eigen::MatrixXd& coefficients) {
   return static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients.rows())))) - 1;
 }
+
+namespace {
 
 /// Over half of the lower degree at least, as the size of coefficients may rise from one degree to the next.
 /// @param finer  coefficients in the higher of both degrees

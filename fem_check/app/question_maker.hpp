@@ -15,6 +15,9 @@ struct ComparisonPlaces {
   Vector3 centre = Vector3::Zero();  ///< of the shape
 };
 
+/// Of harmonics, of which there are (degree + 1)².
+int degree_of(const Eigen::MatrixXd& coefficients);
+
 /// Sizes that fields of this problem have by nature, root mean squares.
 struct NaturalSizes {
   double potential = 0.0, field = 0.0;  ///< E_∞ and V_m together

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/block_axes.hpp"
+
 namespace vehd::fem_check {
 
 Refinement Refinement::of_strongly_bent() {
@@ -17,6 +19,27 @@ Refinement Refinement::of_strongly_bent() {
   refinement.flow_degrees = {3, 4, 5, 6};
   refinement.shape_flow_degrees = {3, 4, 5, 6};
   return refinement;
+}
+
+Refinement Refinement::of_strongly_bent_bowl() {
+  Refinement refinement;
+  refinement.cells_per_edge = 4;
+  refinement.blend_layers = 2;
+  refinement.shell_layers = 4;
+  return refinement;
+}
+
+Refinement Refinement::following(const meshes::FrozenShape& shape) {
+  if (!meshes::is_strongly_bent(shape, finest().cells_per_edge)) return finest();
+  const Refinement bowl = of_strongly_bent_bowl();
+  return meshes::cells_have_to_be_relaxed(shape, block_mesh_options(bowl, shape)) ? bowl : of_strongly_bent();
+}
+
+void Refinement::resolve(int degree) {
+  // A quarter of the way round has degree/4 waves.
+  constexpr double points_per_wave = 3.0;
+  const double points = points_per_wave * degree / (4.0 * cells_per_edge);
+  points_per_edge = std::max(points_per_edge, static_cast<int>(std::ceil(points)));
 }
 
 Refinement Refinement::quick() {

@@ -28,7 +28,7 @@ struct Refinement {
   // Of two vesicles: between a membrane and its box, and from the boxes to the outer sphere.
   int box_layers = 2, outer_layers = 2;
   double box_growth = 2.0, outer_growth = 2.0;
-  int points_per_edge = 12;  ///< of the comparison, Gauss points on each face of γ
+  int points_per_edge = 12;  ///< of the comparison, Gauss points on each face of γ; see resolve()
 
   // Degrees, rising, three at least.
   std::vector<int> potential_degrees{4, 5, 6, 7, 8, 9};
@@ -43,6 +43,14 @@ struct Refinement {
   static Refinement finest() { return {}; }
   /// Where forces are as narrow as ends and rims, smaller cells gain more than degrees do.
   static Refinement of_strongly_bent();
+  /// The bent cells of a bowl, see meshes::cells_have_to_be_relaxed(), want degrees more than they want to be small.
+  static Refinement of_strongly_bent_bowl();
+  /// The one of these that follows the bends of the shape.
+  static Refinement following(const meshes::FrozenShape& shape);
+  /// As many points of the comparison as fields of a degree in harmonics need: three for each wave. What a force has
+  /// between points would else be work on smooth displacements: 7e-8 of it for a degree of 80, 12 points and 4 cells
+  /// along an edge, where 16 points leave 1e-11.
+  void resolve(int degree);
   /// Three levels each.
   static Refinement quick();
   static Refinement quick_of_two();

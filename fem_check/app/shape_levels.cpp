@@ -26,8 +26,9 @@ struct Bending {
 /// Flows with the force of the shape, with or without a tension, on discretisations of one mesh.
 class ShapeFlow {
  public:
-  ShapeFlow(const CheckInput& input, const Refinement& refinement)
+  ShapeFlow(const CheckInput& input, FlowSetups& setups, const Refinement& refinement)
       : physics_(input.physics),
+        setups_(setups),
         centre_(meshes::FrozenShape(input.position).centroid()),
         tension_is_free_(input.bie.tension_is_free),
         points_per_edge_(refinement.points_per_edge) {}
@@ -47,10 +48,10 @@ class ShapeFlow {
       return force;
     };
     if (physics_.inextensible) {
-      inextensible_.push_back(solve_inextensible_flow(space, problem, start_of(inextensible_, settings)));
+      inextensible_.push_back(solve_inextensible_flow(tension_on(space), problem, start_of(inextensible_, settings)));
       add(space, inextensible_.back(), solved);
     } else {
-      flows_.push_back(solve_flow(space, problem, start_of(flows_, settings)));
+      flows_.push_back(solve_flow(setups_.at(space), problem, start_of(flows_, settings)));
       add(space, flows_.back(), solved);
     }
     return solved;
@@ -58,26 +59,31 @@ class ShapeFlow {
 
   /// Of f_E alone, in a fluid at rest.
   [[nodiscard]] Solved solve_electric(const Discretisation& space, const SolveSettings& settings,
-                                      const VectorOnSurface& electric) const {
+                                      const VectorOnSurface& electric) {
     FlowProblem problem = problem_with(settings);
     problem.force = [&](const SurfacePoints& at) { return Vectors(-electric(at)); };
     Solved solved;
     if (physics_.inextensible) {
-      add(space, solve_inextensible_flow(space, problem), solved);
+      add(space, solve_inextensible_flow(tension_on(space), problem), solved);
     } else {
-      add(space, solve_flow(space, problem), solved);
+      add(space, solve_flow(setups_.at(space), problem), solved);
     }
     return solved;
   }
 
  private:
   [[nodiscard]] FlowProblem problem_with(const SolveSettings& settings) const {
-    FlowProblem problem;
-    problem.viscosity_in = physics_.viscosity_in;
-    problem.viscosity_out = physics_.viscosity_out;
+    FlowProblem problem = setups_.problem();
     problem.tolerance = settings.tolerance;
     problem.exterior_degree = settings.exterior_degree;
     return problem;
+  }
+
+  /// Made once for each degree.
+  [[nodiscard]] const InextensibleOperators& tension_on(const Discretisation& space) {
+    const auto found = tension_.find(space.degree());
+    if (found != tension_.end()) return found->second;
+    return tension_.emplace(space.degree(), InextensibleOperators(space, setups_.at(space))).first->second;
   }
 
   /// Found once for each degree.
@@ -112,10 +118,12 @@ class ShapeFlow {
   }
 
   const Physics& physics_;
+  FlowSetups& setups_;
   Vector3 centre_;  // the weight is taken about it, which changes the pressure inside alone
   bool tension_is_free_;
   int points_per_edge_;
-  std::map<int, Bending> bending_;  // by degree
+  std::map<int, Bending> bending_;                // by degree
+  std::map<int, InextensibleOperators> tension_;  // by degree
   // What was found so far, of one kind.
   std::vector<FlowSolution> flows_;
   std::vector<InextensibleFlow> inextensible_;
@@ -125,12 +133,13 @@ class ShapeFlow {
 
 Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, const Refinement& refinement,
                         const VectorOnSurface& electric) {
-  return ShapeFlow(input, refinement).solve(space, {refinement.flow_tolerance}, electric);
+  FlowSetups setups({input});
+  return ShapeFlow(input, setups, refinement).solve(space, {refinement.flow_tolerance}, electric);
 }
 
-LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
-                                 const PotentialLevels* potential, const Report& report) {
-  ShapeFlow flow(input, refinement);
+LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, FlowSetups& setups,
+                                 const Refinement& refinement, const PotentialLevels* potential, const Report& report) {
+  ShapeFlow flow(input, setups, refinement);
   VectorOnSurface electric;
   if (potential != nullptr) {
     electric = [&](const SurfacePoints& at) { return potential->solutions.back().on_surface(at).force; };

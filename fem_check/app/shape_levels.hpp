@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_check/app/check_input.hpp"
+#include "fem_check/app/flow_setups.hpp"
 #include "fem_check/app/level.hpp"
 #include "fem_check/app/level_loop.hpp"
 #include "fem_check/app/potential_levels.hpp"
@@ -23,7 +24,7 @@ Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, co
 /// @param potential  null without a field; f_E is that of its finest level. What the level before has instead stands
 ///                   between the last two levels, as an error of the last
 /// @throws SolveError
-LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
-                                 const PotentialLevels* potential, const Report& report);
+LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, FlowSetups& setups,
+                                 const Refinement& refinement, const PotentialLevels* potential, const Report& report);
 
 }  // namespace vehd::fem_check

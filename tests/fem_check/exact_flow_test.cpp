@@ -134,6 +134,29 @@ BOOST_AUTO_TEST_CASE(divergence_on_the_membrane_is_that_of_the_background_flow_a
   BOOST_TEST((traces.velocity - Mode::quadratic() * points.position).cwiseAbs().maxCoeff() < 1e-10);
 }
 
+BOOST_AUTO_TEST_CASE(operators_serve_every_problem_of_their_viscosities) {
+  const Discretisation space = discretise(shapes::prolate(), {.cells_per_edge = 1, .shell_layers = 2, .degree = 3});
+  const SurfacePoints points = space.quadrature_points(5);
+  const FlowOperators operators(space, 3.0, 1.0);
+  FlowProblem problem;
+  problem.viscosity_in = 3.0;
+  problem.gradient = Mode::quadratic();
+  problem.force = vectors_on_surface([](const Vector3& x, const Vector3&) { return Vector3(x.z(), x.x(), 0.3); });
+  double apart = 0.0;
+  Vectors before;
+  for (const int exterior_degree : {usual_exterior_degree, 2}) {
+    problem.exterior_degree = exterior_degree;
+    const Vectors shared = solve_flow(operators, problem).on_surface(points).velocity;
+    const Vectors own = solve_flow(space, problem).on_surface(points).velocity;
+    BOOST_TEST((shared - own).cwiseAbs().maxCoeff() < 1e-9 * own.cwiseAbs().maxCoeff());
+    if (before.size() > 0) apart = (shared - before).norm() / before.norm();
+    before = shared;
+  }
+  BOOST_TEST(apart > 1e-8);
+  problem.viscosity_in = 2.0;
+  BOOST_CHECK_THROW(solve_flow(operators, problem), std::invalid_argument);
+}
+
 BOOST_AUTO_TEST_CASE(input_out_of_range_is_refused) {
   FlowProblem problem;
   problem.force = vectors_on_surface([](const Vector3&, const Vector3&) { return Vector3(Vector3::Zero()); });

@@ -53,6 +53,21 @@ BOOST_AUTO_TEST_CASE(later_right_hand_sides_profit_from_former_ones) {
   BOOST_TEST((matrix * solution.x - other).norm() <= 1.1e-8 * other.norm());
 }
 
+BOOST_AUTO_TEST_CASE(residuals_are_relative_to_a_size_that_is_larger_than_the_right_hand_side) {
+  const Matrix matrix = test_matrix(kSize);
+  const Vector rhs = right_hand_side(kSize, 0.0);
+  const auto solved = [&](double least_size) {
+    return RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-8, 60}, least_size);
+  };
+  const RecycledGcr::Solution exact = solved(0.1 * rhs.norm()), rough = solved(1e4 * rhs.norm());
+  BOOST_TEST(exact.size_of_rhs == rhs.norm());
+  BOOST_TEST((matrix * exact.x - rhs).norm() <= 1.1e-8 * rhs.norm());
+  const double left = (matrix * rough.x - rhs).norm();
+  BOOST_TEST(left > 1e-6 * rhs.norm());
+  BOOST_TEST(left <= 1.1e-4 * rhs.norm());
+  BOOST_TEST(rough.report.residual == 1e-4 * left / rhs.norm(), boost::test_tools::tolerance(1e-3));
+}
+
 BOOST_AUTO_TEST_CASE(start_counts_and_the_tolerance_stays_that_of_the_right_hand_side) {
   const Matrix matrix = test_matrix(kSize);
   const Vector exact = right_hand_side(kSize, 1.0);

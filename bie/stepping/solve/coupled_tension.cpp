@@ -326,17 +326,14 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   const RecycledSubspace former = recycles ? layout.joined(known, scales) : RecycledSubspace{};
   RecycledGcr solver(map, preconditioner, layout.size(), of_own.size(), former);
   const Vector first = layout.stack(guess).cwiseQuotient(scales), rhs = layout.stack(left);
-  const double goal = preconditioner(rhs).norm();
   RecycledGcr::Solution solution;
   int iterations = 0;
   // A start that was much larger than the solution says nothing of the tensions: then they do themselves.
   for (double size = layout.without_means(first).norm();;) {
-    const double over_goal = goal > 0.0 ? std::max(1.0, size / goal) : 1.0;
-    solution = solver.solve(rhs, {}, {tolerance * over_goal, thresholds::most_flow_iterations});
+    solution = solver.solve(rhs, {}, {tolerance, thresholds::most_flow_iterations}, size);
     iterations += solution.report.iterations;
-    solution.report.residual /= over_goal;
     const double found = layout.without_means(first + solution.x).norm();
-    if (!solution.report.converged() || size <= 2.0 * found || size <= goal) break;
+    if (!solution.report.converged() || size <= 2.0 * found || size <= solution.size_of_rhs) break;
     size = found;
   }
   solution.report.iterations = iterations;

@@ -1,0 +1,23 @@
+#include "fem_check/app/flow_setups.hpp"
+
+#include "fem_check/app/vesicle_fields.hpp"
+
+namespace vehd::fem_check {
+
+FlowSetups::FlowSetups(const std::vector<CheckInput>& inputs)
+    : viscosity_in_(number_of(inputs, &Physics::viscosity_in)), viscosity_out_(inputs.front().physics.viscosity_out) {}
+
+const FlowOperators& FlowSetups::at(const Discretisation& space) {
+  const auto found = operators_.find(space.degree());
+  if (found != operators_.end()) return found->second;
+  return operators_.emplace(space.degree(), FlowOperators(space, viscosity_in_, viscosity_out_)).first->second;
+}
+
+FlowProblem FlowSetups::problem() const {
+  FlowProblem problem;
+  problem.viscosity_in = viscosity_in_;
+  problem.viscosity_out = viscosity_out_;
+  return problem;
+}
+
+}  // namespace vehd::fem_check

@@ -1,0 +1,74 @@
+#include "fem_check/app/refinement.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "meshes/harmonic_series.hpp"
+#include "tests/fem_check/cases.hpp"
+
+BOOST_AUTO_TEST_SUITE(refinement)
+
+namespace {
+
+using namespace vehd::fem_check;
+using namespace vehd::fem_check::testing;
+using vehd::meshes::FrozenShape;
+using vehd::meshes::Point;
+
+FrozenShape ellipsoid(double width, double height) {
+  return FrozenShape(
+      shapes::project(1, [&](const Point& r) { return Point(width * r.x(), width * r.y(), height * r.z()); }));
+}
+
+/// A disc bent into a bowl, with a rim as narrow as that of a stomatocyte.
+FrozenShape bowl(double thickness) {
+  return FrozenShape(shapes::project(5, [&](const Point& r) {
+    const Point flat = shapes::disc_point(r);
+    return Point(flat.x(), flat.y(), thickness * flat.z() + 0.9 * (1.0 - r.z() * r.z()));
+  }));
+}
+
+int highest_degree(const Refinement& refinement) { return refinement.flow_degrees.back(); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(strongly_bent_shapes_have_smaller_cells_and_bowls_higher_degrees) {
+  const Refinement usual = Refinement::finest();
+  for (const FrozenShape& shape : {shapes::off_centre_sphere(), shapes::prolate(), shapes::shape_33()}) {
+    const Refinement found = Refinement::following(shape);
+    BOOST_TEST(found.cells_per_edge == usual.cells_per_edge);
+    BOOST_TEST(found.shell_layers == usual.shell_layers);
+    BOOST_TEST(highest_degree(found) == highest_degree(usual));
+  }
+  for (const FrozenShape& shape : {ellipsoid(1.0, 5.0), ellipsoid(1.0, 0.2)}) {
+    const Refinement found = Refinement::following(shape);
+    BOOST_TEST(found.cells_per_edge == 6);
+    BOOST_TEST(highest_degree(found) < highest_degree(usual));
+  }
+  const Refinement of_bowl = Refinement::following(bowl(0.5));
+  BOOST_TEST(of_bowl.cells_per_edge == 4);
+  BOOST_TEST(of_bowl.shell_layers > usual.shell_layers);
+  BOOST_TEST(highest_degree(of_bowl) == highest_degree(usual));
+}
+
+// The mean of Y_n0 over the sphere, and its product with another harmonic, are zero: what a rule finds instead comes
+// from between its points.
+BOOST_AUTO_TEST_CASE(points_of_the_comparison_resolve_waves_of_a_degree) {
+  const auto mean_of = [](int degree, int points_per_edge, int cells_per_edge) {
+    const Discretisation space =
+        discretise(unit_sphere(), {.cells_per_edge = cells_per_edge, .shell_layers = 1, .degree = 4});
+    const SurfacePoints points = space.quadrature_points(points_per_edge);
+    Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero((degree + 1) * (degree + 1), 1);
+    coefficients(degree * degree + degree, 0) = 1.0;
+    const vehd::meshes::HarmonicSeries harmonic(coefficients);
+    return std::abs(harmonic.values(points.direction).row(0).dot(points.weight));
+  };
+  Refinement refinement = Refinement::finest();
+  refinement.resolve(48);
+  BOOST_TEST(refinement.points_per_edge == 12);
+  refinement.resolve(96);
+  BOOST_TEST(refinement.points_per_edge > 12);
+  BOOST_TEST(mean_of(96, refinement.points_per_edge, refinement.cells_per_edge) < 1e-3);
+  BOOST_TEST(mean_of(96, 12, refinement.cells_per_edge) > 1e-2);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
