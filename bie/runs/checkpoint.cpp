@@ -121,6 +121,7 @@ void visit_companion(CompanionType& companion, Visitor&& visit) {
   visit("checksum", companion.checksum);
   visit("node", companion.node);
   visit("waiting", companion.waiting);
+  visit("sizes", companion.sizes);
 }
 
 struct WriteVisitor {
@@ -217,6 +218,9 @@ class SoundCheck {
     });
     require(companion.start_order >= lowest_order && companion.start_order <= highest_order, "start_order");
     require(companion.waiting.size() == 0 || companion.waiting.cols() == companion.node.size(), state_of_companion);
+    require(
+        companion.node.size() == 0 || companion.sizes.size() == 0 || companion.sizes.size() == companion.node.size(),
+        state_of_companion);
   }
 
  private:

@@ -27,6 +27,7 @@ struct CompanionState {
   std::int64_t lost = 0;         ///< 1 where it cannot take a step
   Vector node;                   ///< the last row of errors at which it was
   Matrix waiting;                ///< rows of the history of which no error is known yet
+  Vector sizes;                  ///< largest magnitude in each column of the history so far
   std::int64_t bytes = 0;        ///< of history_error.csv
   std::int64_t checksum = 0;     ///< of these bytes
 };

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "bie/runs/vesicle_rows.hpp"
+#include "bie/runs/worst_error.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -46,22 +49,28 @@ Checkpoint start_of(const std::optional<CompanionState>& from) {
   return start;
 }
 
-/// Error of the run over its difference to the companion. That of fixed steps is Δt^k, so the companion has 3^k of it.
+/// Error that steps leave of the run over its difference to the companion's. That of fixed steps is Δt^k, so the
+/// companion has 3^k of it.
 double share_of_difference(const NumericsScene& numerics) {
   if (numerics.tolerance) return 1.0 / companion_difference;
   return 1.0 / (std::pow(companion_steps, static_cast<double>(numerics.time_order)) - 1.0);
 }
 
-/// Errors of one row, beside its time.
-Vector errors_of(const Vector& run, const Vector& companion, double share, HistoryKind kind) {
+Index index_of(std::string_view column, HistoryKind kind) {
+  return std::ranges::distance(history_columns(kind).begin(),
+                               std::ranges::find(history_columns(kind), column, &HistoryColumn::name));
+}
+
+/// Of one row, behind its time; what is an error itself stays.
+Vector differences_of(const Vector& run, const Vector& companion, HistoryKind kind) {
   const std::vector<HistoryColumn>& columns = history_columns(kind);
-  Vector errors = Vector::Zero(run.size());
-  errors[0] = run[0];
+  Vector differences = Vector::Zero(run.size());
+  differences[0] = run[0];
   for (Index i = 1; i < run.size(); ++i) {
     const HistoryColumn& column = columns[static_cast<std::size_t>(i)];
     if (column.meaning == ColumnMeaning::method) continue;
     if (column.meaning == ColumnMeaning::error) {
-      errors[i] = std::abs(run[i]);
+      differences[i] = std::abs(run[i]);
       continue;
     }
     // What neither has is no difference.
@@ -69,19 +78,25 @@ Vector errors_of(const Vector& run, const Vector& companion, double share, Histo
     if (are_equal) continue;
     double difference = std::abs(run[i] - companion[i]);
     if (column.name == "inclination_deg") difference = std::min(difference, 180.0 - difference);
-    errors[i] = share * difference;
+    differences[i] = difference;
   }
-  return errors;
+  return differences;
 }
 
-/// Errors of a row between two others.
+/// Errors of a row between two others: what is wrong grows and dies away exponentially.
 Vector between(const Vector& first, const Vector& last, const Vector& run, HistoryKind kind) {
   const double share = (run[0] - first[0]) / (last[0] - first[0]);
-  Vector errors = (1.0 - share) * first + share * last;
-  errors[0] = run[0];
   const std::vector<HistoryColumn>& columns = history_columns(kind);
+  Vector errors = Vector::Zero(run.size());
+  errors[0] = run[0];
   for (Index i = 1; i < run.size(); ++i) {
-    if (columns[static_cast<std::size_t>(i)].meaning == ColumnMeaning::error) errors[i] = std::abs(run[i]);
+    if (columns[static_cast<std::size_t>(i)].meaning == ColumnMeaning::error) {
+      errors[i] = std::abs(run[i]);
+      continue;
+    }
+    // Nothing grows out of zero in this way.
+    errors[i] = first[i] > 0.0 && last[i] > 0.0 ? std::pow(first[i], 1.0 - share) * std::pow(last[i], share)
+                                                : (1.0 - share) * first[i] + share * last[i];
   }
   return errors;
 }
@@ -91,12 +106,13 @@ Vector between(const Vector& first, const Vector& last, const Vector& run, Histo
 ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& from, Ranks ranks)
     : scene_(scene_of_companion(scene)),
       kind_(history_kind(scene)),
-      share_(share_of_difference(scene.numerics)),
+      share_of_steps_(share_of_difference(scene.numerics)),
       start_order_(from ? from->start_order : scene.numerics.order),
       companion_(scene_, start_of(from), OutputUnits(scene_), std::move(ranks)),
       lab_frame_output_(companion_.problem().frame, companion_.problem().settings) {
   if (!from) return;
   node_ = from->node;
+  sizes_ = from->sizes;
   lost_ = from->lost != 0;
   for (Index i = 0; i < from->waiting.rows(); ++i) waiting_.emplace_back(from->waiting.row(i).transpose());
 }
@@ -115,7 +131,66 @@ Vector ErrorBars::values_of(const RecordedSide& side) const {
 }
 
 void ErrorBars::add(const std::vector<RecordedSide>& sides) {
-  for (const RecordedSide& side : sides) waiting_.push_back(values_of(side));
+  for (const RecordedSide& side : sides) {
+    const Vector& row = waiting_.emplace_back(values_of(side));
+    if (sizes_.size() == 0) sizes_ = Vector::Zero(row.size());
+    for (Index i = 0; i < row.size(); ++i) {
+      // What is not a number has no size.
+      if (std::abs(row[i]) > sizes_[i]) sizes_[i] = std::abs(row[i]);
+    }
+  }
+}
+
+/// The largest of those that count, over the size of its column.
+double ErrorBars::worst(const Vector& differences) const {
+  const std::vector<HistoryColumn>& columns = history_columns(kind_);
+  const auto largest = [this](const std::string& name) { return sizes_[index_of(name, kind_)]; };
+  double worst = 0.0;
+  for (Index i = 1; i < differences.size(); ++i) {
+    const double size = size_of_column(columns[static_cast<std::size_t>(i)].name, largest);
+    if (size > 0.0 && differences[i] > worst * size) worst = differences[i] / size;
+  }
+  return worst;
+}
+
+/// What the run's last step until this row has left, or the one that passes it, as the run has estimated it.
+double ErrorBars::step_error_until(const Vector& row) const {
+  const Index dt = index_of("dt", kind_), estimate = index_of("error_estimate", kind_);
+  std::optional<double> error;
+  for (const Vector& other : waiting_) {
+    const bool is_later = other[0] > row[0] && !is_same_time(other[0], row[0]);
+    if (is_later && error) break;
+    // Rows within a step have no size.
+    if (other[dt] > 0.0) error = thresholds::step_share * other[estimate];
+  }
+  return error.value_or(0.0);
+}
+
+/// Error of the run over its differences to the companion.
+double ErrorBars::share_of(const Vector& differences, const Vector& run, const Vector& companion,
+                           double step_error) const {
+  // Fixed steps have the same degree.
+  if (!scene_.numerics.tolerance) return share_of_steps_;
+  const double difference = worst(differences);
+  if (!(difference > 0.0)) return share_of_steps_;
+  const Index truncation = index_of("truncation", kind_);
+  // Steps and degrees are wrong independently of each other, so squares add up.
+  const double of_degrees = std::min(1.0, companion[truncation] / difference);
+  const double of_steps = std::sqrt((1.0 - of_degrees) * (1.0 + of_degrees));
+  const double share_of_degrees = run[truncation] / std::max(companion[truncation], difference);
+  return std::hypot(std::max(share_of_steps_ * of_steps, std::min(share_of_steps_, step_error / difference)),
+                    share_of_degrees);
+}
+
+Vector ErrorBars::errors_at(const Vector& run, const RecordedSide& companion, double step_error) const {
+  const Vector there = values_of(companion);
+  Vector errors = differences_of(run, there, kind_);
+  const double share = share_of(errors, run, there, step_error);
+  const std::vector<HistoryColumn>& columns = history_columns(kind_);
+  for (Index i = 1; i < errors.size(); ++i) {
+    if (columns[static_cast<std::size_t>(i)].meaning == ColumnMeaning::quantity) errors[i] *= share;
+  }
+  return errors;
 }
 
 std::vector<Vector> ErrorBars::follow(bool to_end) {
@@ -163,12 +238,13 @@ void ErrorBars::compare(std::vector<Vector>& known) {
   const std::vector<RecordedSide> sides = companion_.sides();
   const auto is_here = [this](const Vector& row) { return is_same_time(row[0], now()); };
   const auto here = std::ranges::find_if(waiting_, is_here);
-  const Vector arrival = errors_of(*here, values_of(sides.front()), share_, kind_);
+  const double step_error = step_error_until(*here);
+  const Vector arrival = errors_at(*here, sides.front(), step_error);
   for (; !is_here(waiting_.front()); waiting_.pop_front()) {
     known.push_back(between(node_, arrival, waiting_.front(), kind_));
   }
   for (auto side = sides.begin(); side != sides.end() && !waiting_.empty() && is_here(waiting_.front()); ++side) {
-    node_ = errors_of(waiting_.front(), values_of(*side), share_, kind_);
+    node_ = errors_at(waiting_.front(), *side, step_error);
     known.push_back(node_);
     waiting_.pop_front();
   }
@@ -184,7 +260,7 @@ void ErrorBars::give_up(std::vector<Vector>& known) {
 }
 
 CompanionState ErrorBars::state() const {
-  CompanionState state{companion_.evolution().state(), start_order_, lost_ ? 1 : 0, node_, {}};
+  CompanionState state{companion_.evolution().state(), start_order_, lost_ ? 1 : 0, node_, {}, sizes_};
   state.waiting.resize(std::ssize(waiting_), node_.size());
   for (Index i = 0; i < state.waiting.rows(); ++i) {
     state.waiting.row(i) = waiting_[static_cast<std::size_t>(i)].transpose();

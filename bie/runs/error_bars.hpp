@@ -15,8 +15,15 @@ namespace vehd {
 ///
 /// With a tolerance the companion has a larger one and an order less, and chooses degree and steps for itself; with
 /// fixed steps it makes one of three. It lags behind the run by one of its steps at most and ends each on a row of the
-/// history. What the motion has done to errors since is in those of both: if those of the companion are ρ times as
-/// large, then the difference over ρ − 1 is the error of the run. Between two steps of the companion it is linear.
+/// history. What the motion has done to errors since is in those of both: if those that its steps have left are ρ times
+/// as large, then the difference over ρ − 1 is the error of the run. Degrees have no such ratio, and of a shape at rest
+/// they are all that is wrong: what they leave out is estimated from the spectrum of both. With T of the companion and
+/// t of the run, D the largest difference of a row and e the run's estimate of its last step, all relative,
+///
+///   E² = max(√(D² − min(T, D)²)/(ρ − 1), min(e, D/(ρ − 1)))² + (t min(1, D/T))²
+///
+/// and every column has the share E/D of its difference. Between two steps of the companion errors grow or die away
+/// exponentially.
 ///
 /// Accuracy: see docs/run_files.md
 /// Source: of this project
@@ -42,18 +49,24 @@ class ErrorBars {
  private:
   [[nodiscard]] double now() const { return companion_.evolution().state().time; }
   [[nodiscard]] Vector values_of(const RecordedSide& side) const;
+  [[nodiscard]] double worst(const Vector& differences) const;
+  [[nodiscard]] double step_error_until(const Vector& row) const;
+  [[nodiscard]] double share_of(const Vector& differences, const Vector& run, const Vector& companion,
+                                double step_error) const;
+  [[nodiscard]] Vector errors_at(const Vector& run, const RecordedSide& companion, double step_error) const;
   [[nodiscard]] std::optional<double> next_end(bool to_end) const;
   void compare(std::vector<Vector>& known);
   void give_up(std::vector<Vector>& known);
 
   Scene scene_;  ///< of the companion
   HistoryKind kind_;
-  double share_;              ///< of a difference that is the error
+  double share_of_steps_;     ///< of a difference that steps have made that is the error
   std::int64_t start_order_;  ///< of the companion
   Simulation companion_;
   LabFrameOutput lab_frame_output_;
   std::deque<Vector> waiting_;  ///< rows of the history without an error yet
   Vector node_;                 ///< the last row of errors at which the companion was
+  Vector sizes_;                ///< largest magnitude in each column of the history so far
   bool lost_ = false;           ///< it cannot take a step
 };
 

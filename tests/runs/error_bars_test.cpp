@@ -1,5 +1,6 @@
 #include "bie/runs/error_bars.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <sstream>
@@ -7,6 +8,7 @@
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_loop.hpp"
 #include "bie/runs/worst_error.hpp"
+#include "bie/scene/accuracy.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
@@ -59,6 +61,34 @@ double share_of_good(const Files& run, const Files& exact, const std::string& co
   return good / static_cast<double>(values.n_rows() - 1);
 }
 
+/// Share of the rows at multiples of `every` in which the largest error of shape, energy, tension and potential, over
+/// the size of its column, is estimated within a factor of five.
+double share_of_good_rows(const Files& run, const Files& exact, double every) {
+  const vehd::HistoryTable values = run.history(), errors = run.errors(), reference = exact.history();
+  BOOST_TEST_REQUIRE(errors.n_rows() == values.n_rows());
+  const auto row_at = [](const vehd::HistoryTable& table, double time) {
+    const std::vector<double>& times = table.column("time");
+    const auto found = std::ranges::find_if(times, [&](double t) { return std::abs(t - time) < 1e-9 * times.back(); });
+    BOOST_TEST_REQUIRE((found != times.end()));
+    return static_cast<std::size_t>(found - times.begin());
+  };
+  int good = 0, n_rows = 0;
+  for (double time = every; time < values.column("time").back() + 0.5 * every; time += every) {
+    const std::size_t i = row_at(values, time), j = row_at(reference, time);
+    double error = 0.0, estimate = 0.0;
+    for (const char* column :
+         {"extent_x", "extent_z", "bending_energy_scaled", "tension_integral", "Vm_north", "q_north"}) {
+      const double size = values.largest_magnitude(column);
+      if (!(size > 0.0)) continue;
+      error = std::max(error, std::abs(values.column(column)[i] - reference.column(column)[j]) / size);
+      estimate = std::max(estimate, errors.column(column)[i] / size);
+    }
+    ++n_rows;
+    if (estimate > 0.2 * error && estimate < 5.0 * error) ++good;
+  }
+  return good / static_cast<double>(n_rows);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(steps_of_fixed_size_know_their_error) {
@@ -88,6 +118,38 @@ BOOST_AUTO_TEST_CASE(a_tolerance_has_errors_at_every_row) {
   // The tension jumps with the field, and its error with it; neither is taken for the other.
   const nlohmann::json worst = vehd::worst_error(history, errors);
   BOOST_TEST(worst.at("worst").get<double>() < 0.05, worst.dump());
+}
+
+BOOST_AUTO_TEST_CASE(a_shape_at_rest_is_wrong_by_its_degrees_alone) {
+  const auto relaxing = [](const std::string& tolerance) {
+    return vehd::parse_scene(
+        "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.9621762549176331]\n[membrane]\nbending_modulus = 1.0\n"
+        "[numerics]\nend_time = 10\nerror_bars = true\ntolerance = " +
+            tolerance + "\n[output]\nevery = 0.5",
+        "scene.toml", ".");
+  };
+  const Files exact;
+  exact.go_on(relaxing("1e-6"));
+  for (const std::string tolerance : {"1e-2", "1e-3"}) {
+    const Files run;
+    run.go_on(relaxing(tolerance));
+    const double share = share_of_good_rows(run, exact, 0.5);
+    BOOST_TEST(share >= 0.9, share << " of the rows at " << tolerance);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(between_long_steps_errors_die_away_exponentially) {
+  const auto pulsed_twice = [](double tolerance) {
+    vehd::Scene scene = vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/two_step_pulse.toml");
+    scene = vehd::at_tolerance(std::move(scene), tolerance);
+    scene.numerics.error_bars = true;
+    return scene;
+  };
+  const Files run, exact;
+  run.go_on(pulsed_twice(1e-2));
+  exact.go_on(pulsed_twice(1e-5));
+  const double share = share_of_good_rows(run, exact, 0.025);
+  BOOST_TEST(share >= 0.9, share);
 }
 
 BOOST_AUTO_TEST_CASE(a_resumed_run_has_the_same_errors_bit_for_bit) {
