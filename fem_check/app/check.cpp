@@ -187,7 +187,7 @@ std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) 
   const std::vector<CheckInput> inputs = read_check_inputs(task.input);
   std::vector<std::vector<CheckInput>> further;
   for (const std::filesystem::path& path : task.further_inputs) further.push_back(read_check_inputs(path));
-  if (task.writes) require_directory(task.directory);
+  require_directory(task.directory);
   std::vector<meshes::FrozenShape> shapes;
   for (const CheckInput& input : inputs) shapes.emplace_back(input.position);
   const Refinement refinement = refinement_for(task, inputs, shapes);
@@ -195,14 +195,19 @@ std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) 
   const Discretisation& geometry = meshes.discretise(refinement.potential_degrees.back());
   const SolvedState solved = solve_state(inputs, meshes, geometry, refinement, report);
 
-  std::vector<CheckResult> results{judge(inputs, solved, task.required)};
-  for (const std::vector<CheckInput>& other : further) results.push_back(judge(other, solved, task.required));
+  std::vector<CheckResult> results;
+  if (task.judges) {
+    results.push_back(judge(inputs, solved, task.required));
+    for (const std::vector<CheckInput>& other : further) results.push_back(judge(other, solved, task.required));
+  }
   if (task.writes) {
     const FinestSolutions finest{solved.potential ? &*solved.potential : nullptr,
                                  solved.flow ? &*solved.flow : nullptr};
     write_field_files(task.directory, inputs, finest, geometry);
   }
-  results.front().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (task.judges) {
+    results.front().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
   return results;
 }
 

@@ -20,7 +20,8 @@ struct CheckTask {
   std::vector<std::filesystem::path> further_inputs{};  ///< of the same state, see run_check()
   bool quick = false;                                   ///< coarse elements
   double required = default_requirement;                ///< see compare()
-  bool writes = true;                                   ///< false on all ranks but the first
+  bool judges = true;                                   ///< false on all ranks but the first
+  bool writes = true;                                   ///< false on all ranks but the last, which has no other work
 };
 
 /// What the finite elements find for one state: everything that boundary-integral numbers are compared with.
@@ -44,7 +45,8 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
 CheckResult judge(const std::vector<CheckInput>& inputs, const SolvedState& solved, double required);
 
 /// Solves, compares and writes the files of fields.
-/// @return the result of the input, then that of each further one, judged by the solutions of the first
+/// @return the result of the input, then that of each further one, judged by the solutions of the first; none on a rank
+///         that does not judge
 /// @throws InputError, meshes::MeshError, SolveError
 std::vector<CheckResult> run_check(const CheckTask& task, const Report& report);
 

@@ -39,20 +39,20 @@ void print_reasons(const CheckResult& result) {
   }
 }
 
-int check(CheckTask task, const std::string& json_file, bool first_rank) {
-  task.writes = first_rank;
+int check(CheckTask task, const std::string& json_file, const Session& session) {
+  task.judges = session.rank() == 0;
+  task.writes = session.rank() == session.n_ranks() - 1;
   const std::vector<CheckResult> results = run_check(task, [&](const std::string& line) {
-    if (first_rank) fmt::print(stderr, "{}\n", line);
+    if (task.judges) fmt::print(stderr, "{}\n", line);
   });
+  if (!task.judges) return done;
   const CheckResult& result = results.front();
-  if (first_rank) {
-    fmt::print("{}files: {}\n", table_of(result), task.directory.string());
-    std::fflush(stdout);
-    nlohmann::json json = json_of(result);
-    for (std::size_t i = 1; i < results.size(); ++i) json["further"].push_back(json_of(results[i]));
-    write_json(json_file, json);
-    print_reasons(result);
-  }
+  fmt::print("{}files: {}\n", table_of(result), task.directory.string());
+  std::fflush(stdout);
+  nlohmann::json json = json_of(result);
+  for (std::size_t i = 1; i < results.size(); ++i) json["further"].push_back(json_of(results[i]));
+  write_json(json_file, json);
+  print_reasons(result);
   return result.verdict() == Verdict::agree ? done : does_not_hold;
 }
 
@@ -126,7 +126,7 @@ int run_program(int argc, char** argv) {
       return done;
     }
     if (check_task.quick && required->empty()) check_task.required = required_when_quick;
-    return check(check_task, json_file, session.rank() == 0);
+    return check(check_task, json_file, session);
   } catch (const InputError& error) {
     return fail(refused, error.what());
   } catch (const meshes::MeshError& error) {
