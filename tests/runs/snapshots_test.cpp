@@ -2,11 +2,9 @@
 #include <cmath>
 #include <map>
 
-#include "bie/runs/resumption.hpp"
-#include "bie/runs/run_loop.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/reader.hpp"
-#include "tests/support/files.hpp"
+#include "tests/support/recorded_history.hpp"
 
 BOOST_AUTO_TEST_SUITE(snapshots)
 
@@ -17,13 +15,7 @@ std::map<int, double> values_at_snapshots(double tolerance, const std::string& c
   vehd::Scene scene = vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/dc_pulse.toml"), tolerance);
   scene.numerics.dt.reset();
   scene.numerics.end_time = 0.18;
-  const TemporaryDirectory directory;
-  const vehd::RunPaths paths{directory / "run"};
-  vehd::make_directory(paths.directory);
-  vehd::RecordedRun run({scene, paths, std::nullopt});
-  run.start();
-  while (!run.simulation().at_end()) run.step();
-  const vehd::HistoryTable history(paths.history());
+  const vehd::HistoryTable history = vehd::testing::history_of(scene);
   std::map<int, double> values;
   for (std::size_t i = 0; i < history.n_rows(); ++i) {
     const double number = 9.0 * history.column("time")[i] / history.column("time").back();

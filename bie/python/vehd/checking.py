@@ -61,7 +61,7 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
     directory: for the results; "check" beside a run.h5 if left out.
     time: of a snapshot, as "0.5 ms" or a number in the unit of the history; the last one if left out.
     from_time: of an earlier snapshot, likewise; the elements then also advance V_m from there by themselves.
-    quick: coarse elements, about ten seconds. require: largest error of either method, as a share of each field, with
+    quick: coarse elements, about six seconds. require: largest error of either method, as a share of each field, with
     which they may agree. ranks: MPI processes of the finite elements.
 
     InputError: there is no finite-element program, or it does not know something of the scene.
