@@ -32,8 +32,8 @@ struct Refinement {
 
   // Degrees, rising, three at least.
   std::vector<int> potential_degrees{4, 5, 6, 7, 8, 9};
-  std::vector<int> flow_degrees{4, 5, 6, 7, 8};  ///< force given
-  std::vector<int> shape_flow_degrees{4, 5, 6, 7, 8};
+  std::vector<int> flow_degrees{4, 5, 6, 7, 8, 9};  ///< force given
+  std::vector<int> shape_flow_degrees{4, 5, 6, 7, 8, 9};
   double potential_target = 1e-5;  ///< relative change at which degrees stop rising before the last
   double flow_target = 1e-4;
   double charging_target = 1e-3;       ///< the same of V_m that is advanced in time, of its steps too
