@@ -3,7 +3,7 @@
 #include <string>
 
 #include "fem_check/membrane_trace.hpp"
-#include "fem_check/surface_matrices.hpp"
+#include "fem_check/surface_projection.hpp"
 
 namespace vehd::fem_check {
 
@@ -16,34 +16,12 @@ int required_degree(int degree) {
   return degree;
 }
 
-/// Adds [3 x nodes of the face] to the nodes of the whole surface.
-void scatter(const Eigen::MatrixXd& local, const std::vector<int>& of_face, Vectors& result) {
-  for (std::size_t i = 0; i < of_face.size(); ++i) result.col(of_face[i]) += local.col(static_cast<Eigen::Index>(i));
-}
-
 /// ∇_γ·u at the points of a patch, from ∂u/∂s_a.
 Vector surface_divergence(const FacePatch& patch, const std::array<Vectors, 2>& slope) {
   return (patch.dual[0].cwiseProduct(slope[0]) + patch.dual[1].cwiseProduct(slope[1])).colwise().sum().transpose();
 }
 
 }  // namespace
-
-/// The nodal field with given products with the nodal functions, on a surface with given positions.
-class BendingElements::Projection {
- public:
-  Projection(const SurfaceElements& surface, const Vectors& positions)
-      : mass_(mass_matrix(surface, positions, surface.nodes())) {
-    if (mass_.info() != Eigen::Success) throw SolveError("the mass matrix of the membrane is not positive definite");
-  }
-
-  [[nodiscard]] Vectors solve(const Vectors& functional) const {
-    const Eigen::MatrixX3d result = mass_.solve(Eigen::MatrixX3d(functional.transpose()));
-    return result.transpose();
-  }
-
- private:
-  Eigen::SimplicialLLT<SurfaceMatrix> mass_;
-};
 
 BendingElements::BendingElements(const meshes::VolumeMesh& mesh, int degree)
     : surface_(mesh, required_degree(degree), degree + 2) {}
@@ -52,8 +30,16 @@ namespace {
 
 /// −∫ ∇_γ x:∇_γ w dA.
 Vectors curvature_functional(const SurfaceElements& surface, const Vectors& positions) {
-  const Eigen::MatrixX3d x = positions.transpose();
-  return -(stiffness_matrix(surface, positions, surface.nodes()) * x).transpose();
+  Vectors result = Vectors::Zero(3, positions.cols());
+  for (int f = 0; f < surface.nodes().n_faces(); ++f) {
+    const FacePatch patch = surface.patch(f, positions);
+    // ∇_γ x is the projection on the tangent plane: of ∇_γ w = tᵃ ∂w/∂s_a all is left.
+    for (int a = 0; a < 2; ++a) {
+      add_to_nodes(-patch.dual[a] * patch.weight.asDiagonal() * surface.shape().derivative[a],
+                   surface.nodes().of_face(f), result);
+    }
+  }
+  return result;
 }
 
 /// ∫ n·w dA.
@@ -61,7 +47,7 @@ Vectors normal_functional(const SurfaceElements& surface, const Vectors& positio
   Vectors result = Vectors::Zero(3, positions.cols());
   for (int f = 0; f < surface.nodes().n_faces(); ++f) {
     const FacePatch patch = surface.patch(f, positions);
-    scatter(patch.normal * patch.weight.asDiagonal() * surface.shape().value, surface.nodes().of_face(f), result);
+    add_to_nodes(patch.normal * patch.weight.asDiagonal() * surface.shape().value, surface.nodes().of_face(f), result);
   }
   return result;
 }
@@ -69,7 +55,7 @@ Vectors normal_functional(const SurfaceElements& surface, const Vectors& positio
 }  // namespace
 
 Vectors BendingElements::curvature_vector(const Vectors& positions) const {
-  return Projection(surface_, positions).solve(curvature_functional(surface_, positions));
+  return SurfaceProjection(surface_, positions, surface_.nodes()).solve(curvature_functional(surface_, positions));
 }
 
 double BendingElements::energy(const BendingEnergy& energy, const Vectors& positions) const {
@@ -87,7 +73,7 @@ double BendingElements::energy(const BendingEnergy& energy, const Vectors& posit
 Vectors BendingElements::force_functional(const BendingEnergy& energy, const Vectors& positions) const {
   const double kappa = energy.modulus;
   const double c = energy.spontaneous_curvature;
-  const Projection projection(surface_, positions);
+  const SurfaceProjection projection(surface_, positions, surface_.nodes());
   const Vectors h = projection.solve(curvature_functional(surface_, positions));
   // The multiplier of the equation of h: with it, h may be held while the surface is varied.
   Vectors y = 0.5 * kappa * h;
@@ -120,7 +106,7 @@ Vectors BendingElements::force_functional(const BendingEnergy& energy, const Vec
         stress[a].col(q) = patch.weight[q] * derivative;
       }
     }
-    scatter(-stress[0] * shape.derivative[0] - stress[1] * shape.derivative[1], of_face, result);
+    add_to_nodes(-stress[0] * shape.derivative[0] - stress[1] * shape.derivative[1], of_face, result);
   }
   return result;
 }
@@ -162,11 +148,9 @@ VectorOnSurface BendingForce::field(int degree) const {
   const SurfaceElements& surface = elements_.surface();
   require_holds(surface.nodes().degree(), degree);
   const auto nodes = std::make_shared<const FaceNodes>(*space_->mesh, degree);
-  const Eigen::SimplicialLLT<SurfaceMatrix> mass(mass_matrix(surface, surface.positions(), *nodes));
-  if (mass.info() != Eigen::Success) throw SolveError("the mass matrix of the bending force is not positive definite");
   const Vectors functional = restricted(functional_, surface.nodes(), *nodes);
-  const Eigen::MatrixX3d solved = mass.solve(Eigen::MatrixX3d(functional.transpose()));
-  return [nodes, nodal = Vectors(solved.transpose())](const SurfacePoints& points) {
+  const Vectors nodal = SurfaceProjection(surface, surface.positions(), *nodes).solve(functional);
+  return [nodes, nodal](const SurfacePoints& points) {
     Vectors result(3, points.size());
     for (const FaceRun& run : face_runs(points)) {
       const Eigen::MatrixXd value =

@@ -41,7 +41,6 @@ class BendingElements {
   [[nodiscard]] Vectors force_functional(const BendingEnergy& energy, const Vectors& positions) const;
 
  private:
-  class Projection;
   SurfaceElements surface_;
 };
 

@@ -79,9 +79,13 @@ class InextensibleSystem {
       for (const auto& [node, place] : own_) velocity[node] = from.block(d).local_element(place);
       expansion += elements_.divergence()[d] * velocity;
     }
-    const dealii::ArrayView<double> values(expansion.data(), static_cast<std::size_t>(expansion.size()));
+    return sum_over_ranks(std::move(expansion)) / stokes_.space().length;
+  }
+
+  [[nodiscard]] Vector sum_over_ranks(Vector part) const {
+    const dealii::ArrayView<double> values(part.data(), static_cast<std::size_t>(part.size()));
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(values), communicator(), values);
-    return expansion / stokes_.space().length;
+    return part;
   }
 
   /// The last block on all ranks.
@@ -126,7 +130,7 @@ struct BlockPreconditioners {
   /// Of the last block. The operator of the tension in the units of the blocks is μ_e/R of that of the preconditioner.
   [[nodiscard]] Vector apply_tension(const Vector& residual) const {
     const double unit = stokes.space().length * stokes.space().length / stokes.functional_unit();
-    return unit * tension.apply(residual);
+    return system.sum_over_ranks(unit * tension.apply(residual));
   }
 };
 
@@ -169,7 +173,10 @@ InextensibleOperators::InextensibleOperators(const Discretisation& discretisatio
   const auto elements = std::make_shared<const TensionElements>(*space.mesh, degree, degree - 1);
   const bool constant_is_determined = elements->variation_of_curvature() > least_variation;
   const Viscosities& viscosities = flow.data().system.viscosities();
-  TensionPreconditioner preconditioner(*elements, viscosities.inside[0], viscosities.outside, !constant_is_determined);
+  const InverseRoot::Share share{static_cast<int>(dealii::Utilities::MPI::this_mpi_process(space.communicator)),
+                                 static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(space.communicator))};
+  TensionPreconditioner preconditioner(*elements, viscosities.inside[0], viscosities.outside, !constant_is_determined,
+                                       share);
   data_ = std::make_shared<const Data>(
       Data{std::move(flow), elements, constant_is_determined, std::move(preconditioner), watch.lap()});
 }

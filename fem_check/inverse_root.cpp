@@ -5,13 +5,15 @@
 
 namespace vehd::fem_check {
 
-InverseRoot::InverseRoot(const Matrix& stiffness, const Matrix& mass, double smallest, double largest) {
+InverseRoot::InverseRoot(const Matrix& stiffness, const Matrix& mass, double smallest, double largest, Share share) {
   // The rule itself errs by 2 exp(−2π²/step); what is cut off on either side is (2/π) exp(−margin/2) of the result.
   constexpr double step = 3.0;
   constexpr double margin = 6.0;
   const double first = std::log(smallest) - margin;
   const double last = std::log(largest) + margin;
+  int number = 0;
   for (double t = first; t < last + step; t += step) {
+    if (number++ % share.of != share.number) continue;
     weight_.push_back(step / std::numbers::pi * std::exp(0.5 * t));
     const auto& solver =
         shifted_.emplace_back(std::make_unique<Eigen::SimplicialLLT<Matrix>>(Matrix(stiffness + std::exp(t) * mass)));

@@ -18,9 +18,15 @@ class InverseRoot {
  public:
   using Matrix = Eigen::SparseMatrix<double>;
 
-  /// @param smallest, largest  bounds of the eigenvalues of M⁻¹K
-  InverseRoot(const Matrix& stiffness, const Matrix& mass, double smallest, double largest);
+  /// One of several ranks between which the solutions are divided.
+  struct Share {
+    int number = 0, of = 1;
+  };
 
+  /// @param smallest, largest  bounds of the eigenvalues of M⁻¹K
+  InverseRoot(const Matrix& stiffness, const Matrix& mass, double smallest, double largest, Share share);
+
+  /// The solutions of this share; those of all shares add up to the result.
   [[nodiscard]] Vector apply(const Vector& x) const;
 
  private:

@@ -44,26 +44,18 @@ void require_valid(const VectorOnSurface& force, const Matrix3& gradient) {
 /// condition; with div u = 0 it is a surface operator, taken off here.
 SurfaceTerms outer_terms(const Stiffness& diffusion, double contrast_outside) {
   const OuterSphere& sphere = diffusion.outer();
-  const Eigen::Index n = sphere.size();
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](const Eigen::SparseMatrix<double>& matrix, double scale, unsigned row, unsigned column) {
-    for (Eigen::Index j = 0; j < matrix.outerSize(); ++j) {
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, j); entry; ++entry) {
-        entries.emplace_back(row * n + entry.row(), column * n + entry.col(), scale * entry.value());
-      }
-    }
-  };
+  std::vector<ComponentCoupling> couplings;
   for (unsigned a = 0; a < 3; ++a) {
-    add(sphere.mass(), kOuterCoefficient, a, a);
     for (unsigned b = a + 1; b < 3 && contrast_outside > 0.0; ++b) {
-      const Eigen::SparseMatrix<double> rotation = sphere.rotation(a, b);
-      add(rotation, -contrast_outside, a, b);
-      add(Eigen::SparseMatrix<double>(rotation.transpose()), -contrast_outside, b, a);
+      couplings.push_back({a, b, -contrast_outside * sphere.rotation(a, b)});
     }
   }
-  Eigen::SparseMatrix<double> matrix(3 * n, 3 * n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return {diffusion.space(), diffusion.handler(), diffusion.constraints(), sphere.dofs(), std::move(matrix)};
+  return {diffusion.space(),
+          diffusion.handler(),
+          diffusion.constraints(),
+          sphere.dofs(),
+          kOuterCoefficient * sphere.mass(),
+          std::move(couplings)};
 }
 
 /// ∫ p q/μ as Chebyshev's polynomials want it.

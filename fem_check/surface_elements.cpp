@@ -157,6 +157,10 @@ FacePatch SurfaceElements::patch(int face, const Vectors& positions) const {
 
 Vectors at_nodes(const Vectors& nodal, const std::vector<int>& of_face) { return nodal(Eigen::all, of_face); }
 
+void add_to_nodes(const Eigen::MatrixXd& local, const std::vector<int>& of_face, Eigen::Ref<Vectors> nodal) {
+  for (std::size_t i = 0; i < of_face.size(); ++i) nodal.col(of_face[i]) += local.col(static_cast<Eigen::Index>(i));
+}
+
 Vector interpolated(const Vector& nodal, const FaceNodes& from, const FaceNodes& to) {
   const Eigen::MatrixXd value = face_shape(from.degree(), face_node_points(to.degree())).value;
   Vector result(to.size());

@@ -76,5 +76,7 @@ class SurfaceElements {
 
 /// Columns of a field at the nodes of one face.
 Vectors at_nodes(const Vectors& nodal, const std::vector<int>& of_face);
+/// Adds values at the nodes of one face, [3 x nodes of the face], to those of the whole surface.
+void add_to_nodes(const Eigen::MatrixXd& local, const std::vector<int>& of_face, Eigen::Ref<Vectors> nodal);
 
 }  // namespace vehd::fem_check

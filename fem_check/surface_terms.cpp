@@ -166,44 +166,38 @@ Eigen::MatrixXd OuterSphere::moments(const std::function<Eigen::MatrixXd(const V
 }
 
 SurfaceTerms::SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& handler, const Constraints& constraints,
-                           std::vector<DofIndex> dofs, Eigen::SparseMatrix<double> matrix)
+                           std::vector<DofIndex> dofs, Eigen::SparseMatrix<double> matrix,
+                           std::vector<ComponentCoupling> couplings)
     : communicator_(space.communicator), dofs_(std::move(dofs)), matrix_(std::move(matrix)) {
   const dealii::IndexSet owned = handler.locally_owned_dofs();
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     if (owned.is_element(dofs_[i]) && !constraints.is_constrained(dofs_[i])) own_.push_back(i);
   }
-  if (dofs_.empty()) return;
-  // Of a symmetric matrix columns are rows.
-  const auto n_nodes = static_cast<Eigen::Index>(dofs_.size()), n_own = static_cast<Eigen::Index>(own_.size());
-  const Eigen::Index n_components = matrix_.cols() / n_nodes;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index c = 0; c < n_components; ++c) {
-    for (Eigen::Index i = 0; i < n_own; ++i) {
-      const Eigen::Index column = c * n_nodes + static_cast<Eigen::Index>(own_[static_cast<std::size_t>(i)]);
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, column); entry; ++entry) {
-        entries.emplace_back(c * n_own + i, entry.row(), entry.value());
-      }
-    }
+  for (ComponentCoupling& coupling : couplings) {
+    couplings_.push_back({coupling.first, coupling.second, coupling.matrix.transpose()});
+    couplings_.push_back({coupling.second, coupling.first, std::move(coupling.matrix)});
   }
-  own_rows_.resize(n_components * n_own, matrix_.cols());
-  own_rows_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<const Distributed*>& from) const {
   if (dofs_.empty()) return;
-  Vector values = Vector::Zero(matrix_.cols());
-  const auto at = [&](std::size_t component, std::size_t node) {
-    return static_cast<Eigen::Index>(component * dofs_.size() + node);
-  };
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(matrix_.cols(), static_cast<Eigen::Index>(from.size()));
   for (std::size_t c = 0; c < from.size(); ++c) {
-    for (const std::size_t i : own_) values[at(c, i)] = (*from[c])(dofs_[i]);
+    for (const std::size_t i : own_) {
+      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = (*from[c])(dofs_[i]);
+    }
   }
   const dealii::ArrayView<double> all(values.data(), static_cast<std::size_t>(values.size()));
   dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(all), communicator_, all);
-  const Vector product = own_rows_ * values;
-  Eigen::Index row = 0;
-  for (Distributed* component : to) {
-    for (const std::size_t i : own_) (*component)(dofs_[i]) += product[row++];
+  for (const std::size_t i : own_) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t c = 0; c < to.size(); ++c) {
+      // Of a symmetric matrix columns are rows.
+      (*to[c])(dofs_[i]) += matrix_.col(row).dot(values.col(static_cast<Eigen::Index>(c)));
+    }
+    for (const OneWay& coupling : couplings_) {
+      (*to[coupling.to])(dofs_[i]) += coupling.transposed.col(row).dot(values.col(coupling.from));
+    }
   }
 }
 

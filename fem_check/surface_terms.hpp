@@ -46,18 +46,27 @@ class OuterSphere {
   Eigen::SparseMatrix<double> mass_;
 };
 
+/// What two components of a field have to do with one another: the matrix C in the rows of the first and columns of the
+/// second, Cᵀ in those of the second and first.
+struct ComponentCoupling {
+  unsigned first, second;
+  Eigen::SparseMatrix<double> matrix;
+};
+
 /// A symmetric matrix on few degrees of freedom of one or more components, those on γ and on the outer sphere. The
 /// nodes may belong to different ranks: every rank gathers the values of all of them, and adds its own rows.
 class SurfaceTerms {
  public:
-  /// @param dofs    nodes
-  /// @param matrix  [components x dofs] squared, the nodes of a component in a row
+  /// @param dofs       nodes
+  /// @param matrix     of each component, [dofs x dofs], symmetric
+  /// @param couplings  [dofs x dofs]
   SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& handler, const Constraints& constraints,
-               std::vector<DofIndex> dofs, Eigen::SparseMatrix<double> matrix);
+               std::vector<DofIndex> dofs, Eigen::SparseMatrix<double> matrix,
+               std::vector<ComponentCoupling> couplings = {});
 
-  /// to += matrix · from, one vector per component. Fixed and tied nodes take no part.
+  /// to += all of them · from, one vector per component. Fixed and tied nodes take no part.
   void add(const std::vector<Distributed*>& to, const std::vector<const Distributed*>& from) const;
-  /// Adds the diagonal of the first component.
+  /// Adds the diagonal of one component.
   void add_diagonal(Distributed& diagonal) const;
   [[nodiscard]] const std::vector<DofIndex>& dofs() const { return dofs_; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }
@@ -66,8 +75,12 @@ class SurfaceTerms {
   MPI_Comm communicator_;
   std::vector<DofIndex> dofs_;
   Eigen::SparseMatrix<double> matrix_;
-  std::vector<std::size_t> own_;                           // which of them belong to this rank and are free
-  Eigen::SparseMatrix<double, Eigen::RowMajor> own_rows_;  // of these, in every component
+  std::vector<std::size_t> own_;  // which of them belong to this rank and are free
+  struct OneWay {
+    unsigned to, from;
+    Eigen::SparseMatrix<double> transposed;  // its columns are the rows that a rank picks
+  };
+  std::vector<OneWay> couplings_;
 };
 
 /// Values at the nodes of all degrees of freedom, on all ranks.

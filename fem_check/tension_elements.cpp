@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fem_check/bending.hpp"
+#include "fem_check/space.hpp"
 
 namespace vehd::fem_check {
 
@@ -75,22 +76,23 @@ Vector TensionElements::without_mean(const Vector& tension) const {
 }
 
 Vector TensionElements::evaluate(const Vector& tension, const SurfacePoints& points) const {
-  const Eigen::MatrixXd value = face_shape(tension_nodes_.degree(), points.face_coordinates).value;
   Vector result(points.size());
-  for (Eigen::Index i = 0; i < points.size(); ++i) {
-    result[i] = value.row(i).dot(tension(tension_nodes_.of_face(points.face[i])));
+  for (const FaceRun& run : face_runs(points)) {
+    const Eigen::MatrixXd value =
+        face_shape(tension_nodes_.degree(), points.face_coordinates.middleCols(run.begin, run.size)).value;
+    result.segment(run.begin, run.size) = value * tension(tension_nodes_.of_face(run.face));
   }
   return result;
 }
 
 TensionPreconditioner::TensionPreconditioner(const TensionElements& elements, double viscosity_in, double viscosity_out,
-                                             bool constant_is_free)
+                                             bool constant_is_free, InverseRoot::Share share)
     : scale_(2.0 * (viscosity_in + viscosity_out)),
       constant_is_free_(constant_is_free),
       mass_of_one_(elements.mass() * Vector::Ones(elements.mass().cols())),
       root_(elements.stiffness() + elements.mass() / (elements.radius() * elements.radius()), elements.mass(),
             1.0 / (elements.radius() * elements.radius()),
-            elements.largest_eigenvalue() + 1.0 / (elements.radius() * elements.radius())) {}
+            elements.largest_eigenvalue() + 1.0 / (elements.radius() * elements.radius()), share) {}
 
 Vector TensionPreconditioner::apply(const Vector& residual) const {
   if (!constant_is_free_) return scale_ * root_.apply(residual);

@@ -63,8 +63,9 @@ class TensionPreconditioner {
  public:
   /// @param constant_is_free  leaves constant tensions alone: they do nothing
   TensionPreconditioner(const TensionElements& elements, double viscosity_in, double viscosity_out,
-                        bool constant_is_free);
+                        bool constant_is_free, InverseRoot::Share share);
 
+  /// What this share adds to the result.
   /// @param residual  products with the functions of the tension
   [[nodiscard]] Vector apply(const Vector& residual) const;
 

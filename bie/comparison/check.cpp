@@ -20,6 +20,8 @@ namespace {
 
 /// Beyond it the quick check would not be quick; an order above it is kept.
 constexpr int highest_quick_order = 28;
+/// Up to it the degree is doubled for the estimate: of few degrees each is cheap.
+constexpr int highest_doubled_order = 24;
 /// Of strongly bent shapes a change by fewer degrees says too little: operators beyond highest_order are solved with
 /// for the estimate alone.
 constexpr int least_further_degrees = 16;
@@ -51,7 +53,7 @@ void keep_known(CheckSamples& samples, CheckFields& a, CheckFields& b) {
 int estimate_order(int order, bool quick) {
   // Boundary integrals are cheap beside fine elements; their error must not be what the comparison ends on.
   const int raised = std::max(quick ? std::min((3 * order + 1) / 2, highest_quick_order) : 2 * order, order + 2);
-  return std::min(raised, std::max(highest_order, order + least_further_degrees));
+  return std::min(raised, std::max(2 * highest_doubled_order, order + least_further_degrees));
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "bie/comparison/fem_program.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -54,6 +55,8 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
   }
   words.push_back(path_.string());
   words.insert(words.end(), arguments.begin(), arguments.end());
+  // The elements need it more.
+  malloc_trim(0);
   const ChildEnd end = run_child({words, {}});
   if (end.start_problem != 0) {
     throw InputError(fmt::format("{} cannot be started: {}", words[0], std::strerror(end.start_problem)));

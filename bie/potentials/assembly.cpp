@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <numeric>
 #include <utility>
@@ -29,6 +30,20 @@ void count_evaluations(const LayerSelection& selection, std::uint64_t evaluation
   if (selection.stokes_double) instruments.count_kernel("stokes_double", evaluations);
 }
 
+namespace {
+
+/// How many latitudes are analysed together: at high degrees the amplitudes of all would take twice the memory of the
+/// operators, and adding up the operators in parts takes little time beside the kernels.
+/// @param values_each  of one latitude
+int latitudes_at_once(int n_latitudes, int images_each, Index values_each) {
+  constexpr Index most_values = Index{1} << 25;  // 256 MB
+  const auto room = static_cast<int>(std::clamp<Index>(most_values / (images_each * values_each), 1, n_latitudes));
+  const int n_blocks = (n_latitudes + room - 1) / room;
+  return (n_latitudes + n_blocks - 1) / n_blocks;
+}
+
+}  // namespace
+
 LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                         const Matrix& position, const LayerSelection& selection,
                                         Instruments& instruments, const std::vector<Reflection>& reflections,
@@ -47,34 +62,51 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const auto order_of_mode = [&](Index mode) {
     return static_cast<int>(mode <= transform.azimuthal_order() ? mode : transform.azimuthal_order() - mode);
   };
-  // Per Fourier mode of the target azimuth: [kernels * coefficients x latitudes].
-  std::vector<Matrix> modes(n_modes);
-  for (Matrix& mode : modes) mode.resize(width, grid.n_theta);
-  sweep.run({width, {}, true}, [&](int j, const double* rows) {
-    std::vector<double*> amplitudes;
-    for (Matrix& mode : modes) amplitudes.push_back(mode.col(j).data());
-    longitudes.run(rows, width, amplitudes);
-    if (!images.flip()) return;
-    for (Index i = 0; i < n_modes; ++i) {
-      modes[i].col(grid.n_theta - 1 - j).head(n_columns) =
-          images.flip()->azimuthal_parity(order_of_mode(i)) *
-          modes[i].col(j).head(n_columns).cwiseProduct(images.flip_signs().transpose());
-    }
-  });
-
   std::vector<Matrix> operators(kernels.count);
   for (Matrix& of_kernel : operators) of_kernel.resize(n, n);
+  const int at_once = latitudes_at_once(sweep.n_latitudes(), images.flip() ? 2 : 1, width * n_modes);
+  std::vector<Matrix> modes(n_modes);
+  for (int first = 0; first < sweep.n_latitudes(); first += at_once) {
+    const TargetSweep::Latitudes block{first, std::min(first + at_once, sweep.n_latitudes())};
+    // Those that are swept, and after them their images: latitudes of the columns of the modes.
+    std::vector<Index> latitudes(block.count());
+    std::iota(latitudes.begin(), latitudes.end(), Index{first});
+    if (images.flip()) {
+      for (int j = block.first; j < block.end; ++j) {
+        if (grid.n_theta - 1 - j != j) latitudes.push_back(grid.n_theta - 1 - j);
+      }
+    }
+    // Per Fourier mode of the target azimuth: [kernels * coefficients x latitudes].
+    for (Matrix& mode : modes) mode.resize(width, static_cast<Index>(latitudes.size()));
+    sweep.run({width, {}, true}, block, [&](int j, const double* rows) {
+      const Index column = j - block.first, image = block.count() + column;
+      std::vector<double*> amplitudes;
+      for (Matrix& mode : modes) amplitudes.push_back(mode.col(column).data());
+      longitudes.run(rows, width, amplitudes);
+      if (image >= static_cast<Index>(latitudes.size())) return;
+      for (Index i = 0; i < n_modes; ++i) {
+        modes[i].col(image).head(n_columns) =
+            images.flip()->azimuthal_parity(order_of_mode(i)) *
+            modes[i].col(column).head(n_columns).cwiseProduct(images.flip_signs().transpose());
+      }
+    });
+
 #pragma omp parallel for schedule(dynamic, 1) if (sweep.is_parallel())
-  for (Index mode = 0; mode < n_modes; ++mode) {
-    const int m = std::abs(order_of_mode(mode));
-    const Matrix product = modes[mode].topRows(n_columns) * quadrature.target_analysis[m];
-    modes[mode].resize(0, 0);
-    for (Index i = 0; i < n; ++i) {
-      if (active.m[i] != order_of_mode(mode)) continue;
-      for (int c = 0; c < kernels.count; ++c) {
-        const double* from = product.col(active.n[i] - m).data() + c * n;
-        double* to = operators[c].col(active.position[i]).data();
-        for (Index k = 0; k < n; ++k) to[active.position[k]] = from[k];
+    for (Index mode = 0; mode < n_modes; ++mode) {
+      const int m = std::abs(order_of_mode(mode));
+      const Matrix product = modes[mode].topRows(n_columns) * quadrature.target_analysis[m](latitudes, Eigen::all);
+      if (block.end == sweep.n_latitudes()) modes[mode].resize(0, 0);
+      for (Index i = 0; i < n; ++i) {
+        if (active.m[i] != order_of_mode(mode)) continue;
+        for (int c = 0; c < kernels.count; ++c) {
+          const double* from = product.col(active.n[i] - m).data() + c * n;
+          double* to = operators[c].col(active.position[i]).data();
+          if (first == 0) {
+            for (Index k = 0; k < n; ++k) to[active.position[k]] = from[k];
+          } else {
+            for (Index k = 0; k < n; ++k) to[active.position[k]] += from[k];
+          }
+        }
       }
     }
   }

@@ -112,7 +112,7 @@ LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature,
   layout.width = turned ? n_columns : width;
   if (!turned) layout.places.columns = columns;
   layout.places.degrees = degree_parities(kernels, subspace, turned);
-  sweep.run(layout, [&](int j, const double* rows) {
+  sweep.run(layout, {0, sweep.n_latitudes()}, [&](int j, const double* rows) {
     const auto n_rows = static_cast<Index>(longitudes.size());
     RowMatrix gathered;
     if (turned) {

@@ -48,12 +48,13 @@ bool TargetSweep::is_parallel() const {
   return n_evaluations_ > kParallelEvaluations;
 }
 
-void TargetSweep::run(const RowLayout& layout, const std::function<void(int latitude, double* rows)>& use) const {
+void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
+                      const std::function<void(int latitude, double* rows)>& use) const {
   const SphereGrid& grid = transform_.grid();
   const std::vector<int>& originals = images_.originals();
   const auto n_originals = static_cast<int>(originals.size());
   const Index n_rows = layout.all_longitudes ? grid.n_phi : n_originals;
-  const int n_batches = batch_count(n_latitudes_, n_originals);
+  const int n_latitudes = latitudes.count(), n_batches = batch_count(n_latitudes, n_originals);
 #pragma omp parallel if (is_parallel())
   {
     const auto worker_for = [&](int chunk) {
@@ -61,12 +62,12 @@ void TargetSweep::run(const RowLayout& layout, const std::function<void(int lati
                         layout.places, chunk);
     };
     TargetRows worker = worker_for(kChunk), last_worker = worker_for(kLanes);
-    RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes_ + n_batches - 1) / n_batches), layout.width);
+    RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes + n_batches - 1) / n_batches), layout.width);
     std::vector<Target> targets;
 #pragma omp for schedule(dynamic, 1)
     for (int batch = 0; batch < n_batches; ++batch) {
-      const int first = batch * n_latitudes_ / n_batches;
-      const int end = (batch + 1) * n_latitudes_ / n_batches;
+      const int first = latitudes.first + batch * n_latitudes / n_batches;
+      const int end = latitudes.first + (batch + 1) * n_latitudes / n_batches;
       targets.clear();
       for (int j = first; j < end; ++j) {
         for (int i = 0; i < n_originals; ++i) {

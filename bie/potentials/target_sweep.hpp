@@ -34,8 +34,14 @@ class TargetSweep {
     /// A row for each longitude, where those of the originals are filled in; otherwise for the originals alone.
     bool all_longitudes = false;
   };
+  /// Latitudes from the first to before the end.
+  struct Latitudes {
+    int first, end;
+    [[nodiscard]] int count() const { return end - first; }
+  };
   /// @param use  called with each latitude and its rows, [longitudes or originals x width], by any thread
-  void run(const RowLayout& layout, const std::function<void(int latitude, double* rows)>& use) const;
+  void run(const RowLayout& layout, Latitudes latitudes,
+           const std::function<void(int latitude, double* rows)>& use) const;
 
  private:
   const RotatedQuadrature& quadrature_;

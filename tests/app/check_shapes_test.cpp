@@ -24,16 +24,30 @@ nlohmann::json checked(const std::string& scene, const std::vector<std::string>&
   return json_of(directory / "result.json");
 }
 
-}  // namespace
-
-// Two bulbs with a neck, at a lower degree than that of the page.
-BOOST_AUTO_TEST_CASE(every_row_of_the_dumbbell_agrees) {
-  const nlohmann::json json = checked("docs/checks/dumbbell.toml", {"--set", "numerics.degree=24"});
+void require_agreement(const nlohmann::json& json) {
   for (const char* group : {"fields", "from_shape", "stored"}) {
     for (const auto& [row, values] : json[group].items()) {
       BOOST_TEST(values["verdict"].get<std::string>() == "agree", group << " " << row << " " << values.dump());
     }
   }
+}
+
+}  // namespace
+
+// Contrasts, spontaneous curvature, weight, an oblique field and a flow without symmetry about a shape without any.
+BOOST_AUTO_TEST_CASE(every_row_agrees_where_all_effects_act) {
+  const nlohmann::json json = checked("docs/checks/everything.toml", {});
+  require_agreement(json);
+  for (const char* row : {"bending", "spontaneous_curvature", "bending_work", "tension", "velocity"}) {
+    BOOST_TEST(json["from_shape"].contains(row), row);
+  }
+  BOOST_TEST(json["from_shape"]["velocity"]["l2"].get<double>() < 1e-3);
+}
+
+// Two bulbs with a neck, at a lower degree than that of the page.
+BOOST_AUTO_TEST_CASE(every_row_of_the_dumbbell_agrees) {
+  const nlohmann::json json = checked("docs/checks/dumbbell.toml", {"--set", "numerics.degree=24"});
+  require_agreement(json);
   BOOST_TEST(json["from_shape"]["bending_work"]["l2"].get<double>() < 1e-3);
   BOOST_TEST(json["from_shape"]["velocity"]["l2"].get<double>() < 1e-2);
 }

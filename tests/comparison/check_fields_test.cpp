@@ -53,6 +53,7 @@ BOOST_AUTO_TEST_CASE(error_is_estimated_from_another_order_at_every_order) {
     }
   }
   BOOST_TEST(vehd::estimate_order(24, false) == 48);
+  BOOST_TEST(vehd::estimate_order(40, false) == 56);
   BOOST_TEST(vehd::estimate_order(16, true) == 24);
   BOOST_TEST(vehd::estimate_order(56, false) == 72);
   BOOST_TEST(vehd::estimate_order(64, false) == 80);

@@ -94,11 +94,17 @@ BOOST_AUTO_TEST_CASE(inverse_root_is_that_of_the_eigenvalues) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(stiffness),
                                                                         Eigen::MatrixXd(elements.mass()));
   BOOST_TEST(eigen.eigenvalues().maxCoeff() < elements.largest_eigenvalue() + 1.0);
-  const InverseRoot root(stiffness, elements.mass(), 1.0, elements.largest_eigenvalue() + 1.0);
+  const double largest = elements.largest_eigenvalue() + 1.0;
+  const InverseRoot root(stiffness, elements.mass(), 1.0, largest, {});
+  const InverseRoot first(stiffness, elements.mass(), 1.0, largest, {0, 2}),
+      second(stiffness, elements.mass(), 1.0, largest, {1, 2});
   for (const Eigen::Index i : {Eigen::Index(0), Eigen::Index(7), eigen.eigenvalues().size() - 1}) {
     const Vector mode = eigen.eigenvectors().col(i);
     const Vector exact = mode / std::sqrt(eigen.eigenvalues()[i]);
-    BOOST_TEST((root.apply(elements.mass() * mode) - exact).norm() < 0.05 * exact.norm());
+    const Vector applied = root.apply(elements.mass() * mode);
+    BOOST_TEST((applied - exact).norm() < 0.05 * exact.norm());
+    const Vector in_shares = first.apply(elements.mass() * mode) + second.apply(elements.mass() * mode);
+    BOOST_TEST((in_shares - applied).norm() < 1e-12 * applied.norm());
   }
 }
 
