@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(strongly_bent_shapes_have_smaller_cells_and_bowls_higher_de
   const Refinement of_bowl = Refinement::following(bowl(0.5));
   BOOST_TEST(of_bowl.cells_per_edge == 4);
   BOOST_TEST(of_bowl.shell_layers > usual.shell_layers);
-  BOOST_TEST(highest_degree(of_bowl) == highest_degree(usual));
+  BOOST_TEST(highest_degree(of_bowl) > highest_degree(Refinement::following(ellipsoid(1.0, 0.2))));
 }
 
 // The mean of Y_n0 over the sphere, and its product with another harmonic, are zero: what a rule finds instead comes
