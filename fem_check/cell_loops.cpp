@@ -62,13 +62,8 @@ dealii::AlignedVector<Lanes> per_cell(const Space& space, const CellLoops& loops
 }
 
 CellDiagonal::CellDiagonal(int degree, int n_points) {
-  const auto nodes = edge_nodes(static_cast<unsigned>(degree));
   const dealii::QGauss<1> gauss(static_cast<unsigned>(n_points));
-  const auto polynomials = dealii::Polynomials::generate_complete_Lagrange_basis([&] {
-    std::vector<dealii::Point<1>> points;
-    for (const double node : nodes) points.emplace_back(node);
-    return points;
-  }());
+  const auto polynomials = edge_polynomials(static_cast<unsigned>(degree));
   for (auto& matrix : products_) matrix.resize(degree + 1, n_points);
   std::vector<double> derivatives(2);
   for (int i = 0; i <= degree; ++i) {

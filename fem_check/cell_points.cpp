@@ -28,8 +28,7 @@ Eigen::Matrix2Xd face_coordinates(unsigned face, const std::vector<UnitPoint>& u
 FaceSums::FaceSums(int degree)
     : n_line_(degree + 1),
       number_(dealii::FETools::lexicographic_to_hierarchic_numbering<3>(static_cast<unsigned>(degree))) {
-  const dealii::QGaussLobatto<1> lobatto(static_cast<unsigned>(n_line_));
-  const auto line = dealii::Polynomials::generate_complete_Lagrange_basis(lobatto.get_points());
+  const auto line = edge_polynomials(static_cast<unsigned>(degree));
   std::vector<double> derivatives(2);
   for (std::size_t end = 0; end < 2; ++end) {
     end_slope_[end].resize(n_line_);

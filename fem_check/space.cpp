@@ -291,6 +291,10 @@ std::vector<double> edge_nodes(unsigned degree) {
   return nodes;
 }
 
+std::vector<dealii::Polynomials::Polynomial<double>> edge_polynomials(unsigned degree) {
+  return dealii::Polynomials::generate_complete_Lagrange_basis(dealii::QGaussLobatto<1>(degree + 1).get_points());
+}
+
 double Stopwatch::lap() {
   const double now = MPI_Wtime();
   const double seconds = now - start_;

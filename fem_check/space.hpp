@@ -109,6 +109,8 @@ std::vector<CellRun> cell_runs(const VolumePoints& points);
 SurfacePoints tensor_points(const Space& space, const std::vector<double>& nodes, const std::vector<double>& weights);
 /// Gauss–Lobatto points of [0, 1], the nodes of an element of this degree along an edge.
 std::vector<double> edge_nodes(unsigned degree);
+/// The nodal functions of these nodes.
+std::vector<dealii::Polynomials::Polynomial<double>> edge_polynomials(unsigned degree);
 
 std::size_t peak_memory_bytes();
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "fem_check/deal_ii.hpp"
+#include "fem_check/space.hpp"
 
 namespace vehd::fem_check {
 
@@ -78,8 +78,7 @@ FaceNodes::FaceNodes(const meshes::VolumeMesh& mesh, int degree) : degree_(degre
 
 FaceShape face_shape(int degree, const Eigen::Matrix2Xd& points) {
   // Products of polynomials of one coordinate.
-  const dealii::QGaussLobatto<1> lobatto(static_cast<unsigned>(degree) + 1);
-  const auto line = dealii::Polynomials::generate_complete_Lagrange_basis(lobatto.get_points());
+  const auto line = edge_polynomials(static_cast<unsigned>(degree));
   const auto n_line = static_cast<Eigen::Index>(line.size()), n = n_line * n_line;
   FaceShape result{Eigen::MatrixXd(points.cols(), n),
                    {Eigen::MatrixXd(points.cols(), n), Eigen::MatrixXd(points.cols(), n)}};
