@@ -70,7 +70,7 @@ bool draw_differences(const std::filesystem::path& directory) {
       "set output {}\n"
       "set pm3d depthorder; unset key; set view 70,35,1.7; set view equal xyz; set xyplane at 0\n"
       "unset border; unset tics; set colorbox\n"
-      "set cbtics in; set format cb '%g'\n"
+      "set cbtics in 1; set format cb '%g'\n"
       "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n",
       across * difference_width, down * difference_height, gnuplot_quoted((directory / "differences.png").string()));
   script += cube_around(quoted_data);
