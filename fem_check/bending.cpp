@@ -150,15 +150,7 @@ VectorOnSurface BendingForce::field(int degree) const {
   const auto nodes = std::make_shared<const FaceNodes>(*space_->mesh, degree);
   const Vectors functional = restricted(functional_, surface.nodes(), *nodes);
   const Vectors nodal = SurfaceProjection(surface, surface.positions(), *nodes).solve(functional);
-  return [nodes, nodal](const SurfacePoints& points) {
-    Vectors result(3, points.size());
-    for (const FaceRun& run : face_runs(points)) {
-      const Eigen::MatrixXd value =
-          face_shape(nodes->degree(), points.face_coordinates.middleCols(run.begin, run.size)).value;
-      result.middleCols(run.begin, run.size) = at_nodes(nodal, nodes->of_face(run.face)) * value.transpose();
-    }
-    return result;
-  };
+  return [nodes, nodal](const SurfacePoints& points) { return Vectors(values_at(nodal, *nodes, points)); };
 }
 
 VectorOnSurface BendingForce::on_trace() const {

@@ -156,6 +156,16 @@ FacePatch SurfaceElements::patch(int face, const Vectors& positions) const {
 
 Vectors at_nodes(const Vectors& nodal, const std::vector<int>& of_face) { return nodal(Eigen::all, of_face); }
 
+Eigen::MatrixXd values_at(const Eigen::MatrixXd& nodal, const FaceNodes& nodes, const SurfacePoints& points) {
+  Eigen::MatrixXd result(nodal.rows(), points.size());
+  for (const FaceRun& run : face_runs(points)) {
+    const Eigen::MatrixXd value =
+        face_shape(nodes.degree(), points.face_coordinates.middleCols(run.begin, run.size)).value;
+    result.middleCols(run.begin, run.size) = nodal(Eigen::all, nodes.of_face(run.face)) * value.transpose();
+  }
+  return result;
+}
+
 void add_to_nodes(const Eigen::MatrixXd& local, const std::vector<int>& of_face, Eigen::Ref<Vectors> nodal) {
   for (std::size_t i = 0; i < of_face.size(); ++i) nodal.col(of_face[i]) += local.col(static_cast<Eigen::Index>(i));
 }

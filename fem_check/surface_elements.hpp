@@ -76,6 +76,9 @@ class SurfaceElements {
 
 /// Columns of a field at the nodes of one face.
 Vectors at_nodes(const Vectors& nodal, const std::vector<int>& of_face);
+/// A nodal function at points of γ, [components x points].
+/// @param nodal  [components x nodes]
+Eigen::MatrixXd values_at(const Eigen::MatrixXd& nodal, const FaceNodes& nodes, const SurfacePoints& points);
 /// Adds values at the nodes of one face, [3 x nodes of the face], to those of the whole surface.
 void add_to_nodes(const Eigen::MatrixXd& local, const std::vector<int>& of_face, Eigen::Ref<Vectors> nodal);
 

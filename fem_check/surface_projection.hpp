@@ -6,7 +6,8 @@ namespace vehd::fem_check {
 
 /// The nodal field u with given products with the nodal functions, ∫ u·φ dA = F[φ], on a surface with given positions.
 /// By conjugate gradients without a matrix: of functions of degree 15 it would take as much memory as everything in the
-/// volume, while a dozen steps suffice whatever the degree, as functions on Gauss–Lobatto points are nearly orthogonal.
+/// volume, while some thirty steps suffice whatever the degree, as functions on Gauss–Lobatto points are nearly
+/// orthogonal.
 class SurfaceProjection {
  public:
   /// @param nodes  of the functions, of a degree up to that of the surface

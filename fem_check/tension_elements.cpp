@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "fem_check/bending.hpp"
-#include "fem_check/space.hpp"
 
 namespace vehd::fem_check {
 
@@ -76,13 +75,7 @@ Vector TensionElements::without_mean(const Vector& tension) const {
 }
 
 Vector TensionElements::evaluate(const Vector& tension, const SurfacePoints& points) const {
-  Vector result(points.size());
-  for (const FaceRun& run : face_runs(points)) {
-    const Eigen::MatrixXd value =
-        face_shape(tension_nodes_.degree(), points.face_coordinates.middleCols(run.begin, run.size)).value;
-    result.segment(run.begin, run.size) = value * tension(tension_nodes_.of_face(run.face));
-  }
-  return result;
+  return values_at(tension.transpose(), tension_nodes_, points).transpose();
 }
 
 TensionPreconditioner::TensionPreconditioner(const TensionElements& elements, double viscosity_in, double viscosity_out,

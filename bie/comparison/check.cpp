@@ -11,7 +11,6 @@
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/check_samples.hpp"
 #include "bie/comparison/coupled_check_fields.hpp"
-#include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/file_system.hpp"
 
