@@ -46,6 +46,16 @@ class Programs(InFolder):
         self.assertEqual([line.split(":")[0] for line in lines], ["one alone", "gap 0.10", "gap 0.20", "gap 0.69"])
         self.assertIn(" 1.00 times one alone", lines[0])
 
+    def test_memory_is_that_of_a_command_and_of_what_it_starts(self):
+        holding = "import time; held = b'x' * 200_000_000; time.sleep(1.5)"
+        starting = f"import subprocess, sys; sys.exit(subprocess.call([sys.executable, '-c', {holding!r}]) + 4)"
+        result = subprocess.run([sys.executable, SOURCE / "docs/examples/memory_of_processes.py", sys.executable, "-c",
+                                 starting], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        gigabytes = float(result.stdout.split()[0])
+        self.assertGreater(gigabytes, 0.19)
+        self.assertLess(gigabytes, 0.3)
+
     @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
     def test_scripts_of_the_pages_run(self):
         (self.folder / "docs/scenes").mkdir(parents=True)
