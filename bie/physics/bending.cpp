@@ -27,10 +27,10 @@ double bending_energy_scaled(const Surface& surface) {
   return surface.mean_curvature.array().square().matrix().dot(surface.quadrature);
 }
 
-Vector curvature_increment(const Membrane& membrane, const SphereDerivatives& displacement) {
+Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, const SphereDerivatives& displacement) {
   const Matrix laplacian = surface_laplacian(membrane.surface, displacement);
   const Vector h = 0.5 * laplacian.cwiseProduct(membrane.surface.normal).rowwise().sum();
-  return membrane.fine.analyze(h);
+  return to.analyze(h);
 }
 
 Matrix linearised_bending_force(const BendingParameters& bending, const Membrane& membrane, const Vector& increment) {

@@ -20,10 +20,11 @@ Matrix bending_force(const BendingParameters& bending, const Membrane& membrane)
 double bending_energy_scaled(const Surface& surface);
 
 /// Linearised change of H for a displacement u, Eq. (28b) in the coordinate-free form H = ½ Δ_γ x·n with the
-/// geometry frozen: h = ½ Δ_γ u·n. Coefficients of degree p from the Hessian of u on the upsampled grid.
+/// geometry frozen: h = ½ Δ_γ u·n. Coefficients from the Hessian of u on the upsampled grid.
+/// @param to  transform from that grid to the degree of h
 /// Accuracy: rounding; of u = x it is H to 1e-12, of a rigid motion 0 to 1e-12 (tests/physics/bending_test.cpp)
 /// Source: paper Eq. (28b)
-Vector curvature_increment(const Membrane& membrane, const SphereDerivatives& displacement);
+Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, const SphereDerivatives& displacement);
 
 /// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), for coefficients h of degree p; values on the upsampled grid.
 /// Where κ_B differs from place to place it stands within the Laplacian.

@@ -9,6 +9,7 @@
 
 #include "bie/physics/bending.hpp"
 #include "bie/physics/tension.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
@@ -59,16 +60,17 @@ struct Errors {
 /// The iteration: passes of `solve` until `errors` are small.
 class Iteration {
  public:
-  Iteration(const MotionContext& context, const MotionStart& start, double dt)
+  Iteration(const MotionContext& context, const MotionStart& start, double dt, const SphereTransform& curvature)
       : context_(context),
         start_(start),
         dt_(dt),
+        curvature_transform_(curvature),
         area_(surface_area(context.membrane.surface)),
         stretch_before_(1.0 + fine().synthesize(context.state.area_strain).col(0).array()),
         to_take_back_(share_taken_back(stretch_before_.array() - 1.0) * (stretch_before_.array() - 1.0)),
         normal_(fine().analyze(context.membrane.surface.normal)),
         velocity_(start.velocity),
-        curvature_(Vector::Zero(normal_.rows())) {
+        curvature_(Vector::Zero(n_coefficients(curvature.order()))) {
     motion_.material = start.fields;
     if (inextensible()) {
       normal_divergence_ = weighted_divergence(context.membrane, fine().synthesize_gradient(normal_));
@@ -95,7 +97,8 @@ class Iteration {
     // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
     errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
     if (bending()) {
-      rhs_.curvature = dt_ * curvature_increment(membrane, fine().synthesize_hessian(velocity_)) - curvature_;
+      rhs_.curvature =
+          dt_ * curvature_increment(membrane, curvature_transform_, fine().synthesize_hessian(velocity_)) - curvature_;
       if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), thresholds::curvature_floor * mean_curvature_);
       errors_.curvature = rhs_.curvature.norm() / curvature_scale_;
     }
@@ -171,6 +174,7 @@ class Iteration {
   const MotionContext& context_;
   const MotionStart& start_;
   double dt_;
+  const SphereTransform& curvature_transform_;
   double area_;
   Vector stretch_before_;
   Vector to_take_back_;       // of the strain before
@@ -199,7 +203,7 @@ class Iteration {
 
 Motion constrained_motion(const MotionContext& context, const MotionStart& start, double dt, FlowSystem& flow,
                           const Arrival& arrival, int& iterations) {
-  Iteration iteration(context, start, dt);
+  Iteration iteration(context, start, dt, flow.curvature_transform());
   for (;;) {
     iteration.move();
     if (iteration.arrives(arrival)) return iteration.take();

@@ -20,16 +20,17 @@ VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficient
 }
 
 Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membrane, const MembraneUnknowns& unknowns,
-                         const Vector& held_tension) {
+                         const CurvatureOptions& curvature) {
   if (unknowns.curvature.size() == 0 && unknowns.tension.size() == 0) {
     return Matrix::Zero(n_coefficients(membrane.fine.order()), 3);
   }
   Matrix force = Matrix::Zero(membrane.surface.n_points(), 3);
   if (unknowns.curvature.size() > 0) {
-    force += linearised_bending_force(*parameters.bending, membrane, unknowns.curvature);
-    if (held_tension.size() > 0) {
-      const Vector increment = membrane.fine.synthesize(unknowns.curvature).col(0);
-      force += 2.0 * held_tension.cwiseProduct(increment).asDiagonal() * membrane.surface.normal;
+    const Index n_resolved = n_coefficients(membrane.fine.order());
+    force += linearised_bending_force(*parameters.bending, membrane, unknowns.curvature.head(n_resolved));
+    if (curvature.held_tension.size() > 0) {
+      const Vector increment = curvature.of(membrane).synthesize(unknowns.curvature).col(0);
+      force += 2.0 * curvature.held_tension.cwiseProduct(increment).asDiagonal() * membrane.surface.normal;
     }
   }
   if (unknowns.tension.size() > 0) force += tension_force(membrane, unknowns.tension);
@@ -47,8 +48,8 @@ namespace {
 
 FlowLayout layout_of(const FlowParameters& parameters, const Membrane& membrane, double dt,
                      const FlowOptions& options) {
-  FlowLayout layout{n_coefficients(membrane.fine.order()), options.entries, dt > 0.0 && parameters.bending.has_value(),
-                    parameters.inextensible};
+  FlowLayout layout{n_coefficients(options.curvature.of(membrane).order()), n_coefficients(membrane.fine.order()),
+                    options.entries, dt > 0.0 && parameters.bending.has_value(), parameters.inextensible};
   if (layout.entries.empty()) {
     layout.entries.resize(static_cast<std::size_t>(layout.n_all));
     std::iota(layout.entries.begin(), layout.entries.end(), Index{0});
@@ -85,7 +86,7 @@ MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
   };
   MembraneUnknowns unknowns;
   if (layout.bending) unknowns.curvature = all(layout.curvature_scale * v.head(layout.n()));
-  if (layout.tension) unknowns.tension = all(layout.tension_scale * v.tail(layout.n()));
+  if (layout.tension) unknowns.tension = all(layout.tension_scale * v.tail(layout.n())).head(layout.n_resolved);
   return unknowns;
 }
 
@@ -93,7 +94,11 @@ MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
 Vector entries_of(const FlowLayout& layout, const Vector& curvature, const Vector& divergence_or_tension) {
   Vector v = Vector::Zero(layout.size());
   if (layout.bending && curvature.size() > 0) v.head(layout.n()) = curvature(layout.entries);
-  if (layout.tension && divergence_or_tension.size() > 0) v.tail(layout.n()) = divergence_or_tension(layout.entries);
+  if (layout.tension && divergence_or_tension.size() > 0) {
+    for (Index i = 0; i < layout.n(); ++i) {
+      if (layout.resolves(i)) v[layout.n_curvature() + i] = divergence_or_tension[layout.entries[i]];
+    }
+  }
   return v;
 }
 
@@ -126,17 +131,24 @@ LinearMap flow_map(const FlowParameters& parameters, const Membrane& membrane, d
                    const FlowOptions& options) {
   return [=, &membrane](const Vector& v) {
     const MembraneUnknowns unknowns = unknowns_of(layout, v);
-    const VelocityField u = velocity_field(
-        membrane, membrane_velocity(parameters, membrane, unknowns, options.held_tension), layout.bending);
+    const VelocityField u =
+        velocity_field(membrane, membrane_velocity(parameters, membrane, unknowns, options.curvature), layout.bending);
     Vector curvature;
     Vector divergence;
-    if (layout.bending) curvature = unknowns.curvature - dt * curvature_increment(membrane, u.derivatives);
+    if (layout.bending) {
+      curvature =
+          unknowns.curvature - dt * curvature_increment(membrane, options.curvature.of(membrane), u.derivatives);
+    }
     if (layout.tension) {
       divergence = weighted_divergence(membrane, u.derivatives);
       if (options.pin_uniform_tension) divergence[0] = mean_response(parameters, membrane) * unknowns.tension[0];
     }
     Vector result(layout.size() + u.coefficients.size());
     result.head(layout.size()) = entries_of(layout, curvature, divergence);
+    for (Index i = 0; i < layout.n_tension(); ++i) {
+      // No tension is there, and none is asked for.
+      if (!layout.resolves(i)) result[layout.n_curvature() + i] = v[layout.n_curvature() + i];
+    }
     result.tail(u.coefficients.size()) = u.coefficients.reshaped();
     return result;
   };
@@ -145,7 +157,8 @@ LinearMap flow_map(const FlowParameters& parameters, const Membrane& membrane, d
 LinearMap sphere_inverse(const FlowParameters& parameters, const Membrane& membrane, double dt,
                          const FlowLayout& layout, const FlowOptions& options) {
   const Vector& area = membrane.surface.quadrature;
-  const double mean_tension = options.held_tension.size() > 0 ? options.held_tension.dot(area) / area.sum() : 0.0;
+  const Vector& held = options.curvature.held_tension;
+  const double mean_tension = held.size() > 0 ? held.dot(area) / area.sum() : 0.0;
   const SphereFlow sphere{membrane.radius,
                           parameters.viscosity,
                           layout.bending ? parameters.bending->modulus : 0.0,
@@ -153,7 +166,12 @@ LinearMap sphere_inverse(const FlowParameters& parameters, const Membrane& membr
                           parameters.viscosity_ratio,
                           mean_tension};
   std::vector<Eigen::Matrix2d> inverse;
-  for (int degree = 0; degree <= membrane.fine.order(); ++degree) {
+  for (int degree = 0; degree <= options.curvature.of(membrane).order(); ++degree) {
+    if (degree > membrane.fine.order()) {
+      inverse.push_back(
+          Eigen::DiagonalMatrix<double, 2>(1.0 / unresolved_curvature(sphere, degree), layout.tension_scale));
+      continue;
+    }
     Eigen::Matrix2d block = sphere_flow_block(sphere, degree);
     // A uniform tension exerts no force on a sphere; away from it the response is weak but not zero.
     if (degree == 0) block(1, 1) = mean_response(parameters, membrane);
@@ -179,13 +197,14 @@ LinearMap sphere_inverse(const FlowParameters& parameters, const Membrane& membr
 FlowSystem::FlowSystem(const FlowParameters& parameters, const Membrane& membrane, double dt,
                        const FlowOptions& options, RecycledSubspace known)
     : layout_(layout_of(parameters, membrane, dt, options)),
+      curvature_(options.curvature.of(membrane)),
       dt_(dt),
       pinned_(layout_.tension && options.pin_uniform_tension),
       // A pinned system is another operator, and cut to another degree responses are no longer those of their
       // arguments.
       known_(pinned_ || known.arguments.rows() != layout_.size() ? RecycledSubspace{} : std::move(known)),
       solver_(flow_map(parameters, membrane, dt, layout_, options),
-              sphere_inverse(parameters, membrane, dt, layout_, options), layout_.size(), 3 * layout_.n_all,
+              sphere_inverse(parameters, membrane, dt, layout_, options), layout_.size(), 3 * layout_.n_resolved,
               in_system(layout_, known_, dt)) {}
 
 FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance) {
@@ -193,7 +212,7 @@ FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const Membr
   if (pinned_) b[layout_.n_curvature()] = 0.0;
   const Vector x = over_scales(layout_, entries_of(layout_, start.curvature, start.tension));
   RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, thresholds::most_flow_iterations});
-  return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_all, 3)};
+  return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_resolved, 3)};
 }
 
 RecycledSubspace FlowSystem::learned() const {

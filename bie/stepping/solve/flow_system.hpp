@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bie/linear/recycled_gcr.hpp"
@@ -15,7 +16,7 @@ namespace vehd {
 /// leaves it out, deferred corrections converge the better the more of the true response is implicit.
 /// Source: paper Eqs. (27), (28)
 struct MembraneUnknowns {
-  Vector curvature;  ///< h; empty without bending
+  Vector curvature;  ///< h, of degree p or more; empty without bending
   Vector tension;    ///< λ; empty unless inextensible
 };
 
@@ -28,11 +29,23 @@ struct VelocityField {
 /// A velocity given by its coefficients, [n_coefficients x 3], on the upsampled grid.
 VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficients, bool hessian);
 
-/// u of the unknowns, coefficients.
-/// @param held_tension  λ_0 ≥ 0 on the upsampled grid; empty: zero
+/// What h is known by and what it does to the tension that is there.
+struct CurvatureOptions {
+  Vector held_tension{};  ///< λ_0 ≥ 0 on the upsampled grid; empty: zero
+  /// Between the degree of h, p or more, and the upsampled grid; empty: degree p. Positions of degree p have normal
+  /// parts, and H, of the next one. Bending does nothing to that, but tension does, and it has to be implicit as well:
+  /// at large λ dt/(μR) equilibria are unstable without it.
+  std::optional<SphereTransform> transform{};
+
+  [[nodiscard]] const SphereTransform& of(const Membrane& membrane) const {
+    return transform ? *transform : membrane.fine;
+  }
+};
+
+/// u of the unknowns, coefficients. F acts on the degrees of h up to p.
 /// Source: paper Eqs. (5), (28a), (28c)
 Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membrane, const MembraneUnknowns& unknowns,
-                         const Vector& held_tension = {});
+                         const CurvatureOptions& curvature = {});
 
 /// Right-hand side of the coupled system: h − dt Hop(u) = curvature, J ∇_γ·u = divergence for u = membrane_velocity.
 struct FlowRightHandSide {
@@ -44,8 +57,8 @@ struct FlowRightHandSide {
 struct FlowOptions {
   /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
   bool pin_uniform_tension = false;
-  Vector held_tension{};  ///< see membrane_velocity
-  /// Coefficients of h and λ that can differ from zero, ascending; empty: all.
+  CurvatureOptions curvature{};
+  /// Coefficients of h and, up to degree p, of λ that can differ from zero, ascending; empty: all.
   std::vector<Index> entries{};
 };
 
@@ -53,7 +66,8 @@ struct FlowOptions {
 /// that its norm adds like to like: one step of size dt bends a membrane of radius R by h R and strains it by
 /// λ dt/(μR), or by λ R²/κ_B where bending answers within the step.
 struct FlowLayout {
-  Index n_all = 0;             ///< coefficients of degree p
+  Index n_all = 0;             ///< coefficients of the degree of h
+  Index n_resolved = 0;        ///< of degree p; λ has no others
   std::vector<Index> entries;  ///< those that can differ from zero
   bool bending = false;
   bool tension = false;
@@ -61,6 +75,8 @@ struct FlowLayout {
   double tension_scale = 1.0;  ///< a share of μR/dt + κ_B/R²; where λ is the only unknown its scale is of no account
 
   [[nodiscard]] Index n() const { return static_cast<Index>(entries.size()); }
+  /// Is the i-th of the entries of degree p at most?
+  [[nodiscard]] bool resolves(Index i) const { return entries[static_cast<std::size_t>(i)] < n_resolved; }
   [[nodiscard]] Index n_curvature() const { return bending ? n() : 0; }
   [[nodiscard]] Index n_tension() const { return tension ? n() : 0; }
   [[nodiscard]] Index size() const { return n_curvature() + n_tension(); }
@@ -94,6 +110,8 @@ class FlowSystem {
   /// @param tolerance  of the preconditioned residual, relative to the preconditioned right-hand side
   Solution solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance);
 
+  /// Between the degree of h and the upsampled grid.
+  [[nodiscard]] const SphereTransform& curvature_transform() const { return curvature_; }
   /// What its own solves have learned, in the form of RecycledSubspaces.
   [[nodiscard]] RecycledSubspace learned() const;
   /// Of what was known before, what it has kept.
@@ -101,6 +119,7 @@ class FlowSystem {
 
  private:
   FlowLayout layout_;
+  SphereTransform curvature_;
   double dt_;
   bool pinned_;
   RecycledSubspace known_;

@@ -22,8 +22,9 @@ FlowSystem& FlowSystems::of(double dt) {
   const std::shared_ptr<const RecycledScalars> so_far = recycled();
   const Index n_scalars = (parameters_.bending ? 1 : 0) + (parameters_.inextensible ? 1 : 0);
   FlowOptions options = options_;
-  options.held_tension = (options_.held_tension.array() - explicit_tension_time_ / dt).cwiseMax(0.0);
-  if (options.held_tension.isZero(0.0)) options.held_tension.resize(0);
+  Vector& held = options.curvature.held_tension;
+  held = (held.array() - explicit_tension_time_ / dt).cwiseMax(0.0);
+  if (held.isZero(0.0)) held.resize(0);
   FlowSystem system(parameters_, membrane_, dt, options,
                     so_far ? so_far->in(options_.entries, n_scalars) : RecycledSubspace{});
   if (systems_.size() == thresholds::most_flow_systems) systems_.pop_front();

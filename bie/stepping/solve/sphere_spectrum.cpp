@@ -20,6 +20,12 @@ LayerSpectrum layer_spectrum(const SphereFlow& sphere, int degree) {
           degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w};
 }
 
+/// ½ Δ_γ u·n of unit V.
+double curvature_of_v(const SphereFlow& sphere, int degree) {
+  const double n = degree;
+  return 0.5 * (n + 1.0) * (n + 1.0) * (n + 2.0) / (sphere.radius * sphere.radius);
+}
+
 }  // namespace
 
 Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
@@ -38,9 +44,8 @@ Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
   const double tension_w = tension * (n - 1.0) * layer_w;
 
   // ½ Δ_γ u·n and J ∇_γ·u of unit V and W.
-  const double inverse_area = 1.0 / (sphere.radius * sphere.radius);
-  const double curvature_v = 0.5 * (n + 1.0) * (n + 1.0) * (n + 2.0) * inverse_area;
-  const double curvature_w = -0.5 * n * n * (n - 1.0) * inverse_area;
+  const double curvature_v = curvature_of_v(sphere, degree);
+  const double curvature_w = -0.5 * n * n * (n - 1.0) / (sphere.radius * sphere.radius);
   const double divergence_v = -(n + 1.0) * (n + 2.0) * sphere.radius;
   const double divergence_w = -n * (n - 1.0) * sphere.radius;
 
@@ -50,6 +55,12 @@ Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
   block(1, 0) = divergence_v * bending_v + divergence_w * bending_w;
   block(1, 1) = divergence_v * tension_v + divergence_w * tension_w;
   return block;
+}
+
+double unresolved_curvature(const SphereFlow& sphere, int degree) {
+  const auto [odd, layer_v, layer_w] = layer_spectrum(sphere, degree);
+  const double held_v = -2.0 * sphere.held_tension * sphere.radius / (odd * sphere.viscosity) * layer_v;
+  return 1.0 - sphere.dt * curvature_of_v(sphere, degree) * held_v;
 }
 
 Eigen::Matrix2d rigid_sphere_block(const SphereFlow& sphere, int degree) {

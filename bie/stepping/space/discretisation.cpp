@@ -1,5 +1,6 @@
 #include "bie/stepping/space/discretisation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -26,6 +27,13 @@ SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings&
   return {settings.order, make_grid(grid_order, n_longitudes(grid_order, fold, fast))};
 }
 
+SphereTransform curvature_transform_on(const SphereTransform& fine) {
+  // A grid that is not upsampled cannot tell the next degree.
+  const int order = std::min(fine.order() + 1, fine.grid().order);
+  const int azimuthal_order = fine.azimuthal_order() == fine.order() ? order : fine.azimuthal_order();
+  return {order, fine.grid(), azimuthal_order};
+}
+
 }  // namespace
 
 MembraneSpace::MembraneSpace(const NumericalSettings& settings, const Symmetry& symmetry)
@@ -34,6 +42,8 @@ MembraneSpace::MembraneSpace(const NumericalSettings& settings, const Symmetry& 
       // Each of its nodes is a target, which costs more than a transform.
       targets_(transform_for(symmetry, settings, settings.order, false)),
       fine_(transform_for(symmetry, settings, settings.upsampling * settings.order, true)),
+      curvature_(curvature_transform_on(fine_)),
+      curvature_subspace_(symmetry, curvature_.order()),
       quadrature_(make_rotated_quadrature(targets_.grid(), settings.quadrature_oversampling)),
       fold_(symmetry.axisymmetric ? targets_.grid().n_phi : symmetry.fold) {}
 

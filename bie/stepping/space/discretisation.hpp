@@ -43,6 +43,11 @@ class MembraneSpace {
   [[nodiscard]] const SphereTransform& targets() const { return targets_; }
   /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
   [[nodiscard]] const SphereTransform& fine_transform() const { return fine_; }
+  /// Transform between the upsampled grid and the degree to which implicit steps know changes of H, see FlowOptions:
+  /// one more than p, as positions of degree p have normal parts of the next degree.
+  [[nodiscard]] const SphereTransform& curvature_transform() const { return curvature_; }
+  /// The same symmetries in fields of that degree.
+  [[nodiscard]] const SymmetrySubspace& curvature_subspace() const { return curvature_subspace_; }
   /// Singular quadrature about the targets.
   [[nodiscard]] const RotatedQuadrature& quadrature() const { return quadrature_; }
   /// Turns by 2π/fold about z take states and longitudes of the targets to each other.
@@ -53,6 +58,8 @@ class MembraneSpace {
   SphereTransform whole_;
   SphereTransform targets_;
   SphereTransform fine_;
+  SphereTransform curvature_;
+  SymmetrySubspace curvature_subspace_;
   RotatedQuadrature quadrature_;
   int fold_;
 };

@@ -25,10 +25,11 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
   // tensions are large, as near the sphere.
   const double explicit_relaxation = time_order == 1 ? thresholds::explicit_relaxation : 0.0;
   FlowOptions options;
-  options.entries = space.subspace().scalars();
+  options.curvature.transform = space.curvature_transform();
+  options.entries = space.curvature_subspace().scalars();
   if (parameters.inextensible && mobile) {
     // A compression would soften the implicit response.
-    options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
+    options.curvature.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
   }
   return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
 }

@@ -30,7 +30,7 @@ Model stiff_model() {
 /// The left side of the coupled system, from its parts.
 MembraneUnknowns left_side(const Model& model, const Membrane& membrane, const MembraneUnknowns& unknowns) {
   const VelocityField u = velocity_field(membrane, membrane_velocity(parameters_of(model), membrane, unknowns), true);
-  Vector curvature = -kDt * curvature_increment(membrane, u.derivatives);
+  Vector curvature = -kDt * curvature_increment(membrane, membrane.fine, u.derivatives);
   if (unknowns.curvature.size() > 0) curvature += unknowns.curvature;
   return {curvature, weighted_divergence(membrane, u.derivatives)};
 }
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(what_is_learned_is_the_response_of_the_membrane) {
     const MembraneUnknowns unknowns{learned.arguments.col(j).head(n), learned.arguments.col(j).tail(n)};
     const VelocityField u = velocity_field(membrane, membrane_velocity(parameters_of(model), membrane, unknowns), true);
     const Vector divergence = weighted_divergence(membrane, u.derivatives);
-    const Vector curvature = curvature_increment(membrane, u.derivatives);
+    const Vector curvature = curvature_increment(membrane, membrane.fine, u.derivatives);
     const Matrix& responses = learned.responses;
     BOOST_TEST(max_difference(responses.col(j).head(n), curvature) < 1e-9 * curvature.norm());
     BOOST_TEST(max_difference(responses.col(j).tail(n), divergence) < 1e-9 * divergence.norm());
