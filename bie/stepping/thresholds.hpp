@@ -78,8 +78,8 @@ constexpr double least_step_factor = 0.2;
 constexpr double most_step_factor = 4.0;
 /// And one that was not good enough is repeated in this share of its size at most.
 constexpr double most_after_rejection = 0.9;
-/// Share of the tolerance that one step may leave: the errors of about three steps are felt at a time. Measured.
-constexpr double step_share = 0.3;
+/// Share of the tolerance that one step may leave by its estimate, which most steps stay below. Measured.
+constexpr double step_share = 0.5;
 /// Where errors of a shape are remembered for more steps, so many of those remembered count in full, as they add up
 /// with the same sign: a part of them dies away. Measured.
 constexpr double remembered_share = 0.6;
@@ -87,7 +87,7 @@ constexpr double remembered_share = 0.6;
 constexpr double most_remembered = 6.0;
 /// What steps leave of a compressed membrane is expected to grow by this at most until the run ends: so much less is
 /// allowed. Measured.
-constexpr double most_growth_of_steps = 50.0;
+constexpr double most_growth_of_steps = 100.0;
 /// What degrees leave out by this: it has the highest degrees, which grow most. Measured.
 constexpr double most_growth_of_degrees = 400.0;
 /// By this at most where V_m and the field seem to end the compression soon. Measured.
@@ -99,12 +99,14 @@ constexpr double moment_share = 0.25;
 /// From one derivative of the rates to the last but one after it, with the time over the step, no more than this is
 /// continued: what changes faster dies away within the step, which the rule and the sweeps see to. Measured.
 constexpr double largest_change_of_derivative = 1.0;
-/// Corrections that seem to contract more than this are not believed. One ratio is one number, and the next may be
-/// larger.
-constexpr double best_contraction = 0.05;
+/// Corrections that seem to contract more than this are not believed. Where a motion relaxes about once within a step its
+/// correction passes through zero in one sweep, and the next ones contract by 0.1 to 0.3.
+constexpr double best_contraction = 0.1;
 /// Where tension or charge would have to contract more than this, and one sweep alone tells of them, they are solved
 /// for once more before a step is accepted. Measured.
 constexpr double cautious_contraction = 0.2;
+/// Share of what is allowed at a moment that a sweep has to change to tell how tension and charge magnify it.
+constexpr double telling_share = 0.2;
 /// Tension and charge magnify errors within a step at most so much: in a step that changes next to nothing the ratio of
 /// the changes is one of rounding. Three times the largest that was measured.
 constexpr double most_magnification = 100.0;

@@ -58,12 +58,17 @@ class SweepErrors {
   }
   /// By the last sweep.
   [[nodiscard]] VisibleDifference contraction() const { return {shape_.contraction(), potential_.contraction()}; }
-  /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as by the first
-  /// sweep, whose changes have all degrees.
-  [[nodiscard]] double magnification() const {
-    const double visible = std::max(shape_.first() / weights_.shape, potential_.first() / weights_.potential);
-    if (visible <= 0.0) return 1.0;
-    return std::clamp(std::max(tension_.first(), charge_.first()) / visible, 1.0, thresholds::most_magnification);
+  /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as in the sweep
+  /// that has changed them the most times as much. The last ones change what the step leaves.
+  /// @param least  what a sweep has to change of shape or V_m, as often as it counts, to tell
+  [[nodiscard]] double magnification(double least) const {
+    double largest = 1.0;
+    for (std::size_t j = 1; j <= tension_.count(); ++j) {
+      if (std::max(shape_.change(j), potential_.change(j)) < least) continue;
+      const double visible = std::max(shape_.change(j) / weights_.shape, potential_.change(j) / weights_.potential);
+      largest = std::max(largest, std::max(tension_.change(j), charge_.change(j)) / visible);
+    }
+    return std::min(largest, thresholds::most_magnification);
   }
 
  private:
@@ -113,9 +118,13 @@ std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolu
 double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
 
 /// Error of a solution that one more correction has changed so much.
-double error_left(const VisibleDifference& change) {
-  constexpr double ratio = thresholds::cautious_contraction;
-  return largest_of(change) * ratio / (1.0 - ratio);
+/// @param before  what the correction before has changed; zero: not known
+double error_left(const VisibleDifference& change, const VisibleDifference& before = {}) {
+  Corrections changes;
+  if (largest_of(before) > 0.0) changes.add(largest_of(before));
+  changes.add(largest_of(change));
+  const double ratio = changes.count() > 1 ? changes.contraction() : 0.0;
+  return changes.error_after(changes.count(), std::max(ratio, thresholds::cautious_contraction));
 }
 
 /// A solution within the step.
@@ -136,11 +145,11 @@ Moment moment(double time, const StepPolynomial& within, const StepOperations& p
   };
   const NodeSolution first = within.at(time);
   NodeSolution second = y.corrected(first, NodeEnd::remapped);
-  const double error =
-      std::max({within.error(time), error_left(physics.visible_difference(first, second)), of_rule(0)});
+  const VisibleDifference change = physics.visible_difference(first, second);
+  const double error = std::max({within.error(time), error_left(change), of_rule(0)});
   if (error <= allowed) return {std::move(second), error};
   NodeSolution third = y.corrected_with_rate(second, NodeEnd::remapped);
-  const double left = error_left(physics.visible_difference(second, third));
+  const double left = error_left(physics.visible_difference(second, third), change);
   return {std::move(third), std::max(left, of_rule(1))};
 }
 
@@ -155,7 +164,7 @@ bool pass(const std::vector<double>& times, StepOperations& physics, const TimeR
   // It falls like dt⁴ or faster. Where the moments of the next steps lie is chance.
   result.factor = std::min(result.factor, size_factor(within.error(), allowed, 3));
   // Tension and charge are wrong by so much more.
-  const double magnification = errors.magnification();
+  const double magnification = errors.magnification(thresholds::telling_share * allowed);
   double largest = 0.0;
   for (auto time = times.begin(); time != times.end() && largest <= allowed; ++time) {
     const Moment found = moment(*time, within, physics, allowed / magnification, errors.contraction(), y);

@@ -20,8 +20,8 @@ class Corrections {
   /// The same if each correction to come contracts by this.
   [[nodiscard]] double error_after(std::size_t j, double ratio) const;
 
-  /// δ_1; 0 as long as it is not known.
-  [[nodiscard]] double first() const { return changes_.empty() ? 0.0 : changes_.front(); }
+  /// δ_j of correction j = 1, 2, …, one that was made.
+  [[nodiscard]] double change(std::size_t j) const { return changes_[j - 1]; }
   /// ρ of the last correction, 1 as long as it is not known.
   [[nodiscard]] double contraction() const;
 
