@@ -62,8 +62,19 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const auto order_of_mode = [&](Index mode) {
     return static_cast<int>(mode <= transform.azimuthal_order() ? mode : transform.azimuthal_order() - mode);
   };
+  const auto is_symmetric = [&](int kernel) {
+    return kernels.stokes >= 0 && kernel >= kernels.stokes && kernel < kernels.stokes + SymmetricBlocks::kBlocks;
+  };
   std::vector<Matrix> operators(kernels.count);
-  for (Matrix& of_kernel : operators) of_kernel.resize(n, n);
+  for (int c = 0; c < kernels.count; ++c) {
+    if (!is_symmetric(c)) operators[c].resize(n, n);
+  }
+  SymmetricBlocks symmetric;
+  if (selection.stokes_single) {
+    std::vector<int> degrees = active.n;
+    std::sort(degrees.begin(), degrees.end());
+    symmetric = SymmetricBlocks(std::move(degrees));
+  }
   const int at_once = latitudes_at_once(sweep.n_latitudes(), images.flip() ? 2 : 1, width * n_modes);
   std::vector<Matrix> modes(n_modes);
   for (int first = 0; first < sweep.n_latitudes(); first += at_once) {
@@ -100,6 +111,13 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
         if (active.m[i] != order_of_mode(mode)) continue;
         for (int c = 0; c < kernels.count; ++c) {
           const double* from = product.col(active.n[i] - m).data() + c * n;
+          if (is_symmetric(c)) {
+            double* to = symmetric.column(active.position[i]);
+            for (Index k = 0; k < n; ++k) {
+              if (active.n[k] <= active.n[i]) to[symmetric.place(c - kernels.stokes, active.position[k])] += from[k];
+            }
+            continue;
+          }
           double* to = operators[c].col(active.position[i]).data();
           if (first == 0) {
             for (Index k = 0; k < n; ++k) to[active.position[k]] = from[k];
@@ -125,13 +143,15 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   if (selection.laplace_single) result.laplace_single = scalar_operator(kernels.single);
   if (selection.laplace_double) result.laplace_double = scalar_operator(kernels.double_layer);
   if (selection.laplace_adjoint) result.laplace_adjoint = scalar_operator(kernels.adjoint);
-  const auto stokes_operator = [&](int first) {
+  if (selection.stokes_single) {
+    symmetric.symmetrize();
+    result.stokes_single = StokesOperator(std::move(symmetric), active.indices);
+  }
+  if (selection.stokes_double) {
     std::array<Matrix, 6> blocks;
-    for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators[first + c]);
-    return StokesOperator(std::move(blocks), active.indices);
-  };
-  if (selection.stokes_single) result.stokes_single = stokes_operator(kernels.stokes);
-  if (selection.stokes_double) result.stokes_double = stokes_operator(kernels.stokes_double);
+    for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators[kernels.stokes_double + c]);
+    result.stokes_double = StokesOperator(std::move(blocks), active.indices);
+  }
   count_evaluations(selection, sweep.n_evaluations(), instruments);
   return result;
 }
