@@ -1,11 +1,25 @@
 #include "bie/potentials/node_kernels.hpp"
 
+#include <array>
+#include <bit>
+#include <cstring>
+
 #include "bie/kernels/inverse_roots.hpp"
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
 #include "bie/sphere/small_product.hpp"
 
 namespace vehd {
+
+namespace {
+
+/// A register of the compiler's own kind: what arrays hold goes through memory between one loop and the next.
+template <int kWidth>
+struct TargetLanes {
+  using Values [[gnu::vector_size(kWidth * sizeof(double))]] = double;
+};
+
+}  // namespace
 
 NodeKernels::NodeKernels(const KernelColumns& kernels, int chunk)
     : kernels_(kernels), chunk_(chunk), targets_(static_cast<std::size_t>(6 * chunk)) {}
@@ -28,68 +42,45 @@ void NodeKernels::evaluate(const double* node, double weight, double* values) co
 
 template <int kWidth>
 void NodeKernels::evaluate_lanes(int first, const double* node, double weight, double* values) const {
-  const double laplace_weight = kLaplacePrefactor * weight;
-  const double stokes_weight = stokes_single_layer_prefactor(1.0) * weight;
-  const double stokes_double_weight = kStokesDoubleLayerPrefactor * weight;
-  const double* y = node + first;
-  const double* x = targets_.data() + first;
-  double* out = values + first;
+  using Lanes = typename TargetLanes<kWidth>::Values;
   const Index chunk = chunk_;
-  std::array<double, kWidth> rx, ry, rz, inverse_r, r_dot_area;
-#pragma omp simd
-  for (int t = 0; t < kWidth; ++t) {
-    rx[t] = x[t] - y[t];
-    ry[t] = x[chunk + t] - y[chunk + t];
-    rz[t] = x[2 * chunk + t] - y[2 * chunk + t];
-    inverse_r[t] = rx[t] * rx[t] + ry[t] * ry[t] + rz[t] * rz[t];
-  }
-  invert_roots(inverse_r);
+  const auto load = [](const double* at) {
+    Lanes lanes;
+    std::memcpy(&lanes, at, sizeof lanes);
+    return lanes;
+  };
+  const auto source = [&](int i) { return load(node + first + i * chunk); };
+  const auto target = [&](int i) { return load(targets_.data() + first + i * chunk); };
+  const auto put = [&](int kernel, const Lanes& lanes) {
+    std::memcpy(values + first + kernel * chunk, &lanes, sizeof lanes);
+  };
+  const Lanes rx = target(0) - source(0), ry = target(1) - source(1), rz = target(2) - source(2);
+  auto roots = std::bit_cast<std::array<double, kWidth>>(Lanes(rx * rx + ry * ry + rz * rz));
+  invert_roots(roots);
+  const auto inverse_r = std::bit_cast<Lanes>(roots);
+  Lanes r_dot_area{};
   if (kernels_.need_source_normal()) {
-    const double* u = y + 3 * chunk;
-    const double* v = y + 6 * chunk;
-#pragma omp simd
-    for (int t = 0; t < kWidth; ++t) {
-      const double ux = u[t], uy = u[chunk + t], uz = u[2 * chunk + t];
-      const double vx = v[t], vy = v[chunk + t], vz = v[2 * chunk + t];
-      r_dot_area[t] = rx[t] * (uy * vz - uz * vy) + ry[t] * (uz * vx - ux * vz) + rz[t] * (ux * vy - uy * vx);
-    }
+    const Lanes ux = source(3), uy = source(4), uz = source(5), vx = source(6), vy = source(7), vz = source(8);
+    r_dot_area = rx * (uy * vz - uz * vy) + ry * (uz * vx - ux * vz) + rz * (ux * vy - uy * vx);
   }
-  if (kernels_.single >= 0) {
-    double* single = out + kernels_.single * chunk;
-#pragma omp simd
-    for (int t = 0; t < kWidth; ++t) single[t] = laplace_weight * laplace_single_kernel(inverse_r[t]);
-  }
+  const double laplace_weight = kLaplacePrefactor * weight;
+  if (kernels_.single >= 0) put(kernels_.single, laplace_weight * laplace_single_kernel(inverse_r));
   if (kernels_.double_layer >= 0) {
-    double* double_layer = out + kernels_.double_layer * chunk;
-#pragma omp simd
-    for (int t = 0; t < kWidth; ++t) {
-      double_layer[t] = laplace_weight * laplace_double_kernel(r_dot_area[t], inverse_r[t]);
-    }
+    put(kernels_.double_layer, laplace_weight * laplace_double_kernel(r_dot_area, inverse_r));
   }
   if (kernels_.adjoint >= 0) {
-    double* adjoint = out + kernels_.adjoint * chunk;
-    const double* n = x + 3 * chunk;
-#pragma omp simd
-    for (int t = 0; t < kWidth; ++t) {
-      const double r_dot_n = rx[t] * n[t] + ry[t] * n[chunk + t] + rz[t] * n[2 * chunk + t];
-      adjoint[t] = laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r[t]);
-    }
+    const Lanes r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
+    put(kernels_.adjoint, laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r));
   }
+  const auto put_blocks = [&](int first_kernel, double block_weight, const std::array<Lanes, 6>& blocks) {
+    for (int block = 0; block < 6; ++block) put(first_kernel + block, block_weight * blocks[block]);
+  };
   if (kernels_.stokes >= 0) {
-    double* stokes = out + kernels_.stokes * chunk;
-#pragma omp simd
-    for (int t = 0; t < kWidth; ++t) {
-      const auto g = stokeslet(rx[t], ry[t], rz[t], inverse_r[t]);
-      for (int c = 0; c < 6; ++c) stokes[c * chunk + t] = stokes_weight * g[c];
-    }
+    put_blocks(kernels_.stokes, stokes_single_layer_prefactor(1.0) * weight, stokeslet(rx, ry, rz, inverse_r));
   }
   if (kernels_.stokes_double >= 0) {
-    double* stokes = out + kernels_.stokes_double * chunk;
-#pragma omp simd
-    for (int t = 0; t < kWidth; ++t) {
-      const auto k = stokes_double_kernel(rx[t], ry[t], rz[t], r_dot_area[t], inverse_r[t]);
-      for (int c = 0; c < 6; ++c) stokes[c * chunk + t] = stokes_double_weight * k[c];
-    }
+    put_blocks(kernels_.stokes_double, kStokesDoubleLayerPrefactor * weight,
+               stokes_double_kernel(rx, ry, rz, r_dot_area, inverse_r));
   }
 }
 
