@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "bie/potentials/coefficient_block.hpp"
 #include "bie/potentials/node_kernels.hpp"
 #include "bie/potentials/rotated_quadrature.hpp"
+#include "bie/sphere/small_product.hpp"
 
 namespace vehd {
 
@@ -90,6 +92,17 @@ class TargetRows {
   };
   /// Orders of degree n of every target by its own rotation, or by its transpose.
   void rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to, bool back);
+  /// Where an entry of the rows comes from: its cosine and its sine in rows_, −1 for none, and the pair of phases.
+  struct StoredEntry {
+    std::int32_t cosine, sine, phases;
+  };
+  /// Entries that stand together in the rows, as many as a register of kLanes holds or fewer.
+  struct StoredEntries {
+    Index column;
+    int count;
+    std::array<StoredEntry, kLanes> entries;
+  };
+  void list_stored_entries();
   void store_rows(std::span<const Target> targets, RowMatrix& rows);
 
   const RotatedQuadrature& q_;
@@ -119,8 +132,9 @@ class TargetRows {
   Matrix cosines_, sines_;                           ///< of mφ, [longitude x m]
   std::vector<double> cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
   std::vector<double> rotation_entries_;
-  std::vector<double> nothing_;   ///< zeros
-  std::vector<double> unphased_;  ///< [cosines, then sines of one order][target]
+  std::vector<double> nothing_;  ///< zeros
+  std::vector<StoredEntries> stored_;
+  std::vector<double> phases_back_;  ///< factors of cosine and of sine, [m, cosines and sines][2][target]
 };
 
 }  // namespace vehd
