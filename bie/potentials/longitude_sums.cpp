@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -31,14 +30,13 @@ LongitudeSums::LongitudeSums(const SphereGrid& grid, int order)
   }
 }
 
-void LongitudeSums::run(const double* rows, Index width, const std::vector<double*>& modes) const {
-  // Columns at a time: what is summed over them stays in cache.
-  constexpr Index kColumns = 24 * kLanes;
+void LongitudeSums::run(const double* rows, Index width, const std::vector<double*>& modes,
+                        const Latitude& latitude) const {
   const int half = n_phi_ / 2;
-  std::vector<double> sums(static_cast<std::size_t>(4 * n_quarter_ * kColumns));
-  std::vector<double> amplitudes(static_cast<std::size_t>((order_ / 2 + 1) * kColumns));
-  for (Index first = 0; first < width; first += kColumns) {
-    const Index columns = std::min(kColumns, width - first);
+  std::vector<double> sums(static_cast<std::size_t>(4 * n_quarter_ * kPiece));
+  std::vector<double> amplitudes(static_cast<std::size_t>((order_ / 2 + 1) * kPiece));
+  for (Index first = 0; first < width; first += kPiece) {
+    const Index columns = std::min(kPiece, width - first);
     const auto sum = [&](int family, Index k) { return sums.data() + (family * n_quarter_ + k) * columns; };
     for (Index k = 0; k < n_quarter_; ++k) {
       const auto at = [&](Index longitude) { return rows + longitude * width + first; };
@@ -69,7 +67,8 @@ void LongitudeSums::run(const double* rows, Index width, const std::vector<doubl
       small_product(family.table.rows(), n_quarter_, columns, {family.table.data(), n_quarter_, 1}, sum(i, 0), columns,
                     amplitudes.data(), columns);
       for (Index row = 0; row < family.table.rows(); ++row) {
-        std::copy_n(amplitudes.data() + row * columns, columns, modes[family.modes[row]] + first);
+        std::copy_n(amplitudes.data() + row * columns, columns,
+                    modes[family.modes[row]] + first * latitude.count + latitude.index * columns);
       }
     }
   }

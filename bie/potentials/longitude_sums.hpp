@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bie/sphere/grid.hpp"
+#include "bie/sphere/small_product.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -19,10 +20,16 @@ class LongitudeSums {
 
   /// Amplitudes of cos mφ for m = 0..order, then of sin mφ for m = 1..order.
   [[nodiscard]] Index n_modes() const { return 2 * order_ + 1; }
+  /// Columns that are summed together, so that what is summed over them stays in cache.
+  static constexpr Index kPiece = 24 * kLanes;
+  /// Which of several latitudes the rows belong to.
+  struct Latitude {
+    Index index = 0, count = 1;
+  };
   /// @param rows   [n_phi x width], one behind the other
   /// @param width  a multiple of kLanes
-  /// @param modes  where the amplitudes of each mode go, as many as the width
-  void run(const double* rows, Index width, const std::vector<double*>& modes) const;
+  /// @param modes  where the amplitudes of each mode go, [pieces][latitudes][kPiece]; the last piece has what is left
+  void run(const double* rows, Index width, const std::vector<double*>& modes, const Latitude& latitude) const;
 
  private:
   /// Modes that share the sums over a quarter of the circle.

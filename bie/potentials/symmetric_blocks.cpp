@@ -15,10 +15,6 @@ constexpr Index kFewSymmetricEntries = 250000;
 /// Columns are shared out in as many parts of equal work, each with sums of its own, whatever the number of threads.
 constexpr Index kParts = 8;
 
-constexpr Index filled_group(Index count) {
-  return (count + SymmetricBlocks::kGroup - 1) / SymmetricBlocks::kGroup * SymmetricBlocks::kGroup;
-}
-
 }  // namespace
 
 SymmetricBlocks::SymmetricBlocks(std::vector<int> degrees) : degrees_(std::move(degrees)) {
@@ -26,9 +22,9 @@ SymmetricBlocks::SymmetricBlocks(std::vector<int> degrees) : degrees_(std::move(
   for (const int degree : degrees_) {
     ends_.push_back(std::upper_bound(degrees_.begin(), degrees_.end(), degree) - degrees_.begin());
     starts_.push_back(total);
-    total += kBlocks * filled_group(ends_.back());
+    total += filled(ends_.back());
   }
-  values_.assign(static_cast<std::size_t>(total), 0.0);
+  values_.resize(total);
 }
 
 void SymmetricBlocks::symmetrize() {
@@ -42,13 +38,14 @@ void SymmetricBlocks::symmetrize() {
         below = 0.5 * (above + below);
         above = 0.0;
       }
+      for (Index in = n_in(out); in % kGroup != 0; ++in) column(out)[place(block, in)] = 0.0;
     }
   }
 }
 
 double SymmetricBlocks::at(int block, Index i, Index j) const {
   const Index out = std::max(i, j), in = std::min(i, j);
-  const double value = values_[static_cast<std::size_t>(starts_[static_cast<std::size_t>(out)] + place(block, in))];
+  const double value = values_[starts_[static_cast<std::size_t>(out)] + place(block, in)];
   return i == j ? 2.0 * value : value;
 }
 
@@ -79,19 +76,19 @@ void SymmetricBlocks::apply_columns(Index first, Index end, const RowMatrix& den
 }
 
 Matrix SymmetricBlocks::apply(const Matrix& density) const {
-  RowMatrix filled = RowMatrix::Zero(3, filled_group(size()));
-  filled.leftCols(size()) = density.transpose();
-  const bool worthwhile = static_cast<Index>(values_.size()) > kFewSymmetricEntries;
+  RowMatrix padded = RowMatrix::Zero(3, filled(size()) / kBlocks);
+  padded.leftCols(size()) = density.transpose();
+  const bool worthwhile = values_.size() > kFewSymmetricEntries;
   const Index n_parts = worthwhile ? kParts : 1;
   // Work grows with the square of the index.
   const auto boundary = [&](Index part) {
     return static_cast<Index>(std::sqrt(static_cast<double>(part) / static_cast<double>(n_parts)) *
                               static_cast<double>(size()));
   };
-  std::vector<RowMatrix> sums(static_cast<std::size_t>(n_parts), RowMatrix::Zero(3, filled.cols()));
+  std::vector<RowMatrix> sums(static_cast<std::size_t>(n_parts), RowMatrix::Zero(3, padded.cols()));
   for_each_index(n_parts, worthwhile, [&](Index part) {
     const Index end = part + 1 == n_parts ? size() : boundary(part + 1);
-    apply_columns(boundary(part), end, filled, sums[static_cast<std::size_t>(part)]);
+    apply_columns(boundary(part), end, padded, sums[static_cast<std::size_t>(part)]);
   });
   for (Index part = 1; part < n_parts; ++part) sums[0] += sums[static_cast<std::size_t>(part)];
   return sums[0].leftCols(size()).transpose();

@@ -23,13 +23,13 @@ class SymmetricBlocks {
   static constexpr int kBlocks = 6;
 
   SymmetricBlocks() = default;
-  /// All entries are zero.
+  /// All columns are to be filled.
   /// @param degrees  of the coefficients, ascending
   explicit SymmetricBlocks(std::vector<int> degrees);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(degrees_.size()); }
   /// Where the assembly puts what coefficient `out` finds of densities of its degree and lower ones:
-  /// [groups][blocks][kGroup].
+  /// [groups][blocks][kGroup], finite numbers also where the last group is filled up.
   [[nodiscard]] double* column(Index out) { return values_.data() + starts_[static_cast<std::size_t>(out)]; }
   /// Coefficients whose densities the column of `out` has, the highest of the last degree.
   [[nodiscard]] Index n_in(Index out) const { return ends_[static_cast<std::size_t>(out)]; }
@@ -37,6 +37,10 @@ class SymmetricBlocks {
   [[nodiscard]] static Index place(int block, Index in) {
     return (in / kGroup * kBlocks + block) * kGroup + in % kGroup;
   }
+  /// Values of a column with so many coefficients, groups filled up.
+  [[nodiscard]] static Index filled(Index n_in) { return (n_in + kGroup - 1) / kGroup * kGroup * kBlocks; }
+  /// The first coefficient of the group to which a place belongs.
+  [[nodiscard]] static Index first_in(Index place) { return place / (kBlocks * kGroup) * kGroup; }
   /// Once all columns are there and before the first application.
   void symmetrize();
 
@@ -52,7 +56,7 @@ class SymmetricBlocks {
   std::vector<int> degrees_;
   std::vector<Index> ends_;  ///< first coefficient of the next degree, for each
   std::vector<Index> starts_;
-  std::vector<double> values_;  ///< columns one behind the other; entries of the diagonal are halved
+  Vector values_;  ///< columns one behind the other; entries of the diagonal are halved
 };
 
 }  // namespace vehd

@@ -78,10 +78,18 @@ class TargetRows {
   /// All nodes of one latitude of the rotated grid: Fourier sums of the shape, kernels, Fourier sums of these.
   void evaluate_latitude(int i);
   void fourier_synthesis(int kind, int i);
-  void load_nodes(Index quarter_node);
-  /// All images of the node, in values_.
-  void evaluate_nodes(double weight);
-  void add_values(Index quarter_node);
+  static constexpr std::size_t kMostImages = 4;
+  /// Of all images of a node.
+  template <int kWidth>
+  using Nodes = std::array<NodeKernels::Node<kWidth>, kMostImages>;
+  template <int kWidth>
+  using Values = std::array<NodeKernels::Values<kWidth>, kMostImages>;
+  template <int kWidth>
+  void load_nodes(Index quarter_node, Index first, Nodes<kWidth>& nodes) const;
+  template <int kWidth>
+  void add_values(Index quarter_node, Index first, const Values<kWidth>& values);
+  template <int kWidth>
+  void evaluate_node(Index quarter_node, Index first, double weight);
   void fourier_adjoint(int i);
   void legendre_adjoint(bool sine);
   void rotate_back(std::span<const Target> targets);
@@ -115,7 +123,7 @@ class TargetRows {
   bool mirrored_;
   bool inverted_;  ///< degrees are odd: the southern latitudes of the rotated grid follow from the northern ones
   int n_latitudes_;
-  int n_images_;  ///< azimuths that share the Fourier sums of one
+  std::size_t n_images_;  ///< azimuths that share the Fourier sums of one
   int shape_kinds_;
   Index n_quarter_;
   FourierColumns components_, kernel_columns_;
@@ -126,9 +134,6 @@ class TargetRows {
   std::array<std::vector<double>, 2> half_;  ///< Legendre sums of even and of odd n + m on one hemisphere
   std::array<std::array<std::vector<double>, kParts>, kShapeKinds> shape_parts_;  ///< [quarter φ x columns]
   std::array<std::vector<double>, kParts> row_parts_;
-  std::vector<double> nodes_;   ///< [images][3 kinds][component][target]
-  std::vector<double> values_;  ///< [images][kernel][target]
-  std::vector<double> opposite_values_;
   Matrix cosines_, sines_;                           ///< of mφ, [longitude x m]
   std::vector<double> cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
   std::vector<double> rotation_entries_;

@@ -24,7 +24,7 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_a_sum_of_waves_are_its_coefficients) {
     RowMatrix found(sums.n_modes(), kWidth);
     std::vector<double*> places;
     for (Index mode = 0; mode < sums.n_modes(); ++mode) places.push_back(found.row(mode).data());
-    sums.run(rows.data(), kWidth, places);
+    sums.run(rows.data(), kWidth, places, {});
     BOOST_TEST((found - coefficients).cwiseAbs().maxCoeff() < 1e-13);
   }
 }
