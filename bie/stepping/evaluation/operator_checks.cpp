@@ -17,18 +17,41 @@ namespace {
 
 double largest_length(const Matrix& vectors) { return vectors.rowwise().norm().maxCoeff(); }
 
-/// Points from which the membrane looks for itself, in columns: the nodes and behind them the poles.
+/// Points from which the membrane looks for itself: the nodes and behind them the poles.
 struct ProbePoints {
-  Eigen::Matrix3Xd position, normal;
+  Matrix position, normal;  ///< [n x 3]
   Vector spacing;
 };
+
+/// Whether two points face each other across the membrane's own fluid or the other one, and how near.
+struct Pair {
+  double along2;  ///< times length2: distance along the mean normal, squared
+  double length2, wide2;
+  bool face;
+};
+
+inline Pair pair_of(const double* const* position, const double* const* normal, const double* spacing, Index i,
+                    Index j) {
+  constexpr double kFacing = -0.5;
+  double cosine = 0.0, length2 = 0.0, along = 0.0, offset2 = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const double direction = normal[c][i] - normal[c][j], offset = position[c][j] - position[c][i];
+    cosine += normal[c][i] * normal[c][j];
+    length2 += direction * direction;
+    along += offset * direction;
+    offset2 += offset * offset;
+  }
+  const double wide = std::max(spacing[i], spacing[j]), along2 = along * along;
+  const bool aside = offset2 * length2 - along2 > wide * wide * length2;
+  return {along2, length2, wide * wide, cosine <= kFacing && !aside};
+}
 
 ProbePoints probe_points(const SphereTransform& nodes, const Matrix& position) {
   const Surface s = make_surface(nodes, position);
   const Index n = s.n_points();
-  ProbePoints result{Eigen::Matrix3Xd(3, n + 2), Eigen::Matrix3Xd(3, n + 2), Vector(n + 2)};
-  result.position.leftCols(n) = s.position.transpose();
-  result.normal.leftCols(n) = s.normal.transpose();
+  ProbePoints result{Matrix(n + 2, 3), Matrix(n + 2, 3), Vector(n + 2)};
+  result.position.topRows(n) = s.position;
+  result.normal.topRows(n) = s.normal;
   result.spacing.head(n) = (s.area_element * (4.0 * std::numbers::pi / static_cast<double>(n))).cwiseSqrt();
   result.spacing[n] = result.spacing[0];
   result.spacing[n + 1] = result.spacing[n - 1];
@@ -41,8 +64,8 @@ ProbePoints probe_points(const SphereTransform& nodes, const Matrix& position) {
   for (const Index pole : {0, 1}) {
     const auto around = [&](Index i) { return Vector3(x.col(5 * pole + i)); };
     const Vector3 outward = (around(1) - around(2)).cross(around(3) - around(4)).normalized();
-    result.position.col(n + pole) = around(0);
-    result.normal.col(n + pole) = pole == 0 ? outward : Vector3(-outward);
+    result.position.row(n + pole) = around(0).transpose();
+    result.normal.row(n + pole) = (pole == 0 ? outward : Vector3(-outward)).transpose();
   }
   return result;
 }
@@ -70,24 +93,30 @@ LayerCheck check_layers(const Membrane& membrane) {
 }
 
 double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices) {
-  constexpr double kFacing = -0.5;
+  // As many at a time as it pays to ask whether any of them face one.
+  constexpr Index kAtATime = 64;
   const ProbePoints at = probe_points(nodes, position);
   const Index n = at.spacing.size();
-  double least = std::numeric_limits<double>::infinity();
+  const double* const x[] = {at.position.col(0).data(), at.position.col(1).data(), at.position.col(2).data()};
+  const double* const normal[] = {at.normal.col(0).data(), at.normal.col(1).data(), at.normal.col(2).data()};
+  const double* spacing = at.spacing.data();
+  double least2 = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < n; ++i) {
     const bool is_pole = i >= n - 2;
     if (one_meridian_suffices && !is_pole && i % nodes.grid().n_phi != 0) continue;
-    for (Index j = one_meridian_suffices ? 0 : i + 1; j < n; ++j) {
-      if (at.normal.col(i).dot(at.normal.col(j)) > kFacing) continue;
-      const Vector3 direction = (at.normal.col(i) - at.normal.col(j)).normalized();
-      const Vector3 offset = at.position.col(j) - at.position.col(i);
-      const double along = offset.dot(direction);
-      const double wide = std::max(at.spacing[i], at.spacing[j]);
-      if (offset.squaredNorm() - along * along > wide * wide) continue;
-      least = std::min(least, std::abs(along) / wide);
+    for (Index first = one_meridian_suffices ? 0 : i + 1; first < n; first += kAtATime) {
+      const Index end = std::min(first + kAtATime, n);
+      double facing = 0.0;
+#pragma omp simd reduction(+ : facing)
+      for (Index j = first; j < end; ++j) facing += pair_of(x, normal, spacing, i, j).face ? 1.0 : 0.0;
+      if (facing == 0.0) continue;
+      for (Index j = first; j < end; ++j) {
+        const Pair pair = pair_of(x, normal, spacing, i, j);
+        if (pair.face) least2 = std::min(least2, pair.along2 / (pair.length2 * pair.wide2));
+      }
     }
   }
-  return least;
+  return std::sqrt(least2);
 }
 
 void require_apart(double separation, double before) {
