@@ -56,10 +56,8 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const ActiveCoefficients& active = sweep.active();
   const TargetImages& images = sweep.images();
   const LongitudeSums longitudes(grid, transform.azimuthal_order());
-  const Index n_modes = longitudes.n_modes();
-  const auto order_of_mode = [&](Index mode) {
-    return static_cast<int>(mode <= transform.azimuthal_order() ? mode : transform.azimuthal_order() - mode);
-  };
+  const std::vector<int>& orders = longitudes.orders();
+  const auto n_modes = std::ssize(orders);
   OperatorColumns operators(kernels, active);
   const std::vector<Index>& columns = operators.columns();
   const Index width = operators.width(), n_entries = std::ssize(columns);
@@ -77,7 +75,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
     for (Index i = 0; i < n_entries; ++i) flip_signs[columns[i]] = images.flip_signs()[i];
   }
   const int at_once = latitudes_at_once(sweep.n_latitudes(), images.flip() ? 2 : 1, width * n_modes);
-  std::vector<Matrix> modes(n_modes);
+  Vector amplitudes;
   for (int first = 0; first < sweep.n_latitudes(); first += at_once) {
     const TargetSweep::Latitudes block{first, std::min(first + at_once, sweep.n_latitudes())};
     // Those that are swept, and after them their images.
@@ -89,8 +87,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
       }
     }
     const auto n_latitudes = std::ssize(latitudes);
-    // Per Fourier mode of the target azimuth, see OperatorColumns::Amplitudes.
-    for (Matrix& mode : modes) mode.resize(width, n_latitudes);
+    amplitudes.resize(width * n_latitudes * n_modes);
     sweep.run(layout, block, [&](int j, const double* rows) {
       RowMatrix arranged;
       if (has_images) {
@@ -101,27 +98,24 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
         rows = arranged.data();
       }
       const Index latitude = j - block.first, image = block.count() + latitude;
-      std::vector<double*> amplitudes;
-      for (Matrix& mode : modes) amplitudes.push_back(mode.data());
-      longitudes.run(rows, width, amplitudes, {latitude, n_latitudes});
+      longitudes.run(rows, width, {latitude, n_latitudes}, amplitudes.data());
       if (image >= n_latitudes) return;
-      for (Index i = 0; i < n_modes; ++i) {
-        const int parity = images.flip()->azimuthal_parity(order_of_mode(i));
-        for (Index column = 0; column < width; column += LongitudeSums::kPiece) {
-          const Index count = std::min(LongitudeSums::kPiece, width - column);
-          double* piece = modes[i].data() + column * n_latitudes;
-          Vector::Map(piece + image * count, count) =
-              parity * Vector::Map(piece + latitude * count, count).cwiseProduct(flip_signs.segment(column, count));
+      for (Index column = 0; column < width; column += LongitudeSums::kPiece) {
+        const Index count = std::min(LongitudeSums::kPiece, width - column);
+        double* piece = amplitudes.data() + column * n_latitudes * n_modes;
+        for (Index mode = 0; mode < n_modes; ++mode) {
+          const auto at = [&](Index which) { return Vector::Map(piece + (which * n_modes + mode) * count, count); };
+          at(image) = images.flip()->azimuthal_parity(orders[static_cast<std::size_t>(mode)]) *
+                      at(latitude).cwiseProduct(flip_signs.segment(column, count));
         }
       }
     });
 
 #pragma omp parallel for schedule(dynamic, 1) if (sweep.is_parallel())
     for (Index mode = 0; mode < n_modes; ++mode) {
-      const int order = order_of_mode(mode);
-      operators.add({modes[mode].data(), order}, quadrature.target_analysis[std::abs(order)](latitudes, Eigen::all),
+      const int m = std::abs(orders[static_cast<std::size_t>(mode)]);
+      operators.add({amplitudes.data(), orders}, mode, quadrature.target_analysis[m](latitudes, Eigen::all),
                     first == 0);
-      if (block.end == sweep.n_latitudes()) modes[mode].resize(0, 0);
     }
   }
   count_evaluations(selection, sweep.n_evaluations(), instruments);

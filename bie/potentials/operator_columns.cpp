@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -58,11 +59,12 @@ void OperatorColumns::put(Index out, Index first_column, Index count, const doub
   }
 }
 
-void OperatorColumns::add(const Amplitudes& amplitudes, const Matrix& analysis, bool first) {
-  const int m = std::abs(amplitudes.order);
+void OperatorColumns::add(const Amplitudes& amplitudes, Index mode, const Matrix& analysis, bool first) {
+  const int order = amplitudes.orders[static_cast<std::size_t>(mode)], m = std::abs(order);
+  const Index n_modes = std::ssize(amplitudes.orders);
   const Index n_latitudes = analysis.rows(), n_degrees = analysis.cols();
   // Coefficients of one order stand together in the order-major order.
-  const Index own = std::find(active_.m.begin(), active_.m.end(), amplitudes.order) - active_.m.begin();
+  const Index own = std::find(active_.m.begin(), active_.m.end(), order) - active_.m.begin();
   std::vector<double> sums(static_cast<std::size_t>(n_degrees * LongitudeSums::kPiece));
   for (Index column = 0; column < width_; column += LongitudeSums::kPiece) {
     const Index count = std::min(LongitudeSums::kPiece, width_ - column);
@@ -72,7 +74,8 @@ void OperatorColumns::add(const Amplitudes& amplitudes, const Matrix& analysis, 
       lowest = std::max(0, degree - m);
     }
     small_product(n_degrees - lowest, n_latitudes, count, {analysis.col(lowest).data(), n_latitudes, 1},
-                  amplitudes.values + column * n_latitudes, count, sums.data(), count);
+                  amplitudes.values + (column * n_latitudes * n_modes + mode * count), n_modes * count, sums.data(),
+                  count);
     for (Index i = lowest; i < n_degrees; ++i) {
       put(active_.position[static_cast<std::size_t>(own + i)], column, count, sums.data() + (i - lowest) * count,
           first);

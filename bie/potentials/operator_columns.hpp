@@ -20,16 +20,15 @@ class OperatorColumns {
   [[nodiscard]] Index width() const { return width_; }
   /// Column of each entry of [kernels * active coefficients], order-major.
   [[nodiscard]] const std::vector<Index>& columns() const { return columns_; }
-  /// Amplitudes of one order in the azimuth of the targets: [pieces][latitudes][LongitudeSums::kPiece], the last piece
-  /// being narrower.
+  /// What LongitudeSums finds at all latitudes.
   struct Amplitudes {
     const double* values;
-    int order;  ///< m, negative for sines
+    const std::vector<int>& orders;
   };
-  /// Sums over latitudes, which become columns of the operators.
+  /// Sums of one mode over latitudes, which become columns of the operators. Threads may share the modes.
   /// @param analysis  Gauss weight times harmonics of |m|, [latitudes x degrees]
   /// @param first     nothing has been added before
-  void add(const Amplitudes& amplitudes, const Matrix& analysis, bool first);
+  void add(const Amplitudes& amplitudes, Index mode, const Matrix& analysis, bool first);
   /// Once everything is added.
   [[nodiscard]] LayerOperators take(const LayerSelection& selection, Index n_coefficients);
 
