@@ -9,6 +9,16 @@
 
 namespace vehd {
 
+namespace {
+
+/// Asks for what stands from there on, none where the count is not positive.
+void prefetch_to_write(const double* from, Index count) {
+  constexpr Index kCacheLine = 8;
+  for (Index i = 0; i < count; i += kCacheLine) __builtin_prefetch(from + i, 1);
+}
+
+}  // namespace
+
 LongitudeSums::LongitudeSums(const SphereGrid& grid, int order) : n_phi_(grid.n_phi), n_quarter_(grid.n_phi / 4 + 1) {
   require_size("longitudes (even)", grid.n_phi % 2, 0);
   for (const bool sine : {false, true}) {
@@ -61,6 +71,10 @@ void LongitudeSums::run(const double* rows, Index width, const Latitude& latitud
       }
     }
     double* to = amplitudes + (first * latitude.count + latitude.index * columns) * n_modes;
+    // No cache holds where the next piece goes, and nothing foresees it.
+    const Index next = first + columns, next_columns = std::min(kPiece, width - next);
+    prefetch_to_write(amplitudes + (next * latitude.count + latitude.index * next_columns) * n_modes,
+                      next_columns * n_modes);
     for (int i = 0; i < 4; ++i) {
       const RowMatrix& table = tables_[static_cast<std::size_t>(i)];
       small_product(table.rows(), n_quarter_, columns, {table.data(), n_quarter_, 1}, sum(i, 0), columns, to, columns);
