@@ -23,27 +23,23 @@ struct ProbePoints {
   Vector spacing;
 };
 
-/// Whether two points face each other across the membrane's own fluid or the other one, and how near.
-struct Pair {
-  double along2;  ///< times length2: distance along the mean normal, squared
-  double length2, wide2;
-  bool face;
+/// One of them as seen from another; lengths are squared and times that of the difference of the normals.
+struct View {
+  double along;    ///< of the way between them, what is along that difference
+  double allowed;  ///< a spacing, the wider one of theirs
+  double lack;     ///< ≤ 0 where they face each other and the way beside is no more than a spacing
 };
 
-inline Pair pair_of(const double* const* position, const double* const* normal, const double* spacing, Index i,
-                    Index j) {
+inline View view(const double* x, const double* y, const double* z, const double* nx, const double* ny,
+                 const double* nz, const double* spacing, Index i, Index j) {
   constexpr double kFacing = -0.5;
-  double cosine = 0.0, length2 = 0.0, along = 0.0, offset2 = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    const double direction = normal[c][i] - normal[c][j], offset = position[c][j] - position[c][i];
-    cosine += normal[c][i] * normal[c][j];
-    length2 += direction * direction;
-    along += offset * direction;
-    offset2 += offset * offset;
-  }
-  const double wide = std::max(spacing[i], spacing[j]), along2 = along * along;
-  const bool aside = offset2 * length2 - along2 > wide * wide * length2;
-  return {along2, length2, wide * wide, cosine <= kFacing && !aside};
+  const double ux = nx[i] - nx[j], uy = ny[i] - ny[j], uz = nz[i] - nz[j];
+  const double wx = x[j] - x[i], wy = y[j] - y[i], wz = z[j] - z[i];
+  const double length2 = ux * ux + uy * uy + uz * uz, along = wx * ux + wy * uy + wz * uz;
+  const double wide = spacing[i] > spacing[j] ? spacing[i] : spacing[j], allowed = wide * wide * length2;
+  const double beside = (wx * wx + wy * wy + wz * wz) * length2 - along * along - allowed;
+  const double turned = nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] - kFacing;
+  return {along * along, allowed, turned > beside ? turned : beside};
 }
 
 ProbePoints probe_points(const SphereTransform& nodes, const Matrix& position) {
@@ -97,8 +93,9 @@ double separation(const SphereTransform& nodes, const Matrix& position, bool one
   constexpr Index kAtATime = 64;
   const ProbePoints at = probe_points(nodes, position);
   const Index n = at.spacing.size();
-  const double* const x[] = {at.position.col(0).data(), at.position.col(1).data(), at.position.col(2).data()};
-  const double* const normal[] = {at.normal.col(0).data(), at.normal.col(1).data(), at.normal.col(2).data()};
+  const auto column = [](const Matrix& vectors, Index component) { return vectors.col(component).data(); };
+  const double *x = column(at.position, 0), *y = column(at.position, 1), *z = column(at.position, 2);
+  const double *nx = column(at.normal, 0), *ny = column(at.normal, 1), *nz = column(at.normal, 2);
   const double* spacing = at.spacing.data();
   double least2 = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < n; ++i) {
@@ -106,13 +103,16 @@ double separation(const SphereTransform& nodes, const Matrix& position, bool one
     if (one_meridian_suffices && !is_pole && i % nodes.grid().n_phi != 0) continue;
     for (Index first = one_meridian_suffices ? 0 : i + 1; first < n; first += kAtATime) {
       const Index end = std::min(first + kAtATime, n);
-      double facing = 0.0;
-#pragma omp simd reduction(+ : facing)
-      for (Index j = first; j < end; ++j) facing += pair_of(x, normal, spacing, i, j).face ? 1.0 : 0.0;
-      if (facing == 0.0) continue;
+      double least_lack = 1.0;
+#pragma omp simd reduction(min : least_lack)
       for (Index j = first; j < end; ++j) {
-        const Pair pair = pair_of(x, normal, spacing, i, j);
-        if (pair.face) least2 = std::min(least2, pair.along2 / (pair.length2 * pair.wide2));
+        const double lack = view(x, y, z, nx, ny, nz, spacing, i, j).lack;
+        least_lack = lack < least_lack ? lack : least_lack;
+      }
+      if (least_lack > 0.0) continue;
+      for (Index j = first; j < end; ++j) {
+        const View seen = view(x, y, z, nx, ny, nz, spacing, i, j);
+        if (seen.lack <= 0.0) least2 = std::min(least2, seen.along / seen.allowed);
       }
     }
   }
