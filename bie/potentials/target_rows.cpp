@@ -7,6 +7,11 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/small_product.hpp"
 
+#ifndef __AVX__
+// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 namespace vehd {
 
 namespace {
@@ -259,11 +264,11 @@ void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) {
   for (const Target& target : targets) row_of.push_back(rows.row(target.row).data());
   const double* cosines = rows_.row(false, 0, 0);
   const double* sines = rows_.row(true, 0, 0);
-  const auto unphased = [&](const StoredEntry& entry, Index first) {
+  const auto unphase = [&](const StoredEntry& entry, Index first, LanesOfRows& values) {
     const double* factors = phases_back_.data() + 2 * entry.phases * chunk_ + first;
     const double* cosine = entry.cosine < 0 ? nothing_.data() : cosines + entry.cosine + first;
     const double* sine = entry.sine < 0 ? nothing_.data() : sines + entry.sine + first;
-    return lanes(cosine) * lanes(factors) + lanes(sine) * lanes(factors + chunk_);
+    values = lanes(cosine) * lanes(factors) + lanes(sine) * lanes(factors + chunk_);
   };
   for (const StoredEntries& together : stored_) {
     const auto& entries = together.entries;
@@ -271,13 +276,14 @@ void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) {
       double* const* to = row_of.data() + first;
       if (together.count < kLanes) {
         for (int i = 0; i < together.count; ++i) {
-          const LanesOfRows values = unphased(entries[static_cast<std::size_t>(i)], first);
+          LanesOfRows values;
+          unphase(entries[static_cast<std::size_t>(i)], first, values);
           for (int t = 0; t < kLanes; ++t) to[t][together.column + i] = values[t];
         }
         continue;
       }
       std::array<LanesOfRows, kLanes> values;
-      for (std::size_t i = 0; i < kLanes; ++i) values[i] = unphased(entries[i], first);
+      for (std::size_t i = 0; i < kLanes; ++i) unphase(entries[i], first, values[i]);
       transpose(values);
       for (std::size_t t = 0; t < kLanes; ++t) std::memcpy(to[t] + together.column, &values[t], sizeof values[t]);
     }

@@ -1,6 +1,7 @@
 // What TargetRows does on the rotated grid: Legendre and Fourier sums, kernels, and the sums of these.
 #include <array>
 
+#include "bie/potentials/few_nodes.hpp"
 #include "bie/potentials/target_rows.hpp"
 #include "bie/sphere/small_product.hpp"
 
@@ -171,10 +172,13 @@ void TargetRows::evaluate_latitude(int i) {
   const bool twice = inverted_ && 2 * i + 1 == q_.n_theta;
   const double weight = twice ? 0.5 * q_.weight[i] : q_.weight[i];
   for (Index quarter_node = 0; quarter_node < n_quarter_; ++quarter_node) {
-    constexpr int kWide = 2 * kLanes;
+    // Registers of this processor, and shorter ones for what is left over.
+    constexpr auto kWide = static_cast<int>(kTogether);
     Index first = 0;
     for (; first + kWide <= chunk_; first += kWide) evaluate_node<kWide>(quarter_node, first, weight);
-    if (first < chunk_) evaluate_node<kLanes>(quarter_node, first, weight);
+    if constexpr (kWide > kLanes) {
+      if (first < chunk_) evaluate_node<kLanes>(quarter_node, first, weight);
+    }
   }
   fourier_adjoint(i);
 }

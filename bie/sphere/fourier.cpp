@@ -8,6 +8,11 @@
 #include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 
+#ifndef __AVX__
+// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 namespace vehd {
 
 namespace {
