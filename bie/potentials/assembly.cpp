@@ -6,6 +6,7 @@
 
 #include "bie/potentials/layer_operators.hpp"
 #include "bie/potentials/longitude_sums.hpp"
+#include "bie/potentials/operator_columns.hpp"
 #include "bie/potentials/target_sweep.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/small_product.hpp"
@@ -55,20 +56,29 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   const ActiveCoefficients& active = sweep.active();
   const TargetImages& images = sweep.images();
   const LongitudeSums longitudes(grid, transform.azimuthal_order());
-  const Index n = active.count();
-  const Index n_modes = longitudes.n_modes();
-  const Index n_columns = kernels.count * n;
-  const Index width = filled_up(n_columns);
-  const auto order_of_mode = [&](Index mode) {
-    return static_cast<int>(mode <= transform.azimuthal_order() ? mode : transform.azimuthal_order() - mode);
-  };
-  std::vector<Matrix> operators(kernels.count);
-  for (Matrix& of_kernel : operators) of_kernel.resize(n, n);
+  const std::vector<int>& orders = longitudes.orders();
+  const auto n_modes = std::ssize(orders);
+  OperatorColumns operators(kernels, active);
+  const std::vector<Index>& columns = operators.columns();
+  const Index width = operators.width(), n_entries = std::ssize(columns);
+  // Images are made of whole rows in the order of kernels and coefficients.
+  const bool has_images = std::ssize(images.originals()) < grid.n_phi;
+  TargetSweep::RowLayout layout{width, {}, true};
+  if (has_images) {
+    layout.width = filled_up(n_entries);
+  } else {
+    layout.places.columns = columns;
+  }
+  Vector flip_signs;
+  if (images.flip()) {
+    flip_signs.setZero(width);
+    for (Index i = 0; i < n_entries; ++i) flip_signs[columns[i]] = images.flip_signs()[i];
+  }
   const int at_once = latitudes_at_once(sweep.n_latitudes(), images.flip() ? 2 : 1, width * n_modes);
-  std::vector<Matrix> modes(n_modes);
+  Vector amplitudes;
   for (int first = 0; first < sweep.n_latitudes(); first += at_once) {
     const TargetSweep::Latitudes block{first, std::min(first + at_once, sweep.n_latitudes())};
-    // Those that are swept, and after them their images: latitudes of the columns of the modes.
+    // Those that are swept, and after them their images.
     std::vector<Index> latitudes(block.count());
     std::iota(latitudes.begin(), latitudes.end(), Index{first});
     if (images.flip()) {
@@ -76,64 +86,40 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
         if (grid.n_theta - 1 - j != j) latitudes.push_back(grid.n_theta - 1 - j);
       }
     }
-    // Per Fourier mode of the target azimuth: [kernels * coefficients x latitudes].
-    for (Matrix& mode : modes) mode.resize(width, static_cast<Index>(latitudes.size()));
-    sweep.run({width, {}, true}, block, [&](int j, const double* rows) {
-      const Index column = j - block.first, image = block.count() + column;
-      std::vector<double*> amplitudes;
-      for (Matrix& mode : modes) amplitudes.push_back(mode.col(column).data());
-      longitudes.run(rows, width, amplitudes);
-      if (image >= static_cast<Index>(latitudes.size())) return;
-      for (Index i = 0; i < n_modes; ++i) {
-        modes[i].col(image).head(n_columns) =
-            images.flip()->azimuthal_parity(order_of_mode(i)) *
-            modes[i].col(column).head(n_columns).cwiseProduct(images.flip_signs().transpose());
+    const auto n_latitudes = std::ssize(latitudes);
+    amplitudes.resize(width * n_latitudes * n_modes);
+    sweep.run(layout, block, [&](int j, const double* rows) {
+      RowMatrix arranged;
+      if (has_images) {
+        arranged.setZero(grid.n_phi, width);
+        for (Index k = 0; k < grid.n_phi; ++k) {
+          for (Index i = 0; i < n_entries; ++i) arranged(k, columns[i]) = rows[k * layout.width + i];
+        }
+        rows = arranged.data();
+      }
+      const Index latitude = j - block.first, image = block.count() + latitude;
+      longitudes.run(rows, width, {latitude, n_latitudes}, amplitudes.data());
+      if (image >= n_latitudes) return;
+      for (Index column = 0; column < width; column += LongitudeSums::kPiece) {
+        const Index count = std::min(LongitudeSums::kPiece, width - column);
+        double* piece = amplitudes.data() + column * n_latitudes * n_modes;
+        for (Index mode = 0; mode < n_modes; ++mode) {
+          const auto at = [&](Index which) { return Vector::Map(piece + (which * n_modes + mode) * count, count); };
+          at(image) = images.flip()->azimuthal_parity(orders[static_cast<std::size_t>(mode)]) *
+                      at(latitude).cwiseProduct(flip_signs.segment(column, count));
+        }
       }
     });
 
 #pragma omp parallel for schedule(dynamic, 1) if (sweep.is_parallel())
     for (Index mode = 0; mode < n_modes; ++mode) {
-      const int m = std::abs(order_of_mode(mode));
-      const Matrix product = modes[mode].topRows(n_columns) * quadrature.target_analysis[m](latitudes, Eigen::all);
-      if (block.end == sweep.n_latitudes()) modes[mode].resize(0, 0);
-      for (Index i = 0; i < n; ++i) {
-        if (active.m[i] != order_of_mode(mode)) continue;
-        for (int c = 0; c < kernels.count; ++c) {
-          const double* from = product.col(active.n[i] - m).data() + c * n;
-          double* to = operators[c].col(active.position[i]).data();
-          if (first == 0) {
-            for (Index k = 0; k < n; ++k) to[active.position[k]] = from[k];
-          } else {
-            for (Index k = 0; k < n; ++k) to[active.position[k]] += from[k];
-          }
-        }
-      }
+      const int m = std::abs(orders[static_cast<std::size_t>(mode)]);
+      operators.add({amplitudes.data(), orders}, mode, quadrature.target_analysis[m](latitudes, Eigen::all),
+                    first == 0);
     }
   }
-
-  LayerOperators result;
-  const auto scalar_operator = [&](int kernel) {
-    std::vector<Index> indices = active.indices;
-    if (indices.empty()) {
-      indices.resize(n);
-      std::iota(indices.begin(), indices.end(), Index{0});
-    }
-    std::vector<ScalarOperator::Part> parts;
-    parts.push_back({std::move(indices), std::move(operators[kernel])});
-    return ScalarOperator(n_coefficients(quadrature.order), std::move(parts));
-  };
-  if (selection.laplace_single) result.laplace_single = scalar_operator(kernels.single);
-  if (selection.laplace_double) result.laplace_double = scalar_operator(kernels.double_layer);
-  if (selection.laplace_adjoint) result.laplace_adjoint = scalar_operator(kernels.adjoint);
-  const auto stokes_operator = [&](int first) {
-    std::array<Matrix, 6> blocks;
-    for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators[first + c]);
-    return StokesOperator(std::move(blocks), active.indices);
-  };
-  if (selection.stokes_single) result.stokes_single = stokes_operator(kernels.stokes);
-  if (selection.stokes_double) result.stokes_double = stokes_operator(kernels.stokes_double);
   count_evaluations(selection, sweep.n_evaluations(), instruments);
-  return result;
+  return operators.take(selection, n_coefficients(quadrature.order));
 }
 
 }  // namespace vehd

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <set>
 
 #include "bie/potentials/operator_blocks.hpp"
@@ -67,10 +66,16 @@ double analysis(const TargetSweep& sweep, const SphereTransform& transform, cons
   const int azimuthal_order = transform.azimuthal_order();
   double operations = 0.0;
   if (!subspace.symmetry().any()) {
-    const double n_rows = static_cast<double>(sweep.kernels().count) * static_cast<double>(sweep.active().count());
-    operations = n_latitudes * product(2 * azimuthal_order + 1, grid.n_phi / 4 + 1, n_rows);
-    for (int m = -azimuthal_order; m <= azimuthal_order; ++m) {
-      operations += product(n_rows, grid.n_theta, transform.order() + 1 - std::abs(m));
+    const KernelColumns& kernels = sweep.kernels();
+    const auto n_active = static_cast<double>(sweep.active().count());
+    operations = n_latitudes * product(2 * azimuthal_order + 1, grid.n_phi / 4 + 1, kernels.count * n_active);
+    // Of the Stokes single layer densities of no higher degree than that of what finds them.
+    const double n_symmetric = kernels.stokes >= 0 ? SymmetricBlocks::kBlocks : 0.0;
+    double n_up_to = 0.0;
+    for (int n = 0; n <= transform.order(); ++n) {
+      const double n_orders = 2 * std::min(n, azimuthal_order) + 1;
+      n_up_to += n_orders;
+      operations += product(n_symmetric * n_up_to + (kernels.count - n_symmetric) * n_active, grid.n_theta, n_orders);
     }
     return operations;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bie/potentials/few_nodes.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
 
@@ -63,13 +64,13 @@ Matrix StokesOperator::apply(const Matrix& density) const {
     result.reshaped()(entries_) = product(on_entries_, density.reshaped()(entries_)).col(0);
     return result;
   }
-  require_density(density, transposed_[0].rows(), active_);
+  require_density(density, n_rows(), active_);
   if (!active_.empty()) return scattered(apply_blocks(gathered(density, active_)), active_, density.rows());
   return apply_blocks(density);
 }
 
 double StokesOperator::multiplications() const {
-  return static_cast<double>(entries_.empty() ? 9 * transposed_[0].size() : on_entries_.size());
+  return static_cast<double>(entries_.empty() ? 9 * n_rows() * n_rows() : on_entries_.size());
 }
 
 Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& entries) const {
@@ -88,41 +89,36 @@ Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& e
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < n; ++i) {
       if (place[i] < 0 || place[j] < 0) continue;
-      const Matrix& from = entries_.empty()
-                               ? transposed_[kBlock[entries[i] / n_coefficients][entries[j] / n_coefficients]]
-                               : on_entries_;
-      result(i, j) = from(place[j], place[i]);
+      const int block = kBlock[entries[i] / n_coefficients][entries[j] / n_coefficients];
+      result(i, j) = !entries_.empty()       ? on_entries_(place[j], place[i])
+                     : symmetric_.size() > 0 ? symmetric_.at(block, place[i], place[j])
+                                             : transposed_[block](place[j], place[i]);
     }
   }
   return result;
 }
 
 Matrix StokesOperator::apply_blocks(const Matrix& density) const {
-  const Index n_in = transposed_[0].rows();
+  if (symmetric_.size() > 0) return symmetric_.apply(density);
+  const Index n_in = transposed_[0].rows(), last = n_in / kTogether * kTogether;
   Matrix result(transposed_[0].cols(), 3);
-  const double* x = density.col(0).data();
-  const double* y = density.col(1).data();
-  const double* z = density.col(2).data();
+  const double *x = density.col(0).data(), *y = density.col(1).data(), *z = density.col(2).data();
   for_each_index(transposed_[0].cols(), 6 * transposed_[0].size() > kParallelEntries, [&](Index out) {
     const auto block = [&](std::size_t i) { return transposed_[i].col(out).data(); };
     const double *xx = block(0), *xy = block(1), *xz = block(2), *yy = block(3), *yz = block(4), *zz = block(5);
-    // Nine sums hide the latency of one another, and every entry is read once.
-    double xx_x = 0.0, xy_y = 0.0, xz_z = 0.0, xy_x = 0.0, yy_y = 0.0, yz_z = 0.0, xz_x = 0.0, yz_y = 0.0, zz_z = 0.0;
-#pragma omp simd reduction(+ : xx_x, xy_y, xz_z, xy_x, yy_y, yz_z, xz_x, yz_y, zz_z)
-    for (Index i = 0; i < n_in; ++i) {
-      xx_x += xx[i] * x[i];
-      xy_y += xy[i] * y[i];
-      xz_z += xz[i] * z[i];
-      xy_x += xy[i] * x[i];
-      yy_y += yy[i] * y[i];
-      yz_z += yz[i] * z[i];
-      xz_x += xz[i] * x[i];
-      yz_y += yz[i] * y[i];
-      zz_z += zz[i] * z[i];
+    Few u{}, v{}, w{};
+    for (Index i = 0; i < last; i += kTogether) {
+      const Few x_in = few(x + i), y_in = few(y + i), z_in = few(z + i);
+      u += few(xx + i) * x_in + few(xy + i) * y_in + few(xz + i) * z_in;
+      v += few(xy + i) * x_in + few(yy + i) * y_in + few(yz + i) * z_in;
+      w += few(xz + i) * x_in + few(yz + i) * y_in + few(zz + i) * z_in;
     }
-    result(out, 0) = xx_x + xy_y + xz_z;
-    result(out, 1) = xy_x + yy_y + yz_z;
-    result(out, 2) = xz_x + yz_y + zz_z;
+    Vector3 rest(sum(u), sum(v), sum(w));
+    for (Index i = last; i < n_in; ++i) {
+      rest += Vector3(xx[i] * x[i] + xy[i] * y[i] + xz[i] * z[i], xy[i] * x[i] + yy[i] * y[i] + yz[i] * z[i],
+                      xz[i] * x[i] + yz[i] * y[i] + zz[i] * z[i]);
+    }
+    result.row(out) = rest.transpose();
   });
   return result;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "bie/potentials/rotated_quadrature.hpp"
+#include "bie/potentials/symmetric_blocks.hpp"
 #include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/instruments.hpp"
@@ -46,10 +48,15 @@ class ScalarOperator {
 };
 
 /// Stokes layer from [n_coefficients x 3] to [n_coefficients x 3]. The kernels of both layers are symmetric in their
-/// two components. The operator on symmetric fields is one matrix over the entries that these have.
+/// two components; the operator of the single layer is symmetric as a whole. The operator on symmetric fields is one
+/// matrix over the entries that these have.
 class StokesOperator {
  public:
   StokesOperator() = default;
+  /// @param symmetric  symmetrized
+  /// @param active     as below
+  explicit StokesOperator(SymmetricBlocks symmetric, std::vector<Index> active = {})
+      : symmetric_(std::move(symmetric)), active_(std::move(active)) {}
   /// @param transposed  blocks xx, xy, xz, yy, yz, zz
   /// @param active      coefficient_index of each row, or empty if all coefficients are there
   explicit StokesOperator(std::array<Matrix, 6> transposed, std::vector<Index> active = {})
@@ -61,7 +68,7 @@ class StokesOperator {
   StokesOperator(Index n_coefficients, std::vector<Index> entries, Matrix transposed)
       : n_coefficients_(n_coefficients), entries_(std::move(entries)), on_entries_(std::move(transposed)) {}
 
-  [[nodiscard]] bool empty() const { return transposed_[0].size() == 0 && on_entries_.size() == 0; }
+  [[nodiscard]] bool empty() const { return n_rows() == 0 && on_entries_.size() == 0; }
   /// @throws ShapeError
   /// @param density  force per area of the single layer as J f, velocity of the double layer as it is, [n_coefficients
   ///     x 3]
@@ -75,8 +82,11 @@ class StokesOperator {
   [[nodiscard]] double multiplications() const;
 
  private:
+  /// Coefficients of each component, where there are blocks.
+  [[nodiscard]] Index n_rows() const { return std::max(symmetric_.size(), transposed_[0].rows()); }
   [[nodiscard]] Matrix apply_blocks(const Matrix& density) const;
 
+  SymmetricBlocks symmetric_;
   std::array<Matrix, 6> transposed_;
   std::vector<Index> active_;
   Index n_coefficients_ = 0;

@@ -2,43 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
-#include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
-LongitudeSums::LongitudeSums(const SphereGrid& grid, int order)
-    : n_phi_(grid.n_phi), order_(order), n_quarter_(grid.n_phi / 4 + 1) {
+namespace {
+
+/// Asks for what stands from there on, none where the count is not positive.
+void prefetch_to_write(const double* from, Index count) {
+  constexpr Index kCacheLine = 8;
+  for (Index i = 0; i < count; i += kCacheLine) __builtin_prefetch(from + i, 1);
+}
+
+}  // namespace
+
+LongitudeSums::LongitudeSums(const SphereGrid& grid, int order) : n_phi_(grid.n_phi), n_quarter_(grid.n_phi / 4 + 1) {
   require_size("longitudes (even)", grid.n_phi % 2, 0);
   for (const bool sine : {false, true}) {
     for (const int parity : {0, 1}) {
-      Family family;
-      for (int m = parity; m <= order; m += 2) {
-        if (!sine || m > 0) family.modes.push_back(sine ? order + m : m);
-      }
-      family.table.resize(static_cast<Index>(family.modes.size()), n_quarter_);
-      for (Index i = 0; i < family.table.rows(); ++i) {
-        const auto m = static_cast<int>(sine ? family.modes[i] - order : family.modes[i]);
+      const int lowest = sine && parity == 0 ? 2 : parity;  // sin 0φ takes no part
+      RowMatrix table((order - lowest + 2) / 2, n_quarter_);
+      for (Index i = 0; i < table.rows(); ++i) {
+        const int m = lowest + 2 * static_cast<int>(i);
+        orders_.push_back(sine ? -m : m);
         const double scale = (m == 0 ? 1.0 : 2.0) / n_phi_;
         for (Index k = 0; k < n_quarter_; ++k) {
-          family.table(i, k) = scale * (sine ? std::sin(m * grid.phi[k]) : std::cos(m * grid.phi[k]));
+          table(i, k) = scale * (sine ? std::sin(m * grid.phi[k]) : std::cos(m * grid.phi[k]));
         }
-        if (n_phi_ % 4 == 0 && sine == (m % 2 == 0)) family.table(i, n_quarter_ - 1) = 0.0;  // π/2
+        if (n_phi_ % 4 == 0 && sine == (m % 2 == 0)) table(i, n_quarter_ - 1) = 0.0;  // π/2
       }
-      families_.push_back(std::move(family));
+      tables_.push_back(std::move(table));
     }
   }
 }
 
-void LongitudeSums::run(const double* rows, Index width, const std::vector<double*>& modes) const {
-  // Columns at a time: what is summed over them stays in cache.
-  constexpr Index kColumns = 24 * kLanes;
+void LongitudeSums::run(const double* rows, Index width, const Latitude& latitude, double* amplitudes) const {
   const int half = n_phi_ / 2;
-  std::vector<double> sums(static_cast<std::size_t>(4 * n_quarter_ * kColumns));
-  std::vector<double> amplitudes(static_cast<std::size_t>((order_ / 2 + 1) * kColumns));
-  for (Index first = 0; first < width; first += kColumns) {
-    const Index columns = std::min(kColumns, width - first);
+  std::vector<double> sums(static_cast<std::size_t>(4 * n_quarter_ * kPiece));
+  const auto n_modes = std::ssize(orders_);
+  for (Index first = 0; first < width; first += kPiece) {
+    const Index columns = std::min(kPiece, width - first);
     const auto sum = [&](int family, Index k) { return sums.data() + (family * n_quarter_ + k) * columns; };
     for (Index k = 0; k < n_quarter_; ++k) {
       const auto at = [&](Index longitude) { return rows + longitude * width + first; };
@@ -64,13 +70,15 @@ void LongitudeSums::run(const double* rows, Index width, const std::vector<doubl
         so[c] = odd + odd_image;
       }
     }
+    double* to = amplitudes + (first * latitude.count + latitude.index * columns) * n_modes;
+    // No cache holds where the next piece goes, and nothing foresees it.
+    const Index next = first + columns, next_columns = std::min(kPiece, width - next);
+    prefetch_to_write(amplitudes + (next * latitude.count + latitude.index * next_columns) * n_modes,
+                      next_columns * n_modes);
     for (int i = 0; i < 4; ++i) {
-      const Family& family = families_[i];
-      small_product(family.table.rows(), n_quarter_, columns, {family.table.data(), n_quarter_, 1}, sum(i, 0), columns,
-                    amplitudes.data(), columns);
-      for (Index row = 0; row < family.table.rows(); ++row) {
-        std::copy_n(amplitudes.data() + row * columns, columns, modes[family.modes[row]] + first);
-      }
+      const RowMatrix& table = tables_[static_cast<std::size_t>(i)];
+      small_product(table.rows(), n_quarter_, columns, {table.data(), n_quarter_, 1}, sum(i, 0), columns, to, columns);
+      to += table.rows() * columns;
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bie/sphere/grid.hpp"
+#include "bie/sphere/small_product.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -17,24 +18,25 @@ class LongitudeSums {
   /// @param order  highest m
   LongitudeSums(const SphereGrid& grid, int order);
 
-  /// Amplitudes of cos mφ for m = 0..order, then of sin mφ for m = 1..order.
-  [[nodiscard]] Index n_modes() const { return 2 * order_ + 1; }
-  /// @param rows   [n_phi x width], one behind the other
-  /// @param width  a multiple of kLanes
-  /// @param modes  where the amplitudes of each mode go, as many as the width
-  void run(const double* rows, Index width, const std::vector<double*>& modes) const;
+  /// m of each mode: even cosines, odd cosines, then sines, whose m is negative.
+  [[nodiscard]] const std::vector<int>& orders() const { return orders_; }
+  /// Columns that are summed together, so that what is summed over them stays in cache.
+  static constexpr Index kPiece = 24 * kLanes;
+  /// Which of several latitudes the rows belong to.
+  struct Latitude {
+    Index index = 0, count = 1;
+  };
+  /// @param rows        [n_phi x width], one behind the other
+  /// @param width       a multiple of kLanes
+  /// @param amplitudes  of that latitude in [pieces][latitudes][modes][kPiece]; the last piece has what is left
+  void run(const double* rows, Index width, const Latitude& latitude, double* amplitudes) const;
 
  private:
-  /// Modes that share the sums over a quarter of the circle.
-  struct Family {
-    std::vector<Index> modes;
-    RowMatrix table;  ///< [modes x quarter]
-  };
-
   int n_phi_;
-  int order_;
-  Index n_quarter_;               ///< longitudes from 0 to π/2
-  std::vector<Family> families_;  ///< cosines of even, of odd, sines of even, of odd m
+  std::vector<int> orders_;
+  Index n_quarter_;  ///< longitudes from 0 to π/2
+  /// Of modes that share the sums over a quarter of the circle, [modes x quarter].
+  std::vector<RowMatrix> tables_;
 };
 
 }  // namespace vehd

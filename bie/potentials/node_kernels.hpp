@@ -1,9 +1,14 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstring>
 #include <span>
 #include <vector>
 
+#include "bie/kernels/inverse_roots.hpp"
+#include "bie/kernels/laplace.hpp"
+#include "bie/kernels/stokes.hpp"
 #include "bie/potentials/kernel_columns.hpp"
 
 namespace vehd {
@@ -17,28 +22,78 @@ struct Target {
   Index row = 0;        ///< where its kernel rows go
 };
 
+/// Some targets side by side, a register of the compiler's own kind: what arrays hold goes through memory between one
+/// loop and the next.
+template <int kWidth>
+struct TargetLanes {
+  using Values [[gnu::vector_size(kWidth * sizeof(double))]] = double;
+
+  static Values load(const double* at) {
+    Values values;
+    std::memcpy(&values, at, sizeof values);
+    return values;
+  }
+  static void store(double* at, const Values& values) { std::memcpy(at, &values, sizeof values); }
+};
+
 /// Values of the selected kernels between the targets of a chunk and one node about each of them.
 class NodeKernels {
  public:
+  static constexpr int kMostKernels = 15;
+  /// x and its derivatives by θ and by φ over sin θ in the frame of each target, the latter only where
+  /// need_source_normal().
+  template <int kWidth>
+  using Node = std::array<typename TargetLanes<kWidth>::Values, 9>;
+  /// Kernels times weight.
+  template <int kWidth>
+  using Values = std::array<typename TargetLanes<kWidth>::Values, kMostKernels>;
+
   /// @param kernels  must outlive this
   /// @param chunk    targets at a time, a multiple of kLanes
   NodeKernels(const KernelColumns& kernels, int chunk);
 
   /// The targets that follow; as many as the chunk.
   void set_targets(std::span<const Target> targets);
-  /// @param node    what is synthesised there, [9 x chunk]: x and its derivatives by θ and by φ over sin θ in the frame
-  ///     of each target, the latter only where need_source_normal()
+  /// @param first   of the targets that the lanes stand for
   /// @param weight  of the quadrature
-  /// @param values  kernels times weight, [kernels x chunk]
-  void evaluate(const double* node, double weight, double* values) const;
+  template <int kWidth>
+  void evaluate(Index first, const Node<kWidth>& node, double weight, Values<kWidth>& values) const {
+    using Lanes = typename TargetLanes<kWidth>::Values;
+    const auto target = [&](int i) { return TargetLanes<kWidth>::load(targets_.data() + first + i * chunk_); };
+    const auto put = [&](int kernel, const Lanes& lanes) { values[static_cast<std::size_t>(kernel)] = lanes; };
+    const Lanes rx = target(0) - node[0], ry = target(1) - node[1], rz = target(2) - node[2];
+    auto roots = std::bit_cast<std::array<double, kWidth>>(Lanes(rx * rx + ry * ry + rz * rz));
+    invert_roots(roots);
+    const auto inverse_r = std::bit_cast<Lanes>(roots);
+    Lanes r_dot_area{};
+    if (kernels_.need_source_normal()) {
+      const auto& [x, y, z, ux, uy, uz, vx, vy, vz] = node;
+      r_dot_area = rx * (uy * vz - uz * vy) + ry * (uz * vx - ux * vz) + rz * (ux * vy - uy * vx);
+    }
+    const double laplace_weight = kLaplacePrefactor * weight;
+    if (kernels_.single >= 0) put(kernels_.single, laplace_weight * laplace_single_kernel(inverse_r));
+    if (kernels_.double_layer >= 0) {
+      put(kernels_.double_layer, laplace_weight * laplace_double_kernel(r_dot_area, inverse_r));
+    }
+    if (kernels_.adjoint >= 0) {
+      const Lanes r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
+      put(kernels_.adjoint, laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r));
+    }
+    const auto put_blocks = [&](int first_kernel, double block_weight, const std::array<Lanes, 6>& blocks) {
+      for (int block = 0; block < 6; ++block) put(first_kernel + block, block_weight * blocks[block]);
+    };
+    if (kernels_.stokes >= 0) {
+      put_blocks(kernels_.stokes, stokes_single_layer_prefactor(1.0) * weight, stokeslet(rx, ry, rz, inverse_r));
+    }
+    if (kernels_.stokes_double >= 0) {
+      put_blocks(kernels_.stokes_double, kStokesDoubleLayerPrefactor * weight,
+                 stokes_double_kernel(rx, ry, rz, r_dot_area, inverse_r));
+    }
+  }
 
  private:
-  /// The same for targets from that one on.
-  template <int kWidth>
-  void evaluate_lanes(int first, const double* node, double weight, double* values) const;
-
   const KernelColumns& kernels_;
-  int chunk_;
+  Index chunk_;
   std::vector<double> targets_;  ///< [6 x chunk], position and area vector
 };
 

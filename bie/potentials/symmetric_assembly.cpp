@@ -61,6 +61,19 @@ void analyse_latitudes(const OperatorBlock& block, int order, const Matrix& ampl
   }
 }
 
+/// See SymmetricBlocks.
+void symmetrize(const std::vector<Index>& entries, Index n_all, Matrix& transposed) {
+  const auto degree = [&](std::size_t i) { return degree_of(entries[i] % n_all); };
+  for (std::size_t j = 0; j < entries.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const int change = degree(j) - degree(i);
+      double& of_i = transposed(static_cast<Index>(j), static_cast<Index>(i));
+      double& of_j = transposed(static_cast<Index>(i), static_cast<Index>(j));
+      of_i = of_j = change > 0 ? of_j : change < 0 ? of_i : 0.5 * (of_i + of_j);
+    }
+  }
+}
+
 }  // namespace
 
 LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
@@ -160,7 +173,10 @@ LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature,
   const auto stokes_operator = [&](int kernel) {
     return StokesOperator(n_all, operators.entries, std::move(matrices[operators.first_matrix[kernel]]));
   };
-  if (selection.stokes_single) result.stokes_single = stokes_operator(kernels.stokes);
+  if (selection.stokes_single) {
+    symmetrize(operators.entries, n_all, matrices[operators.first_matrix[kernels.stokes]]);
+    result.stokes_single = stokes_operator(kernels.stokes);
+  }
   if (selection.stokes_double) result.stokes_double = stokes_operator(kernels.stokes_double);
   count_evaluations(selection, sweep.n_evaluations(), instruments);
   return result;

@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/small_product.hpp"
+
+#ifndef __AVX__
+// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
 
 namespace vehd {
 
@@ -17,6 +23,24 @@ Index size_of(const std::vector<int>& columns, Index chunk) { return static_cast
 
 CoefficientBlock block_for(int order, int highest, const FourierColumns& columns, Index chunk) {
   return {order, highest, size_of(columns.cosine, chunk), size_of(columns.sine, chunk)};
+}
+
+using LanesOfRows [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+
+LanesOfRows lanes(const double* at) {
+  LanesOfRows values;
+  std::memcpy(&values, at, sizeof values);
+  return values;
+}
+
+void transpose(std::array<LanesOfRows, kLanes>& v) {
+  static_assert(kLanes == 4);
+  const LanesOfRows low_01 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
+  const LanesOfRows high_01 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
+  const LanesOfRows low_23 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
+  const LanesOfRows high_23 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
+  v = {__builtin_shufflevector(low_01, low_23, 0, 1, 4, 5), __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5),
+       __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7), __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7)};
 }
 
 /// Where a column stands in a list, −1 if it does not.
@@ -65,16 +89,13 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
       rotated_rows_(block_for(order_, order_, kernel_columns_, chunk)),
       node_kernels_(kernels_, chunk),
       row_amplitudes_(n_latitudes_, order_, rows_.columns(false), rows_.columns(true)),
-      nodes_(static_cast<std::size_t>(n_images_ * kShapeKinds * 3 * chunk)),
-      values_(static_cast<std::size_t>(n_images_ * kernels_.count * chunk)),
-      opposite_values_(inverted_ ? values_.size() : 0),
       cosines_(context.phi.size(), azimuthal_order_ + 1),
       sines_(cosines_.rows(), cosines_.cols()),
       cosine_phases_(static_cast<std::size_t>((azimuthal_order_ + 1) * chunk)),
       sine_phases_(cosine_phases_.size()),
       rotation_entries_(static_cast<std::size_t>(chunk)),
       nothing_(static_cast<std::size_t>(chunk), 0.0),
-      unphased_(static_cast<std::size_t>(2 * (order_ + 1) * chunk)) {
+      phases_back_(4 * cosine_phases_.size()) {
   Index widest = std::max(rows_.columns(false), rows_.columns(true));
   for (int kind = 0; kind < shape_kinds_; ++kind) {
     // ∂/∂φ exchanges cosines and sines.
@@ -92,6 +113,38 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
     }
   }
   for (auto& half : half_) half.resize((q_.n_theta + 1) / 2 * widest);
+  list_stored_entries();
+}
+
+void TargetRows::list_stored_entries() {
+  struct Placed {
+    Index column;
+    StoredEntry entry;
+  };
+  std::vector<Placed> placed;
+  Index i = 0;
+  for (int kernel = 0; kernel < kernels_.count; ++kernel) {
+    const auto offset = [&](bool sine, int n, int m) {
+      const Index place = place_of(kernel_columns_.of(sine), kernel);
+      if (place < 0) return std::int32_t{-1};
+      return static_cast<std::int32_t>(rows_.row(sine, n, m) - rows_.row(sine, 0, 0) + place * chunk_);
+    };
+    for (int m = 0; m <= azimuthal_order_; ++m) {
+      for (const bool sine : {false, true}) {
+        for (int n = m; n <= order_ && (m > 0 || !sine); ++n, ++i) {
+          const Index column = places_.columns.empty() ? i : places_.columns[i];
+          if (column >= 0) placed.push_back({column, {offset(false, n, m), offset(true, n, m), 2 * m + sine}});
+        }
+      }
+    }
+  }
+  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.column < b.column; });
+  for (const Placed& one : placed) {
+    const bool joins =
+        !stored_.empty() && stored_.back().count < kLanes && one.column == stored_.back().column + stored_.back().count;
+    if (!joins) stored_.push_back({one.column, 0, {}});
+    stored_.back().entries[static_cast<std::size_t>(stored_.back().count++)] = one.entry;
+  }
 }
 
 void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
@@ -110,9 +163,12 @@ void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
 
 void TargetRows::load_phases(std::span<const Target> targets) {
   for (int m = 0; m <= azimuthal_order_; ++m) {
+    double* back = phases_back_.data() + 4 * m * chunk_;
     for (Index t = 0; t < chunk_; ++t) {
-      cosine_phases_[m * chunk_ + t] = cosines_(targets[t].longitude, m);
-      sine_phases_[m * chunk_ + t] = sines_(targets[t].longitude, m);
+      const double c = cosines_(targets[t].longitude, m), s = sines_(targets[t].longitude, m);
+      cosine_phases_[m * chunk_ + t] = back[t] = back[3 * chunk_ + t] = c;
+      sine_phases_[m * chunk_ + t] = back[2 * chunk_ + t] = s;
+      back[chunk_ + t] = -s;
     }
   }
 }
@@ -202,42 +258,34 @@ void TargetRows::rotate_back(std::span<const Target> targets) {
   }
 }
 
-/// Undoes the phase shift.
+/// Undoes the phase shift, and turns what has targets side by side into rows.
 void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) {
-  const Index n_active = (order_ + 1) * (order_ + 1) - (order_ - azimuthal_order_) * (order_ - azimuthal_order_ + 1);
-  for (int kernel = 0; kernel < kernels_.count; ++kernel) {
-    const Index cosine_place = place_of(kernel_columns_.cosine, kernel);
-    const Index sine_place = place_of(kernel_columns_.sine, kernel);
-    Index offset = kernel * n_active;
-    for (int m = 0; m <= azimuthal_order_; ++m) {
-      const Index n_degrees = order_ + 1 - m;
-      const double* c = cosine_phases_.data() + m * chunk_;
-      const double* s = sine_phases_.data() + m * chunk_;
-      for (Index i = 0; i < n_degrees; ++i) {
-        const int n = m + static_cast<int>(i);
-        const double* cosine = cosine_place < 0 ? nothing_.data() : rows_.row(false, n, m) + cosine_place * chunk_;
-        const double* sine = sine_place < 0 ? nothing_.data() : rows_.row(true, n, m) + sine_place * chunk_;
-        double* of_cosine = unphased_.data() + i * chunk_;
-        double* of_sine = unphased_.data() + (n_degrees + i) * chunk_;
-#pragma omp simd
-        for (Index t = 0; t < chunk_; ++t) {
-          of_cosine[t] = cosine[t] * c[t] - sine[t] * s[t];
-          of_sine[t] = cosine[t] * s[t] + sine[t] * c[t];
+  std::vector<double*> row_of;
+  for (const Target& target : targets) row_of.push_back(rows.row(target.row).data());
+  const double* cosines = rows_.row(false, 0, 0);
+  const double* sines = rows_.row(true, 0, 0);
+  const auto unphase = [&](const StoredEntry& entry, Index first, LanesOfRows& values) {
+    const double* factors = phases_back_.data() + 2 * entry.phases * chunk_ + first;
+    const double* cosine = entry.cosine < 0 ? nothing_.data() : cosines + entry.cosine + first;
+    const double* sine = entry.sine < 0 ? nothing_.data() : sines + entry.sine + first;
+    values = lanes(cosine) * lanes(factors) + lanes(sine) * lanes(factors + chunk_);
+  };
+  for (const StoredEntries& together : stored_) {
+    const auto& entries = together.entries;
+    for (Index first = 0; first < chunk_; first += kLanes) {
+      double* const* to = row_of.data() + first;
+      if (together.count < kLanes) {
+        for (int i = 0; i < together.count; ++i) {
+          LanesOfRows values;
+          unphase(entries[static_cast<std::size_t>(i)], first, values);
+          for (int t = 0; t < kLanes; ++t) to[t][together.column + i] = values[t];
         }
+        continue;
       }
-      const Index n_stored = (m == 0 ? 1 : 2) * n_degrees;
-      for (Index t = 0; t < chunk_; ++t) {
-        double* row = rows.row(targets[t].row).data();
-        if (places_.columns.empty()) {
-          for (Index i = 0; i < n_stored; ++i) row[offset + i] = unphased_[i * chunk_ + t];
-          continue;
-        }
-        for (Index i = 0; i < n_stored; ++i) {
-          const Index column = places_.columns[offset + i];
-          if (column >= 0) row[column] = unphased_[i * chunk_ + t];
-        }
-      }
-      offset += n_stored;
+      std::array<LanesOfRows, kLanes> values;
+      for (std::size_t i = 0; i < kLanes; ++i) unphase(entries[i], first, values[i]);
+      transpose(values);
+      for (std::size_t t = 0; t < kLanes; ++t) std::memcpy(to[t] + together.column, &values[t], sizeof values[t]);
     }
   }
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "bie/potentials/coefficient_block.hpp"
 #include "bie/potentials/node_kernels.hpp"
 #include "bie/potentials/rotated_quadrature.hpp"
+#include "bie/sphere/small_product.hpp"
 
 namespace vehd {
 
@@ -76,10 +78,18 @@ class TargetRows {
   /// All nodes of one latitude of the rotated grid: Fourier sums of the shape, kernels, Fourier sums of these.
   void evaluate_latitude(int i);
   void fourier_synthesis(int kind, int i);
-  void load_nodes(Index quarter_node);
-  /// All images of the node, in values_.
-  void evaluate_nodes(double weight);
-  void add_values(Index quarter_node);
+  static constexpr std::size_t kMostImages = 4;
+  /// Of all images of a node.
+  template <int kWidth>
+  using Nodes = std::array<NodeKernels::Node<kWidth>, kMostImages>;
+  template <int kWidth>
+  using Values = std::array<NodeKernels::Values<kWidth>, kMostImages>;
+  template <int kWidth>
+  void load_nodes(Index quarter_node, Index first, Nodes<kWidth>& nodes) const;
+  template <int kWidth>
+  void add_values(Index quarter_node, Index first, const Values<kWidth>& values);
+  template <int kWidth>
+  void evaluate_node(Index quarter_node, Index first, double weight);
   void fourier_adjoint(int i);
   void legendre_adjoint(bool sine);
   void rotate_back(std::span<const Target> targets);
@@ -90,6 +100,17 @@ class TargetRows {
   };
   /// Orders of degree n of every target by its own rotation, or by its transpose.
   void rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to, bool back);
+  /// Where an entry of the rows comes from: its cosine and its sine in rows_, −1 for none, and the pair of phases.
+  struct StoredEntry {
+    std::int32_t cosine, sine, phases;
+  };
+  /// Entries that stand together in the rows, as many as a register of kLanes holds or fewer.
+  struct StoredEntries {
+    Index column;
+    int count;
+    std::array<StoredEntry, kLanes> entries;
+  };
+  void list_stored_entries();
   void store_rows(std::span<const Target> targets, RowMatrix& rows);
 
   const RotatedQuadrature& q_;
@@ -102,7 +123,7 @@ class TargetRows {
   bool mirrored_;
   bool inverted_;  ///< degrees are odd: the southern latitudes of the rotated grid follow from the northern ones
   int n_latitudes_;
-  int n_images_;  ///< azimuths that share the Fourier sums of one
+  std::size_t n_images_;  ///< azimuths that share the Fourier sums of one
   int shape_kinds_;
   Index n_quarter_;
   FourierColumns components_, kernel_columns_;
@@ -113,14 +134,12 @@ class TargetRows {
   std::array<std::vector<double>, 2> half_;  ///< Legendre sums of even and of odd n + m on one hemisphere
   std::array<std::array<std::vector<double>, kParts>, kShapeKinds> shape_parts_;  ///< [quarter φ x columns]
   std::array<std::vector<double>, kParts> row_parts_;
-  std::vector<double> nodes_;   ///< [images][3 kinds][component][target]
-  std::vector<double> values_;  ///< [images][kernel][target]
-  std::vector<double> opposite_values_;
   Matrix cosines_, sines_;                           ///< of mφ, [longitude x m]
   std::vector<double> cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
   std::vector<double> rotation_entries_;
-  std::vector<double> nothing_;   ///< zeros
-  std::vector<double> unphased_;  ///< [cosines, then sines of one order][target]
+  std::vector<double> nothing_;  ///< zeros
+  std::vector<StoredEntries> stored_;
+  std::vector<double> phases_back_;  ///< factors of cosine and of sine, [m, cosines and sines][2][target]
 };
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 // What TargetRows does on the rotated grid: Legendre and Fourier sums, kernels, and the sums of these.
 #include <array>
 
+#include "bie/potentials/few_nodes.hpp"
 #include "bie/potentials/target_rows.hpp"
 #include "bie/sphere/small_product.hpp"
 
@@ -82,98 +83,87 @@ void TargetRows::fourier_synthesis(int kind, int i) {
 }
 
 /// Shape data at azimuths φ, π − φ, π + φ, −φ; in the mirror at the first two.
-void TargetRows::load_nodes(Index quarter_node) {
+template <int kWidth>
+void TargetRows::load_nodes(Index quarter_node, Index first, Nodes<kWidth>& nodes) const {
   for (int kind = 0; kind < shape_kinds_; ++kind) {
-    const auto& cosines = components_.of(kind == 2);
-    const auto& sines = components_.of(kind != 2);
-    const auto part = [&](int which, std::size_t position) {
-      const Index columns = shape_amplitudes_[kind].columns(which >= 2);
-      return shape_parts_[kind][which].data() + quarter_node * columns + static_cast<Index>(position) * chunk_;
+    const auto& parts = shape_parts_[static_cast<std::size_t>(kind)];
+    const auto part = [&](std::size_t which, std::size_t position) {
+      const Index columns = shape_amplitudes_[static_cast<std::size_t>(kind)].columns(which >= 2);
+      return TargetLanes<kWidth>::load(parts[which].data() + quarter_node * columns +
+                                       static_cast<Index>(position) * chunk_ + first);
     };
-    const auto node = [&](int image, int component) {
-      return nodes_.data() + ((image * kShapeKinds + kind) * 3 + component) * chunk_;
+    const auto node = [&](std::size_t image, std::size_t component) -> auto& {
+      return nodes[image][static_cast<std::size_t>(kind) * 3 + component];
     };
     if (!mirrored_) {
-      for (int component = 0; component < 3; ++component) {
-        const auto c = static_cast<std::size_t>(component);
-        const double *ce = part(0, c), *co = part(1, c), *se = part(2, c), *so = part(3, c);
-        double *first = node(0, component), *second = node(1, component);
-        double *third = node(2, component), *fourth = node(3, component);
-#pragma omp simd
-        for (Index t = 0; t < chunk_; ++t) {
-          const double even = ce[t] + co[t], odd = ce[t] - co[t], plus = se[t] + so[t], minus = se[t] - so[t];
-          first[t] = even + plus;
-          second[t] = odd - minus;
-          third[t] = odd + minus;
-          fourth[t] = even - plus;
-        }
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto ce = part(0, c), co = part(1, c), se = part(2, c), so = part(3, c);
+        const auto even = ce + co, odd = ce - co, plus = se + so, minus = se - so;
+        node(0, c) = even + plus;
+        node(1, c) = odd - minus;
+        node(2, c) = odd + minus;
+        node(3, c) = even - plus;
       }
       continue;
     }
+    const auto& cosines = components_.of(kind == 2);
     for (std::size_t c = 0; c < cosines.size(); ++c) {
-      for (Index t = 0; t < chunk_; ++t) {
-        node(0, cosines[c])[t] = part(0, c)[t] + part(1, c)[t];
-        node(1, cosines[c])[t] = part(0, c)[t] - part(1, c)[t];
-      }
+      node(0, static_cast<std::size_t>(cosines[c])) = part(0, c) + part(1, c);
+      node(1, static_cast<std::size_t>(cosines[c])) = part(0, c) - part(1, c);
     }
+    const auto& sines = components_.of(kind != 2);
     for (std::size_t c = 0; c < sines.size(); ++c) {
-      for (Index t = 0; t < chunk_; ++t) {
-        node(0, sines[c])[t] = part(3, c)[t] + part(2, c)[t];
-        node(1, sines[c])[t] = part(3, c)[t] - part(2, c)[t];
-      }
+      node(0, static_cast<std::size_t>(sines[c])) = part(3, c) + part(2, c);
+      node(1, static_cast<std::size_t>(sines[c])) = part(3, c) - part(2, c);
     }
   }
 }
 
 /// The other way for kernel values.
-void TargetRows::add_values(Index quarter_node) {
-  const auto part = [&](int which, std::size_t position) {
-    return row_parts_[which].data() + quarter_node * rows_.columns(which >= 2) + static_cast<Index>(position) * chunk_;
+template <int kWidth>
+void TargetRows::add_values(Index quarter_node, Index first, const Values<kWidth>& values) {
+  const auto put = [&](std::size_t which, std::size_t position, const auto& lanes) {
+    TargetLanes<kWidth>::store(row_parts_[which].data() + quarter_node * rows_.columns(which >= 2) +
+                                   static_cast<Index>(position) * chunk_ + first,
+                               lanes);
   };
-  const auto value = [&](int image, int kernel) { return values_.data() + (image * kernels_.count + kernel) * chunk_; };
   if (!mirrored_) {
-    for (int kernel = 0; kernel < kernels_.count; ++kernel) {
-      const auto c = static_cast<std::size_t>(kernel);
-      const double *k1 = value(0, kernel), *k2 = value(1, kernel), *k3 = value(2, kernel), *k4 = value(3, kernel);
-      double *ce = part(0, c), *co = part(1, c), *se = part(2, c), *so = part(3, c);
-#pragma omp simd
-      for (Index t = 0; t < chunk_; ++t) {
-        const double right = k1[t] + k4[t], left = k2[t] + k3[t], up = k1[t] - k4[t], down = k2[t] - k3[t];
-        ce[t] = right + left;
-        co[t] = right - left;
-        se[t] = up - down;
-        so[t] = up + down;
-      }
+    for (std::size_t c = 0; c < static_cast<std::size_t>(kernels_.count); ++c) {
+      const auto right = values[0][c] + values[3][c], left = values[1][c] + values[2][c];
+      const auto up = values[0][c] - values[3][c], down = values[1][c] - values[2][c];
+      put(0, c, right + left);
+      put(1, c, right - left);
+      put(2, c, up - down);
+      put(3, c, up + down);
     }
     return;
   }
   for (const bool sine : {false, true}) {
     const auto& columns = kernel_columns_.of(sine);
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      const double *k1 = value(0, columns[c]), *k2 = value(1, columns[c]);
-      double *sum = part(sine ? 3 : 0, c), *difference = part(sine ? 2 : 1, c);
-      for (Index t = 0; t < chunk_; ++t) {
-        sum[t] = 2.0 * (k1[t] + k2[t]);
-        difference[t] = 2.0 * (k1[t] - k2[t]);
-      }
+      const auto kernel = static_cast<std::size_t>(columns[c]);
+      put(sine ? 3 : 0, c, 2.0 * (values[0][kernel] + values[1][kernel]));
+      put(sine ? 2 : 1, c, 2.0 * (values[0][kernel] - values[1][kernel]));
     }
   }
 }
 
-void TargetRows::evaluate_nodes(double weight) {
-  const Index of_image = kernels_.count * chunk_;
-  const Index of_node = kShapeKinds * 3 * chunk_;
-  for (int image = 0; image < n_images_; ++image) {
-    node_kernels_.evaluate(nodes_.data() + image * of_node, weight, values_.data() + image * of_image);
+/// All images of a node, for some targets of the chunk.
+template <int kWidth>
+void TargetRows::evaluate_node(Index quarter_node, Index first, double weight) {
+  Nodes<kWidth> nodes;
+  Values<kWidth> values;
+  load_nodes<kWidth>(quarter_node, first, nodes);
+  for (std::size_t image = 0; image < n_images_; ++image) {
+    node_kernels_.evaluate<kWidth>(first, nodes[image], weight, values[image]);
+    if (!inverted_) continue;
+    // The opposite node lies at −x with −J n, and all harmonics have the opposite value there.
+    for (std::size_t i = 0; i < 6; ++i) nodes[image][i] = -nodes[image][i];  // x and ∂x/∂θ
+    NodeKernels::Values<kWidth> opposite;
+    node_kernels_.evaluate<kWidth>(first, nodes[image], weight, opposite);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(kernels_.count); ++c) values[image][c] -= opposite[c];
   }
-  if (!inverted_) return;
-  // The opposite node lies at −x with −J n, and all harmonics have the opposite value there.
-  for (int image = 0; image < n_images_; ++image) {
-    double* node = nodes_.data() + image * of_node;
-    for (Index i = 0; i < 6 * chunk_; ++i) node[i] = -node[i];  // x and ∂x/∂θ
-    node_kernels_.evaluate(node, weight, opposite_values_.data() + image * of_image);
-  }
-  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] -= opposite_values_[i];
+  add_values<kWidth>(quarter_node, first, values);
 }
 
 void TargetRows::evaluate_latitude(int i) {
@@ -182,9 +172,13 @@ void TargetRows::evaluate_latitude(int i) {
   const bool twice = inverted_ && 2 * i + 1 == q_.n_theta;
   const double weight = twice ? 0.5 * q_.weight[i] : q_.weight[i];
   for (Index quarter_node = 0; quarter_node < n_quarter_; ++quarter_node) {
-    load_nodes(quarter_node);
-    evaluate_nodes(weight);
-    add_values(quarter_node);
+    // Registers of this processor, and shorter ones for what is left over.
+    constexpr auto kWide = static_cast<int>(kTogether);
+    Index first = 0;
+    for (; first + kWide <= chunk_; first += kWide) evaluate_node<kWide>(quarter_node, first, weight);
+    if constexpr (kWide > kLanes) {
+      if (first < chunk_) evaluate_node<kLanes>(quarter_node, first, weight);
+    }
   }
   fourier_adjoint(i);
 }

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
+
+#ifndef __AVX__
+// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
 
 namespace vehd {
 
@@ -22,6 +28,16 @@ constexpr int kMostByProducts = 128;
 #else
 constexpr int kMostByProducts = 32;
 #endif
+
+using Longitudes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+
+Longitudes longitudes(const double* at) {
+  Longitudes lanes;
+  std::memcpy(&lanes, at, sizeof lanes);
+  return lanes;
+}
+
+Longitudes reversed(const Longitudes& lanes) { return __builtin_shufflevector(lanes, lanes, 3, 2, 1, 0); }
 
 }  // namespace
 
@@ -56,18 +72,38 @@ FourierSums::FourierSums(int n_phi, int order) : n_phi_(n_phi), order_(order), n
 /// One row at longitudes φ, π − φ, π + φ and −φ. Those that coincide get the same value twice.
 void FourierSums::unfold(const std::array<const double*, kFamilies>& parts, double* values) const {
   const double *ce = parts[0], *co = parts[1], *se = parts[2], *so = parts[3];
-  double *here = values, *opposite = values + n_phi_ / 2;
-  double *across = opposite - n_quarter_ + 1, *below = values + n_phi_ - n_quarter_ + 1;
-  const Index last = n_quarter_ - 1;
-#pragma omp simd
-  for (Index k = 0; k <= last; ++k) {
-    here[k] = (ce[k] + co[k]) + (se[k] + so[k]);
-    opposite[k] = (ce[k] - co[k]) + (se[k] - so[k]);
+  double *here = values, *opposite = values + n_phi_ / 2, *below = values + n_phi_;
+  if (n_quarter_ <= kLanes) {
+    for (Index k = 0; k < n_quarter_; ++k) {
+      here[k] = (ce[k] + co[k]) + (se[k] + so[k]);
+      opposite[k] = (ce[k] - co[k]) + (se[k] - so[k]);
+      if (k == 0) continue;
+      opposite[-k] = (ce[k] - co[k]) - (se[k] - so[k]);
+      below[-k] = (ce[k] + co[k]) - (se[k] + so[k]);
+    }
+    return;
   }
-#pragma omp simd
-  for (Index k = 0; k < last; ++k) {
-    across[k] = (ce[last - k] - co[last - k]) - (se[last - k] - so[last - k]);
-    below[k] = (ce[last - k] + co[last - k]) - (se[last - k] + so[last - k]);
+  // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
+  const Index last = n_quarter_ - kLanes;
+  const auto sums = [&](Index k) {
+    struct Sums {
+      Longitudes cosines, opposite_cosines, sines, opposite_sines;
+    };
+    const Longitudes c = longitudes(ce + k), d = longitudes(co + k), s = longitudes(se + k), t = longitudes(so + k);
+    return Sums{c + d, c - d, s + t, s - t};
+  };
+  const auto put = [](double* to, const Longitudes& lanes) { std::memcpy(to, &lanes, sizeof lanes); };
+  for (Index k = 0; k < n_quarter_; k += kLanes) {
+    const Index at = std::min(k, last);
+    const auto of = sums(at);
+    put(here + at, of.cosines + of.sines);
+    put(opposite + at, of.opposite_cosines + of.opposite_sines);
+  }
+  for (Index k = 1; k < n_quarter_; k += kLanes) {
+    const Index at = std::min(k, last);
+    const auto of = sums(at);
+    put(opposite - at - (kLanes - 1), reversed(of.opposite_cosines - of.opposite_sines));
+    put(below - at - (kLanes - 1), reversed(of.cosines - of.sines));
   }
 }
 

@@ -50,18 +50,20 @@ struct OrderSeries {
   }
 };
 
+/// Cosine and sine of θ, then of φ.
+using Waves = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+
 /// Values of all fields at a block of points, [fields x points].
-RowMatrix values_at(const std::vector<OrderSeries>& series, const Vector& theta, const Vector& phi) {
+RowMatrix values_at(const std::vector<OrderSeries>& series, const Eigen::Ref<const Waves>& waves) {
   using Block = Eigen::Array<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kBlock>;
-  const Index n_points = theta.size(), n_fields = series.front().coefficients.rows();
+  const Index n_points = waves.rows(), n_fields = series.front().coefficients.rows();
   const Index width = filled_up(n_points);
-  const auto filled = [&](const Vector& values) {
+  const auto filled = [&](Index wave) {
     Block block = Block::Zero(width);
-    block.head(n_points) = values.array().transpose();
+    block.head(n_points) = waves.col(wave).array().transpose();
     return block;
   };
-  const Block cos_theta = filled(theta.array().cos()), sin_theta = filled(theta.array().sin());
-  const Block cos_phi = filled(phi.array().cos()), sin_phi = filled(phi.array().sin());
+  const Block cos_theta = filled(0), sin_theta = filled(1), cos_phi = filled(2), sin_phi = filled(3);
   Block cos_m = Block::Ones(width), sin_m = Block::Zero(width);
   Block sectoral = Block::Constant(width, 1.0 / std::sqrt(4.0 * std::numbers::pi));
   RowMatrix legendre(series.front().coefficients.cols(), width), sums(2 * n_fields, width);
@@ -91,16 +93,9 @@ RowMatrix values_at(const std::vector<OrderSeries>& series, const Vector& theta,
   return values.leftCols(n_points);
 }
 
-}  // namespace
-
-Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi) {
-  return evaluate_harmonics(coefficients, theta, phi, order_of(coefficients.rows()));
-}
-
-Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order) {
-  require_size("phi", phi.size(), theta.size());
+Matrix values_of(const Matrix& coefficients, const Waves& waves, int azimuthal_order) {
   const int order = order_of(coefficients.rows());
-  const Index n_points = theta.size();
+  const Index n_points = waves.rows();
   std::vector<OrderSeries> series;
   for (int m = 0; m <= std::min(order, azimuthal_order); ++m) series.emplace_back(coefficients, order, m);
   Matrix values(n_points, coefficients.cols());
@@ -109,10 +104,37 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
   const Index terms = n_points * (order + 1) * (azimuthal_order + 1);
   for_each_index((n_points + kBlock - 1) / kBlock, terms > kParallelTerms, [&](Index block) {
     const Index start = block * kBlock, size = std::min(kBlock, n_points - start);
-    values.middleRows(start, size) =
-        values_at(series, theta.segment(start, size), phi.segment(start, size)).transpose();
+    values.middleRows(start, size) = values_at(series, waves.middleRows(start, size)).transpose();
   });
   return values;
+}
+
+}  // namespace
+
+Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi) {
+  return evaluate_harmonics(coefficients, theta, phi, order_of(coefficients.rows()));
+}
+
+Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order) {
+  require_size("phi", phi.size(), theta.size());
+  Waves waves(theta.size(), 4);
+  waves << theta.array().cos(), theta.array().sin(), phi.array().cos(), phi.array().sin();
+  return values_of(coefficients, waves, azimuthal_order);
+}
+
+Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, int azimuthal_order) {
+  require_size("directions (Cartesian components)", directions.cols(), 3);
+  Waves waves(directions.rows(), 4);
+  for (Index i = 0; i < directions.rows(); ++i) {
+    const double x = directions(i, 0), y = directions(i, 1), z = directions(i, 2);
+    const double from_axis = std::sqrt(x * x + y * y), length = std::sqrt(x * x + y * y + z * z);
+    waves(i, 0) = z / length;
+    waves(i, 1) = from_axis / length;
+    // On the axis φ is of no account.
+    waves(i, 2) = from_axis > 0.0 ? x / from_axis : 1.0;
+    waves(i, 3) = from_axis > 0.0 ? y / from_axis : 0.0;
+  }
+  return values_of(coefficients, waves, azimuthal_order);
 }
 
 }  // namespace vehd

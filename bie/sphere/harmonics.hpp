@@ -29,5 +29,8 @@ Matrix resize_order(const Matrix& coefficients, int order);
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi);
 /// The same of the harmonics with |m| ≤ azimuthal_order alone, at cost O(n_points p azimuthal_order).
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order);
+/// The same in given directions, which spares the angles.
+/// @param directions  [n_points x 3], of any length but zero
+Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, int azimuthal_order);
 
 }  // namespace vehd

@@ -42,4 +42,11 @@ BOOST_AUTO_TEST_CASE(operator_is_symmetric_and_dissipates) {
   BOOST_TEST(std::abs(f_on_g - work(g, layer.apply(f))) < 1e-9 * power);
 }
 
+BOOST_AUTO_TEST_CASE(operator_is_symmetric_to_rounding_for_any_densities) {
+  const Matrix f = random_coefficients(kOrder, 3, 44);
+  const Matrix g = random_coefficients(kOrder, 3, 45);
+  const double f_on_g = f.cwiseProduct(layer.apply(g)).sum(), g_on_f = g.cwiseProduct(layer.apply(f)).sum();
+  BOOST_TEST(std::abs(f_on_g - g_on_f) < 1e-13 * f.norm() * layer.apply(g).norm());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

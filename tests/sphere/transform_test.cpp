@@ -148,4 +148,13 @@ BOOST_AUTO_TEST_CASE(longitudes_of_fast_transforms_are_the_next_without_a_large_
   BOOST_TEST(fast_longitudes(40, 34) == 68);
 }
 
+BOOST_AUTO_TEST_CASE(values_in_directions_are_those_at_their_angles) {
+  const Matrix coefficients = random_coefficients(7, 2, 19);
+  const Vector theta{{0.0, 0.3, 1.2, 2.9, std::numbers::pi}}, phi{{0.0, 5.9, 2.2, 0.4, 0.0}};
+  Matrix directions(theta.size(), 3);
+  directions << theta.array().sin() * phi.array().cos(), theta.array().sin() * phi.array().sin(), theta.array().cos();
+  BOOST_TEST(max_difference(evaluate_harmonics(coefficients, Matrix(3.0 * directions), 5),
+                            evaluate_harmonics(coefficients, theta, phi, 5)) < 1e-13);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

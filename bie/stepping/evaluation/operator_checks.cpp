@@ -17,18 +17,37 @@ namespace {
 
 double largest_length(const Matrix& vectors) { return vectors.rowwise().norm().maxCoeff(); }
 
-/// Points from which the membrane looks for itself, in columns: the nodes and behind them the poles.
+/// Points from which the membrane looks for itself: the nodes and behind them the poles.
 struct ProbePoints {
-  Eigen::Matrix3Xd position, normal;
+  Matrix position, normal;  ///< [n x 3]
   Vector spacing;
 };
+
+/// One of them as seen from another; lengths are squared and times that of the difference of the normals.
+struct View {
+  double along;    ///< of the way between them, what is along that difference
+  double allowed;  ///< a spacing, the wider one of theirs
+  double lack;     ///< ≤ 0 where they face each other and the way beside is no more than a spacing
+};
+
+inline View view(const double* x, const double* y, const double* z, const double* nx, const double* ny,
+                 const double* nz, const double* spacing, Index i, Index j) {
+  constexpr double kFacing = -0.5;
+  const double ux = nx[i] - nx[j], uy = ny[i] - ny[j], uz = nz[i] - nz[j];
+  const double wx = x[j] - x[i], wy = y[j] - y[i], wz = z[j] - z[i];
+  const double length2 = ux * ux + uy * uy + uz * uz, along = wx * ux + wy * uy + wz * uz;
+  const double wide = spacing[i] > spacing[j] ? spacing[i] : spacing[j], allowed = wide * wide * length2;
+  const double beside = (wx * wx + wy * wy + wz * wz) * length2 - along * along - allowed;
+  const double turned = nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] - kFacing;
+  return {along * along, allowed, turned > beside ? turned : beside};
+}
 
 ProbePoints probe_points(const SphereTransform& nodes, const Matrix& position) {
   const Surface s = make_surface(nodes, position);
   const Index n = s.n_points();
-  ProbePoints result{Eigen::Matrix3Xd(3, n + 2), Eigen::Matrix3Xd(3, n + 2), Vector(n + 2)};
-  result.position.leftCols(n) = s.position.transpose();
-  result.normal.leftCols(n) = s.normal.transpose();
+  ProbePoints result{Matrix(n + 2, 3), Matrix(n + 2, 3), Vector(n + 2)};
+  result.position.topRows(n) = s.position;
+  result.normal.topRows(n) = s.normal;
   result.spacing.head(n) = (s.area_element * (4.0 * std::numbers::pi / static_cast<double>(n))).cwiseSqrt();
   result.spacing[n] = result.spacing[0];
   result.spacing[n + 1] = result.spacing[n - 1];
@@ -41,8 +60,8 @@ ProbePoints probe_points(const SphereTransform& nodes, const Matrix& position) {
   for (const Index pole : {0, 1}) {
     const auto around = [&](Index i) { return Vector3(x.col(5 * pole + i)); };
     const Vector3 outward = (around(1) - around(2)).cross(around(3) - around(4)).normalized();
-    result.position.col(n + pole) = around(0);
-    result.normal.col(n + pole) = pole == 0 ? outward : Vector3(-outward);
+    result.position.row(n + pole) = around(0).transpose();
+    result.normal.row(n + pole) = (pole == 0 ? outward : Vector3(-outward)).transpose();
   }
   return result;
 }
@@ -70,24 +89,34 @@ LayerCheck check_layers(const Membrane& membrane) {
 }
 
 double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices) {
-  constexpr double kFacing = -0.5;
+  // As many at a time as it pays to ask whether any of them face one.
+  constexpr Index kAtATime = 64;
   const ProbePoints at = probe_points(nodes, position);
   const Index n = at.spacing.size();
-  double least = std::numeric_limits<double>::infinity();
+  const auto column = [](const Matrix& vectors, Index component) { return vectors.col(component).data(); };
+  const double *x = column(at.position, 0), *y = column(at.position, 1), *z = column(at.position, 2);
+  const double *nx = column(at.normal, 0), *ny = column(at.normal, 1), *nz = column(at.normal, 2);
+  const double* spacing = at.spacing.data();
+  double least2 = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < n; ++i) {
     const bool is_pole = i >= n - 2;
     if (one_meridian_suffices && !is_pole && i % nodes.grid().n_phi != 0) continue;
-    for (Index j = one_meridian_suffices ? 0 : i + 1; j < n; ++j) {
-      if (at.normal.col(i).dot(at.normal.col(j)) > kFacing) continue;
-      const Vector3 direction = (at.normal.col(i) - at.normal.col(j)).normalized();
-      const Vector3 offset = at.position.col(j) - at.position.col(i);
-      const double along = offset.dot(direction);
-      const double wide = std::max(at.spacing[i], at.spacing[j]);
-      if (offset.squaredNorm() - along * along > wide * wide) continue;
-      least = std::min(least, std::abs(along) / wide);
+    for (Index first = one_meridian_suffices ? 0 : i + 1; first < n; first += kAtATime) {
+      const Index end = std::min(first + kAtATime, n);
+      double least_lack = 1.0;
+#pragma omp simd reduction(min : least_lack)
+      for (Index j = first; j < end; ++j) {
+        const double lack = view(x, y, z, nx, ny, nz, spacing, i, j).lack;
+        least_lack = lack < least_lack ? lack : least_lack;
+      }
+      if (least_lack > 0.0) continue;
+      for (Index j = first; j < end; ++j) {
+        const View seen = view(x, y, z, nx, ny, nz, spacing, i, j);
+        if (seen.lack <= 0.0) least2 = std::min(least2, seen.along / seen.allowed);
+      }
     }
   }
-  return least;
+  return std::sqrt(least2);
 }
 
 void require_apart(double separation, double before) {

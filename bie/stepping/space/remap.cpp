@@ -42,24 +42,14 @@ SphereVectors smoothing_gradient(const SphereTransform& fine, const Surface& s, 
 /// Unit vectors to points of the parameter sphere, [n x 3].
 using Directions = Matrix;
 
-struct Angles {
-  Vector theta, phi;
-};
-
-Angles angles_of(const Directions& r) {
-  Angles angles{Vector(r.rows()), Vector(r.rows())};
-  for (Index i = 0; i < r.rows(); ++i) {
-    const SpherePoint point = point_of(Vector3(r.row(i)));
-    angles.theta[i] = point.theta;
-    angles.phi[i] = point.phi;
-  }
-  return angles;
-}
-
 Directions node_directions(const SphereGrid& grid) {
   Directions r(grid.n_points(), 3);
-  for (Index i = 0; i < grid.n_points(); ++i) {
-    r.row(i) = direction(point_of(grid, i)).transpose();
+  const Vector cosines = grid.phi.array().cos(), sines = grid.phi.array().sin();
+  for (Index j = 0; j < grid.n_theta; ++j) {
+    const auto rows = Eigen::seqN(j * grid.n_phi, grid.n_phi);
+    r(rows, 0) = std::sin(grid.theta[j]) * cosines;
+    r(rows, 1) = std::sin(grid.theta[j]) * sines;
+    r(rows, 2).setConstant(std::cos(grid.theta[j]));
   }
   return r;
 }
@@ -67,13 +57,14 @@ Directions node_directions(const SphereGrid& grid) {
 /// Cartesian components, [n x 3], of vectors given along e_θ and e_φ at the nodes.
 Matrix cartesian(const SphereGrid& grid, const SphereVectors& field) {
   Matrix vectors(grid.n_points(), 3);
-  for (Index i = 0; i < grid.n_points(); ++i) {
-    const double theta = grid.theta[i / grid.n_phi];
-    const double phi = grid.phi[i % grid.n_phi];
-    const Vector3 meridian(std::cos(phi), std::sin(phi), 0.0);
-    const Vector3 along_theta = std::cos(theta) * meridian - std::sin(theta) * Vector3::UnitZ();
-    const Vector3 along_phi(-meridian.y(), meridian.x(), 0.0);
-    vectors.row(i) = field.d1[i] * along_theta + field.d2[i] * along_phi;
+  const Eigen::ArrayXd cosines = grid.phi.array().cos(), sines = grid.phi.array().sin();
+  for (Index j = 0; j < grid.n_theta; ++j) {
+    const double cos_theta = std::cos(grid.theta[j]), sin_theta = std::sin(grid.theta[j]);
+    const auto rows = Eigen::seqN(j * grid.n_phi, grid.n_phi);
+    const Eigen::ArrayXd along_theta = field.d1(rows), along_phi = field.d2(rows);
+    vectors(rows, 0) = cos_theta * cosines * along_theta - sines * along_phi;
+    vectors(rows, 1) = cos_theta * sines * along_theta + cosines * along_phi;
+    vectors(rows, 2) = -sin_theta * along_theta;
   }
   return vectors;
 }
@@ -105,15 +96,13 @@ Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, cons
     series.middleRows(coefficient_index(n, -n), 2 * n + 1) *= share(n);
   }
   const Matrix start = fine.synthesize(series);
-  const Angles middle = angles_of(moved_back(nodes, 0.5 * start));
-  return evaluate_harmonics(series, middle.theta, middle.phi, fine.azimuthal_order()) +
+  return evaluate_harmonics(series, moved_back(nodes, 0.5 * start), fine.azimuthal_order()) +
          share(fine.order() + 1) * beyond;
 }
 
 /// Every column at the given places.
 Matrix carried(const SphereTransform& fine, const Matrix& columns, const Directions& from) {
-  const Angles angles = angles_of(from);
-  return fine.analyze(evaluate_harmonics(columns, angles.theta, angles.phi, fine.azimuthal_order()));
+  return fine.analyze(evaluate_harmonics(columns, from, fine.azimuthal_order()));
 }
 
 /// All fields at the given places, which cost little more together than one of them.
