@@ -108,7 +108,7 @@ class Evolution {
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
-  bool raise_orders_for_charge();
+  bool raise_orders_for_fields();
   bool raise_orders_for_growth();
   bool restart_at(const std::vector<int>& orders, const std::function<bool(const Evaluation& former)>& is_needed);
   void start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start);

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/charge_difference.hpp"
+#include "bie/stepping/evaluation/tension_difference.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/exchange.hpp"
@@ -56,19 +58,20 @@ bool Evolution::restart_at(const std::vector<int>& orders,
   return false;
 }
 
-/// Of a start whose charge, which moves V_m, needs more than its shape and V_m do: a spectrum that is cut too early
-/// says little of how many degrees more. @returns whether any rose
-bool Evolution::raise_orders_for_charge() {
+/// Of a start whose charge, which moves V_m, or tension need more than its shape and V_m do: a spectrum that is cut too
+/// early says little of how many degrees more. An ellipsoid has degree 1. @returns whether any rose
+bool Evolution::raise_orders_for_fields() {
   std::vector<int> orders;
   bool raised = false;
   for (std::size_t a = 0; a < start_.size(); ++a) {
     orders.push_back(order(a));
-    if (!adapts() || !setup_.model.electric || order(a) >= setup_.settings.order) continue;
+    if (!adapts() || order(a) >= setup_.settings.order) continue;
     orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
     raised = true;
   }
   return raised && restart_at(orders, [this](const Evaluation& former) {
-           return charge_difference(setup_.model, discretisation_, former, evaluation_) > truncation_target();
+           return std::max(charge_difference(setup_.model, discretisation_, former, evaluation_),
+                           tension_difference(setup_.model, former, evaluation_)) > truncation_target();
          });
 }
 
@@ -91,7 +94,7 @@ bool Evolution::raise_orders_for_growth() {
 
 void Evolution::evaluate_start() {
   arrive(state_);
-  while (raise_orders_for_charge()) {
+  while (raise_orders_for_fields()) {
   }
   while (raise_orders_for_growth()) {
   }

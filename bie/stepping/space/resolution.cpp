@@ -35,6 +35,12 @@ double charge_scale(const Model& model, std::size_t vesicle, double largest) {
   return scale_of(thresholds::least_charge_share * contrast * electric.field.norm(), largest);
 }
 
+double tension_scale(const Model& model, std::size_t vesicle, double largest) {
+  const std::optional<BendingParameters>& bending = model.vesicles[vesicle].bending;
+  // κ_B/R² over the area 4π R².
+  return scale_of(bending ? thresholds::least_tension_share * 4.0 * std::numbers::pi * bending->modulus : 0.0, largest);
+}
+
 Resolution::Resolution(const Model& model, const VesicleState& vesicle, VisibleShare share)
     : Resolution(model, vesicle, vesicle.transmembrane_potential, share) {}
 

@@ -14,6 +14,9 @@ double potential_scale(const AppliedField& electric, double radius, double large
 /// [potential/length]
 double charge_scale(const Model& model, std::size_t vesicle, double largest);
 
+/// The same of ∫λ dA by ∫|λ| dA: that, or a share of κ_B/R² over the sphere where that is more. [energy]
+double tension_scale(const Model& model, std::size_t vesicle, double largest);
+
 /// How the degrees of one membrane die away.
 /// Accuracy: an estimate; of a geometric spectrum between 0.9 and 3 times what is left out
 /// (tests/stepping/adaptive_evolution_test.cpp)

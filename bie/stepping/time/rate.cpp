@@ -15,11 +15,7 @@ Rate::OfVesicle rate_of(const VesicleSolution& solution, const VesicleFields& fi
   rate.poration = solution.poration_rate;
   rate.charge = fields.charge_amplitude.size() > 0 ? fields.charge_amplitude : Matrix(fields.charge);
   rate.potential_amplitude = fields.potential_amplitude;
-  if (fields.tension.size() > 0 && !solution.is_sphere) {
-    const Vector tension = membrane.fine.synthesize(fields.tension);
-    rate.tension_integral = tension.dot(membrane.surface.quadrature);
-    rate.tension_size = tension.cwiseAbs().dot(membrane.surface.quadrature);
-  }
+  rate.tension = tension_integrals(solution, fields);
   return rate;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/evaluation/tension_difference.hpp"
 
 namespace vehd {
 
@@ -12,12 +13,11 @@ struct Rate {
   struct OfVesicle {
     Matrix velocity;
     Vector potential;
-    Vector free_charge;             ///< of SurfaceFields::free_charge; empty without
-    Vector poration;                ///< of SurfaceFields::poration; empty without
-    Matrix charge;                  ///< q, or its amplitude; empty without electricity
-    Matrix potential_amplitude;     ///< of V_m in an averaged field, which is solved for at once; empty without
-    double tension_integral = 0.0;  ///< ∫λ dA; 0 where a sphere leaves its mean open
-    double tension_size = 0.0;      ///< ∫|λ| dA
+    Vector free_charge;          ///< of SurfaceFields::free_charge; empty without
+    Vector poration;             ///< of SurfaceFields::poration; empty without
+    Matrix charge;               ///< q, or its amplitude; empty without electricity
+    Matrix potential_amplitude;  ///< of V_m in an averaged field, which is solved for at once; empty without
+    TensionIntegrals tension;
   };
   std::vector<OfVesicle> vesicles;
 };

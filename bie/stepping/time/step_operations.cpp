@@ -256,21 +256,13 @@ VisibleDifference StepOperations::visible_difference(const NodeSolution& a, cons
   return largest;
 }
 
-/// ∫|λ| dA of a tension that bending hardly feels.
-double StepOperations::least_tension(std::size_t a) const {
-  const std::optional<BendingParameters>& bending = model_.vesicles[a].bending;
-  // κ_B/R² over the area 4π R².
-  return bending ? thresholds::least_tension_share * 4.0 * std::numbers::pi * bending->modulus : 0.0;
-}
-
 InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, const Rate& b) const {
-  const auto share = [](double change, double size) { return size > 0.0 ? change / size : 0.0; };
   InstantaneousDifference largest;
   for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
     const Rate::OfVesicle& x = a.vesicles[i];
     const Rate::OfVesicle& y = b.vesicles[i];
-    const double tension = std::abs(y.tension_integral - x.tension_integral);
-    largest.tension = std::max(largest.tension, share(tension, std::max(y.tension_size, least_tension(i))));
+    const double tension = std::abs(y.tension.sum - x.tension.sum);
+    largest.tension = std::max(largest.tension, tension / tension_scale(model_, i, y.tension.magnitude));
     if (x.charge.size() == 0 || y.charge.size() == 0) continue;
     const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
     const double charge = fine.synthesize(y.charge - x.charge).cwiseAbs().maxCoeff();

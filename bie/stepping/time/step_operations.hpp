@@ -108,7 +108,6 @@ class StepOperations {
     return model_.electric.has_value() && !is_averaged(model_) && !at_start_.electric_inactive;
   }
   [[nodiscard]] State state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const;
-  [[nodiscard]] double least_tension(std::size_t vesicle) const;
   [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
