@@ -89,7 +89,7 @@ constexpr double most_remembered = 6.0;
 /// allowed. Measured.
 constexpr double most_growth_of_steps = 100.0;
 /// What degrees leave out by this: it has the highest degrees, which grow most. Measured.
-constexpr double most_growth_of_degrees = 400.0;
+constexpr double most_growth_of_degrees = 1000.0;
 /// By this at most where V_m and the field seem to end the compression soon. Measured.
 constexpr double unsure_growth = 5.0;
 /// What the degrees leave out is felt first by those above the highest over this. Measured.
