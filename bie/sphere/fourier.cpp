@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <numbers>
 
 #include "bie/sphere/small_product.hpp"
@@ -19,8 +20,12 @@ namespace {
 
 /// Longitudes of axisymmetric fields, where sines and cosines are 0 and ±1.
 constexpr int kQuarterTurns = 4;
-/// Rows whose parts stay in the first-level cache.
+/// Rows whose parts stay in the first-level cache. A few more stay with them: grids have one latitude more than their
+/// degree says, and alone it would take as long as eight.
 constexpr Index kRowsTogether = 16;
+constexpr Index kMostTogether = kRowsTogether + kRowsTogether / 2;
+
+Index next_rows(Index left) { return left > kMostTogether ? kRowsTogether : left; }
 /// Up to this order products take less than fast transforms: measured without AVX, and with it at all degrees up to 64,
 /// where they take half as long (docs/performance.md).
 #ifdef __AVX__
@@ -54,8 +59,8 @@ FourierSums::FourierSums(int n_phi, int order) : n_phi_(n_phi), order_(order), n
     const int first = sine && parity == 0 ? 2 : parity;  // sin 0φ takes no part
     family.first_mode = sine ? sine_mode(first) : cosine_mode(first);
     family.n_modes = first > order ? 0 : (order - first) / 2 + 1;
-    family.synthesis = RowMatrix::Zero(family.n_modes, filled_up(n_quarter_));
-    family.analysis = RowMatrix::Zero(n_quarter_, filled_up(family.n_modes));
+    family.synthesis = RowMatrix::Zero(family.n_modes, whole_registers(n_quarter_));
+    family.analysis = RowMatrix::Zero(n_quarter_, whole_registers(family.n_modes));
     for (Index j = 0; j < family.n_modes; ++j) {
       const auto m = first + 2 * static_cast<int>(j);
       for (Index k = 0; k < n_quarter_; ++k) {
@@ -143,11 +148,11 @@ void FourierSums::synthesize(Index rows, const double* amplitudes, Index stride,
     return;
   }
   if (fast_) return fast_->synthesize(rows, amplitudes, stride, values);
-  const Index width = filled_up(n_quarter_);
-  std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * width));
-  const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * width; };
-  for (Index first = 0; first < rows; first += kRowsTogether) {
-    const Index count = std::min(kRowsTogether, rows - first);
+  const Index width = whole_registers(n_quarter_);
+  const auto buffer = std::make_unique_for_overwrite<double[]>(kFamilies * kMostTogether * width);
+  const auto part = [&](int family, Index row) { return buffer.get() + (family * kMostTogether + row) * width; };
+  for (Index first = 0, count = 0; first < rows; first += count) {
+    count = next_rows(rows - first);
     for (int i = 0; i < kFamilies; ++i) {
       const Family& family = families_[static_cast<std::size_t>(i)];
       small_product(count, family.n_modes, width, {amplitudes + family.first_mode * stride + first, 1, 2 * stride},
@@ -169,22 +174,22 @@ void FourierSums::analyze(Index rows, const double* values, double* amplitudes) 
     return;
   }
   if (fast_) return fast_->analyze(rows, values, amplitudes);
-  std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * n_quarter_));
-  std::vector<double> sums(static_cast<std::size_t>(kRowsTogether * filled_up(order_ / 2 + 1)));
-  const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * n_quarter_; };
-  for (Index first = 0; first < rows; first += kRowsTogether) {
-    const Index count = std::min(kRowsTogether, rows - first);
+  const auto buffer = std::make_unique_for_overwrite<double[]>(kFamilies * kMostTogether * n_quarter_);
+  const auto sums = std::make_unique_for_overwrite<double[]>(kMostTogether * whole_registers(order_ / 2 + 1));
+  const auto part = [&](int family, Index row) { return buffer.get() + (family * kMostTogether + row) * n_quarter_; };
+  for (Index first = 0, count = 0; first < rows; first += count) {
+    count = next_rows(rows - first);
     for (Index row = 0; row < count; ++row) {
       fold(values + (first + row) * n_phi_, {part(0, row), part(1, row), part(2, row), part(3, row)});
     }
     for (int i = 0; i < kFamilies; ++i) {
       const Family& family = families_[static_cast<std::size_t>(i)];
       const Index width = family.analysis.cols();
-      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums.data(),
+      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums.get(),
                     width);
       for (Index row = 0; row < count; ++row) {
         double* to = amplitudes + (first + row) * n_modes() + family.first_mode;
-        for (Index j = 0; j < family.n_modes; ++j) to[2 * j] = sums[static_cast<std::size_t>(row * width + j)];
+        for (Index j = 0; j < family.n_modes; ++j) to[2 * j] = sums[row * width + j];
       }
     }
   }

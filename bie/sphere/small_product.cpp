@@ -1,5 +1,6 @@
 #include "bie/sphere/small_product.hpp"
 
+#include <array>
 #include <utility>
 
 namespace vehd {
@@ -54,18 +55,24 @@ void block(Index inner, const Factor& a, const double* b, Index b_stride, double
   }
 }
 
-/// All rows of a few columns, in blocks of nearly equal height.
+/// As many as fill registers, and of what is left the larger half, so that none stands alone: no division, which takes
+/// as long as a small block.
+template <int kMost>
+Index next_share(Index left) {
+  return left >= 2 * kMost ? kMost : left > kMost ? (left + 1) / 2 : left;
+}
+
+/// All rows of a few columns.
 template <int kWidth, int kPieces>
 void panel(Index rows, Index inner, Factor a, const double* b, Index b_stride, double* c, Index c_stride) {
-  const Index n_blocks = (rows + kMostRows - 1) / kMostRows;
-  for (Index i = 0, done = 0; i < n_blocks; ++i) {
-    const Index height = rows * (i + 1) / n_blocks - done;
-    [&]<int... kHeights>(std::integer_sequence<int, kHeights...>) {
-      ((height == kHeights + 1 ? block<kWidth, kHeights + 1, kPieces>(inner, a, b, b_stride, c, c_stride) : void()),
-       ...);
-    }
-    (std::make_integer_sequence<int, kMostRows>());
-    done += height;
+  constexpr auto blocks = []<int... kHeights>(std::integer_sequence<int, kHeights...>) {
+    return std::array{&block<kWidth, kHeights + 1, kPieces>...};
+  }
+  (std::make_integer_sequence<int, kMostRows>());
+  for (Index left = rows; left > 0;) {
+    const Index height = next_share<kMostRows>(left);
+    blocks[static_cast<std::size_t>(height - 1)](inner, a, b, b_stride, c, c_stride);
+    left -= height;
     a.data += height * a.row_stride;
     c += height * c_stride;
   }
@@ -73,12 +80,13 @@ void panel(Index rows, Index inner, Factor a, const double* b, Index b_stride, d
 
 }  // namespace
 
+Index whole_registers(Index count) { return (count + kWide - 1) / kWide * kWide; }
+
 void small_product(Index rows, Index inner, Index columns, const Factor& a, const double* b, Index b_stride, double* c,
                    Index c_stride) {
   const Index pieces = columns / kWide;
-  const Index n_panels = (pieces + kMostPieces - 1) / kMostPieces;
-  for (Index i = 0, done = 0; i < n_panels; ++i) {
-    const Index width = pieces * (i + 1) / n_panels - done;
+  for (Index done = 0; done < pieces;) {
+    const Index width = next_share<kMostPieces>(pieces - done);
     const double* from = b + done * kWide;
     double* to = c + done * kWide;
     switch (width) {

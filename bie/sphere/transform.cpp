@@ -1,6 +1,7 @@
 #include "bie/sphere/transform.hpp"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "bie/sphere/fourier.hpp"
@@ -32,8 +33,7 @@ struct SphereTransform::Tables {
   SphereGrid grid;
   FourierSums fourier;
   Index n_half;  ///< latitudes of a hemisphere, the equator among them
-  Index width;   ///< as many, filled up
-  /// Per m and parity of n + m the values of value, d1, d2, d11, d12, d22 side by side: [degrees x 6 width].
+  /// Per m and parity of n + m the values of value, d1, d2, d11, d12, d22 side by side: [degrees x 6 n_half filled up].
   std::vector<std::array<RowMatrix, 2>> synthesis;
   /// Likewise the value times Gauss weight and φ spacing: [n_half x degrees filled up].
   std::vector<std::array<RowMatrix, 2>> analysis;
@@ -44,7 +44,6 @@ struct SphereTransform::Tables {
         grid(std::move(grid_)),
         fourier(grid.n_phi, azimuthal_order),
         n_half((grid.n_theta + 1) / 2),
-        width(filled_up(n_half)),
         synthesis(azimuthal_order + 1),
         analysis(azimuthal_order + 1) {
     const LegendreTables legendre = legendre_tables(order, grid.theta.head(n_half));
@@ -57,13 +56,13 @@ struct SphereTransform::Tables {
         const Index count = n_degrees(m, parity);
         RowMatrix& table = synthesis[m][parity];
         RowMatrix& adjoint = analysis[m][parity];
-        table = RowMatrix::Zero(count, kKinds * width);
-        adjoint = RowMatrix::Zero(n_half, filled_up(count));
+        table = RowMatrix::Zero(count, whole_registers(kKinds * n_half));
+        adjoint = RowMatrix::Zero(n_half, whole_registers(count));
         for (Index i = 0; i < count; ++i) {
           const Index column = parity + 2 * i;
           const double n = static_cast<double>(m + column);
           const auto put = [&](int kind, const Vector& values) {
-            table.row(i).segment(kind * width, n_half) = values.transpose();
+            table.row(i).segment(kind * n_half, n_half) = values.transpose();
           };
           const Vector value = legendre.value[m].col(column), d11 = legendre.d2_theta[m].col(column);
           put(0, value);
@@ -86,8 +85,15 @@ struct SphereTransform::Tables {
   [[nodiscard]] Matrix analyze(const Matrix& values) const;
 
  private:
+  /// Of the sums over degrees of all fields; memory is asked for once.
+  struct DegreeSums {
+    Index width;  ///< of a row of `of_parity`, filled up
+    std::unique_ptr<double[]> gathered;
+    std::array<std::unique_ptr<double[]>, 2> of_parity;
+  };
+  [[nodiscard]] DegreeSums degree_sums(Index n_fields, int kinds) const;
   /// Amplitudes of the modes of one m along all latitudes.
-  void sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const;
+  void sum_degrees(const Matrix& coefficients, int kinds, int m, DegreeSums& sums, RowMatrix& amplitudes) const;
   /// Amplitudes of fields on northern latitudes plus, in the second, minus those of their images beyond the equator:
   /// rows are cosines of all fields, then sines, of one m behind the other.
   using Folded = std::array<RowMatrix, 2>;
@@ -97,21 +103,31 @@ struct SphereTransform::Tables {
   void find_degrees(const Folded& folded, int m, Matrix& coefficients) const;
 };
 
-void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const {
+SphereTransform::Tables::DegreeSums SphereTransform::Tables::degree_sums(Index n_fields, int kinds) const {
+  const Index width = whole_registers(kinds * n_half), rows = 2 * n_fields;
+  const auto sums = [&] { return std::make_unique_for_overwrite<double[]>(rows * width); };
+  return {width, std::make_unique_for_overwrite<double[]>(rows * (order / 2 + 1)), {sums(), sums()}};
+}
+
+void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds, int m, DegreeSums& sums,
+                                          RowMatrix& amplitudes) const {
   const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
   const Index rows = (m == 0 ? 1 : 2) * n_fields;  // cosines of all fields, then sines
-  std::array<RowMatrix, 2> sums;
   for (const int parity : {0, 1}) {
     const Index count = n_degrees(m, parity);
-    RowMatrix gathered(rows, count);
-    for (Index i = 0; i < count; ++i) {
-      const int n = m + parity + 2 * static_cast<int>(i);
-      gathered.col(i).head(n_fields) = coefficients.row(coefficient_index(n, m)).transpose();
-      if (m > 0) gathered.col(i).tail(n_fields) = coefficients.row(coefficient_index(n, -m)).transpose();
+    double* gathered = sums.gathered.get();
+    for (Index field = 0; field < n_fields; ++field) {
+      const double* from = coefficients.col(field).data();
+      double *cosine = gathered + field * count, *sine = gathered + (n_fields + field) * count;
+      for (Index i = 0; i < count; ++i) {
+        const int n = m + parity + 2 * static_cast<int>(i);
+        cosine[i] = from[coefficient_index(n, m)];
+        if (m > 0) sine[i] = from[coefficient_index(n, -m)];
+      }
     }
-    sums[parity].resize(rows, kinds * width);
-    small_product(rows, count, kinds * width, {gathered.data(), count, 1}, synthesis[m][parity].data(), kKinds * width,
-                  sums[parity].data(), kinds * width);
+    const RowMatrix& table = synthesis[m][parity];
+    small_product(rows, count, sums.width, {gathered, count, 1}, table.data(), table.cols(),
+                  sums.of_parity[parity].get(), sums.width);
   }
   for (Index row = 0; row < rows; ++row) {
     const Index field = row % n_fields;
@@ -121,8 +137,8 @@ void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds,
       const bool into_sine = sine != kPhiDerivative[kind] && m > 0;
       const double sign = kPhiDerivative[kind] && !sine ? -1.0 : 1.0;
       const double south_sign = kThetaDerivative[kind] ? -sign : sign;
-      const double* even = sums[0].row(row).data() + kind * width;
-      const double* odd = sums[1].row(row).data() + kind * width;
+      const double* even = sums.of_parity[0].get() + row * sums.width + kind * n_half;
+      const double* odd = sums.of_parity[1].get() + row * sums.width + kind * n_half;
       double* north = amplitudes.row(into_sine ? fourier.sine_mode(m) : fourier.cosine_mode(m)).data() +
                       (kind * n_fields + field) * n_theta;
       double* south = north + n_theta - 1;
@@ -135,7 +151,9 @@ void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds,
 std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int kinds) const {
   require_size("coefficient array", coefficients.rows(), n_coefficients(order));
   const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
-  std::vector<Matrix> values(kinds, Matrix(grid.n_points(), n_fields));
+  std::vector<Matrix> values;
+  values.reserve(static_cast<std::size_t>(kinds));
+  for (int kind = 0; kind < kinds; ++kind) values.emplace_back(grid.n_points(), n_fields);
   // Columns: kinds, fields, latitudes.
   RowMatrix amplitudes(fourier.n_modes(), kinds * n_fields * n_theta);
   const auto sum_orders = [&](Index i) {
@@ -144,14 +162,16 @@ std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int
   };
   // Even a team of one makes system calls: small transforms stay out of OpenMP altogether.
   if (!is_parallel(kinds * n_fields * grid.n_points())) {
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, amplitudes);
+    DegreeSums sums = degree_sums(n_fields, kinds);
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, sums, amplitudes);
     for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
     return values;
   }
 #pragma omp parallel
   {
+    DegreeSums sums = degree_sums(n_fields, kinds);
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, amplitudes);
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, sums, amplitudes);
 #pragma omp for schedule(static)
     for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
   }
