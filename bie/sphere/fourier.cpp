@@ -34,6 +34,17 @@ constexpr int kMostByProducts = 128;
 constexpr int kMostByProducts = 32;
 #endif
 
+/// So many numbers that are read by nobody else. Rows are summed so often that asking for memory shows.
+double* of_this_thread(Index count) {
+  thread_local std::unique_ptr<double[]> numbers;
+  thread_local Index n_numbers = 0;
+  if (count > n_numbers) {
+    numbers = std::make_unique_for_overwrite<double[]>(count);
+    n_numbers = count;
+  }
+  return numbers.get();
+}
+
 using Longitudes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
 
 Longitudes longitudes(const double* at) {
@@ -90,25 +101,23 @@ void FourierSums::unfold(const std::array<const double*, kFamilies>& parts, doub
   }
   // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
   const Index last = n_quarter_ - kLanes;
-  const auto sums = [&](Index k) {
-    struct Sums {
-      Longitudes cosines, opposite_cosines, sines, opposite_sines;
-    };
-    const Longitudes c = longitudes(ce + k), d = longitudes(co + k), s = longitudes(se + k), t = longitudes(so + k);
-    return Sums{c + d, c - d, s + t, s - t};
-  };
   const auto put = [](double* to, const Longitudes& lanes) { std::memcpy(to, &lanes, sizeof lanes); };
   for (Index k = 0; k < n_quarter_; k += kLanes) {
     const Index at = std::min(k, last);
-    const auto of = sums(at);
-    put(here + at, of.cosines + of.sines);
-    put(opposite + at, of.opposite_cosines + of.opposite_sines);
-  }
-  for (Index k = 1; k < n_quarter_; k += kLanes) {
-    const Index at = std::min(k, last);
-    const auto of = sums(at);
-    put(opposite - at - (kLanes - 1), reversed(of.opposite_cosines - of.opposite_sines));
-    put(below - at - (kLanes - 1), reversed(of.cosines - of.sines));
+    const Longitudes c = longitudes(ce + at), d = longitudes(co + at);
+    const Longitudes s = longitudes(se + at), t = longitudes(so + at);
+    const Longitudes cosines = c + d, opposite_cosines = c - d, sines = s + t, opposite_sines = s - t;
+    put(here + at, cosines + sines);
+    put(opposite + at, opposite_cosines + opposite_sines);
+    // Sines of 0 are 0, so that φ = π gets the same value twice; φ = 2π is beyond the row.
+    put(opposite - at - (kLanes - 1), reversed(opposite_cosines - opposite_sines));
+    const Longitudes mirrored = reversed(cosines - sines);
+    double* to = below - at - (kLanes - 1);
+    if (at == 0) {
+      std::memcpy(to, &mirrored, sizeof mirrored - sizeof(double));
+    } else {
+      put(to, mirrored);
+    }
   }
 }
 
@@ -149,8 +158,8 @@ void FourierSums::synthesize(Index rows, const double* amplitudes, Index stride,
   }
   if (fast_) return fast_->synthesize(rows, amplitudes, stride, values);
   const Index width = whole_registers(n_quarter_);
-  const auto buffer = std::make_unique_for_overwrite<double[]>(kFamilies * kMostTogether * width);
-  const auto part = [&](int family, Index row) { return buffer.get() + (family * kMostTogether + row) * width; };
+  double* buffer = of_this_thread(kFamilies * kMostTogether * width);
+  const auto part = [&](int family, Index row) { return buffer + (family * kMostTogether + row) * width; };
   for (Index first = 0, count = 0; first < rows; first += count) {
     count = next_rows(rows - first);
     for (int i = 0; i < kFamilies; ++i) {
@@ -174,9 +183,10 @@ void FourierSums::analyze(Index rows, const double* values, double* amplitudes) 
     return;
   }
   if (fast_) return fast_->analyze(rows, values, amplitudes);
-  const auto buffer = std::make_unique_for_overwrite<double[]>(kFamilies * kMostTogether * n_quarter_);
-  const auto sums = std::make_unique_for_overwrite<double[]>(kMostTogether * whole_registers(order_ / 2 + 1));
-  const auto part = [&](int family, Index row) { return buffer.get() + (family * kMostTogether + row) * n_quarter_; };
+  const Index n_parts = kFamilies * kMostTogether * n_quarter_;
+  double* buffer = of_this_thread(n_parts + kMostTogether * whole_registers(order_ / 2 + 1));
+  double* sums = buffer + n_parts;
+  const auto part = [&](int family, Index row) { return buffer + (family * kMostTogether + row) * n_quarter_; };
   for (Index first = 0, count = 0; first < rows; first += count) {
     count = next_rows(rows - first);
     for (Index row = 0; row < count; ++row) {
@@ -185,8 +195,7 @@ void FourierSums::analyze(Index rows, const double* values, double* amplitudes) 
     for (int i = 0; i < kFamilies; ++i) {
       const Family& family = families_[static_cast<std::size_t>(i)];
       const Index width = family.analysis.cols();
-      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums.get(),
-                    width);
+      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums, width);
       for (Index row = 0; row < count; ++row) {
         double* to = amplitudes + (first + row) * n_modes() + family.first_mode;
         for (Index j = 0; j < family.n_modes; ++j) to[2 * j] = sums[row * width + j];

@@ -32,13 +32,12 @@ struct Register {
 };
 
 template <int kWidth, int kRows, int kPieces>
-void block(Index inner, const Factor& a, const double* b, Index b_stride, double* c, Index c_stride) {
+void block(const double* entry, Index row_stride, Index column_stride, Index inner, const double* b, Index b_stride,
+           double* c, Index c_stride) {
   using Values = typename Register<kWidth>::Values;
   using Anywhere = typename Register<kWidth>::Anywhere;
   Values sum[kRows][kPieces] = {};
-  const double* entry = a.data;
-  const Index row_stride = a.row_stride;
-  for (Index k = 0; k < inner; ++k, entry += a.column_stride, b += b_stride) {
+  for (Index k = 0; k < inner; ++k, entry += column_stride, b += b_stride) {
     Values piece[kPieces];
 #pragma GCC unroll 3
     for (int i = 0; i < kPieces; ++i) piece[i] = *reinterpret_cast<const Anywhere*>(b + i * kWidth);
@@ -64,16 +63,17 @@ Index next_share(Index left) {
 
 /// All rows of a few columns.
 template <int kWidth, int kPieces>
-void panel(Index rows, Index inner, Factor a, const double* b, Index b_stride, double* c, Index c_stride) {
-  constexpr auto blocks = []<int... kHeights>(std::integer_sequence<int, kHeights...>) {
+void panel(Index rows, Index inner, const Factor& a, const double* b, Index b_stride, double* c, Index c_stride) {
+  static constexpr auto blocks = []<int... kHeights>(std::integer_sequence<int, kHeights...>) {
     return std::array{&block<kWidth, kHeights + 1, kPieces>...};
   }
   (std::make_integer_sequence<int, kMostRows>());
+  const double* entry = a.data;
   for (Index left = rows; left > 0;) {
     const Index height = next_share<kMostRows>(left);
-    blocks[static_cast<std::size_t>(height - 1)](inner, a, b, b_stride, c, c_stride);
+    blocks[static_cast<std::size_t>(height - 1)](entry, a.row_stride, a.column_stride, inner, b, b_stride, c, c_stride);
     left -= height;
-    a.data += height * a.row_stride;
+    entry += height * a.row_stride;
     c += height * c_stride;
   }
 }
