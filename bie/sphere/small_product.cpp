@@ -1,5 +1,6 @@
 #include "bie/sphere/small_product.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -80,7 +81,10 @@ void panel(Index rows, Index inner, const Factor& a, const double* b, Index b_st
 
 }  // namespace
 
-Index whole_registers(Index count) { return (count + kWide - 1) / kWide * kWide; }
+Index whole_registers(Index count) {
+  constexpr Index kWhole = std::max(kWide, kLanes);
+  return (count + kWhole - 1) / kWhole * kWhole;
+}
 
 void small_product(Index rows, Index inner, Index columns, const Factor& a, const double* b, Index b_stride, double* c,
                    Index c_stride) {
