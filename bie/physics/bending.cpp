@@ -28,8 +28,20 @@ double bending_energy_scaled(const Surface& surface) {
 }
 
 Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, const SphereDerivatives& displacement) {
-  const Matrix laplacian = surface_laplacian(membrane.surface, displacement);
-  const Vector h = 0.5 * laplacian.cwiseProduct(membrane.surface.normal).rowwise().sum();
+  const Surface& s = membrane.surface;
+  const SphereDerivatives& x = displacement;
+  Vector h(s.n_points());
+#pragma omp simd
+  for (Index i = 0; i < h.size(); ++i) {
+    double sum = 0.0;
+    for (Index c = 0; c < 3; ++c) {
+      // Δ_γ as in surface_laplacian.
+      const double laplacian = s.g11[i] * x.d11(i, c) + 2.0 * (s.g12[i] * x.d12(i, c)) + s.g22[i] * x.d22(i, c) -
+                               s.laplace_1[i] * x.d1(i, c) - s.laplace_2[i] * x.d2(i, c);
+      sum += laplacian * s.normal(i, c);
+    }
+    h[i] = 0.5 * sum;
+  }
   return to.analyze(h);
 }
 

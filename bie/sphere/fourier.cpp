@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <numbers>
 
 #include "bie/sphere/small_product.hpp"
@@ -19,8 +20,12 @@ namespace {
 
 /// Longitudes of axisymmetric fields, where sines and cosines are 0 and ±1.
 constexpr int kQuarterTurns = 4;
-/// Rows whose parts stay in the first-level cache.
+/// Rows whose parts stay in the first-level cache. A few more stay with them: grids have one latitude more than their
+/// degree says, and alone it would take as long as eight.
 constexpr Index kRowsTogether = 16;
+constexpr Index kMostTogether = kRowsTogether + kRowsTogether / 2;
+
+Index next_rows(Index left) { return left > kMostTogether ? kRowsTogether : left; }
 /// Up to this order products take less than fast transforms: measured without AVX, and with it at all degrees up to 64,
 /// where they take half as long (docs/performance.md).
 #ifdef __AVX__
@@ -28,6 +33,17 @@ constexpr int kMostByProducts = 128;
 #else
 constexpr int kMostByProducts = 32;
 #endif
+
+/// So many numbers that are read by nobody else. Rows are summed so often that asking for memory shows.
+double* of_this_thread(Index count) {
+  thread_local std::unique_ptr<double[]> numbers;
+  thread_local Index n_numbers = 0;
+  if (count > n_numbers) {
+    numbers = std::make_unique_for_overwrite<double[]>(count);
+    n_numbers = count;
+  }
+  return numbers.get();
+}
 
 using Longitudes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
 
@@ -54,8 +70,8 @@ FourierSums::FourierSums(int n_phi, int order) : n_phi_(n_phi), order_(order), n
     const int first = sine && parity == 0 ? 2 : parity;  // sin 0φ takes no part
     family.first_mode = sine ? sine_mode(first) : cosine_mode(first);
     family.n_modes = first > order ? 0 : (order - first) / 2 + 1;
-    family.synthesis = RowMatrix::Zero(family.n_modes, filled_up(n_quarter_));
-    family.analysis = RowMatrix::Zero(n_quarter_, filled_up(family.n_modes));
+    family.synthesis = RowMatrix::Zero(family.n_modes, whole_registers(n_quarter_));
+    family.analysis = RowMatrix::Zero(n_quarter_, whole_registers(family.n_modes));
     for (Index j = 0; j < family.n_modes; ++j) {
       const auto m = first + 2 * static_cast<int>(j);
       for (Index k = 0; k < n_quarter_; ++k) {
@@ -85,25 +101,23 @@ void FourierSums::unfold(const std::array<const double*, kFamilies>& parts, doub
   }
   // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
   const Index last = n_quarter_ - kLanes;
-  const auto sums = [&](Index k) {
-    struct Sums {
-      Longitudes cosines, opposite_cosines, sines, opposite_sines;
-    };
-    const Longitudes c = longitudes(ce + k), d = longitudes(co + k), s = longitudes(se + k), t = longitudes(so + k);
-    return Sums{c + d, c - d, s + t, s - t};
-  };
   const auto put = [](double* to, const Longitudes& lanes) { std::memcpy(to, &lanes, sizeof lanes); };
   for (Index k = 0; k < n_quarter_; k += kLanes) {
     const Index at = std::min(k, last);
-    const auto of = sums(at);
-    put(here + at, of.cosines + of.sines);
-    put(opposite + at, of.opposite_cosines + of.opposite_sines);
-  }
-  for (Index k = 1; k < n_quarter_; k += kLanes) {
-    const Index at = std::min(k, last);
-    const auto of = sums(at);
-    put(opposite - at - (kLanes - 1), reversed(of.opposite_cosines - of.opposite_sines));
-    put(below - at - (kLanes - 1), reversed(of.cosines - of.sines));
+    const Longitudes c = longitudes(ce + at), d = longitudes(co + at);
+    const Longitudes s = longitudes(se + at), t = longitudes(so + at);
+    const Longitudes cosines = c + d, opposite_cosines = c - d, sines = s + t, opposite_sines = s - t;
+    put(here + at, cosines + sines);
+    put(opposite + at, opposite_cosines + opposite_sines);
+    // Sines of 0 are 0, so that φ = π gets the same value twice; φ = 2π is beyond the row.
+    put(opposite - at - (kLanes - 1), reversed(opposite_cosines - opposite_sines));
+    const Longitudes mirrored = reversed(cosines - sines);
+    double* to = below - at - (kLanes - 1);
+    if (at == 0) {
+      std::memcpy(to, &mirrored, sizeof mirrored - sizeof(double));
+    } else {
+      put(to, mirrored);
+    }
   }
 }
 
@@ -143,11 +157,11 @@ void FourierSums::synthesize(Index rows, const double* amplitudes, Index stride,
     return;
   }
   if (fast_) return fast_->synthesize(rows, amplitudes, stride, values);
-  const Index width = filled_up(n_quarter_);
-  std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * width));
-  const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * width; };
-  for (Index first = 0; first < rows; first += kRowsTogether) {
-    const Index count = std::min(kRowsTogether, rows - first);
+  const Index width = whole_registers(n_quarter_);
+  double* buffer = of_this_thread(kFamilies * kMostTogether * width);
+  const auto part = [&](int family, Index row) { return buffer + (family * kMostTogether + row) * width; };
+  for (Index first = 0, count = 0; first < rows; first += count) {
+    count = next_rows(rows - first);
     for (int i = 0; i < kFamilies; ++i) {
       const Family& family = families_[static_cast<std::size_t>(i)];
       small_product(count, family.n_modes, width, {amplitudes + family.first_mode * stride + first, 1, 2 * stride},
@@ -169,22 +183,22 @@ void FourierSums::analyze(Index rows, const double* values, double* amplitudes) 
     return;
   }
   if (fast_) return fast_->analyze(rows, values, amplitudes);
-  std::vector<double> buffer(static_cast<std::size_t>(kFamilies * kRowsTogether * n_quarter_));
-  std::vector<double> sums(static_cast<std::size_t>(kRowsTogether * filled_up(order_ / 2 + 1)));
-  const auto part = [&](int family, Index row) { return buffer.data() + (family * kRowsTogether + row) * n_quarter_; };
-  for (Index first = 0; first < rows; first += kRowsTogether) {
-    const Index count = std::min(kRowsTogether, rows - first);
+  const Index n_parts = kFamilies * kMostTogether * n_quarter_;
+  double* buffer = of_this_thread(n_parts + kMostTogether * whole_registers(order_ / 2 + 1));
+  double* sums = buffer + n_parts;
+  const auto part = [&](int family, Index row) { return buffer + (family * kMostTogether + row) * n_quarter_; };
+  for (Index first = 0, count = 0; first < rows; first += count) {
+    count = next_rows(rows - first);
     for (Index row = 0; row < count; ++row) {
       fold(values + (first + row) * n_phi_, {part(0, row), part(1, row), part(2, row), part(3, row)});
     }
     for (int i = 0; i < kFamilies; ++i) {
       const Family& family = families_[static_cast<std::size_t>(i)];
       const Index width = family.analysis.cols();
-      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums.data(),
-                    width);
+      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums, width);
       for (Index row = 0; row < count; ++row) {
         double* to = amplitudes + (first + row) * n_modes() + family.first_mode;
-        for (Index j = 0; j < family.n_modes; ++j) to[2 * j] = sums[static_cast<std::size_t>(row * width + j)];
+        for (Index j = 0; j < family.n_modes; ++j) to[2 * j] = sums[row * width + j];
       }
     }
   }

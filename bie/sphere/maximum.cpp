@@ -80,7 +80,8 @@ Top top_of(const SphereGrid& grid, const SphereDerivatives& nodes, Index column,
   for (Index node = 0; node < grid.n_points(); ++node) {
     const double value = sign * nodes.value(node, column);
     // Along either axis a parabola gains less than its slope does within reach.
-    const double gain = std::numbers::sqrt2 * std::hypot(nodes.d1(node, column), nodes.d2(node, column)) * reach;
+    const double d1 = nodes.d1(node, column), d2 = nodes.d2(node, column);
+    const double gain = std::numbers::sqrt2 * std::sqrt(d1 * d1 + d2 * d2) * reach;
     if (node == largest || value + gain < most) continue;
     if (const Climb next = climb_from(node); next.near) promises.emplace_back(value + next.gain, node);
   }

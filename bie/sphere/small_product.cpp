@@ -1,5 +1,7 @@
 #include "bie/sphere/small_product.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace vehd {
@@ -31,13 +33,12 @@ struct Register {
 };
 
 template <int kWidth, int kRows, int kPieces>
-void block(Index inner, const Factor& a, const double* b, Index b_stride, double* c, Index c_stride) {
+void block(const double* entry, Index row_stride, Index column_stride, Index inner, const double* b, Index b_stride,
+           double* c, Index c_stride) {
   using Values = typename Register<kWidth>::Values;
   using Anywhere = typename Register<kWidth>::Anywhere;
   Values sum[kRows][kPieces] = {};
-  const double* entry = a.data;
-  const Index row_stride = a.row_stride;
-  for (Index k = 0; k < inner; ++k, entry += a.column_stride, b += b_stride) {
+  for (Index k = 0; k < inner; ++k, entry += column_stride, b += b_stride) {
     Values piece[kPieces];
 #pragma GCC unroll 3
     for (int i = 0; i < kPieces; ++i) piece[i] = *reinterpret_cast<const Anywhere*>(b + i * kWidth);
@@ -54,31 +55,42 @@ void block(Index inner, const Factor& a, const double* b, Index b_stride, double
   }
 }
 
-/// All rows of a few columns, in blocks of nearly equal height.
+/// As many as fill registers, and of what is left the larger half, so that none stands alone: no division, which takes
+/// as long as a small block.
+template <int kMost>
+Index next_share(Index left) {
+  return left >= 2 * kMost ? kMost : left > kMost ? (left + 1) / 2 : left;
+}
+
+/// All rows of a few columns.
 template <int kWidth, int kPieces>
-void panel(Index rows, Index inner, Factor a, const double* b, Index b_stride, double* c, Index c_stride) {
-  const Index n_blocks = (rows + kMostRows - 1) / kMostRows;
-  for (Index i = 0, done = 0; i < n_blocks; ++i) {
-    const Index height = rows * (i + 1) / n_blocks - done;
-    [&]<int... kHeights>(std::integer_sequence<int, kHeights...>) {
-      ((height == kHeights + 1 ? block<kWidth, kHeights + 1, kPieces>(inner, a, b, b_stride, c, c_stride) : void()),
-       ...);
-    }
-    (std::make_integer_sequence<int, kMostRows>());
-    done += height;
-    a.data += height * a.row_stride;
+void panel(Index rows, Index inner, const Factor& a, const double* b, Index b_stride, double* c, Index c_stride) {
+  static constexpr auto blocks = []<int... kHeights>(std::integer_sequence<int, kHeights...>) {
+    return std::array{&block<kWidth, kHeights + 1, kPieces>...};
+  }
+  (std::make_integer_sequence<int, kMostRows>());
+  const double* entry = a.data;
+  for (Index left = rows; left > 0;) {
+    const Index height = next_share<kMostRows>(left);
+    blocks[static_cast<std::size_t>(height - 1)](entry, a.row_stride, a.column_stride, inner, b, b_stride, c, c_stride);
+    left -= height;
+    entry += height * a.row_stride;
     c += height * c_stride;
   }
 }
 
 }  // namespace
 
+Index whole_registers(Index count) {
+  constexpr Index kWhole = std::max(kWide, kLanes);
+  return (count + kWhole - 1) / kWhole * kWhole;
+}
+
 void small_product(Index rows, Index inner, Index columns, const Factor& a, const double* b, Index b_stride, double* c,
                    Index c_stride) {
   const Index pieces = columns / kWide;
-  const Index n_panels = (pieces + kMostPieces - 1) / kMostPieces;
-  for (Index i = 0, done = 0; i < n_panels; ++i) {
-    const Index width = pieces * (i + 1) / n_panels - done;
+  for (Index done = 0; done < pieces;) {
+    const Index width = next_share<kMostPieces>(pieces - done);
     const double* from = b + done * kWide;
     double* to = c + done * kWide;
     switch (width) {

@@ -11,6 +11,10 @@ constexpr int kLanes = 4;
 /// The least multiple of it that is not below a count.
 constexpr Index filled_up(Index count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
+/// The least multiple of what a register of this processor holds that is not below a count: of so many columns none is
+/// left to narrower registers.
+Index whole_registers(Index count);
+
 /// A factor whose entry (i, k) is at data[i * row_stride + k * column_stride]: a table, a part of it, or its transpose.
 struct Factor {
   const double* data;

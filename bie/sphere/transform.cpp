@@ -1,6 +1,7 @@
 #include "bie/sphere/transform.hpp"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "bie/sphere/fourier.hpp"
@@ -19,6 +20,12 @@ constexpr int kKinds = 6;
 constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, true, false};
 constexpr std::array<bool, kKinds> kThetaDerivative{false, true, false, false, true, false};
 
+/// Some of them: all from one to before another.
+struct Kinds {
+  int first, end;
+  [[nodiscard]] int count() const { return end - first; }
+};
+
 /// Grid values below which waking a second thread costs more than it saves.
 constexpr Index kParallelValues = 60000;
 
@@ -32,8 +39,8 @@ struct SphereTransform::Tables {
   SphereGrid grid;
   FourierSums fourier;
   Index n_half;  ///< latitudes of a hemisphere, the equator among them
-  Index width;   ///< as many, filled up
-  /// Per m and parity of n + m the values of value, d1, d2, d11, d12, d22 side by side: [degrees x 6 width].
+  /// Per m and parity of n + m the values of value, d1, d2, d11, d12, d22 side by side: [degrees x 6 n_half], with so
+  /// many zeros behind them that kinds from any on fill registers.
   std::vector<std::array<RowMatrix, 2>> synthesis;
   /// Likewise the value times Gauss weight and φ spacing: [n_half x degrees filled up].
   std::vector<std::array<RowMatrix, 2>> analysis;
@@ -44,7 +51,6 @@ struct SphereTransform::Tables {
         grid(std::move(grid_)),
         fourier(grid.n_phi, azimuthal_order),
         n_half((grid.n_theta + 1) / 2),
-        width(filled_up(n_half)),
         synthesis(azimuthal_order + 1),
         analysis(azimuthal_order + 1) {
     const LegendreTables legendre = legendre_tables(order, grid.theta.head(n_half));
@@ -57,13 +63,13 @@ struct SphereTransform::Tables {
         const Index count = n_degrees(m, parity);
         RowMatrix& table = synthesis[m][parity];
         RowMatrix& adjoint = analysis[m][parity];
-        table = RowMatrix::Zero(count, kKinds * width);
-        adjoint = RowMatrix::Zero(n_half, filled_up(count));
+        table = RowMatrix::Zero(count, whole_registers(kKinds * n_half) + whole_registers(1));
+        adjoint = RowMatrix::Zero(n_half, whole_registers(count));
         for (Index i = 0; i < count; ++i) {
           const Index column = parity + 2 * i;
           const double n = static_cast<double>(m + column);
           const auto put = [&](int kind, const Vector& values) {
-            table.row(i).segment(kind * width, n_half) = values.transpose();
+            table.row(i).segment(kind * n_half, n_half) = values.transpose();
           };
           const Vector value = legendre.value[m].col(column), d11 = legendre.d2_theta[m].col(column);
           put(0, value);
@@ -82,49 +88,68 @@ struct SphereTransform::Tables {
   /// Degrees m + parity, m + parity + 2, … up to the order.
   [[nodiscard]] Index n_degrees(int m, int parity) const { return (order - m - parity + 2) / 2; }
   [[nodiscard]] bool is_parallel(Index n_values) const { return n_values > kParallelValues; }
-  [[nodiscard]] std::vector<Matrix> run(const Matrix& coefficients, int kinds) const;
+  [[nodiscard]] std::vector<Matrix> run(const Matrix& coefficients, const Kinds& kinds) const;
   [[nodiscard]] Matrix analyze(const Matrix& values) const;
 
  private:
+  /// Of the sums over degrees of all fields; memory is asked for once.
+  struct DegreeSums {
+    Index width;  ///< of a row of `of_parity`, filled up
+    std::unique_ptr<double[]> gathered;
+    std::array<std::unique_ptr<double[]>, 2> of_parity;
+  };
+  [[nodiscard]] DegreeSums degree_sums(Index n_fields, const Kinds& kinds) const;
   /// Amplitudes of the modes of one m along all latitudes.
-  void sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const;
+  void sum_degrees(const Matrix& coefficients, const Kinds& kinds, int m, DegreeSums& sums,
+                   RowMatrix& amplitudes) const;
   /// Amplitudes of fields on northern latitudes plus, in the second, minus those of their images beyond the equator:
   /// rows are cosines of all fields, then sines, of one m behind the other.
   using Folded = std::array<RowMatrix, 2>;
   /// Those of one field.
-  void find_orders(const double* values, Index field, Index n_fields, Folded& folded) const;
-  /// Coefficients of one m.
-  void find_degrees(const Folded& folded, int m, Matrix& coefficients) const;
+  void find_orders(const double* values, Index field, Index n_fields, RowMatrix& amplitudes, Folded& folded) const;
+  /// Coefficients of one m. @param sums  as many as they are, filled up
+  void find_degrees(const Folded& folded, int m, double* sums, Matrix& coefficients) const;
 };
 
-void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds, int m, RowMatrix& amplitudes) const {
+SphereTransform::Tables::DegreeSums SphereTransform::Tables::degree_sums(Index n_fields, const Kinds& kinds) const {
+  const Index width = whole_registers(kinds.count() * n_half), rows = 2 * n_fields;
+  const auto sums = [&] { return std::make_unique_for_overwrite<double[]>(rows * width); };
+  return {width, std::make_unique_for_overwrite<double[]>(rows * (order / 2 + 1)), {sums(), sums()}};
+}
+
+void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, const Kinds& kinds, int m, DegreeSums& sums,
+                                          RowMatrix& amplitudes) const {
   const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
   const Index rows = (m == 0 ? 1 : 2) * n_fields;  // cosines of all fields, then sines
-  std::array<RowMatrix, 2> sums;
   for (const int parity : {0, 1}) {
     const Index count = n_degrees(m, parity);
-    RowMatrix gathered(rows, count);
-    for (Index i = 0; i < count; ++i) {
-      const int n = m + parity + 2 * static_cast<int>(i);
-      gathered.col(i).head(n_fields) = coefficients.row(coefficient_index(n, m)).transpose();
-      if (m > 0) gathered.col(i).tail(n_fields) = coefficients.row(coefficient_index(n, -m)).transpose();
+    double* gathered = sums.gathered.get();
+    for (Index field = 0; field < n_fields; ++field) {
+      const double* from = coefficients.col(field).data();
+      double *cosine = gathered + field * count, *sine = gathered + (n_fields + field) * count;
+      for (Index i = 0; i < count; ++i) {
+        const int n = m + parity + 2 * static_cast<int>(i);
+        cosine[i] = from[coefficient_index(n, m)];
+        if (m > 0) sine[i] = from[coefficient_index(n, -m)];
+      }
     }
-    sums[parity].resize(rows, kinds * width);
-    small_product(rows, count, kinds * width, {gathered.data(), count, 1}, synthesis[m][parity].data(), kKinds * width,
-                  sums[parity].data(), kinds * width);
+    const RowMatrix& table = synthesis[m][parity];
+    small_product(rows, count, sums.width, {gathered, count, 1}, table.data() + kinds.first * n_half, table.cols(),
+                  sums.of_parity[parity].get(), sums.width);
   }
   for (Index row = 0; row < rows; ++row) {
     const Index field = row % n_fields;
     const bool sine = row >= n_fields;
-    for (int kind = 0; kind < kinds; ++kind) {
+    for (int kind = kinds.first; kind < kinds.end; ++kind) {
+      const Index place = kind - kinds.first;
       // ∂/∂φ takes cosines to minus sines, sines to cosines; of m = 0 it leaves nothing.
       const bool into_sine = sine != kPhiDerivative[kind] && m > 0;
       const double sign = kPhiDerivative[kind] && !sine ? -1.0 : 1.0;
       const double south_sign = kThetaDerivative[kind] ? -sign : sign;
-      const double* even = sums[0].row(row).data() + kind * width;
-      const double* odd = sums[1].row(row).data() + kind * width;
+      const double* even = sums.of_parity[0].get() + row * sums.width + place * n_half;
+      const double* odd = sums.of_parity[1].get() + row * sums.width + place * n_half;
       double* north = amplitudes.row(into_sine ? fourier.sine_mode(m) : fourier.cosine_mode(m)).data() +
-                      (kind * n_fields + field) * n_theta;
+                      (place * n_fields + field) * n_theta;
       double* south = north + n_theta - 1;
       for (Index i = 0; i < n_theta - n_half; ++i) south[-i] = south_sign * (even[i] - odd[i]);
       for (Index i = 0; i < n_half; ++i) north[i] = sign * (even[i] + odd[i]);
@@ -132,35 +157,40 @@ void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, int kinds,
   }
 }
 
-std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, int kinds) const {
+std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, const Kinds& kinds) const {
   require_size("coefficient array", coefficients.rows(), n_coefficients(order));
   const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
-  std::vector<Matrix> values(kinds, Matrix(grid.n_points(), n_fields));
+  std::vector<Matrix> values;
+  values.reserve(static_cast<std::size_t>(kinds.count()));
+  for (int kind = kinds.first; kind < kinds.end; ++kind) values.emplace_back(grid.n_points(), n_fields);
   // Columns: kinds, fields, latitudes.
-  RowMatrix amplitudes(fourier.n_modes(), kinds * n_fields * n_theta);
+  const Index n_all = kinds.count() * n_fields;
+  RowMatrix amplitudes(fourier.n_modes(), n_all * n_theta);
   const auto sum_orders = [&](Index i) {
     fourier.synthesize(n_theta, amplitudes.data() + i * n_theta, amplitudes.cols(),
                        values[i / n_fields].col(i % n_fields).data());
   };
   // Even a team of one makes system calls: small transforms stay out of OpenMP altogether.
-  if (!is_parallel(kinds * n_fields * grid.n_points())) {
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, amplitudes);
-    for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
+  if (!is_parallel(n_all * grid.n_points())) {
+    DegreeSums sums = degree_sums(n_fields, kinds);
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, sums, amplitudes);
+    for (Index i = 0; i < n_all; ++i) sum_orders(i);
     return values;
   }
 #pragma omp parallel
   {
+    DegreeSums sums = degree_sums(n_fields, kinds);
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, amplitudes);
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, sums, amplitudes);
 #pragma omp for schedule(static)
-    for (Index i = 0; i < kinds * n_fields; ++i) sum_orders(i);
+    for (Index i = 0; i < n_all; ++i) sum_orders(i);
   }
   return values;
 }
 
-void SphereTransform::Tables::find_orders(const double* values, Index field, Index n_fields, Folded& folded) const {
+void SphereTransform::Tables::find_orders(const double* values, Index field, Index n_fields, RowMatrix& amplitudes,
+                                          Folded& folded) const {
   const Index n_theta = grid.n_theta;
-  RowMatrix amplitudes(n_theta, fourier.n_modes());
   fourier.analyze(n_theta, values, amplitudes.data());
   for (int m = 0; m <= azimuthal_order; ++m) {
     for (const bool sine : {false, true}) {
@@ -181,18 +211,20 @@ void SphereTransform::Tables::find_orders(const double* values, Index field, Ind
   }
 }
 
-void SphereTransform::Tables::find_degrees(const Folded& folded, int m, Matrix& coefficients) const {
+void SphereTransform::Tables::find_degrees(const Folded& folded, int m, double* sums, Matrix& coefficients) const {
   const Index n_fields = coefficients.cols(), rows = (m == 0 ? 1 : 2) * n_fields;
-  RowMatrix sums;
   for (const int parity : {0, 1}) {
     const RowMatrix& table = analysis[m][parity];
-    sums.resize(rows, table.cols());
     small_product(rows, n_half, table.cols(), {folded[parity].row(2 * m * n_fields).data(), n_half, 1}, table.data(),
-                  table.cols(), sums.data(), table.cols());
-    for (Index i = 0; i < n_degrees(m, parity); ++i) {
-      const int n = m + parity + 2 * static_cast<int>(i);
-      coefficients.row(coefficient_index(n, m)) = sums.col(i).head(n_fields).transpose();
-      if (m > 0) coefficients.row(coefficient_index(n, -m)) = sums.col(i).tail(n_fields).transpose();
+                  table.cols(), sums, table.cols());
+    for (Index field = 0; field < n_fields; ++field) {
+      const double *cosine = sums + field * table.cols(), *sine = sums + (n_fields + field) * table.cols();
+      double* to = coefficients.col(field).data();
+      for (Index i = 0; i < n_degrees(m, parity); ++i) {
+        const int n = m + parity + 2 * static_cast<int>(i);
+        to[coefficient_index(n, m)] = cosine[i];
+        if (m > 0) to[coefficient_index(n, -m)] = sine[i];
+      }
     }
   }
 }
@@ -204,17 +236,25 @@ Matrix SphereTransform::Tables::analyze(const Matrix& values) const {
   if (azimuthal_order < order) coefficients.setZero();
   Folded folded;
   for (RowMatrix& of_parity : folded) of_parity.resize(2 * (azimuthal_order + 1) * n_fields, n_half);
+  const auto amplitudes_of_one = [&] { return RowMatrix(grid.n_theta, fourier.n_modes()); };
+  const auto sums_of_one = [&] {
+    return std::make_unique_for_overwrite<double[]>(2 * n_fields * whole_registers(order / 2 + 1));
+  };
   if (!is_parallel(values.size())) {
-    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, folded);
-    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, coefficients);
+    RowMatrix amplitudes = amplitudes_of_one();
+    const auto sums = sums_of_one();
+    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, amplitudes, folded);
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, sums.get(), coefficients);
     return coefficients;
   }
 #pragma omp parallel
   {
+    RowMatrix amplitudes = amplitudes_of_one();
+    const auto sums = sums_of_one();
 #pragma omp for schedule(static)
-    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, folded);
+    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, amplitudes, folded);
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, coefficients);
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, sums.get(), coefficients);
   }
   return coefficients;
 }
@@ -234,16 +274,26 @@ int SphereTransform::azimuthal_order() const { return tables_->azimuthal_order; 
 const SphereGrid& SphereTransform::grid() const { return tables_->grid; }
 
 Matrix SphereTransform::synthesize(const Matrix& coefficients) const {
-  return std::move(tables_->run(coefficients, 1)[0]);
+  return std::move(tables_->run(coefficients, {0, 1})[0]);
 }
 
 SphereDerivatives SphereTransform::synthesize_gradient(const Matrix& coefficients) const {
-  std::vector<Matrix> v = tables_->run(coefficients, 3);
+  std::vector<Matrix> v = tables_->run(coefficients, {0, 3});
   return {std::move(v[0]), std::move(v[1]), std::move(v[2]), {}, {}, {}};
 }
 
+SphereDerivatives SphereTransform::synthesize_first_derivatives(const Matrix& coefficients) const {
+  std::vector<Matrix> v = tables_->run(coefficients, {1, 3});
+  return {{}, std::move(v[0]), std::move(v[1]), {}, {}, {}};
+}
+
+SphereDerivatives SphereTransform::synthesize_derivatives(const Matrix& coefficients) const {
+  std::vector<Matrix> v = tables_->run(coefficients, {1, kKinds});
+  return {{}, std::move(v[0]), std::move(v[1]), std::move(v[2]), std::move(v[3]), std::move(v[4])};
+}
+
 SphereDerivatives SphereTransform::synthesize_hessian(const Matrix& coefficients) const {
-  std::vector<Matrix> v = tables_->run(coefficients, kKinds);
+  std::vector<Matrix> v = tables_->run(coefficients, {0, kKinds});
   return {std::move(v[0]), std::move(v[1]), std::move(v[2]), std::move(v[3]), std::move(v[4]), std::move(v[5])};
 }
 

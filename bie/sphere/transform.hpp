@@ -36,6 +36,10 @@ class SphereTransform {
   [[nodiscard]] Matrix synthesize(const Matrix& coefficients) const;
   /// Value and first derivatives only (d11, d12, d22 stay empty).
   [[nodiscard]] SphereDerivatives synthesize_gradient(const Matrix& coefficients) const;
+  /// First derivatives only.
+  [[nodiscard]] SphereDerivatives synthesize_first_derivatives(const Matrix& coefficients) const;
+  /// First and second derivatives without the value.
+  [[nodiscard]] SphereDerivatives synthesize_derivatives(const Matrix& coefficients) const;
   /// Value, first and second derivatives.
   [[nodiscard]] SphereDerivatives synthesize_hessian(const Matrix& coefficients) const;
   /// Coefficients of degree ≤ order by Gauss quadrature; exact for fields of degree ≤ 2 grid.order + 1 − order.

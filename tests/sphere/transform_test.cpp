@@ -73,6 +73,24 @@ BOOST_AUTO_TEST_CASE(derivatives_agree_with_central_differences_and_laplacian) {
   BOOST_TEST((d.d22.col(0).array() - (f_pp / sine.square() + cotangent * f_t)).abs().maxCoeff() < 1e-3);
 }
 
+BOOST_AUTO_TEST_CASE(some_derivatives_are_those_of_all_of_them) {
+  for (const int order : {4, 9, 16}) {
+    const SphereTransform transform(order, make_grid(2 * order));
+    const Matrix c = random_coefficients(order, 3, 11);
+    const SphereDerivatives all = transform.synthesize_hessian(c);
+    const SphereDerivatives without_value = transform.synthesize_derivatives(c);
+    BOOST_TEST(without_value.value.size() == 0);
+    for (Matrix SphereDerivatives::*kind : {&SphereDerivatives::d1, &SphereDerivatives::d2, &SphereDerivatives::d11,
+                                            &SphereDerivatives::d12, &SphereDerivatives::d22}) {
+      BOOST_TEST(max_difference(without_value.*kind, all.*kind) == 0.0);
+    }
+    const SphereDerivatives first = transform.synthesize_first_derivatives(c);
+    BOOST_TEST(first.value.size() + first.d11.size() == 0);
+    BOOST_TEST(max_difference(first.d1, all.d1) == 0.0);
+    BOOST_TEST(max_difference(first.d2, all.d2) == 0.0);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(azimuthal_order_leaves_higher_harmonics_out) {
   const int order = 9;
   const auto [theta, phi] = grid_angles(make_grid(7));

@@ -73,7 +73,7 @@ class Iteration {
         curvature_(Vector::Zero(n_coefficients(curvature.order()))) {
     motion_.material = start.fields;
     if (inextensible()) {
-      normal_divergence_ = weighted_divergence(context.membrane, fine().synthesize_gradient(normal_));
+      normal_divergence_ = weighted_divergence(context.membrane, fine().synthesize_first_derivatives(normal_));
     }
     if (bending()) mean_curvature_ = fine().analyze(context.membrane.surface.mean_curvature).norm();
   }
@@ -98,7 +98,8 @@ class Iteration {
     errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
     if (bending()) {
       rhs_.curvature =
-          dt_ * curvature_increment(membrane, curvature_transform_, fine().synthesize_hessian(velocity_)) - curvature_;
+          dt_ * curvature_increment(membrane, curvature_transform_, fine().synthesize_derivatives(velocity_)) -
+          curvature_;
       if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), thresholds::curvature_floor * mean_curvature_);
       errors_.curvature = rhs_.curvature.norm() / curvature_scale_;
     }

@@ -15,8 +15,9 @@
 namespace vehd {
 
 VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficients, bool hessian) {
+  const SphereTransform& fine = membrane.fine;
   return {coefficients,
-          hessian ? membrane.fine.synthesize_hessian(coefficients) : membrane.fine.synthesize_gradient(coefficients)};
+          hessian ? fine.synthesize_derivatives(coefficients) : fine.synthesize_first_derivatives(coefficients)};
 }
 
 Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membrane, const MembraneUnknowns& unknowns,

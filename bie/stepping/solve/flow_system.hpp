@@ -20,10 +20,10 @@ struct MembraneUnknowns {
   Vector tension;    ///< λ; empty unless inextensible
 };
 
-/// u with its derivatives on the upsampled grid.
+/// u with its derivatives on the upsampled grid, where nobody asks for its values.
 struct VelocityField {
   Matrix coefficients;
-  SphereDerivatives derivatives;  ///< Hessian only where bending needs it
+  SphereDerivatives derivatives;  ///< second ones only where bending needs them
 };
 
 /// A velocity given by its coefficients, [n_coefficients x 3], on the upsampled grid.
