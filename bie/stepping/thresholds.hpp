@@ -99,8 +99,8 @@ constexpr double moment_share = 0.25;
 /// From one derivative of the rates to the last but one after it, with the time over the step, no more than this is
 /// continued: what changes faster dies away within the step, which the rule and the sweeps see to. Measured.
 constexpr double largest_change_of_derivative = 1.0;
-/// Corrections that seem to contract more than this are not believed. Where a motion relaxes about once within a step its
-/// correction passes through zero in one sweep, and the next ones contract by 0.1 to 0.3.
+/// Corrections that seem to contract more than this are not believed. Where a motion relaxes about once within a step
+/// its correction passes through zero in one sweep, and the next ones contract by 0.1 to 0.3.
 constexpr double best_contraction = 0.1;
 /// Where tension or charge would have to contract more than this, and one sweep alone tells of them, they are solved
 /// for once more before a step is accepted. Measured.

@@ -81,7 +81,8 @@ BOOST_AUTO_TEST_CASE(rigid_motion_has_no_curvature_increment_beyond_the_turn_of_
   Matrix3 spin;
   spin << 0.0, -0.9, -0.5, 0.9, 0.0, -0.2, 0.5, 0.2, 0.0;
   const Matrix motion = translated(position * spin.transpose(), {1.0, -2.0, 0.5});
-  BOOST_TEST(curvature_increment(membrane, space.fine, space.fine.synthesize_hessian(motion)).cwiseAbs().maxCoeff() < 1e-12);
+  BOOST_TEST(curvature_increment(membrane, space.fine, space.fine.synthesize_hessian(motion)).cwiseAbs().maxCoeff() <
+             1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(linearised_force_of_the_present_curvature_is_the_force) {

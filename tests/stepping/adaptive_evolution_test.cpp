@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"

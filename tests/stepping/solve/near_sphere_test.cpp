@@ -68,8 +68,7 @@ BOOST_AUTO_TEST_CASE(a_taut_membrane_keeps_still_at_any_step_and_order) {
     // The mean tension over the viscosity and the radius is 20.
     for (const double dt : {0.2, 0.4}) {
       double largest = 0.0;
-      run(model, discretisation, settled, dt, 8,
-          [&](const State& state) { largest = std::max(largest, tail(state)); });
+      run(model, discretisation, settled, dt, 8, [&](const State& state) { largest = std::max(largest, tail(state)); });
       BOOST_TEST_CONTEXT("order " << time_order << ", dt " << dt) { BOOST_TEST(largest < 3.0 * tail(settled)); }
     }
   }
