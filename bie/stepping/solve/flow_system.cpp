@@ -49,8 +49,12 @@ namespace {
 
 FlowLayout layout_of(const FlowParameters& parameters, const Membrane& membrane, double dt,
                      const FlowOptions& options) {
-  FlowLayout layout{n_coefficients(options.curvature.of(membrane).order()), n_coefficients(membrane.fine.order()),
-                    options.entries, dt > 0.0 && parameters.bending.has_value(), parameters.inextensible};
+  FlowLayout layout{n_coefficients(options.curvature.all(membrane).order()),
+                    n_coefficients(options.curvature.of(membrane).order()),
+                    n_coefficients(membrane.fine.order()),
+                    options.entries,
+                    dt > 0.0 && parameters.bending.has_value(),
+                    parameters.inextensible};
   if (layout.entries.empty()) {
     layout.entries.resize(static_cast<std::size_t>(layout.n_all));
     std::iota(layout.entries.begin(), layout.entries.end(), Index{0});
@@ -86,7 +90,7 @@ MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
     return scalar;
   };
   MembraneUnknowns unknowns;
-  if (layout.bending) unknowns.curvature = all(layout.curvature_scale * v.head(layout.n()));
+  if (layout.bending) unknowns.curvature = all(layout.curvature_scale * v.head(layout.n())).head(layout.n_curved);
   if (layout.tension) unknowns.tension = all(layout.tension_scale * v.tail(layout.n())).head(layout.n_resolved);
   return unknowns;
 }
@@ -94,11 +98,12 @@ MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
 /// The coefficients that can differ from zero, one scalar behind the other; scalars that are empty count as zero.
 Vector entries_of(const FlowLayout& layout, const Vector& curvature, const Vector& divergence_or_tension) {
   Vector v = Vector::Zero(layout.size());
-  if (layout.bending && curvature.size() > 0) v.head(layout.n()) = curvature(layout.entries);
-  if (layout.tension && divergence_or_tension.size() > 0) {
-    for (Index i = 0; i < layout.n(); ++i) {
-      if (layout.resolves(i)) v[layout.n_curvature() + i] = divergence_or_tension[layout.entries[i]];
-    }
+  const bool has_curvature = layout.bending && curvature.size() > 0;
+  const bool has_tension = layout.tension && divergence_or_tension.size() > 0;
+  for (Index i = 0; i < layout.n(); ++i) {
+    const Index entry = layout.entries[static_cast<std::size_t>(i)];
+    if (has_curvature && layout.is_curvature(i)) v[i] = curvature[entry];
+    if (has_tension && layout.is_tension(i)) v[layout.n_curvature() + i] = divergence_or_tension[entry];
   }
   return v;
 }
@@ -146,9 +151,12 @@ LinearMap flow_map(const FlowParameters& parameters, const Membrane& membrane, d
     }
     Vector result(layout.size() + u.coefficients.size());
     result.head(layout.size()) = entries_of(layout, curvature, divergence);
+    // What is not there is not asked for either.
+    for (Index i = 0; i < layout.n_curvature(); ++i) {
+      if (!layout.is_curvature(i)) result[i] = layout.curvature_scale * v[i];
+    }
     for (Index i = 0; i < layout.n_tension(); ++i) {
-      // No tension is there, and none is asked for.
-      if (!layout.resolves(i)) result[layout.n_curvature() + i] = v[layout.n_curvature() + i];
+      if (!layout.is_tension(i)) result[layout.n_curvature() + i] = v[layout.n_curvature() + i];
     }
     result.tail(u.coefficients.size()) = u.coefficients.reshaped();
     return result;
@@ -167,7 +175,7 @@ LinearMap sphere_inverse(const FlowParameters& parameters, const Membrane& membr
                           parameters.viscosity_ratio,
                           mean_tension};
   std::vector<Eigen::Matrix2d> inverse;
-  for (int degree = 0; degree <= options.curvature.of(membrane).order(); ++degree) {
+  for (int degree = 0; degree <= options.curvature.all(membrane).order(); ++degree) {
     if (degree > membrane.fine.order()) {
       inverse.push_back(
           Eigen::DiagonalMatrix<double, 2>(1.0 / unresolved_curvature(sphere, degree), layout.tension_scale));

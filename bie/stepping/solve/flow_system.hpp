@@ -32,12 +32,17 @@ VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficient
 /// What h is known by and what it does to the tension that is there.
 struct CurvatureOptions {
   Vector held_tension{};  ///< λ_0 ≥ 0 on the upsampled grid; empty: zero
-  /// Between the degree of h, p or more, and the upsampled grid; empty: degree p. Positions of degree p have normal
+  /// Between a degree above p and the upsampled grid; empty: h has degree p. Positions of degree p have normal
   /// parts, and H, of the next one. Bending does nothing to that, but tension does, and it has to be implicit as well:
   /// at large λ dt/(μR) equilibria are unstable without it.
   std::optional<SphereTransform> transform{};
 
+  /// To the degree of h: p where there is no tension that more of it could act on.
   [[nodiscard]] const SphereTransform& of(const Membrane& membrane) const {
+    return transform && held_tension.size() > 0 ? *transform : membrane.fine;
+  }
+  /// To the degree of FlowOptions::entries.
+  [[nodiscard]] const SphereTransform& all(const Membrane& membrane) const {
     return transform ? *transform : membrane.fine;
   }
 };
@@ -66,7 +71,8 @@ struct FlowOptions {
 /// that its norm adds like to like: one step of size dt bends a membrane of radius R by h R and strains it by
 /// λ dt/(μR), or by λ R²/κ_B where bending answers within the step.
 struct FlowLayout {
-  Index n_all = 0;             ///< coefficients of the degree of h
+  Index n_all = 0;             ///< coefficients of the degree of the entries
+  Index n_curved = 0;          ///< of the degree of h
   Index n_resolved = 0;        ///< of degree p; λ has no others
   std::vector<Index> entries;  ///< those that can differ from zero
   bool bending = false;
@@ -75,8 +81,9 @@ struct FlowLayout {
   double tension_scale = 1.0;  ///< a share of μR/dt + κ_B/R²; where λ is the only unknown its scale is of no account
 
   [[nodiscard]] Index n() const { return static_cast<Index>(entries.size()); }
-  /// Is the i-th of the entries of degree p at most?
-  [[nodiscard]] bool resolves(Index i) const { return entries[static_cast<std::size_t>(i)] < n_resolved; }
+  /// Is the i-th of the entries one of h, or of λ? The others are zero.
+  [[nodiscard]] bool is_curvature(Index i) const { return entries[static_cast<std::size_t>(i)] < n_curved; }
+  [[nodiscard]] bool is_tension(Index i) const { return entries[static_cast<std::size_t>(i)] < n_resolved; }
   [[nodiscard]] Index n_curvature() const { return bending ? n() : 0; }
   [[nodiscard]] Index n_tension() const { return tension ? n() : 0; }
   [[nodiscard]] Index size() const { return n_curvature() + n_tension(); }
