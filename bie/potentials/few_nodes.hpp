@@ -2,9 +2,9 @@
 
 #include <array>
 #include <bit>
-#include <cstring>
 
 #include "bie/kernels/inverse_roots.hpp"
+#include "bie/potentials/lanes.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -12,17 +12,13 @@ namespace vehd {
 /// Nodes that are looked at together, as many as a register holds: one instruction each of what compilers would else do
 /// one by one.
 constexpr Index kTogether = Eigen::internal::packet_traits<double>::size;
-/// A register of the compiler's own kind: arrays of classes go through memory.
-using Few [[gnu::vector_size(kTogether * sizeof(double))]] = double;
+/// A register of them.
+using Few = Lanes<kTogether>::Values;
 
 /// The values that stand from there on.
-inline Few few(const double* at) {
-  Few values;
-  std::memcpy(&values, at, sizeof values);
-  return values;
-}
+inline Few few(const double* at) { return Lanes<kTogether>::load(at); }
 
-inline void store(double* at, const Few& values) { std::memcpy(at, &values, sizeof values); }
+inline void store(double* at, const Few& values) { Lanes<kTogether>::store(at, values); }
 
 /// 1/√s of each.
 inline Few inverse_root(const Few& squares) {

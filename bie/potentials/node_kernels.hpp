@@ -2,7 +2,6 @@
 
 #include <array>
 #include <bit>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
 #include "bie/potentials/kernel_columns.hpp"
+#include "bie/potentials/lanes.hpp"
 
 namespace vehd {
 
@@ -22,20 +22,6 @@ struct Target {
   Index row = 0;        ///< where its kernel rows go
 };
 
-/// Some targets side by side, a register of the compiler's own kind: what arrays hold goes through memory between one
-/// loop and the next.
-template <int kWidth>
-struct TargetLanes {
-  using Values [[gnu::vector_size(kWidth * sizeof(double))]] = double;
-
-  static Values load(const double* at) {
-    Values values;
-    std::memcpy(&values, at, sizeof values);
-    return values;
-  }
-  static void store(double* at, const Values& values) { std::memcpy(at, &values, sizeof values); }
-};
-
 /// Values of the selected kernels between the targets of a chunk and one node about each of them.
 class NodeKernels {
  public:
@@ -43,10 +29,10 @@ class NodeKernels {
   /// x and its derivatives by θ and by φ over sin θ in the frame of each target, the latter only where
   /// need_source_normal().
   template <int kWidth>
-  using Node = std::array<typename TargetLanes<kWidth>::Values, 9>;
+  using Node = std::array<typename Lanes<kWidth>::Values, 9>;
   /// Kernels times weight.
   template <int kWidth>
-  using Values = std::array<typename TargetLanes<kWidth>::Values, kMostKernels>;
+  using Values = std::array<typename Lanes<kWidth>::Values, kMostKernels>;
 
   /// @param kernels  must outlive this
   /// @param chunk    targets at a time, a multiple of kLanes
@@ -58,14 +44,14 @@ class NodeKernels {
   /// @param weight  of the quadrature
   template <int kWidth>
   void evaluate(Index first, const Node<kWidth>& node, double weight, Values<kWidth>& values) const {
-    using Lanes = typename TargetLanes<kWidth>::Values;
-    const auto target = [&](int i) { return TargetLanes<kWidth>::load(targets_.data() + first + i * chunk_); };
-    const auto put = [&](int kernel, const Lanes& lanes) { values[static_cast<std::size_t>(kernel)] = lanes; };
-    const Lanes rx = target(0) - node[0], ry = target(1) - node[1], rz = target(2) - node[2];
-    auto roots = std::bit_cast<std::array<double, kWidth>>(Lanes(rx * rx + ry * ry + rz * rz));
+    using Side = typename Lanes<kWidth>::Values;  // of targets side by side
+    const auto target = [&](int i) { return Lanes<kWidth>::load(targets_.data() + first + i * chunk_); };
+    const auto put = [&](int kernel, const Side& lanes) { values[static_cast<std::size_t>(kernel)] = lanes; };
+    const Side rx = target(0) - node[0], ry = target(1) - node[1], rz = target(2) - node[2];
+    auto roots = std::bit_cast<std::array<double, kWidth>>(Side(rx * rx + ry * ry + rz * rz));
     invert_roots(roots);
-    const auto inverse_r = std::bit_cast<Lanes>(roots);
-    Lanes r_dot_area{};
+    const auto inverse_r = std::bit_cast<Side>(roots);
+    Side r_dot_area{};
     if (kernels_.need_source_normal()) {
       const auto& [x, y, z, ux, uy, uz, vx, vy, vz] = node;
       r_dot_area = rx * (uy * vz - uz * vy) + ry * (uz * vx - ux * vz) + rz * (ux * vy - uy * vx);
@@ -76,10 +62,10 @@ class NodeKernels {
       put(kernels_.double_layer, laplace_weight * laplace_double_kernel(r_dot_area, inverse_r));
     }
     if (kernels_.adjoint >= 0) {
-      const Lanes r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
+      const Side r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
       put(kernels_.adjoint, laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r));
     }
-    const auto put_blocks = [&](int first_kernel, double block_weight, const std::array<Lanes, 6>& blocks) {
+    const auto put_blocks = [&](int first_kernel, double block_weight, const std::array<Side, 6>& blocks) {
       for (int block = 0; block < 6; ++block) put(first_kernel + block, block_weight * blocks[block]);
     };
     if (kernels_.stokes >= 0) {

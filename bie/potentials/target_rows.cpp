@@ -2,15 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/small_product.hpp"
-
-#ifndef __AVX__
-// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
 
 namespace vehd {
 
@@ -25,13 +19,7 @@ CoefficientBlock block_for(int order, int highest, const FourierColumns& columns
   return {order, highest, size_of(columns.cosine, chunk), size_of(columns.sine, chunk)};
 }
 
-using LanesOfRows [[gnu::vector_size(kLanes * sizeof(double))]] = double;
-
-LanesOfRows lanes(const double* at) {
-  LanesOfRows values;
-  std::memcpy(&values, at, sizeof values);
-  return values;
-}
+using LanesOfRows = Lanes<kLanes>::Values;
 
 void transpose(std::array<LanesOfRows, kLanes>& v) {
   static_assert(kLanes == 4);
@@ -268,7 +256,8 @@ void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) {
     const double* factors = phases_back_.data() + 2 * entry.phases * chunk_ + first;
     const double* cosine = entry.cosine < 0 ? nothing_.data() : cosines + entry.cosine + first;
     const double* sine = entry.sine < 0 ? nothing_.data() : sines + entry.sine + first;
-    values = lanes(cosine) * lanes(factors) + lanes(sine) * lanes(factors + chunk_);
+    values = Lanes<kLanes>::load(cosine) * Lanes<kLanes>::load(factors) +
+             Lanes<kLanes>::load(sine) * Lanes<kLanes>::load(factors + chunk_);
   };
   for (const StoredEntries& together : stored_) {
     const auto& entries = together.entries;
@@ -285,7 +274,7 @@ void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) {
       std::array<LanesOfRows, kLanes> values;
       for (std::size_t i = 0; i < kLanes; ++i) unphase(entries[i], first, values[i]);
       transpose(values);
-      for (std::size_t t = 0; t < kLanes; ++t) std::memcpy(to[t] + together.column, &values[t], sizeof values[t]);
+      for (std::size_t t = 0; t < kLanes; ++t) Lanes<kLanes>::store(to[t] + together.column, values[t]);
     }
   }
 }

@@ -89,8 +89,8 @@ void TargetRows::load_nodes(Index quarter_node, Index first, Nodes<kWidth>& node
     const auto& parts = shape_parts_[static_cast<std::size_t>(kind)];
     const auto part = [&](std::size_t which, std::size_t position) {
       const Index columns = shape_amplitudes_[static_cast<std::size_t>(kind)].columns(which >= 2);
-      return TargetLanes<kWidth>::load(parts[which].data() + quarter_node * columns +
-                                       static_cast<Index>(position) * chunk_ + first);
+      return Lanes<kWidth>::load(parts[which].data() + quarter_node * columns + static_cast<Index>(position) * chunk_ +
+                                 first);
     };
     const auto node = [&](std::size_t image, std::size_t component) -> auto& {
       return nodes[image][static_cast<std::size_t>(kind) * 3 + component];
@@ -123,9 +123,9 @@ void TargetRows::load_nodes(Index quarter_node, Index first, Nodes<kWidth>& node
 template <int kWidth>
 void TargetRows::add_values(Index quarter_node, Index first, const Values<kWidth>& values) {
   const auto put = [&](std::size_t which, std::size_t position, const auto& lanes) {
-    TargetLanes<kWidth>::store(row_parts_[which].data() + quarter_node * rows_.columns(which >= 2) +
-                                   static_cast<Index>(position) * chunk_ + first,
-                               lanes);
+    Lanes<kWidth>::store(row_parts_[which].data() + quarter_node * rows_.columns(which >= 2) +
+                             static_cast<Index>(position) * chunk_ + first,
+                         lanes);
   };
   if (!mirrored_) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(kernels_.count); ++c) {

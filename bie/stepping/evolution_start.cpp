@@ -65,7 +65,9 @@ bool Evolution::raise_orders_for_fields() {
   bool raised = false;
   for (std::size_t a = 0; a < start_.size(); ++a) {
     orders.push_back(order(a));
-    if (!adapts() || order(a) >= setup_.settings.order) continue;
+    const bool has_tension = setup_.model.mobile && setup_.model.vesicles[a].inextensible;
+    const bool has_fields = setup_.model.electric || has_tension;
+    if (!adapts() || !has_fields || order(a) >= setup_.settings.order) continue;
     orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
     raised = true;
   }

@@ -43,8 +43,8 @@ class MembraneSpace {
   [[nodiscard]] const SphereTransform& targets() const { return targets_; }
   /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
   [[nodiscard]] const SphereTransform& fine_transform() const { return fine_; }
-  /// Transform between the upsampled grid and the degree to which implicit steps know changes of H, see FlowOptions:
-  /// one more than p, as positions of degree p have normal parts of the next degree.
+  /// Transform between the upsampled grid and the degree to which implicit steps know changes of H, see
+  /// CurvatureOptions: one more than p, as positions of degree p have normal parts of the next degree.
   [[nodiscard]] const SphereTransform& curvature_transform() const { return curvature_; }
   /// The same symmetries in fields of that degree.
   [[nodiscard]] const SymmetrySubspace& curvature_subspace() const { return curvature_subspace_; }
