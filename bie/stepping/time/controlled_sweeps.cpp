@@ -56,6 +56,17 @@ class SweepErrors {
     return std::max({shape_.error_after(j), potential_.error_after(j), tension_.error_after(j, supposed(tension_)),
                      charge_.error_after(j, supposed(charge_))});
   }
+  /// Of all after sweep j, one that was not made yet, if sweeps go on to contract as the last one did, however much
+  /// that was; tension and charge as what they follow from where they are known of one sweep alone.
+  [[nodiscard]] double hoped_error_after(int sweep) const {
+    const auto j = static_cast<std::size_t>(sweep);
+    Corrections visible;
+    for (std::size_t k = 1; k <= shape_.count(); ++k) visible.add(std::max(shape_.change(k), potential_.change(k)));
+    const auto hoped = [&](const Corrections& changes) {
+      return changes.error_after(j, (changes.count() > 1 ? changes : visible).measured_contraction());
+    };
+    return std::max({hoped(visible), hoped(tension_), hoped(charge_)});
+  }
   /// By the last sweep.
   [[nodiscard]] VisibleDifference contraction() const { return {shape_.contraction(), potential_.contraction()}; }
   /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as in the sweep
@@ -213,7 +224,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     found.push_back(of_sweeps);
     const bool enough = known && error <= allowed;
     if (enough && !likely) end = y.corrected(last, NodeEnd::remapped);
-    if (enough || left == 0 || (known && errors.error_after(order - 1) > thresholds::hopeless * allowed) ||
+    if (enough || left == 0 || (known && errors.hoped_error_after(order - 1) > thresholds::hopeless * allowed) ||
         (known && of_rule > allowed)) {
       result.excess = error / allowed;
       result.factor = std::min(best_factor(errors, found, allowed, order, rule.nodes.size()),

@@ -22,8 +22,10 @@ class Corrections {
 
   /// δ_j of correction j = 1, 2, …, one that was made.
   [[nodiscard]] double change(std::size_t j) const { return changes_[j - 1]; }
-  /// ρ of the last correction, 1 as long as it is not known.
+  /// ρ of the last correction, 1 as long as it is not known; no less than is believed.
   [[nodiscard]] double contraction() const;
+  /// ρ as it was measured, 1 as long as it is not known.
+  [[nodiscard]] double measured_contraction() const;
 
  private:
   std::vector<double> changes_;

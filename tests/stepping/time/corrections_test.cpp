@@ -34,4 +34,16 @@ BOOST_AUTO_TEST_CASE(changes_that_tell_little_are_the_error_themselves) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(no_contraction_is_believed_that_may_be_chance_but_it_is_known) {
+  Corrections changes;
+  BOOST_TEST(changes.measured_contraction() == 1.0);
+  changes.add(1.0);
+  changes.add(1e-3);
+  BOOST_TEST(changes.measured_contraction() == 1e-3);
+  BOOST_TEST(changes.contraction() > 0.05);
+  changes.add(1.0);
+  BOOST_TEST(changes.measured_contraction() == 1.0);
+  BOOST_TEST(changes.contraction() == 1.0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
