@@ -14,6 +14,7 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -71,37 +72,39 @@ struct Trend {
   std::optional<double> order;  ///< in dt, at the steps of the trial runs; nothing: that of the scheme
 };
 
-/// Charging and other stiff motions follow long steps with a lower order than that of the scheme, and come to it as
-/// steps shrink: the order over that many digits.
-double order_over(double digits, const TrialRun& trial, int time_order, const Trend& trend) {
-  if (!trend.order) return time_order;
-  const double measured = *trend.order + time_order - trial.time_order;
-  return measured + (time_order - measured) * (1.0 - 1.0 / std::max(1.0, digits));
+/// How many steps with that tolerance take the place of one of a trial run.
+double steps_for_one(const TrialStep& step, const TrialRun& trial, double tolerance, const Trend& trend) {
+  constexpr double kLongest = 4.0;  // beyond that an error estimate says nothing any more
+  const int time_order = accuracy_defaults(tolerance).time_order;
+  if (trend.order) {
+    // Stiff motions follow their steps with a lower order than that of the scheme.
+    return std::pow(trial.tolerance / tolerance, 1.0 / (*trend.order + time_order - trial.time_order));
+  }
+  const double room =
+      step.error_estimate > 0.0 ? std::pow(tolerance / step.error_estimate, 1.0 / time_order) : kLongest;
+  return 1.0 / (thresholds::step_safety * std::min(room, kLongest));
 }
 
 /// The cost table's row for the tolerance of that index, from the steps of a trial run with a looser one.
 CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vector<double>& tolerances,
                       std::size_t index, const CostModel& model, const Trend& trend) {
-  constexpr double kSafety = thresholds::step_safety;
-  constexpr double kLongest = 4.0;  // beyond that an error estimate says nothing any more
   CostRow row;
   row.tolerance = tolerances[index];
-  const int time_order = accuracy_defaults(row.tolerance).time_order;
   const double largest = step_control_of(at_tolerance(scene, row.tolerance)).largest;
   const double digits = std::log10(trial.tolerance / row.tolerance);
-  const double order_in_dt = order_over(digits, trial, time_order, trend);
-  const int highest = trial.highest_order + static_cast<int>(std::lround(digits * trend.degrees_per_digit));
+  const int highest = std::min(trial.highest_order + static_cast<int>(std::lround(digits * trend.degrees_per_digit)),
+                               accuracy_defaults(row.tolerance).order);
+  const auto own = static_cast<std::size_t>(std::ranges::find(tolerances, trial.tolerance) - tolerances.begin());
   int order = 0, trial_order = 0;
   double steps = 0.0, seconds = 0.0;
   for (const TrialStep& step : trial.steps) {
-    const double room =
-        step.error_estimate > 0.0 ? std::pow(row.tolerance / step.error_estimate, 1.0 / order_in_dt) : kLongest;
-    const double size = std::min(largest, step.dt * kSafety * std::min(room, kLongest));
-    const double share = step.dt / size;
+    const double share = std::max(steps_for_one(step, trial, row.tolerance, trend), step.dt / largest);
     // Runs lower their degree only where it has long been idle, at other tolerances about where the trial run did.
     if (step.order < trial_order) order = 0;
     trial_order = step.order;
-    order = std::max({order, step.order, std::min(step.orders[index], highest)});
+    // Growth that is expected asks for more than the spectrum does.
+    const int of_growth = std::max(0, step.order - step.orders[own]);
+    order = std::max({order, step.order, std::min(step.orders[index] + of_growth, highest)});
     steps += share;
     // Snapshots cost an evaluation each, however many steps there are.
     seconds += (share * (step.evaluations - step.moments) + step.moments) * model.seconds_per_shape(order);
@@ -130,29 +133,13 @@ int degrees_per_digit(const CostRow& first, const TrialRun& trial) {
   return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(first.tolerance / trial.tolerance))));
 }
 
-/// Means over the time of a trial run.
-struct MeanLogarithms {
-  double dt = 0.0, error_estimate = 0.0;
-  explicit MeanLogarithms(const TrialRun& trial) {
-    double whole = 0.0;
-    for (const TrialStep& step : trial.steps) {
-      if (step.error_estimate <= 0.0) continue;
-      whole += step.dt;
-      dt += step.dt * std::log(step.dt);
-      error_estimate += step.dt * std::log(step.error_estimate);
-    }
-    if (whole == 0.0) return;
-    dt /= whole;
-    error_estimate /= whole;
-  }
-};
-
-/// Order in dt of the error estimates of two trial runs of one time order, whose steps differ enough.
+/// Order in dt of two trial runs of one time order, as their steps tell: k where each digit takes 10^(1/k) times as
+/// many.
 std::optional<double> order_between(const TrialRun& trial, const TrialRun& next) {
   constexpr double kLeastRatio = 1.3;
-  const MeanLogarithms coarse(trial), fine(next);
-  if (trial.time_order != next.time_order || coarse.dt - fine.dt < std::log(kLeastRatio)) return std::nullopt;
-  return std::clamp((coarse.error_estimate - fine.error_estimate) / (coarse.dt - fine.dt), 1.0,
+  const double more = static_cast<double>(next.steps.size()) / static_cast<double>(trial.steps.size());
+  if (trial.time_order != next.time_order || more < kLeastRatio) return std::nullopt;
+  return std::clamp(std::log(trial.tolerance / next.tolerance) / std::log(more), 1.0,
                     static_cast<double>(next.time_order));
 }
 
