@@ -39,6 +39,11 @@ class SweepErrors {
   [[nodiscard]] double weighted(const VisibleDifference& error) const {
     return std::max(weights_.shape * error.shape, weights_.potential * error.potential);
   }
+  /// The same, or what it makes of tension and charge if that is more.
+  /// @param least  see magnification
+  [[nodiscard]] double lasting_or_magnified(const VisibleDifference& error, double least) const {
+    return std::max(weighted(error), magnification(least) * std::max(error.shape, error.potential));
+  }
   [[nodiscard]] int sweeps() const { return static_cast<int>(shape_.count()); }
   /// Whether tension and charge are known after the last sweep as well.
   [[nodiscard]] bool all_known() const { return tension_.count() == shape_.count(); }
@@ -218,7 +223,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
       // Tension and charge follow from what has converged, but nobody knows how they magnify what is left.
       errors.add(y.change_to(end));
     }
-    of_rule = errors.weighted(y.rule_error());
+    of_rule = errors.lasting_or_magnified(y.rule_error(), thresholds::telling_share * allowed);
     const double of_sweeps = errors.error_after(errors.sweeps());
     const double error = std::max(of_sweeps, of_rule);
     found.push_back(of_sweeps);
