@@ -17,6 +17,7 @@
 #include "bie/bench/time.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/estimate/cost_table.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -190,7 +191,7 @@ class AllBenches {
       const BenchResult one = bench_time({.scene = asked.scene,
                                           .at = asked.scene.numerics.end_time,
                                           .tolerances = extent_.tolerances,
-                                          .every = asked.scene.output.every},
+                                          .snapshots = events_of(asked.scene).snapshots},
                                          observer_);
       const BenchTable& rows = one.tables.front();
       const auto cell = [&](std::size_t row, const std::string& key) {

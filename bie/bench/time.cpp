@@ -47,7 +47,7 @@ struct TimedRow {
 struct TimedRun {
   std::string integrator, setting;
   BenchCell dt{}, tolerance{};
-  std::vector<TimedRow> rows{};  ///< at snapshots and, last, at the end
+  std::vector<TimedRow> rows{};  ///< with a tolerance at the start and at snapshots; last, at the end
   std::vector<double> seconds{};
   std::int64_t n_steps = 0;
   int highest_order = 0;
@@ -72,6 +72,7 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
   run.rows.clear();
   evolution.evaluate_start();
   run.highest_order = evolution.order(0);
+  if (scene.numerics.tolerance) run.rows.push_back(row_of(evolution.state(), evolution.evaluation()));
   double raw_area = 0.0;
   while (evolution.state().time < events.end_time) {
     const StepAttempt step = evolution.step(events);
@@ -79,6 +80,9 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
     raw_area += std::abs(step.raw_area);
     for (const Evolution::Moment& moment : evolution.passed()) {
       run.rows.push_back(row_of(moment.state, moment.evaluation));
+    }
+    if (step.at_snapshot && evolution.state().time < events.end_time) {
+      run.rows.push_back(row_of(evolution.state(), evolution.evaluation()));
     }
     const VesicleDiagnostics& now = evolution.evaluation().diagnostics.vesicles.front();
     observer.status({evolution.state().step, 0.0, evolution.state().time, events.end_time, step.dt,
@@ -107,7 +111,7 @@ TimedRun adaptive_run(const TimeTask& task, double tolerance, BenchObserver& obs
   Scene asked = at_tolerance(task.scene, tolerance);
   asked.numerics.end_time = task.at;
   TimedRun run{"tolerance", fmt::format("{:.0e}", tolerance), {}, tolerance};
-  run_to(asked, {{task.every}, task.at}, task.repeats, run, observer);
+  run_to(asked, {task.snapshots, task.at}, task.repeats, run, observer);
   return run;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "bie/bench/result.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/stepping/time/snapshot_times.hpp"
 
 namespace vehd {
 
@@ -15,7 +15,7 @@ struct TimeTask {
   std::vector<double> steps{};       ///< fixed step sizes, each half of the one before
   std::vector<int> time_orders{};    ///< integrators that take them; empty: the scene's own
   std::vector<double> tolerances{};  ///< falling
-  std::optional<double> every{};     ///< with a tolerance its multiples, those of snapshots, are compared as well
+  SnapshotTimes snapshots{};         ///< with a tolerance they are compared as well, and the start
   int repeats = 1;
 };
 
