@@ -4,7 +4,8 @@
 
 Each scene runs with error bars, without, and at the tolerance of the reference. A row at a snapshot is good where its
 largest error, over the largest value of its column, is estimated within a factor of five. Then the median of the
-estimate over what is true, and what error bars add to the processor seconds of the run.
+estimate over what is true, its range, and what error bars add to the processor seconds of the run, the least of two of
+either kind.
 """
 
 import argparse
@@ -34,7 +35,7 @@ COLUMNS = ["reduced_volume", "bending_energy_scaled", "tension_integral", "Vm_no
 UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
-def scene_at(name: str, tolerance: str, error_bars: bool, end: str = None) -> str:
+def scene_at(name: str, tolerance: str, error_bars: bool) -> str:
     """The scene with degree and order of the tolerance."""
     text = re.sub(r"\n(degree|dt|tolerance|time_order) = .*", "", (SCENES / f"{name}.toml").read_text())
     bars = "true" if error_bars else "false"
@@ -43,7 +44,7 @@ def scene_at(name: str, tolerance: str, error_bars: bool, end: str = None) -> st
         shorter_end, every = SHORTENED[name]
         text = re.sub(r"\nend_time = .*", f"\nend_time = {shorter_end}", text)
         text = re.sub(r"\nevery = .*", f"\nevery = {every}", re.sub(r"\ntimes = .*", "", text))
-    return re.sub(r"\nend_time = .*", f"\nend_time = {end}", text) if end else text
+    return text
 
 
 def seconds_of(text: str, key: str) -> float:
@@ -54,7 +55,7 @@ def seconds_of(text: str, key: str) -> float:
 
 def run(program: str, text: str, folder: pathlib.Path) -> float:
     """Processor seconds of a run of one thread."""
-    folder.mkdir()
+    folder.mkdir(parents=True)
     (folder / "scene.toml").write_text(text)
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     subprocess.run([program, "run", folder / "scene.toml", "-o", folder / "run", "--no-plot", "--quiet"], check=True,
@@ -113,22 +114,22 @@ def main() -> int:
     parser.add_argument("scenes", nargs="*", default=sorted(path.stem for path in SCENES.glob("*.toml")))
     parser.add_argument("--tolerance", default="1e-3")
     parser.add_argument("--reference", default="1e-6", help="tolerance of what counts as true")
-    parser.add_argument("--end", help="end time instead of that of the scenes")
     parser.add_argument("--folder", type=pathlib.Path, help="to keep the references for the next call")
     arguments = parser.parse_intermixed_args()
     with tempfile.TemporaryDirectory() as temporary:
         kept = arguments.folder or pathlib.Path(temporary)
         for name in arguments.scenes:
             folder = pathlib.Path(temporary) / f"{name}_of_{arguments.tolerance}"
-            plain = pathlib.Path(temporary) / f"{name}_without"
             reference = kept / f"{name}_at_{arguments.reference}"
-            text = scene_at(name, arguments.tolerance, True, arguments.end)
+            text = scene_at(name, arguments.tolerance, True)
             if not reference.exists():
-                run(arguments.program, scene_at(name, arguments.reference, False, arguments.end), reference)
-            without = run(arguments.program, scene_at(name, arguments.tolerance, False, arguments.end), plain)
-            more = run(arguments.program, text, folder) / without - 1
+                run(arguments.program, scene_at(name, arguments.reference, False), reference)
+            plain_text = scene_at(name, arguments.tolerance, False)
+            # What else the machine does makes runs slower, never faster.
+            plain = min(run(arguments.program, plain_text, folder / f"plain_{k}") for k in range(2))
+            more = min(run(arguments.program, text, folder / f"bars_{k}") for k in range(2)) / plain - 1
             n_snapshots = round(seconds_of(text, "end_time") / seconds_of(text, "every"))
-            ratios = ratios_of(folder, reference, n_snapshots)
+            ratios = ratios_of(folder / "bars_0", reference, n_snapshots)
             good = sum(0.2 < ratio < 5 for ratio in ratios) / len(ratios)
             print(f"{name}: {len(ratios)} rows, {100 * good:.0f} % good, median {statistics.median(ratios):.2f}, "
                   f"from {min(ratios):.2g} to {max(ratios):.2g}, {100 * more:.0f} % more seconds", flush=True)
