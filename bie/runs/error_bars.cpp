@@ -14,12 +14,17 @@
 namespace vehd {
 namespace {
 
-/// How much larger the tolerance of the companion is: enough to save most of its work.
-constexpr double companion_looseness = 20.0;
-/// What that, and an order less, makes of the differences: so many errors of the run. Measured (docs/run_files.md).
-constexpr double companion_difference = 8.0;
-/// The order that a tolerance needs at least.
-constexpr int lowest_order_of_tolerance = 2;
+/// How much larger the tolerance of the companion is: a digit. More makes it cheaper, but what the motion makes of its
+/// errors then differs from what it makes of those of the run. Measured (docs/run_files.md).
+constexpr double companion_looseness = 10.0;
+/// Degrees that the companion does without: those of a digit, see accuracy_defaults.
+constexpr int companion_degrees = 8;
+/// How much larger the largest steps of the companion are. Where the period of the forcing limits the steps of both,
+/// those of the same size would be wrong by the same; two of eight in a period leave four.
+constexpr double companion_stride = 2.0;
+/// Steps of the run from one comparison to the next at least: solving at a moment within a step costs about half of a
+/// step of the run.
+constexpr int steps_to_moment = 2;
 /// Fixed steps that are one of the companion.
 constexpr int companion_steps = 3;
 
@@ -30,8 +35,7 @@ Scene scene_of_companion(Scene scene) {
   NumericsScene& numerics = scene.numerics;
   if (numerics.tolerance) {
     *numerics.tolerance *= companion_looseness;
-    // Where both happen to take the same steps, those of the same order would be the same to the last bit.
-    numerics.time_order = std::max(lowest_order_of_tolerance, numerics.time_order - 1);
+    numerics.order = std::max(std::min(numerics.order, lowest_adaptive_order), numerics.order - companion_degrees);
   } else {
     *numerics.dt *= companion_steps;
   }
@@ -39,6 +43,12 @@ Scene scene_of_companion(Scene scene) {
   scene.output.times.clear();
   scene.output.windows.clear();
   return scene;
+}
+
+NumericalSettings settings_of_results(const Problem& problem, int order) {
+  NumericalSettings settings = problem.settings;
+  settings.order = order;
+  return settings;
 }
 
 Checkpoint start_of(const std::optional<CompanionState>& from) {
@@ -49,10 +59,10 @@ Checkpoint start_of(const std::optional<CompanionState>& from) {
   return start;
 }
 
-/// Error that steps leave of the run over its difference to the companion's. That of fixed steps is Δt^k, so the
-/// companion has 3^k of it.
+/// Error that steps leave of the run over its difference to the companion's. What a tolerance leaves is proportional to
+/// it; that of fixed steps is Δt^k, so the companion has 3^k of it.
 double share_of_difference(const NumericsScene& numerics) {
-  if (numerics.tolerance) return 1.0 / companion_difference;
+  if (numerics.tolerance) return 1.0 / (companion_looseness - 1.0);
   return 1.0 / (std::pow(companion_steps, static_cast<double>(numerics.time_order)) - 1.0);
 }
 
@@ -107,9 +117,11 @@ ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& fr
     : scene_(scene_of_companion(scene)),
       kind_(history_kind(scene)),
       share_of_steps_(share_of_difference(scene.numerics)),
-      start_order_(from ? from->start_order : scene.numerics.order),
+      order_of_results_(scene.numerics.order),
+      start_order_(from ? from->start_order : scene_.numerics.order),
       companion_(scene_, start_of(from), OutputUnits(scene_), std::move(ranks)),
-      lab_frame_output_(companion_.problem().frame, companion_.problem().settings) {
+      lab_frame_output_(companion_.problem().frame, settings_of_results(companion_.problem(), order_of_results_)) {
+  companion_.allow_steps(companion_stride);
   if (!from) return;
   node_ = from->node;
   sizes_ = from->sizes;
@@ -126,7 +138,7 @@ void ErrorBars::start() {
 }
 
 Vector ErrorBars::values_of(const RecordedSide& side) const {
-  const HistoryRow shown = row_in_laboratory(lab_frame_output_, scene_.numerics.order, side);
+  const HistoryRow shown = row_in_laboratory(lab_frame_output_, order_of_results_, side);
   return vehd::values_of(kind_.rows == HistoryKind::of_all ? row_of_all(shown) : shown, kind_);
 }
 
@@ -197,14 +209,7 @@ std::vector<Vector> ErrorBars::follow(bool to_end) {
   std::vector<Vector> known;
   try {
     if (!lost_ && node_.size() == 0) compare(known);
-    while (!lost_) {
-      const std::optional<double> end = next_end(to_end);
-      if (!end) break;
-      // A row is no end: what errors may grow by is that until the end of both.
-      const EventTimes row{{}, scene_.numerics.end_time, *end};
-      while (now() < *end && !is_same_time(now(), *end)) companion_.step(row);
-      compare(known);
-    }
+    while (!lost_ && follow_once(to_end)) compare(known);
   } catch (const ConvergenceError&) {
     lost_ = true;
   }
@@ -212,39 +217,65 @@ std::vector<Vector> ErrorBars::follow(bool to_end) {
   return known;
 }
 
-/// The row at which the companion is to end its next step: none if the run has not gone far enough.
-std::optional<double> ErrorBars::next_end(bool to_end) const {
-  if (waiting_.empty()) return std::nullopt;
-  const bool adapts = scene_.numerics.tolerance.has_value();
-  // Rounding of what has been added up.
-  constexpr double rounding = 1e-9;
-  const double reach = now() + companion_.evolution().state().dt_next * (1.0 + rounding);
-  double end = waiting_.front()[0];
+/// One step of the companion, or as many as it takes from a fixed end to the next. @returns false if the run has not
+/// gone far enough
+bool ErrorBars::follow_once(bool to_end) {
+  if (waiting_.empty()) return false;
+  EventTimes events{{}, scene_.numerics.end_time};
+  if (!scene_.numerics.tolerance) {
+    events.discontinuity = fixed_end(to_end);
+    if (!events.discontinuity) return false;
+    const double end = *events.discontinuity;
+    while (now() < end && !is_same_time(now(), end)) companion_.step(events);
+    return true;
+  }
+  const double last = waiting_.back()[0];
+  if (last <= now() || is_same_time(last, now())) return false;
+  const double reach = companion_.evolution().reach(events);
+  if (!to_end && last < reach && !is_same_time(last, reach)) return false;
+  if (const std::optional<double> moment = moment_before(reach)) events.snapshots.times = {*moment};
+  companion_.step(events);
+  return true;
+}
+
+/// The last row within the next step of the companion, unless the last comparison was not long ago. None of them is
+/// met by a step that turns out shorter; one at its end is met in any case.
+std::optional<double> ErrorBars::moment_before(double reach) const {
+  std::optional<double> moment;
+  int n_steps = 0;
+  for (const Vector& row : waiting_) {
+    if (row[0] > reach) break;
+    // Rows within a step have no size.
+    if (row[1] > 0.0) ++n_steps;
+    if (n_steps >= steps_to_moment && row[0] > now() && !is_same_time(row[0], now())) moment = row[0];
+  }
+  return moment;
+}
+
+/// The row at which a companion of fixed steps is to end its next step: none if the run has not gone far enough.
+std::optional<double> ErrorBars::fixed_end(bool to_end) const {
   int n_steps = 0;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const double time = waiting_[i][0];
-    if (adapts && time > reach) return end;
-    end = time;
     // Rows within a step have no size.
-    if (waiting_[i][1] > 0.0 && ++n_steps == companion_steps && !adapts) return end;
+    if (waiting_[i][1] > 0.0 && ++n_steps == companion_steps) return time;
     // Nothing is continued beyond a jump.
-    if (i + 1 < waiting_.size() && waiting_[i + 1][0] == time) return end;
+    if (i + 1 < waiting_.size() && waiting_[i + 1][0] == time) return time;
   }
-  return to_end ? std::optional(end) : std::nullopt;
+  return to_end ? std::optional(waiting_.back()[0]) : std::nullopt;
 }
 
-/// The companion has come to a row, or two where the forcing jumps.
+/// The companion has come to where rows wait, or passed them.
 void ErrorBars::compare(std::vector<Vector>& known) {
-  const std::vector<RecordedSide> sides = companion_.sides();
-  const auto is_here = [this](const Vector& row) { return is_same_time(row[0], now()); };
-  const auto here = std::ranges::find_if(waiting_, is_here);
-  const double step_error = step_error_until(*here);
-  const Vector arrival = errors_at(*here, sides.front(), step_error);
-  for (; !is_here(waiting_.front()); waiting_.pop_front()) {
-    known.push_back(between(node_, arrival, waiting_.front(), kind_));
-  }
-  for (auto side = sides.begin(); side != sides.end() && !waiting_.empty() && is_here(waiting_.front()); ++side) {
-    node_ = errors_at(waiting_.front(), *side, step_error);
+  for (const RecordedSide& side : companion_.sides()) {
+    const auto is_here = [&](const Vector& row) { return is_same_time(row[0], side.row.time); };
+    const auto here = std::ranges::find_if(waiting_, is_here);
+    if (here == waiting_.end()) continue;
+    const Vector arrival = errors_at(*here, side, step_error_until(*here));
+    for (; !is_here(waiting_.front()); waiting_.pop_front()) {
+      known.push_back(between(node_, arrival, waiting_.front(), kind_));
+    }
+    node_ = arrival;
     known.push_back(node_);
     waiting_.pop_front();
   }

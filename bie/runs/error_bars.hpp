@@ -13,17 +13,17 @@ namespace vehd {
 
 /// Estimated errors of a history from a second run of the scene that is less exact, the companion.
 ///
-/// With a tolerance the companion has a larger one and an order less, and chooses degree and steps for itself; with
-/// fixed steps it makes one of three. It lags behind the run by one of its steps at most and ends each on a row of the
-/// history. What the motion has done to errors since is in those of both: if those that its steps have left are ρ times
-/// as large, then the difference over ρ − 1 is the error of the run. Degrees have no such ratio, and of a shape at rest
-/// they are all that is wrong: what they leave out is estimated from the spectrum of both. With T of the companion and
-/// t of the run, D the largest difference of a row and e the run's estimate of its last step, all relative,
+/// With a tolerance the companion has one ρ = 10 times as large and chooses degree and steps for itself; a row of the
+/// history is a moment within its step. With fixed steps it makes one of three, ρ = 3^k at order k, and ends each on a
+/// row. It lags behind the run by one of its steps at most. What the motion has done to errors since is in those of
+/// both: those that its steps have left are ρ times as large, so the difference over ρ − 1 is the error of the run.
+/// Degrees have no such ratio, and of a shape at rest they are all that is wrong: what they leave out is estimated from
+/// the spectrum of both. With T of the companion and t of the run, D the largest difference of a row and e the run's
+/// estimate of its last step, all relative,
 ///
 ///   E² = max(√(D² − min(T, D)²)/(ρ − 1), min(e, D/(ρ − 1)))² + (t min(1, D/T))²
 ///
-/// and every column has the share E/D of its difference. Between two steps of the companion errors grow or die away
-/// exponentially.
+/// and every column has the share E/D of its difference. Between two comparisons errors grow or die away exponentially.
 ///
 /// Accuracy: see docs/run_files.md
 /// Source: of this project
@@ -54,18 +54,21 @@ class ErrorBars {
   [[nodiscard]] double share_of(const Vector& differences, const Vector& run, const Vector& companion,
                                 double step_error) const;
   [[nodiscard]] Vector errors_at(const Vector& run, const RecordedSide& companion, double step_error) const;
-  [[nodiscard]] std::optional<double> next_end(bool to_end) const;
+  bool follow_once(bool to_end);
+  [[nodiscard]] std::optional<double> moment_before(double reach) const;
+  [[nodiscard]] std::optional<double> fixed_end(bool to_end) const;
   void compare(std::vector<Vector>& known);
   void give_up(std::vector<Vector>& known);
 
   Scene scene_;  ///< of the companion
   HistoryKind kind_;
   double share_of_steps_;     ///< of a difference that steps have made that is the error
+  int order_of_results_;      ///< degree of what the history tells of
   std::int64_t start_order_;  ///< of the companion
   Simulation companion_;
   LabFrameOutput lab_frame_output_;
   std::deque<Vector> waiting_;  ///< rows of the history without an error yet
-  Vector node_;                 ///< the last row of errors at which the companion was
+  Vector node_;                 ///< errors of the last row at which both were compared
   Vector sizes_;                ///< largest magnitude in each column of the history so far
   bool lost_ = false;           ///< it cannot take a step
 };

@@ -66,6 +66,8 @@ class Simulation {
   void step() { step(events_); }
   /// The same towards other times than those of the scene. @throws ConvergenceError
   void step(const EventTimes& events);
+  /// See Evolution::allow_steps.
+  void allow_steps(double times) { evolution_.allow_steps(times); }
 
   /// The rows that the history gets of the start or of the last step, those of moments within it first.
   [[nodiscard]] std::vector<RecordedSide> sides() const;

@@ -241,13 +241,22 @@ std::vector<Evolution::Moment> Evolution::evaluated(const std::vector<State>& pa
   return moments;
 }
 
-StepAttempt Evolution::step(const EventTimes& events) {
+StepPlan Evolution::plan_towards(const EventTimes& events) const {
   EventTimes ends = events;
   // With a tolerance snapshots are taken from within the steps.
   if (adapts()) ends.snapshots = {};
   const std::optional<double> discontinuity = next_discontinuity(setup_.model, state_.time);
   if (discontinuity) ends.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
-  StepPlan plan = plan_step(state_.time, state_.dt_next, ends);
+  return plan_step(state_.time, state_.dt_next, ends);
+}
+
+double Evolution::reach(const EventTimes& events) const {
+  const StepPlan plan = plan_towards(events);
+  return plan.reaches_event ? plan.event_time : state_.time + plan.dt_limit;
+}
+
+StepAttempt Evolution::step(const EventTimes& events) {
+  StepPlan plan = plan_towards(events);
   expect_growth(events.end_time);
   std::vector<Raise> raised;
   const StepGoal goal = goal_for(events, raised);

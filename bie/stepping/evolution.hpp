@@ -62,6 +62,13 @@ class Evolution {
   /// @throws ConvergenceError where no step is acceptable; the state is the last good one
   StepAttempt step(const EventTimes& events);
 
+  /// Where the next step towards these times ends at the latest.
+  [[nodiscard]] double reach(const EventTimes& events) const;
+  /// Steps may be so many times as large as the largest of the setup; with a tolerance.
+  void allow_steps(double times) {
+    if (adapts()) setup_.control.largest *= times;
+  }
+
   /// Whoever looks at state and evaluation without a copy can keep them alive: called before either changes. May be
   /// empty.
   void keep_former(KeepFormer keep) { keep_former_ = std::move(keep); }
@@ -95,6 +102,7 @@ class Evolution {
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
   [[nodiscard]] int lowest_order() const;
   [[nodiscard]] double truncation_target() const;
+  [[nodiscard]] StepPlan plan_towards(const EventTimes& events) const;
   void expect_growth(double until);
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;

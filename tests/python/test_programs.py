@@ -56,6 +56,14 @@ class Programs(InFolder):
         self.assertGreater(gigabytes, 0.19)
         self.assertLess(gigabytes, 0.3)
 
+    def test_error_bars_of_a_shipped_scene_are_compared_with_a_reference(self):
+        result = subprocess.run([sys.executable, SOURCE / "docs/examples/error_bar_coverage.py", PROGRAM, "--tolerance",
+                                 "1e-2", "relaxation"], capture_output=True, text=True, check=True)
+        match = re.fullmatch(r"relaxation: 20 rows, (\d+) % good, median ([\d.]+), from .*\n", result.stdout)
+        self.assertTrue(match, result.stdout)
+        self.assertGreaterEqual(int(match[1]), 90)
+        self.assertGreater(float(match[2]), 0.2)
+
     @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
     def test_scripts_of_the_pages_run(self):
         (self.folder / "docs/scenes").mkdir(parents=True)

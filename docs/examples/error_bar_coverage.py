@@ -1,0 +1,140 @@
+"""How good error bars are, and what they cost, of shipped scenes at a tolerance:
+
+    python3 docs/examples/error_bar_coverage.py build/vehd --tolerance 1e-3 figure2 dc_pulse
+
+Each scene runs with error bars, without, and at the tolerance of the reference. A row at a snapshot is good where its
+largest error, over the largest value of its column, is estimated within a factor of five. Then the median of the
+estimate over what is true, its range, and what error bars add to the processor seconds of the run, the least of two of
+either kind.
+"""
+
+import argparse
+import csv
+import math
+import os
+import pathlib
+import re
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
+# Those that get by with less than the end of the scene or have few snapshots: end and time between snapshots.
+SHORTENED = {
+    "ac_field_averaged": ('"125 ms"', '"6.25 ms"'),
+    "figure5_half": ("2.5", "0.125"),
+    "figure5_two": ("2.5", "0.125"),
+    "settling_in_shear": ('"3 s"', '"0.25 s"'),
+    "two_prolates": ("5.0", "0.25"),
+}
+# What worst_error of the program counts.
+COLUMNS = ["reduced_volume", "bending_energy_scaled", "tension_integral", "Vm_north", "q_north", "Vm_max", "extent_x",
+           "extent_y", "extent_z", "inclination_deg", "smallest_gap"]
+UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0}
+
+
+def scene_at(name: str, tolerance: str, error_bars: bool) -> str:
+    """The scene with degree and order of the tolerance."""
+    text = re.sub(r"\n(degree|dt|tolerance|time_order) = .*", "", (SCENES / f"{name}.toml").read_text())
+    bars = "true" if error_bars else "false"
+    text = text.replace("[numerics]", f"[numerics]\ntolerance = {tolerance}\nerror_bars = {bars}")
+    if name in SHORTENED:
+        shorter_end, every = SHORTENED[name]
+        text = re.sub(r"\nend_time = .*", f"\nend_time = {shorter_end}", text)
+        text = re.sub(r"\nevery = .*", f"\nevery = {every}", re.sub(r"\ntimes = .*", "", text))
+    return text
+
+
+def seconds_of(text: str, key: str) -> float:
+    """A time of the scene; without a unit as it is."""
+    value, _, unit = re.search(rf'\n{key} = "?([^"\n]*)', text).group(1).partition(" ")
+    return float(value) * UNITS.get(unit, 1.0)
+
+
+def run(program: str, text: str, folder: pathlib.Path) -> float:
+    """Processor seconds of a run of one thread."""
+    folder.mkdir(parents=True)
+    (folder / "scene.toml").write_text(text)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    subprocess.run([program, "run", folder / "scene.toml", "-o", folder / "run", "--no-plot", "--quiet"], check=True,
+                   stdout=subprocess.DEVNULL, env=dict(os.environ, OMP_NUM_THREADS="1"))
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def table(path: pathlib.Path) -> list:
+    with path.open() as file:
+        return [{key.split(" ")[0]: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def numbered(rows: list) -> dict:
+    """Rows by time; where the forcing jumps there are two, told apart by a number."""
+    result, count = {}, {}
+    for index, row in enumerate(rows):
+        time = float(f"{row['time']:.8g}")
+        count[time] = count.get(time, -1) + 1
+        result[time, count[time]] = index
+    return result
+
+
+def sizes_of(history: list) -> dict:
+    sizes = {name: 180 / math.pi if name == "inclination_deg" else max(abs(row[name]) for row in history)
+             for name in COLUMNS if name in history[0]}
+    if "Vm_north" in sizes and sizes["Vm_north"] <= 1e-9 * sizes["Vm_max"]:
+        del sizes["Vm_north"], sizes["q_north"]  # zero by symmetry
+    return {name: size for name, size in sizes.items() if size > 0 and math.isfinite(size)}
+
+
+def largest(difference, sizes: dict) -> float:
+    def of(name):
+        value = abs(difference(name))
+        return min(value, 180 - value) if name == "inclination_deg" else value
+    return max(of(name) / size for name, size in sizes.items())
+
+
+def ratios_of(folder: pathlib.Path, reference: pathlib.Path, n_snapshots: int) -> list:
+    """Estimate over true error at the snapshots after the start."""
+    history, errors = table(folder / "run/history.csv"), table(folder / "run/history_error.csv")
+    exact = table(reference / "run/history.csv")
+    sizes, there = sizes_of(history), numbered(exact)
+    end = history[-1]["time"]
+    due = {float(f"{end * k / n_snapshots:.8g}") for k in range(1, n_snapshots + 1)}
+    ratios = []
+    for key, i in numbered(history).items():
+        if key[0] in due and key in there:
+            true = largest(lambda name: history[i][name] - exact[there[key]][name], sizes)
+            ratios.append(largest(lambda name: errors[i][name], sizes) / true)
+    return ratios
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("scenes", nargs="*", default=sorted(path.stem for path in SCENES.glob("*.toml")))
+    parser.add_argument("--tolerance", default="1e-3")
+    parser.add_argument("--reference", default="1e-6", help="tolerance of what counts as true")
+    parser.add_argument("--folder", type=pathlib.Path, help="to keep the references for the next call")
+    arguments = parser.parse_intermixed_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        kept = arguments.folder or pathlib.Path(temporary)
+        for name in arguments.scenes:
+            folder = pathlib.Path(temporary) / f"{name}_of_{arguments.tolerance}"
+            reference = kept / f"{name}_at_{arguments.reference}"
+            text = scene_at(name, arguments.tolerance, True)
+            if not reference.exists():
+                run(arguments.program, scene_at(name, arguments.reference, False), reference)
+            plain_text = scene_at(name, arguments.tolerance, False)
+            # What else the machine does makes runs slower, never faster.
+            plain = min(run(arguments.program, plain_text, folder / f"plain_{k}") for k in range(2))
+            more = min(run(arguments.program, text, folder / f"bars_{k}") for k in range(2)) / plain - 1
+            n_snapshots = round(seconds_of(text, "end_time") / seconds_of(text, "every"))
+            ratios = ratios_of(folder / "bars_0", reference, n_snapshots)
+            good = sum(0.2 < ratio < 5 for ratio in ratios) / len(ratios)
+            print(f"{name}: {len(ratios)} rows, {100 * good:.0f} % good, median {statistics.median(ratios):.2f}, "
+                  f"from {min(ratios):.2g} to {max(ratios):.2g}, {100 * more:.0f} % more seconds", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
