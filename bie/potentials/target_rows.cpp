@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/small_product.hpp"
@@ -105,33 +106,35 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
 }
 
 void TargetRows::list_stored_entries() {
-  struct Placed {
-    Index column;
-    StoredEntry entry;
-  };
-  std::vector<Placed> placed;
+  constexpr StoredEntry kNone{-1, -1, -1};
+  std::vector<StoredEntry> of_column;
   Index i = 0;
   for (int kernel = 0; kernel < kernels_.count; ++kernel) {
+    const std::array<Index, 2> places{place_of(kernel_columns_.cosine, kernel), place_of(kernel_columns_.sine, kernel)};
     const auto offset = [&](bool sine, int n, int m) {
-      const Index place = place_of(kernel_columns_.of(sine), kernel);
-      if (place < 0) return std::int32_t{-1};
-      return static_cast<std::int32_t>(rows_.row(sine, n, m) - rows_.row(sine, 0, 0) + place * chunk_);
+      if (places[sine] < 0) return std::int32_t{-1};
+      return static_cast<std::int32_t>(rows_.row(sine, n, m) - rows_.row(sine, 0, 0) + places[sine] * chunk_);
     };
     for (int m = 0; m <= azimuthal_order_; ++m) {
       for (const bool sine : {false, true}) {
         for (int n = m; n <= order_ && (m > 0 || !sine); ++n, ++i) {
           const Index column = places_.columns.empty() ? i : places_.columns[i];
-          if (column >= 0) placed.push_back({column, {offset(false, n, m), offset(true, n, m), 2 * m + sine}});
+          if (column < 0) continue;
+          if (column >= std::ssize(of_column)) of_column.resize(static_cast<std::size_t>(column + 1), kNone);
+          of_column[static_cast<std::size_t>(column)] = {offset(false, n, m), offset(true, n, m), 2 * m + sine};
         }
       }
     }
   }
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.column < b.column; });
-  for (const Placed& one : placed) {
-    const bool joins =
-        !stored_.empty() && stored_.back().count < kLanes && one.column == stored_.back().column + stored_.back().count;
-    if (!joins) stored_.push_back({one.column, 0, {}});
-    stored_.back().entries[static_cast<std::size_t>(stored_.back().count++)] = one.entry;
+  bool joins = false;
+  for (Index column = 0; column < std::ssize(of_column); ++column) {
+    const StoredEntry& entry = of_column[static_cast<std::size_t>(column)];
+    const bool is_there = entry.phases >= 0;
+    if (is_there) {
+      if (!joins || stored_.back().count == kLanes) stored_.push_back({column, 0, {}});
+      stored_.back().entries[static_cast<std::size_t>(stored_.back().count++)] = entry;
+    }
+    joins = is_there;
   }
 }
 
