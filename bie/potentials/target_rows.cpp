@@ -176,8 +176,9 @@ void TargetRows::phase_shift() {
           const double a = position_(coefficient_index(n, m), i);
           const double b = m > 0 ? position_(coefficient_index(n, -m), i) : 0.0;
           const double of_cosine = sine ? b : a, of_sine = sine ? -a : b;
-#pragma omp simd
-          for (Index t = 0; t < chunk_; ++t) to[t] = of_cosine * c[t] + of_sine * s[t];
+          for (Index t = 0; t < chunk_; t += kLanes) {
+            Lanes<kLanes>::store(to + t, of_cosine * Lanes<kLanes>::load(c + t) + of_sine * Lanes<kLanes>::load(s + t));
+          }
           to += chunk_;
         }
       }
