@@ -1,5 +1,8 @@
 #include "bie/geometry/surface.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -8,48 +11,60 @@ namespace {
 
 Vector row_dot(const Matrix& a, const Matrix& b) { return a.cwiseProduct(b).rowwise().sum(); }
 
-Matrix row_cross(const Matrix& a, const Matrix& b) {
-  Matrix c(a.rows(), 3);
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const int k = (i + 2) % 3;
-    c.col(i) = a.col(j).cwiseProduct(b.col(k)) - a.col(k).cwiseProduct(b.col(j));
-  }
-  return c;
+/// A vector at one point. All that is known there follows in one pass over the points, a register of them at a time.
+struct At {
+  double x, y, z;
+};
+
+inline double dot(const At& a, const At& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+inline At combined(double alpha, const At& a, double beta, const At& b) {
+  return {alpha * a.x + beta * b.x, alpha * a.y + beta * b.y, alpha * a.z + beta * b.z};
 }
 
 }  // namespace
 
 Surface make_surface(const SphereTransform& transform, const Matrix& position_coefficients) {
   require_size("position (Cartesian components)", position_coefficients.cols(), 3);
-  const SphereDerivatives x = transform.synthesize_hessian(position_coefficients);
+  SphereDerivatives x = transform.synthesize_hessian(position_coefficients);
+  const Index n = x.value.rows();
   Surface s;
-  s.position = x.value;
-  s.tangent_1 = x.d1;
-  s.tangent_2 = x.d2;
-  const Matrix cross = row_cross(x.d1, x.d2);
-  s.area_element = cross.rowwise().norm();
-  s.normal = s.area_element.cwiseInverse().asDiagonal() * cross;
-
-  const Eigen::ArrayXd e = row_dot(x.d1, x.d1);
-  const Eigen::ArrayXd f = row_dot(x.d1, x.d2);
-  const Eigen::ArrayXd g = row_dot(x.d2, x.d2);
-  const Eigen::ArrayXd determinant = s.area_element.array().square();
-  s.g11 = g / determinant;
-  s.g12 = -f / determinant;
-  s.g22 = e / determinant;
-  s.dual_1 = s.g11.asDiagonal() * x.d1 + s.g12.asDiagonal() * x.d2;
-  s.dual_2 = s.g12.asDiagonal() * x.d1 + s.g22.asDiagonal() * x.d2;
-
-  const Eigen::ArrayXd b11 = row_dot(x.d11, s.normal);
-  const Eigen::ArrayXd b12 = row_dot(x.d12, s.normal);
-  const Eigen::ArrayXd b22 = row_dot(x.d22, s.normal);
-  s.mean_curvature = 0.5 * (s.g11.array() * b11 + 2.0 * s.g12.array() * b12 + s.g22.array() * b22);
-  s.gauss_curvature = (b11 * b22 - b12.square()) / determinant;
-
-  const Matrix trace = s.g11.asDiagonal() * x.d11 + 2.0 * (s.g12.asDiagonal() * x.d12) + s.g22.asDiagonal() * x.d22;
-  s.laplace_1 = row_dot(trace, s.dual_1);
-  s.laplace_2 = row_dot(trace, s.dual_2);
+  s.position = std::move(x.value);
+  s.tangent_1 = std::move(x.d1);
+  s.tangent_2 = std::move(x.d2);
+  for (Matrix* vectors : {&s.dual_1, &s.dual_2, &s.normal}) vectors->resize(n, 3);
+  for (Vector* scalars :
+       {&s.area_element, &s.g11, &s.g12, &s.g22, &s.laplace_1, &s.laplace_2, &s.mean_curvature, &s.gauss_curvature}) {
+    scalars->resize(n);
+  }
+#pragma omp simd
+  for (Index i = 0; i < n; ++i) {
+    const auto at = [i](const Matrix& vectors) { return At{vectors(i, 0), vectors(i, 1), vectors(i, 2)}; };
+    const At x1 = at(s.tangent_1), x2 = at(s.tangent_2), x11 = at(x.d11), x12 = at(x.d12), x22 = at(x.d22);
+    const At cross{x1.y * x2.z - x1.z * x2.y, x1.z * x2.x - x1.x * x2.z, x1.x * x2.y - x1.y * x2.x};
+    const double area = std::sqrt(dot(cross, cross)), determinant = area * area;
+    const At normal{cross.x / area, cross.y / area, cross.z / area};
+    const double g11 = dot(x2, x2) / determinant, g12 = -dot(x1, x2) / determinant, g22 = dot(x1, x1) / determinant;
+    const At dual_1 = combined(g11, x1, g12, x2), dual_2 = combined(g12, x1, g22, x2);
+    const double b11 = dot(x11, normal), b12 = dot(x12, normal), b22 = dot(x22, normal);
+    const At trace = combined(1.0, combined(g11, x11, 2.0 * g12, x12), g22, x22);
+    const auto put = [i](Matrix& vectors, const At& vector) {
+      vectors(i, 0) = vector.x;
+      vectors(i, 1) = vector.y;
+      vectors(i, 2) = vector.z;
+    };
+    put(s.normal, normal);
+    put(s.dual_1, dual_1);
+    put(s.dual_2, dual_2);
+    s.area_element[i] = area;
+    s.g11[i] = g11;
+    s.g12[i] = g12;
+    s.g22[i] = g22;
+    s.laplace_1[i] = dot(trace, dual_1);
+    s.laplace_2[i] = dot(trace, dual_2);
+    s.mean_curvature[i] = 0.5 * (g11 * b11 + 2.0 * g12 * b12 + g22 * b22);
+    s.gauss_curvature[i] = (b11 * b22 - b12 * b12) / determinant;
+  }
 
   const SphereGrid& grid = transform.grid();
   s.quadrature.resize(grid.n_points());

@@ -27,7 +27,8 @@ RecycledSubspace selected(const RecycledSubspace& known, const std::vector<Index
 }
 
 SecantInverse::SecantInverse(const RecycledSubspace& known) {
-  const Matrix gram = known.responses.transpose() * known.responses;
+  Matrix gram = Matrix::Zero(known.count(), known.count());
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(known.responses.transpose());
   // Cholesky's factorisation, with a row more for every column that is independent of those before it.
   constexpr double least = thresholds::least_independence;
   factor_ = Matrix::Zero(known.count(), known.count());
@@ -37,7 +38,7 @@ SecantInverse::SecantInverse(const RecycledSubspace& known) {
     if (!(norm > 0.0) || !std::isfinite(norm)) continue;
     const auto n = static_cast<Index>(kept_.size());
     Vector row(n);
-    for (Index i = 0; i < n; ++i) row[i] = gram(kept_[i], j) * scale[i] / norm;
+    for (Index i = 0; i < n; ++i) row[i] = gram(j, kept_[i]) * scale[i] / norm;
     factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(row);
     const double remainder = 1.0 - row.squaredNorm();
     if (!(remainder > least * least)) continue;

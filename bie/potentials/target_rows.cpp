@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/small_product.hpp"
@@ -65,7 +66,7 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
       azimuthal_order_(context.azimuthal_order),
       mirrored_(context.mirrored),
       inverted_(!places.degrees.shape[0] && !places.degrees.rows[0]),
-      n_latitudes_(inverted_ ? (q_.n_theta + 1) / 2 : q_.n_theta),
+      n_half_((q_.n_theta + 1) / 2),
       n_images_(mirrored_ ? 2 : 4),
       shape_kinds_(kernels_.need_source_normal() ? kShapeKinds : 1),
       n_quarter_(q_.n_phi / 4),
@@ -76,62 +77,64 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
       rows_(block_for(order_, azimuthal_order_, kernel_columns_, chunk)),
       rotated_rows_(block_for(order_, order_, kernel_columns_, chunk)),
       node_kernels_(kernels_, chunk),
-      row_amplitudes_(n_latitudes_, order_, rows_.columns(false), rows_.columns(true)),
+      row_amplitudes_(latitude(n_half_, 1), order_, rows_.columns(false), rows_.columns(true)),
       cosines_(context.phi.size(), azimuthal_order_ + 1),
       sines_(cosines_.rows(), cosines_.cols()),
-      cosine_phases_(static_cast<std::size_t>((azimuthal_order_ + 1) * chunk)),
+      cosine_phases_((azimuthal_order_ + 1) * chunk),
       sine_phases_(cosine_phases_.size()),
-      rotation_entries_(static_cast<std::size_t>(chunk)),
-      nothing_(static_cast<std::size_t>(chunk), 0.0),
+      rotation_entries_((order_ + 1) * (order_ + 1) * chunk),
+      nothing_(Vector::Zero(chunk)),
       phases_back_(4 * cosine_phases_.size()) {
-  Index widest = std::max(rows_.columns(false), rows_.columns(true));
-  for (int kind = 0; kind < shape_kinds_; ++kind) {
+  for (std::size_t kind = 0; kind < static_cast<std::size_t>(shape_kinds_); ++kind) {
     // ∂/∂φ exchanges cosines and sines.
     const Index cosines = shape_.columns(kind == 2), sines = shape_.columns(kind != 2);
-    widest = std::max({widest, cosines, sines});
-    shape_amplitudes_.emplace_back(n_latitudes_, order_, cosines, sines);
-    for (int part = 0; part < kParts; ++part)
-      shape_parts_[kind][part].resize(n_quarter_ * (part < 2 ? cosines : sines));
+    shape_amplitudes_.emplace_back(latitude(n_half_, 1), order_, cosines, sines);
+    for (Parts& parts : shape_parts_[kind]) {
+      for (std::size_t part = 0; part < kParts; ++part) parts[part].resize(n_quarter_ * (part < 2 ? cosines : sines));
+    }
   }
-  for (int part = 0; part < kParts; ++part) row_parts_[part].resize(n_quarter_ * rows_.columns(part >= 2));
+  for (Parts& parts : row_parts_) {
+    for (std::size_t part = 0; part < kParts; ++part) parts[part].resize(n_quarter_ * rows_.columns(part >= 2));
+  }
   for (Index k = 0; k < cosines_.rows(); ++k) {
     for (int m = 0; m <= azimuthal_order_; ++m) {
       cosines_(k, m) = std::cos(m * context.phi[k]);
       sines_(k, m) = std::sin(m * context.phi[k]);
     }
   }
-  for (auto& half : half_) half.resize((q_.n_theta + 1) / 2 * widest);
   list_stored_entries();
 }
 
 void TargetRows::list_stored_entries() {
-  struct Placed {
-    Index column;
-    StoredEntry entry;
-  };
-  std::vector<Placed> placed;
+  constexpr StoredEntry kNone{-1, -1, -1};
+  std::vector<StoredEntry> of_column;
   Index i = 0;
   for (int kernel = 0; kernel < kernels_.count; ++kernel) {
+    const std::array<Index, 2> places{place_of(kernel_columns_.cosine, kernel), place_of(kernel_columns_.sine, kernel)};
     const auto offset = [&](bool sine, int n, int m) {
-      const Index place = place_of(kernel_columns_.of(sine), kernel);
-      if (place < 0) return std::int32_t{-1};
-      return static_cast<std::int32_t>(rows_.row(sine, n, m) - rows_.row(sine, 0, 0) + place * chunk_);
+      if (places[sine] < 0) return std::int32_t{-1};
+      return static_cast<std::int32_t>(rows_.row(sine, n, m) - rows_.row(sine, 0, 0) + places[sine] * chunk_);
     };
     for (int m = 0; m <= azimuthal_order_; ++m) {
       for (const bool sine : {false, true}) {
         for (int n = m; n <= order_ && (m > 0 || !sine); ++n, ++i) {
           const Index column = places_.columns.empty() ? i : places_.columns[i];
-          if (column >= 0) placed.push_back({column, {offset(false, n, m), offset(true, n, m), 2 * m + sine}});
+          if (column < 0) continue;
+          if (column >= std::ssize(of_column)) of_column.resize(static_cast<std::size_t>(column + 1), kNone);
+          of_column[static_cast<std::size_t>(column)] = {offset(false, n, m), offset(true, n, m), 2 * m + sine};
         }
       }
     }
   }
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.column < b.column; });
-  for (const Placed& one : placed) {
-    const bool joins =
-        !stored_.empty() && stored_.back().count < kLanes && one.column == stored_.back().column + stored_.back().count;
-    if (!joins) stored_.push_back({one.column, 0, {}});
-    stored_.back().entries[static_cast<std::size_t>(stored_.back().count++)] = one.entry;
+  bool joins = false;
+  for (Index column = 0; column < std::ssize(of_column); ++column) {
+    const StoredEntry& entry = of_column[static_cast<std::size_t>(column)];
+    const bool is_there = entry.phases >= 0;
+    if (is_there) {
+      if (!joins || stored_.back().count == kLanes) stored_.push_back({column, 0, {}});
+      stored_.back().entries[static_cast<std::size_t>(stored_.back().count++)] = entry;
+    }
+    joins = is_there;
   }
 }
 
@@ -143,7 +146,7 @@ void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
   for (int kind = 0; kind < shape_kinds_; ++kind) {
     for (const bool sine : {false, true}) legendre_synthesis(kind, sine);
   }
-  for (int i = 0; i < n_latitudes_; ++i) evaluate_latitude(i);
+  for (int i = 0; i < n_half_; ++i) evaluate_latitude(i);
   for (const bool sine : {false, true}) legendre_adjoint(sine);
   rotate_back(targets);
   store_rows(targets, rows);
@@ -173,8 +176,9 @@ void TargetRows::phase_shift() {
           const double a = position_(coefficient_index(n, m), i);
           const double b = m > 0 ? position_(coefficient_index(n, -m), i) : 0.0;
           const double of_cosine = sine ? b : a, of_sine = sine ? -a : b;
-#pragma omp simd
-          for (Index t = 0; t < chunk_; ++t) to[t] = of_cosine * c[t] + of_sine * s[t];
+          for (Index t = 0; t < chunk_; t += kLanes) {
+            Lanes<kLanes>::store(to + t, of_cosine * Lanes<kLanes>::load(c + t) + of_sine * Lanes<kLanes>::load(s + t));
+          }
           to += chunk_;
         }
       }
@@ -182,25 +186,49 @@ void TargetRows::phase_shift() {
   }
 }
 
+/// Entries of the rotations of all targets side by side, [column][row][target].
+void TargetRows::load_rotations(std::span<const Target> targets, int n, bool sine) {
+  const Index size = sine ? n : n + 1, n_entries = size * size;
+  for (Index first = 0; first < chunk_; first += kLanes) {
+    std::array<const double*, kLanes> entries;
+    for (std::size_t t = 0; t < kLanes; ++t) {
+      const RotationY& rotation = q_.rotations[targets[static_cast<std::size_t>(first) + t].latitude];
+      entries[t] = (sine ? rotation.sine : rotation.cosine)[n].data();
+    }
+    double* to = rotation_entries_.data() + first;
+    Index i = 0;
+    for (; i + kLanes <= n_entries; i += kLanes) {
+      std::array<LanesOfRows, kLanes> values;
+      for (std::size_t t = 0; t < kLanes; ++t) values[t] = Lanes<kLanes>::load(entries[t] + i);
+      transpose(values);
+      for (Index k = 0; k < kLanes; ++k) {
+        Lanes<kLanes>::store(to + (i + k) * chunk_, values[static_cast<std::size_t>(k)]);
+      }
+    }
+    for (; i < n_entries; ++i) {
+      for (std::size_t t = 0; t < kLanes; ++t) to[i * chunk_ + static_cast<Index>(t)] = entries[t][i];
+    }
+  }
+}
+
 void TargetRows::rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to,
                                    bool back) {
   for (const bool sine : {false, true}) {
-    const Index columns = from.block.columns(sine);
+    load_rotations(targets, n, sine);
     const int first = sine ? 1 : 0;
+    // From an entry of a sum to the next one.
+    const Index columns = from.block.columns(sine), size = n + 1 - first;
+    const Index stride = (back ? 1 : size) * chunk_, order_stride = from.block.order_stride(sine);
     for (int i = first; i <= to.highest; ++i) {
-      double* sum = to.block.row(sine, n, i);
-      std::fill_n(sum, columns, 0.0);
-      for (int k = first; k <= from.highest; ++k) {
-        for (Index t = 0; t < chunk_; ++t) {
-          const RotationY& rotation = q_.rotations[targets[t].latitude];
-          rotation_entries_[t] =
-              (sine ? rotation.sine : rotation.cosine)[n]((back ? k : i) - first, (back ? i : k) - first);
+      const double* entries = rotation_entries_.data() + (i - first) * (back ? size : 1) * chunk_;
+      for (Index column = 0; column < columns; column += kLanes) {
+        const double* entry = entries + column % chunk_;
+        const double* of_order = from.block.row(sine, n, first) + column;
+        LanesOfRows sum{};
+        for (int k = first; k <= from.highest; ++k, entry += stride, of_order += order_stride) {
+          sum += Lanes<kLanes>::load(entry) * Lanes<kLanes>::load(of_order);
         }
-        const double* of_order = from.block.row(sine, n, k);
-        for (Index column = 0; column < columns; column += chunk_) {
-#pragma omp simd
-          for (Index t = 0; t < chunk_; ++t) sum[column + t] += rotation_entries_[t] * of_order[column + t];
-        }
+        Lanes<kLanes>::store(to.block.row(sine, n, i) + column, sum);
       }
     }
   }

@@ -20,12 +20,12 @@ namespace {
 
 /// Longitudes of axisymmetric fields, where sines and cosines are 0 and ±1.
 constexpr int kQuarterTurns = 4;
-/// Rows whose parts stay in the first-level cache. A few more stay with them: grids have one latitude more than their
-/// degree says, and alone it would take as long as eight.
-constexpr Index kRowsTogether = 16;
-constexpr Index kMostTogether = kRowsTogether + kRowsTogether / 2;
-
-Index next_rows(Index left) { return left > kMostTogether ? kRowsTogether : left; }
+/// Latitudes whose sums stay in registers with those of their images: eight sums each.
+#ifdef __AVX512F__
+constexpr int kMostLatitudes = 3;
+#else
+constexpr int kMostLatitudes = 1;
+#endif
 /// Up to this order products take less than fast transforms: measured without AVX, and with it at all degrees up to 64,
 /// where they take half as long (docs/performance.md).
 #ifdef __AVX__
@@ -53,152 +53,313 @@ Longitudes longitudes(const double* at) {
   return lanes;
 }
 
+void put(double* at, const Longitudes& lanes) { std::memcpy(at, &lanes, sizeof lanes); }
+
 Longitudes reversed(const Longitudes& lanes) { return __builtin_shufflevector(lanes, lanes, 3, 2, 1, 0); }
+
+/// Sums over even and odd orders of cosines and sines on one latitude, over longitudes of a quarter of the circle.
+struct QuarterSums {
+  Longitudes even_cosines, odd_cosines, even_sines, odd_sines;
+};
+
+/// Puts one row at longitudes φ, π − φ, π + φ and −φ of some φ from the at-th of the quarter on.
+void unfold(const QuarterSums& sums, Index at, Index n_phi, double* values) {
+  double *here = values + at, *opposite = here + n_phi / 2;
+  double *before_opposite = values + n_phi / 2 - at - (kLanes - 1), *below = before_opposite + n_phi / 2;
+  const Longitudes cosines = sums.even_cosines + sums.odd_cosines, sines = sums.even_sines + sums.odd_sines;
+  const Longitudes opposite_cosines = sums.even_cosines - sums.odd_cosines;
+  const Longitudes opposite_sines = sums.even_sines - sums.odd_sines;
+  put(here, cosines + sines);
+  put(opposite, opposite_cosines + opposite_sines);
+  // Sines of 0 are 0, so that φ = π gets the same value twice; φ = 2π is beyond the row.
+  put(before_opposite, reversed(opposite_cosines - opposite_sines));
+  const Longitudes mirrored = reversed(cosines - sines);
+  if (at == 0) {
+    std::memcpy(below, &mirrored, sizeof mirrored - sizeof(double));
+  } else {
+    put(below, mirrored);
+  }
+}
+
+/// The same where a quarter does not fill a register.
+void unfold_few(const QuarterSums& sums, Index n_quarter, Index n_phi, double* values) {
+  double *here = values, *opposite = values + n_phi / 2, *below = values + n_phi;
+  for (Index k = 0; k < n_quarter; ++k) {
+    const double cosines = sums.even_cosines[k] + sums.odd_cosines[k], sines = sums.even_sines[k] + sums.odd_sines[k];
+    const double opposite_cosines = sums.even_cosines[k] - sums.odd_cosines[k];
+    const double opposite_sines = sums.even_sines[k] - sums.odd_sines[k];
+    here[k] = cosines + sines;
+    opposite[k] = opposite_cosines + opposite_sines;
+    if (k == 0) continue;
+    opposite[-k] = opposite_cosines - opposite_sines;
+    below[-k] = cosines - sines;
+  }
+}
+
+/// Values of one row at φ, π − φ, π + φ and −φ added up as even and odd orders of cosines and sines see them.
+template <typename Number>
+struct Folded {
+  Number even_cosines, odd_cosines, even_sines, odd_sines;
+
+  Folded(const Number& here, const Number& before_opposite, const Number& opposite, const Number& below) {
+    const Number even = here + opposite, odd = here - opposite;
+    const Number even_image = before_opposite + below, odd_image = before_opposite - below;
+    even_cosines = even + even_image;
+    odd_cosines = odd - odd_image;
+    even_sines = even - even_image;
+    odd_sines = odd + odd_image;
+  }
+};
+
+/// Where they go: a row of each.
+struct FoldedRows {
+  double *even_cosines, *odd_cosines, *even_sines, *odd_sines;
+};
+
+/// The values themselves, or with those of a mirror image.
+struct Alone {
+  const double* row;
+  [[nodiscard]] Longitudes lanes(Index k) const { return longitudes(row + k); }
+  [[nodiscard]] double one(Index k) const { return row[k]; }
+};
+template <int kSign>
+struct WithImage {
+  const double *row, *image;
+  [[nodiscard]] Longitudes lanes(Index k) const {
+    return kSign > 0 ? longitudes(row + k) + longitudes(image + k) : longitudes(row + k) - longitudes(image + k);
+  }
+  [[nodiscard]] double one(Index k) const { return kSign > 0 ? row[k] + image[k] : row[k] - image[k]; }
+};
+
+template <typename Values>
+void fold(const Values& values, Index n_quarter, Index n_phi, const FoldedRows& to) {
+  const Index half = n_phi / 2;
+  // Where two of the four longitudes coincide, what these would cancel from meets zeros in the tables.
+  const auto fold_pair = [&](Index k) {
+    const double here = values.one(k), opposite = values.one(half + k);
+    to.even_cosines[k] = to.even_sines[k] = here + opposite;
+    to.odd_cosines[k] = to.odd_sines[k] = here - opposite;
+  };
+  const Index end = n_phi % 4 == 0 ? n_quarter - 1 : n_quarter;
+  fold_pair(0);
+  if (end < n_quarter) fold_pair(end);
+  if (end - 1 < kLanes) {
+    for (Index k = 1; k < end; ++k) {
+      const Folded<double> sums(values.one(k), values.one(half - k), values.one(half + k), values.one(n_phi - k));
+      to.even_cosines[k] = sums.even_cosines;
+      to.odd_cosines[k] = sums.odd_cosines;
+      to.even_sines[k] = sums.even_sines;
+      to.odd_sines[k] = sums.odd_sines;
+    }
+    return;
+  }
+  // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
+  for (Index k = 1; k < end; k += kLanes) {
+    const Index at = std::min(k, end - kLanes), mirrored = at + kLanes - 1;
+    const Folded<Longitudes> sums(values.lanes(at), reversed(values.lanes(half - mirrored)), values.lanes(half + at),
+                                  reversed(values.lanes(n_phi - mirrored)));
+    put(to.even_cosines + at, sums.even_cosines);
+    put(to.odd_cosines + at, sums.odd_cosines);
+    put(to.even_sines + at, sums.even_sines);
+    put(to.odd_sines + at, sums.odd_sines);
+  }
+}
 
 }  // namespace
 
-FourierSums::FourierSums(int n_phi, int order) : n_phi_(n_phi), order_(order), n_quarter_(n_phi / 4 + 1) {
+FourierSums::FourierSums(int n_phi, int order)
+    : n_phi_(n_phi), order_(order), n_quarter_(n_phi / 4 + 1), row_length_(whole_registers(order / 2 + 1)) {
   require_size("longitudes (even)", n_phi % 2, 0);
   if (order > kMostByProducts) {
     fast_.emplace(n_phi, order);
     return;
   }
-  for (int i = 0; i < kFamilies; ++i) {
-    Family& family = families_[static_cast<std::size_t>(i)];
-    const bool sine = i >= 2;
-    const int parity = i % 2;
-    const int first = sine && parity == 0 ? 2 : parity;  // sin 0φ takes no part
-    family.first_mode = sine ? sine_mode(first) : cosine_mode(first);
-    family.n_modes = first > order ? 0 : (order - first) / 2 + 1;
-    family.synthesis = RowMatrix::Zero(family.n_modes, whole_registers(n_quarter_));
-    family.analysis = RowMatrix::Zero(n_quarter_, whole_registers(family.n_modes));
-    for (Index j = 0; j < family.n_modes; ++j) {
-      const auto m = first + 2 * static_cast<int>(j);
-      for (Index k = 0; k < n_quarter_; ++k) {
-        const double phi = 2.0 * std::numbers::pi * static_cast<double>(k) / n_phi;
+  const Index width = filled_up(n_quarter_);
+  synthesis_ = RowMatrix::Zero(order + 1, kWaves * width);
+  for (auto& of_parity : analysis_) of_parity.fill(RowMatrix::Zero(n_quarter_, row_length_));
+  for (int m = 0; m <= order; ++m) {
+    for (Index k = 0; k < n_quarter_; ++k) {
+      const double phi = 2.0 * std::numbers::pi * static_cast<double>(k) / n_phi;
+      for (const bool sine : {false, true}) {
         const bool vanishes = 4 * k == n_phi && sine == (m % 2 == 0);  // at π/2
         const double wave = vanishes ? 0.0 : sine ? std::sin(m * phi) : std::cos(m * phi);
-        family.synthesis(j, k) = wave;
-        family.analysis(k, j) = (m == 0 ? 1.0 : 2.0) / n_phi * wave;
+        synthesis_(m, (sine ? width : 0) + k) = wave;
+        if (sine) synthesis_(m, 2 * width + k) = -wave;
+        analysis_[m % 2][sine ? 1 : 0](k, m / 2) = (m == 0 ? 1.0 : 2.0) / n_phi * wave;
       }
     }
   }
 }
 
-/// One row at longitudes φ, π − φ, π + φ and −φ. Those that coincide get the same value twice.
-void FourierSums::unfold(const std::array<const double*, kFamilies>& parts, double* values) const {
-  const double *ce = parts[0], *co = parts[1], *se = parts[2], *so = parts[3];
-  double *here = values, *opposite = values + n_phi_ / 2, *below = values + n_phi_;
-  if (n_quarter_ <= kLanes) {
-    for (Index k = 0; k < n_quarter_; ++k) {
-      here[k] = (ce[k] + co[k]) + (se[k] + so[k]);
-      opposite[k] = (ce[k] - co[k]) + (se[k] - so[k]);
-      if (k == 0) continue;
-      opposite[-k] = (ce[k] - co[k]) - (se[k] - so[k]);
-      below[-k] = (ce[k] + co[k]) - (se[k] + so[k]);
-    }
-    return;
-  }
-  // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
-  const Index last = n_quarter_ - kLanes;
-  const auto put = [](double* to, const Longitudes& lanes) { std::memcpy(to, &lanes, sizeof lanes); };
+template <int kRows>
+void FourierSums::synthesize_rows(Index first, Index n_theta, const HemisphereAmplitudes& amplitudes,
+                                  double* values) const {
+  const Index stride = amplitudes.stride, width = filled_up(n_quarter_), last = std::max<Index>(n_quarter_ - kLanes, 0);
   for (Index k = 0; k < n_quarter_; k += kLanes) {
+    // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
     const Index at = std::min(k, last);
-    const Longitudes c = longitudes(ce + at), d = longitudes(co + at);
-    const Longitudes s = longitudes(se + at), t = longitudes(so + at);
-    const Longitudes cosines = c + d, opposite_cosines = c - d, sines = s + t, opposite_sines = s - t;
-    put(here + at, cosines + sines);
-    put(opposite + at, opposite_cosines + opposite_sines);
-    // Sines of 0 are 0, so that φ = π gets the same value twice; φ = 2π is beyond the row.
-    put(opposite - at - (kLanes - 1), reversed(opposite_cosines - opposite_sines));
-    const Longitudes mirrored = reversed(cosines - sines);
-    double* to = below - at - (kLanes - 1);
-    if (at == 0) {
-      std::memcpy(to, &mirrored, sizeof mirrored - sizeof(double));
-    } else {
-      put(to, mirrored);
+    const double *cosine = synthesis_.data() + at, *sine = cosine + (amplitudes.minus_sines ? 2 : 1) * width;
+    // Of the symmetric and the antisymmetric part.
+    Longitudes cosines[2][2][kRows] = {}, sines[2][2][kRows] = {};
+    const auto add = [&](int m, int parity) {
+      const Longitudes of_cosine = longitudes(cosine + m * synthesis_.cols());
+      const Longitudes of_sine = longitudes(sine + m * synthesis_.cols());
+#pragma GCC unroll 2
+      for (int part = 0; part < 2; ++part) {
+        const double* c = amplitudes.cosines[part] + m * stride + first;
+        const double* s = amplitudes.sines[part] + m * stride + first;
+#pragma GCC unroll 3
+        for (int r = 0; r < kRows; ++r) {
+          cosines[part][parity][r] += c[r] * of_cosine;
+          sines[part][parity][r] += s[r] * of_sine;
+        }
+      }
+    };
+    int m = 0;
+    for (; m < order_; m += 2) {
+      add(m, 0);
+      add(m + 1, 1);
+    }
+    if (m == order_) add(m, 0);
+#pragma GCC unroll 3
+    for (int r = 0; r < kRows; ++r) {
+      const auto put_row = [&](const QuarterSums& sums, Index row) {
+        if (n_quarter_ < kLanes) {
+          unfold_few(sums, n_quarter_, n_phi_, values + row * n_phi_);
+        } else {
+          unfold(sums, at, n_phi_, values + row * n_phi_);
+        }
+      };
+      const Index row = first + r;
+      // The equator is its own image, and stays what it is in the north.
+      put_row({cosines[0][0][r] - cosines[1][0][r], cosines[0][1][r] - cosines[1][1][r],
+               sines[0][0][r] - sines[1][0][r], sines[0][1][r] - sines[1][1][r]},
+              n_theta - 1 - row);
+      put_row({cosines[0][0][r] + cosines[1][0][r], cosines[0][1][r] + cosines[1][1][r],
+               sines[0][0][r] + sines[1][0][r], sines[0][1][r] + sines[1][1][r]},
+              row);
     }
   }
 }
 
-/// The other way for the sums of a row.
-void FourierSums::fold(const double* values, const std::array<double*, kFamilies>& parts) const {
-  double *ce = parts[0], *co = parts[1], *se = parts[2], *so = parts[3];
-  const Index half = n_phi_ / 2;
-  const double *here = values, *opposite = values + half, *across = values + half, *below = values + n_phi_;
-  // Where two of the four longitudes coincide, what these would cancel from meets zeros in the tables.
-  const auto fold_pair = [&](Index k) {
-    ce[k] = se[k] = here[k] + opposite[k];
-    co[k] = so[k] = here[k] - opposite[k];
+void FourierSums::synthesize(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const {
+  if (n_phi_ == kQuarterTurns && order_ == 1) return synthesize_quarter_turns(n_theta, amplitudes, values);
+  if (fast_) return synthesize_fast(n_theta, amplitudes, values);
+  const Index n_half = (n_theta + 1) / 2;
+  Index first = 0;
+  for (; first + kMostLatitudes <= n_half; first += kMostLatitudes) {
+    synthesize_rows<kMostLatitudes>(first, n_theta, amplitudes, values);
+  }
+  if constexpr (kMostLatitudes > 2) {
+    if (n_half - first == 2) return synthesize_rows<2>(first, n_theta, amplitudes, values);
+  }
+  if (first < n_half) synthesize_rows<1>(first, n_theta, amplitudes, values);
+}
+
+void FourierSums::synthesize_quarter_turns(Index n_theta, const HemisphereAmplitudes& amplitudes,
+                                           double* values) const {
+  const auto put_row = [](double mean, double cosine, double sine, double* row) {
+    row[0] = mean + cosine;
+    row[1] = mean + sine;
+    row[2] = mean - cosine;
+    row[3] = mean - sine;
   };
-  const Index end = n_phi_ % 4 == 0 ? n_quarter_ - 1 : n_quarter_;
-  fold_pair(0);
-  if (end < n_quarter_) fold_pair(end);
-#pragma omp simd
-  for (Index k = 1; k < end; ++k) {
-    const double even = here[k] + opposite[k], odd = here[k] - opposite[k];
-    const double even_image = across[-k] + below[-k], odd_image = across[-k] - below[-k];
-    ce[k] = even + even_image;
-    co[k] = odd - odd_image;
-    se[k] = even - even_image;
-    so[k] = odd + odd_image;
+  const Index stride = amplitudes.stride;
+  const double sign = amplitudes.minus_sines ? -1.0 : 1.0;
+  const auto& [symmetric, antisymmetric] = amplitudes.cosines;
+  const auto& [symmetric_sine, antisymmetric_sine] = amplitudes.sines;
+  for (Index i = 0; i < (n_theta + 1) / 2; ++i) {
+    const double s = sign * symmetric_sine[stride + i], t = sign * antisymmetric_sine[stride + i];
+    put_row(symmetric[i] - antisymmetric[i], symmetric[stride + i] - antisymmetric[stride + i], s - t,
+            values + (n_theta - 1 - i) * kQuarterTurns);
+    put_row(symmetric[i] + antisymmetric[i], symmetric[stride + i] + antisymmetric[stride + i], s + t,
+            values + i * kQuarterTurns);
   }
 }
 
-void FourierSums::synthesize(Index rows, const double* amplitudes, Index stride, double* values) const {
-  if (n_phi_ == kQuarterTurns && order_ == 1) {
-    const double *mean = amplitudes, *cosine = amplitudes + stride, *sine = amplitudes + 2 * stride;
-    for (Index i = 0; i < rows; ++i, values += kQuarterTurns) {
-      values[0] = mean[i] + cosine[i];
-      values[1] = mean[i] + sine[i];
-      values[2] = mean[i] - cosine[i];
-      values[3] = mean[i] - sine[i];
+void FourierSums::synthesize_fast(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const {
+  double* rows = of_this_thread((2 * order_ + 1) * n_theta);
+  for (int m = 0; m <= order_; ++m) {
+    for (const bool sine : {false, true}) {
+      if (sine && m == 0) continue;
+      const auto& parts = sine ? amplitudes.sines : amplitudes.cosines;
+      const double sign = sine && amplitudes.minus_sines ? -1.0 : 1.0;
+      double* to = rows + (sine ? order_ + m : m) * n_theta;
+      for (Index i = 0; i < (n_theta + 1) / 2; ++i) {
+        const double symmetric = parts[0][m * amplitudes.stride + i], other = parts[1][m * amplitudes.stride + i];
+        to[n_theta - 1 - i] = sign * (symmetric - other);
+        to[i] = sign * (symmetric + other);
+      }
     }
-    return;
   }
-  if (fast_) return fast_->synthesize(rows, amplitudes, stride, values);
-  const Index width = whole_registers(n_quarter_);
-  double* buffer = of_this_thread(kFamilies * kMostTogether * width);
-  const auto part = [&](int family, Index row) { return buffer + (family * kMostTogether + row) * width; };
-  for (Index first = 0, count = 0; first < rows; first += count) {
-    count = next_rows(rows - first);
-    for (int i = 0; i < kFamilies; ++i) {
-      const Family& family = families_[static_cast<std::size_t>(i)];
-      small_product(count, family.n_modes, width, {amplitudes + family.first_mode * stride + first, 1, 2 * stride},
-                    family.synthesis.data(), width, part(i, 0), width);
+  fast_->synthesize(n_theta, rows, n_theta, values);
+}
+
+void FourierSums::analyze(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const {
+  if (n_phi_ == kQuarterTurns && order_ == 1) return analyze_quarter_turns(n_theta, values, amplitudes);
+  if (fast_) return analyze_fast(n_theta, values, amplitudes);
+  const Index n_half = (n_theta + 1) / 2, size = n_half * n_quarter_;
+  double* folded = of_this_thread(FoundAmplitudes::kBlocks * size);
+  const auto place = [&](int part, int parity, bool sine) {
+    return folded + FoundAmplitudes::number(part, parity, sine) * size;
+  };
+  for (Index i = 0; i < n_half; ++i) {
+    const auto rows = [&](int part) {
+      const Index at = i * n_quarter_;
+      return FoldedRows{place(part, 0, false) + at, place(part, 1, false) + at, place(part, 0, true) + at,
+                        place(part, 1, true) + at};
+    };
+    const double *north = values + i * n_phi_, *south = values + (n_theta - 1 - i) * n_phi_;
+    if (north == south) {
+      for (const int part : {0, 1}) fold(Alone{north}, n_quarter_, n_phi_, rows(part));
+    } else {
+      fold(WithImage<1>{north, south}, n_quarter_, n_phi_, rows(0));
+      fold(WithImage<-1>{north, south}, n_quarter_, n_phi_, rows(1));
     }
-    for (Index row = 0; row < count; ++row) {
-      unfold({part(0, row), part(1, row), part(2, row), part(3, row)}, values + (first + row) * n_phi_);
+  }
+  for (const int part : {0, 1}) {
+    for (const int parity : {0, 1}) {
+      for (const bool sine : {false, true}) {
+        const RowMatrix& table = analysis_[parity][sine ? 1 : 0];
+        const int number = FoundAmplitudes::number(part, parity, sine);
+        small_product(n_half, n_quarter_, row_length_, {folded + number * size, n_quarter_, 1}, table.data(),
+                      row_length_, amplitudes.data + number * amplitudes.block, row_length_);
+      }
     }
   }
 }
 
-void FourierSums::analyze(Index rows, const double* values, double* amplitudes) const {
-  if (n_phi_ == kQuarterTurns && order_ == 1) {
-    for (Index i = 0; i < rows; ++i, values += kQuarterTurns, amplitudes += 3) {
-      amplitudes[0] = 0.25 * ((values[0] + values[2]) + (values[1] + values[3]));
-      amplitudes[1] = 0.5 * (values[0] - values[2]);
-      amplitudes[2] = 0.5 * (values[1] - values[3]);
+void FourierSums::analyze_quarter_turns(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const {
+  for (Index i = 0; i < (n_theta + 1) / 2; ++i) {
+    const double *north = values + i * kQuarterTurns, *south = values + (n_theta - 1 - i) * kQuarterTurns;
+    for (const int part : {0, 1}) {
+      const double sign = north == south ? 0.0 : part == 0 ? 1.0 : -1.0;
+      const auto value = [&](int k) { return north[k] + sign * south[k]; };
+      const auto to = [&](int m, bool sine) {
+        return amplitudes.data + FoundAmplitudes::number(part, m, sine) * amplitudes.block + i * row_length_;
+      };
+      *to(0, false) = 0.25 * ((value(0) + value(2)) + (value(1) + value(3)));
+      *to(1, false) = 0.5 * (value(0) - value(2));
+      *to(1, true) = 0.5 * (value(1) - value(3));
     }
-    return;
   }
-  if (fast_) return fast_->analyze(rows, values, amplitudes);
-  const Index n_parts = kFamilies * kMostTogether * n_quarter_;
-  double* buffer = of_this_thread(n_parts + kMostTogether * whole_registers(order_ / 2 + 1));
-  double* sums = buffer + n_parts;
-  const auto part = [&](int family, Index row) { return buffer + (family * kMostTogether + row) * n_quarter_; };
-  for (Index first = 0, count = 0; first < rows; first += count) {
-    count = next_rows(rows - first);
-    for (Index row = 0; row < count; ++row) {
-      fold(values + (first + row) * n_phi_, {part(0, row), part(1, row), part(2, row), part(3, row)});
-    }
-    for (int i = 0; i < kFamilies; ++i) {
-      const Family& family = families_[static_cast<std::size_t>(i)];
-      const Index width = family.analysis.cols();
-      small_product(count, n_quarter_, width, {part(i, 0), n_quarter_, 1}, family.analysis.data(), width, sums, width);
-      for (Index row = 0; row < count; ++row) {
-        double* to = amplitudes + (first + row) * n_modes() + family.first_mode;
-        for (Index j = 0; j < family.n_modes; ++j) to[2 * j] = sums[row * width + j];
+}
+
+void FourierSums::analyze_fast(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const {
+  const Index n_modes = 2 * order_ + 1;
+  double* rows = of_this_thread(n_modes * n_theta);
+  fast_->analyze(n_theta, values, rows);
+  for (Index i = 0; i < (n_theta + 1) / 2; ++i) {
+    const double *north = rows + i * n_modes, *south = rows + (n_theta - 1 - i) * n_modes;
+    for (int m = 0; m <= order_; ++m) {
+      for (const bool sine : {false, true}) {
+        if (sine && m == 0) continue;
+        const Index mode = sine ? order_ + m : m;
+        for (const int part : {0, 1}) {
+          const double sign = north == south ? 0.0 : part == 0 ? 1.0 : -1.0;
+          double* block = amplitudes.data + FoundAmplitudes::number(part, m, sine) * amplitudes.block;
+          block[i * row_length_ + m / 2] = north[mode] + sign * south[mode];
+        }
       }
     }
   }

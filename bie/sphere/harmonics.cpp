@@ -1,14 +1,22 @@
 #include "bie/sphere/harmonics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "bie/sphere/legendre.hpp"
 #include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
+
+#ifndef __AVX__
+// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
 
 namespace vehd {
 
@@ -31,81 +39,134 @@ Matrix resize_order(const Matrix& coefficients, int order) {
 
 namespace {
 
-/// Points that stand side by side.
-constexpr Index kBlock = 64;
+/// Points of one register, registers that are summed side by side, so that none waits for the recurrence of another,
+/// and fields whose sums stay in registers with them.
+#ifdef __AVX512F__
+constexpr Index kPointsOfRegister = 2 * kLanes;
+constexpr Index kRegisters = 2;
+#else
+constexpr Index kPointsOfRegister = kLanes;
+constexpr Index kRegisters = 1;
+#endif
+constexpr Index kGroup = kRegisters * kPointsOfRegister;
+constexpr Index kMostFields = 5;
+/// Groups that one thread takes at a time.
+constexpr Index kGroupsTogether = 4;
 
-/// What is summed over the degrees of one order.
-struct OrderSeries {
-  std::vector<LegendreRecurrence> recurrence;  ///< of the degrees above the order
-  RowMatrix coefficients;                      ///< [cosines of all fields, then sines x degrees]
+using PointLanes [[gnu::vector_size(kPointsOfRegister * sizeof(double))]] = double;
 
-  OrderSeries(const Matrix& all, int order, int m) {
-    const Index n_fields = all.cols();
-    coefficients.resize((m == 0 ? 1 : 2) * n_fields, order + 1 - m);
-    for (int n = m; n <= order; ++n) {
-      if (n > m) recurrence.push_back(legendre_recurrence(n, m));
-      coefficients.col(n - m).head(n_fields) = all.row(coefficient_index(n, m)).transpose();
-      if (m > 0) coefficients.col(n - m).tail(n_fields) = all.row(coefficient_index(n, -m)).transpose();
+/// Cosine and sine of θ, then of φ, of as many points as fill groups.
+using Waves = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+
+Waves waves_of(Index n_points) { return Waves::Zero((n_points + kGroup - 1) / kGroup * kGroup, 4); }
+
+/// Orders m and in each of them degrees n in the order in which they are summed.
+struct Series {
+  int order, azimuthal_order;
+  Index n_fields;
+  std::vector<LegendreRecurrence> recurrence;  ///< of T(n, m) from T(n − 1, m) and T(n − 2, m); at n = m nothing
+  std::vector<double> coefficients;            ///< per degree those of cosines of all fields, then of sines
+
+  /// @param fields  some columns
+  Series(const Eigen::Ref<const Matrix>& fields, int order_, int azimuthal_order_)
+      : order(order_), azimuthal_order(azimuthal_order_), n_fields(fields.cols()) {
+    for (int m = 0; m <= azimuthal_order; ++m) {
+      for (int n = m; n <= order; ++n) {
+        recurrence.push_back(n > m ? legendre_recurrence(n, m) : LegendreRecurrence{0.0, 0.0});
+        for (Index f = 0; f < n_fields; ++f) coefficients.push_back(fields(coefficient_index(n, m), f));
+        for (Index f = 0; f < n_fields; ++f) {
+          coefficients.push_back(m > 0 ? fields(coefficient_index(n, -m), f) : 0.0);
+        }
+      }
     }
   }
 };
 
-/// Cosine and sine of θ, then of φ.
-using Waves = Eigen::Matrix<double, Eigen::Dynamic, 4>;
-
-/// Values of all fields at a block of points, [fields x points].
-RowMatrix values_at(const std::vector<OrderSeries>& series, const Eigen::Ref<const Waves>& waves) {
-  using Block = Eigen::Array<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kBlock>;
-  const Index n_points = waves.rows(), n_fields = series.front().coefficients.rows();
-  const Index width = filled_up(n_points);
-  const auto filled = [&](Index wave) {
-    Block block = Block::Zero(width);
-    block.head(n_points) = waves.col(wave).array().transpose();
-    return block;
+/// Sums of all fields at one group of points.
+template <int kFields>
+void sum_at_group(const Series& series, const Waves& waves, Index first, Eigen::Ref<Matrix> values) {
+  using Group = std::array<PointLanes, kRegisters>;
+  const auto loaded = [&](Index wave) {
+    Group group;
+    std::memcpy(&group, waves.col(wave).data() + first, sizeof group);
+    return group;
   };
-  const Block cos_theta = filled(0), sin_theta = filled(1), cos_phi = filled(2), sin_phi = filled(3);
-  Block cos_m = Block::Ones(width), sin_m = Block::Zero(width);
-  Block sectoral = Block::Constant(width, 1.0 / std::sqrt(4.0 * std::numbers::pi));
-  RowMatrix legendre(series.front().coefficients.cols(), width), sums(2 * n_fields, width);
-  RowMatrix values = RowMatrix::Zero(n_fields, width);
-  for (std::size_t m = 0; m < series.size(); ++m) {
-    const auto& [recurrence, coefficients] = series[m];
+  const Group cos_theta = loaded(0), sin_theta = loaded(1), cos_phi = loaded(2), sin_phi = loaded(3);
+  Group cos_m, sin_m{}, sectoral, sum[kFields] = {};
+  for (Index i = 0; i < kRegisters; ++i) {
+    cos_m[i] = PointLanes{} + 1.0;
+    sectoral[i] = PointLanes{} + 1.0 / std::sqrt(4.0 * std::numbers::pi);
+  }
+  const LegendreRecurrence* next = series.recurrence.data();
+  const double* coefficient = series.coefficients.data();
+  for (int m = 0; m <= series.azimuthal_order; ++m) {
     if (m > 0) {
-      sectoral *= legendre_sectoral_factor(static_cast<int>(m)) * sin_theta;
-      const Block next = cos_m * cos_phi - sin_m * sin_phi;
-      sin_m = sin_m * cos_phi + cos_m * sin_phi;
-      cos_m = next;
+      const double factor = legendre_sectoral_factor(m);
+      for (Index i = 0; i < kRegisters; ++i) {
+        sectoral[i] *= factor * sin_theta[i];
+        const PointLanes turned = cos_m[i] * cos_phi[i] - sin_m[i] * sin_phi[i];
+        sin_m[i] = sin_m[i] * cos_phi[i] + cos_m[i] * sin_phi[i];
+        cos_m[i] = turned;
+      }
     }
-    legendre.row(0) = sectoral.matrix();
-    for (Index i = 1; i < coefficients.cols(); ++i) {
-      const LegendreRecurrence& r = recurrence[static_cast<std::size_t>(i - 1)];
-      auto next = legendre.row(i).array();
-      next = r.a * cos_theta * legendre.row(i - 1).array();
-      if (i > 1) next -= r.a * r.b * legendre.row(i - 2).array();
+    Group value = sectoral, before{}, cosines[kFields] = {}, sines[kFields] = {};
+    for (int n = m; n <= series.order; ++n, ++next, coefficient += 2 * kFields) {
+      if (n > m) {
+        const double a = next->a, ab = next->a * next->b;
+#pragma GCC unroll 2
+        for (Index i = 0; i < kRegisters; ++i) {
+          const PointLanes above = a * cos_theta[i] * value[i] - ab * before[i];
+          before[i] = value[i];
+          value[i] = above;
+        }
+      }
+#pragma GCC unroll 8
+      for (int f = 0; f < kFields; ++f) {
+#pragma GCC unroll 2
+        for (Index i = 0; i < kRegisters; ++i) {
+          cosines[f][i] += coefficient[f] * value[i];
+          sines[f][i] += coefficient[kFields + f] * value[i];
+        }
+      }
     }
-    small_product(coefficients.rows(), coefficients.cols(), width, {coefficients.data(), coefficients.cols(), 1},
-                  legendre.data(), width, sums.data(), width);
-    for (Index f = 0; f < n_fields; ++f) {
-      values.row(f).array() += sums.row(f).array() * cos_m;
-      if (m > 0) values.row(f).array() += sums.row(n_fields + f).array() * sin_m;
+#pragma GCC unroll 8
+    for (int f = 0; f < kFields; ++f) {
+#pragma GCC unroll 2
+      for (Index i = 0; i < kRegisters; ++i) sum[f][i] += cosines[f][i] * cos_m[i] + sines[f][i] * sin_m[i];
     }
   }
-  return values.leftCols(n_points);
+  const Index count = std::min(kGroup, values.rows() - first);
+  for (int f = 0; f < kFields; ++f) {
+    std::memcpy(values.col(f).data() + first, &sum[f], static_cast<std::size_t>(count) * sizeof(double));
+  }
 }
 
-Matrix values_of(const Matrix& coefficients, const Waves& waves, int azimuthal_order) {
-  const int order = order_of(coefficients.rows());
-  const Index n_points = waves.rows();
-  std::vector<OrderSeries> series;
-  for (int m = 0; m <= std::min(order, azimuthal_order); ++m) series.emplace_back(coefficients, order, m);
-  Matrix values(n_points, coefficients.cols());
+/// @param waves  of as many points as values has rows
+void sum_series(const Series& series, const Waves& waves, Eigen::Ref<Matrix> values) {
+  static constexpr auto sums = []<int... kBefore>(std::integer_sequence<int, kBefore...>) {
+    return std::array{&sum_at_group<kBefore + 1>...};
+  }
+  (std::make_integer_sequence<int, kMostFields>());
+  const auto sum_at = sums[static_cast<std::size_t>(series.n_fields - 1)];
   // Terms below which waking a second thread costs more than it saves.
   constexpr Index kParallelTerms = 30000;
-  const Index terms = n_points * (order + 1) * (azimuthal_order + 1);
-  for_each_index((n_points + kBlock - 1) / kBlock, terms > kParallelTerms, [&](Index block) {
-    const Index start = block * kBlock, size = std::min(kBlock, n_points - start);
-    values.middleRows(start, size) = values_at(series, waves.middleRows(start, size)).transpose();
+  const Index terms = values.rows() * (series.order + 1) * (series.azimuthal_order + 1);
+  constexpr Index kTogether = kGroupsTogether * kGroup;
+  for_each_index((values.rows() + kTogether - 1) / kTogether, terms > kParallelTerms, [&](Index block) {
+    const Index end = std::min((block + 1) * kTogether, values.rows());
+    for (Index first = block * kTogether; first < end; first += kGroup) sum_at(series, waves, first, values);
   });
+}
+
+/// At n_points points.
+Matrix values_of(const Matrix& coefficients, const Waves& waves, Index n_points, int azimuthal_order) {
+  const int order = order_of(coefficients.rows());
+  Matrix values(n_points, coefficients.cols());
+  for (Index first = 0; first < coefficients.cols(); first += kMostFields) {
+    const Index count = std::min(kMostFields, coefficients.cols() - first);
+    const Series series(coefficients.middleCols(first, count), order, std::min(order, azimuthal_order));
+    sum_series(series, waves, values.middleCols(first, count));
+  }
   return values;
 }
 
@@ -117,14 +178,15 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
 
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order) {
   require_size("phi", phi.size(), theta.size());
-  Waves waves(theta.size(), 4);
-  waves << theta.array().cos(), theta.array().sin(), phi.array().cos(), phi.array().sin();
-  return values_of(coefficients, waves, azimuthal_order);
+  const Index n_points = theta.size();
+  Waves waves = waves_of(n_points);
+  waves.topRows(n_points) << theta.array().cos(), theta.array().sin(), phi.array().cos(), phi.array().sin();
+  return values_of(coefficients, waves, n_points, azimuthal_order);
 }
 
 Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, int azimuthal_order) {
   require_size("directions (Cartesian components)", directions.cols(), 3);
-  Waves waves(directions.rows(), 4);
+  Waves waves = waves_of(directions.rows());
   for (Index i = 0; i < directions.rows(); ++i) {
     const double x = directions(i, 0), y = directions(i, 1), z = directions(i, 2);
     const double from_axis = std::sqrt(x * x + y * y), length = std::sqrt(x * x + y * y + z * z);
@@ -134,7 +196,7 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, 
     waves(i, 2) = from_axis > 0.0 ? x / from_axis : 1.0;
     waves(i, 3) = from_axis > 0.0 ? y / from_axis : 0.0;
   }
-  return values_of(coefficients, waves, azimuthal_order);
+  return values_of(coefficients, waves, directions.rows(), azimuthal_order);
 }
 
 }  // namespace vehd

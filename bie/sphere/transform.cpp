@@ -92,130 +92,109 @@ struct SphereTransform::Tables {
   [[nodiscard]] Matrix analyze(const Matrix& values) const;
 
  private:
-  /// Of the sums over degrees of all fields; memory is asked for once.
+  /// Amplitudes of all orders behind each other, of either parity of n + m: [cosines of all fields, then sines x
+  /// width].
   struct DegreeSums {
-    Index width;  ///< of a row of `of_parity`, filled up
-    std::unique_ptr<double[]> gathered;
-    std::array<std::unique_ptr<double[]>, 2> of_parity;
+    Index width;   ///< of a row with the kinds of a hemisphere side by side, filled up
+    Index stride;  ///< from one order to the next
+    std::unique_ptr<double[]> data;
+
+    [[nodiscard]] double* of(int m, int parity) const { return data.get() + m * stride + parity * (stride / 2); }
   };
   [[nodiscard]] DegreeSums degree_sums(Index n_fields, const Kinds& kinds) const;
-  /// Amplitudes of the modes of one m along all latitudes.
-  void sum_degrees(const Matrix& coefficients, const Kinds& kinds, int m, DegreeSums& sums,
-                   RowMatrix& amplitudes) const;
-  /// Amplitudes of fields on northern latitudes plus, in the second, minus those of their images beyond the equator:
-  /// rows are cosines of all fields, then sines, of one m behind the other.
-  using Folded = std::array<RowMatrix, 2>;
-  /// Those of one field.
-  void find_orders(const double* values, Index field, Index n_fields, RowMatrix& amplitudes, Folded& folded) const;
+  /// @param gathered  room for the coefficients of one order
+  void sum_degrees(const Matrix& coefficients, const Kinds& kinds, int m, double* gathered,
+                   const DegreeSums& sums) const;
+  /// One kind of one field. @param place  of the kind among those there are
+  void sum_orders(const DegreeSums& sums, Index n_fields, Index field, int kind, Index place, double* values) const;
+  /// FoundAmplitudes of all fields, behind each other in every block.
+  struct OrderAmplitudes {
+    Index of_field;
+    Index block;
+    std::unique_ptr<double[]> data;
+  };
   /// Coefficients of one m. @param sums  as many as they are, filled up
-  void find_degrees(const Folded& folded, int m, double* sums, Matrix& coefficients) const;
+  void find_degrees(const OrderAmplitudes& amplitudes, int m, double* sums, Matrix& coefficients) const;
 };
 
 SphereTransform::Tables::DegreeSums SphereTransform::Tables::degree_sums(Index n_fields, const Kinds& kinds) const {
-  const Index width = whole_registers(kinds.count() * n_half), rows = 2 * n_fields;
-  const auto sums = [&] { return std::make_unique_for_overwrite<double[]>(rows * width); };
-  return {width, std::make_unique_for_overwrite<double[]>(rows * (order / 2 + 1)), {sums(), sums()}};
+  const Index width = whole_registers(kinds.count() * n_half), stride = 2 * 2 * n_fields * width;
+  return {width, stride, std::make_unique_for_overwrite<double[]>((azimuthal_order + 1) * stride)};
 }
 
-void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, const Kinds& kinds, int m, DegreeSums& sums,
-                                          RowMatrix& amplitudes) const {
-  const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
-  const Index rows = (m == 0 ? 1 : 2) * n_fields;  // cosines of all fields, then sines
+void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, const Kinds& kinds, int m, double* gathered,
+                                          const DegreeSums& sums) const {
+  const Index n_fields = coefficients.cols();
   for (const int parity : {0, 1}) {
     const Index count = n_degrees(m, parity);
-    double* gathered = sums.gathered.get();
     for (Index field = 0; field < n_fields; ++field) {
       const double* from = coefficients.col(field).data();
       double *cosine = gathered + field * count, *sine = gathered + (n_fields + field) * count;
       for (Index i = 0; i < count; ++i) {
         const int n = m + parity + 2 * static_cast<int>(i);
         cosine[i] = from[coefficient_index(n, m)];
-        if (m > 0) sine[i] = from[coefficient_index(n, -m)];
+        sine[i] = m > 0 ? from[coefficient_index(n, -m)] : 0.0;
       }
     }
     const RowMatrix& table = synthesis[m][parity];
-    small_product(rows, count, sums.width, {gathered, count, 1}, table.data() + kinds.first * n_half, table.cols(),
-                  sums.of_parity[parity].get(), sums.width);
+    small_product(2 * n_fields, count, sums.width, {gathered, count, 1}, table.data() + kinds.first * n_half,
+                  table.cols(), sums.of(m, parity), sums.width);
   }
-  for (Index row = 0; row < rows; ++row) {
-    const Index field = row % n_fields;
-    const bool sine = row >= n_fields;
-    for (int kind = kinds.first; kind < kinds.end; ++kind) {
-      const Index place = kind - kinds.first;
-      // ∂/∂φ takes cosines to minus sines, sines to cosines; of m = 0 it leaves nothing.
-      const bool into_sine = sine != kPhiDerivative[kind] && m > 0;
-      const double sign = kPhiDerivative[kind] && !sine ? -1.0 : 1.0;
-      const double south_sign = kThetaDerivative[kind] ? -sign : sign;
-      const double* even = sums.of_parity[0].get() + row * sums.width + place * n_half;
-      const double* odd = sums.of_parity[1].get() + row * sums.width + place * n_half;
-      double* north = amplitudes.row(into_sine ? fourier.sine_mode(m) : fourier.cosine_mode(m)).data() +
-                      (place * n_fields + field) * n_theta;
-      double* south = north + n_theta - 1;
-      for (Index i = 0; i < n_theta - n_half; ++i) south[-i] = south_sign * (even[i] - odd[i]);
-      for (Index i = 0; i < n_half; ++i) north[i] = sign * (even[i] + odd[i]);
-    }
+}
+
+void SphereTransform::Tables::sum_orders(const DegreeSums& sums, Index n_fields, Index field, int kind, Index place,
+                                         double* values) const {
+  HemisphereAmplitudes amplitudes{{}, {}, sums.stride, kPhiDerivative[kind]};
+  for (const int parity : {0, 1}) {
+    const int part = kThetaDerivative[kind] ? 1 - parity : parity;
+    double* cosines = sums.of(0, parity) + field * sums.width + place * n_half;
+    double* sines = cosines + n_fields * sums.width;
+    // n + m odd means antisymmetric. ∂/∂φ takes cosines to minus sines, sines to cosines.
+    amplitudes.cosines[part] = kPhiDerivative[kind] ? sines : cosines;
+    amplitudes.sines[part] = kPhiDerivative[kind] ? cosines : sines;
   }
+  fourier.synthesize(grid.n_theta, amplitudes, values);
 }
 
 std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, const Kinds& kinds) const {
   require_size("coefficient array", coefficients.rows(), n_coefficients(order));
-  const Index n_fields = coefficients.cols(), n_theta = grid.n_theta;
+  const Index n_fields = coefficients.cols();
   std::vector<Matrix> values;
   values.reserve(static_cast<std::size_t>(kinds.count()));
   for (int kind = kinds.first; kind < kinds.end; ++kind) values.emplace_back(grid.n_points(), n_fields);
-  // Columns: kinds, fields, latitudes.
-  const Index n_all = kinds.count() * n_fields;
-  RowMatrix amplitudes(fourier.n_modes(), n_all * n_theta);
-  const auto sum_orders = [&](Index i) {
-    fourier.synthesize(n_theta, amplitudes.data() + i * n_theta, amplitudes.cols(),
-                       values[i / n_fields].col(i % n_fields).data());
+  const DegreeSums sums = degree_sums(n_fields, kinds);
+  const auto gathered_of_one = [&] { return std::make_unique_for_overwrite<double[]>(2 * n_fields * (order / 2 + 1)); };
+  const auto put_values = [&](Index i) {
+    const Index place = i / n_fields, field = i % n_fields;
+    sum_orders(sums, n_fields, field, kinds.first + static_cast<int>(place), place, values[place].col(field).data());
   };
+  const Index n_all = kinds.count() * n_fields;
   // Even a team of one makes system calls: small transforms stay out of OpenMP altogether.
   if (!is_parallel(n_all * grid.n_points())) {
-    DegreeSums sums = degree_sums(n_fields, kinds);
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, sums, amplitudes);
-    for (Index i = 0; i < n_all; ++i) sum_orders(i);
+    const auto gathered = gathered_of_one();
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, gathered.get(), sums);
+    for (Index i = 0; i < n_all; ++i) put_values(i);
     return values;
   }
 #pragma omp parallel
   {
-    DegreeSums sums = degree_sums(n_fields, kinds);
+    const auto gathered = gathered_of_one();
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, sums, amplitudes);
+    for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, gathered.get(), sums);
 #pragma omp for schedule(static)
-    for (Index i = 0; i < n_all; ++i) sum_orders(i);
+    for (Index i = 0; i < n_all; ++i) put_values(i);
   }
   return values;
 }
 
-void SphereTransform::Tables::find_orders(const double* values, Index field, Index n_fields, RowMatrix& amplitudes,
-                                          Folded& folded) const {
-  const Index n_theta = grid.n_theta;
-  fourier.analyze(n_theta, values, amplitudes.data());
-  for (int m = 0; m <= azimuthal_order; ++m) {
-    for (const bool sine : {false, true}) {
-      if (sine && m == 0) continue;
-      const Index mode = sine ? fourier.sine_mode(m) : fourier.cosine_mode(m);
-      const Index row = (2 * m + (sine ? 1 : 0)) * n_fields + field;
-      double* even = folded[0].row(row).data();
-      double* odd = folded[1].row(row).data();
-      for (Index i = 0; i < n_half; ++i) {
-        const Index mirror_image = n_theta - 1 - i;
-        const double north = amplitudes(i, mode);
-        // The equator is its own image.
-        const double south = mirror_image > i ? amplitudes(mirror_image, mode) : 0.0;
-        even[i] = north + south;
-        odd[i] = north - south;
-      }
-    }
-  }
-}
-
-void SphereTransform::Tables::find_degrees(const Folded& folded, int m, double* sums, Matrix& coefficients) const {
-  const Index n_fields = coefficients.cols(), rows = (m == 0 ? 1 : 2) * n_fields;
+void SphereTransform::Tables::find_degrees(const OrderAmplitudes& amplitudes, int m, double* sums,
+                                           Matrix& coefficients) const {
+  const Index n_fields = coefficients.cols(), length = fourier.row_length();
   for (const int parity : {0, 1}) {
     const RowMatrix& table = analysis[m][parity];
-    small_product(rows, n_half, table.cols(), {folded[parity].row(2 * m * n_fields).data(), n_half, 1}, table.data(),
+    // The block of the sines is the next one.
+    const double* first = amplitudes.data.get() + FoundAmplitudes::number(parity, m, false) * amplitudes.block + m / 2;
+    small_product((m == 0 ? 1 : 2) * n_fields, n_half, table.cols(), {first, amplitudes.of_field, length}, table.data(),
                   table.cols(), sums, table.cols());
     for (Index field = 0; field < n_fields; ++field) {
       const double *cosine = sums + field * table.cols(), *sine = sums + (n_fields + field) * table.cols();
@@ -234,27 +213,28 @@ Matrix SphereTransform::Tables::analyze(const Matrix& values) const {
   const Index n_fields = values.cols();
   Matrix coefficients(n_coefficients(order), n_fields);
   if (azimuthal_order < order) coefficients.setZero();
-  Folded folded;
-  for (RowMatrix& of_parity : folded) of_parity.resize(2 * (azimuthal_order + 1) * n_fields, n_half);
-  const auto amplitudes_of_one = [&] { return RowMatrix(grid.n_theta, fourier.n_modes()); };
+  const Index of_field = n_half * fourier.row_length(), block = n_fields * of_field;
+  const OrderAmplitudes amplitudes{of_field, block,
+                                   std::make_unique_for_overwrite<double[]>(FoundAmplitudes::kBlocks * block)};
+  const auto find_orders = [&](Index field) {
+    fourier.analyze(grid.n_theta, values.col(field).data(), {amplitudes.data.get() + field * of_field, block});
+  };
   const auto sums_of_one = [&] {
     return std::make_unique_for_overwrite<double[]>(2 * n_fields * whole_registers(order / 2 + 1));
   };
   if (!is_parallel(values.size())) {
-    RowMatrix amplitudes = amplitudes_of_one();
     const auto sums = sums_of_one();
-    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, amplitudes, folded);
-    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, sums.get(), coefficients);
+    for (Index f = 0; f < n_fields; ++f) find_orders(f);
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(amplitudes, m, sums.get(), coefficients);
     return coefficients;
   }
 #pragma omp parallel
   {
-    RowMatrix amplitudes = amplitudes_of_one();
     const auto sums = sums_of_one();
 #pragma omp for schedule(static)
-    for (Index f = 0; f < n_fields; ++f) find_orders(values.col(f).data(), f, n_fields, amplitudes, folded);
+    for (Index f = 0; f < n_fields; ++f) find_orders(f);
 #pragma omp for schedule(dynamic, 1)
-    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(folded, m, sums.get(), coefficients);
+    for (int m = 0; m <= azimuthal_order; ++m) find_degrees(amplitudes, m, sums.get(), coefficients);
   }
   return coefficients;
 }

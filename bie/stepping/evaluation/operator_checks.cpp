@@ -30,16 +30,21 @@ struct View {
   double lack;     ///< ≤ 0 where they face each other and the way beside is no more than a spacing
 };
 
+/// ≤ 0 where they face each other.
+inline double turned(const double* nx, const double* ny, const double* nz, Index i, Index j) {
+  constexpr double kFacing = -0.5;
+  return nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] - kFacing;
+}
+
 inline View view(const double* x, const double* y, const double* z, const double* nx, const double* ny,
                  const double* nz, const double* spacing, Index i, Index j) {
-  constexpr double kFacing = -0.5;
   const double ux = nx[i] - nx[j], uy = ny[i] - ny[j], uz = nz[i] - nz[j];
   const double wx = x[j] - x[i], wy = y[j] - y[i], wz = z[j] - z[i];
   const double length2 = ux * ux + uy * uy + uz * uz, along = wx * ux + wy * uy + wz * uz;
   const double wide = spacing[i] > spacing[j] ? spacing[i] : spacing[j], allowed = wide * wide * length2;
   const double beside = (wx * wx + wy * wy + wz * wz) * length2 - along * along - allowed;
-  const double turned = nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] - kFacing;
-  return {along * along, allowed, turned > beside ? turned : beside};
+  const double away = turned(nx, ny, nz, i, j);
+  return {along * along, allowed, away > beside ? away : beside};
 }
 
 ProbePoints probe_points(const SphereTransform& nodes, const Matrix& position) {
@@ -90,29 +95,32 @@ LayerCheck check_layers(const Membrane& membrane) {
 
 double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices) {
   // As many at a time as it pays to ask whether any of them face one.
-  constexpr Index kAtATime = 64;
+  constexpr Index kAtATime = 16;
   const ProbePoints at = probe_points(nodes, position);
   const Index n = at.spacing.size();
   const auto column = [](const Matrix& vectors, Index component) { return vectors.col(component).data(); };
   const double *x = column(at.position, 0), *y = column(at.position, 1), *z = column(at.position, 2);
   const double *nx = column(at.normal, 0), *ny = column(at.normal, 1), *nz = column(at.normal, 2);
   const double* spacing = at.spacing.data();
-  double least2 = std::numeric_limits<double>::infinity();
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  double least2 = kNone;
   for (Index i = 0; i < n; ++i) {
     const bool is_pole = i >= n - 2;
     if (one_meridian_suffices && !is_pole && i % nodes.grid().n_phi != 0) continue;
     for (Index first = one_meridian_suffices ? 0 : i + 1; first < n; first += kAtATime) {
       const Index end = std::min(first + kAtATime, n);
-      double least_lack = 1.0;
-#pragma omp simd reduction(min : least_lack)
+      double least_turned = 1.0;
+#pragma omp simd reduction(min : least_turned)
       for (Index j = first; j < end; ++j) {
-        const double lack = view(x, y, z, nx, ny, nz, spacing, i, j).lack;
-        least_lack = lack < least_lack ? lack : least_lack;
+        const double away = turned(nx, ny, nz, i, j);
+        least_turned = away < least_turned ? away : least_turned;
       }
-      if (least_lack > 0.0) continue;
+      if (least_turned > 0.0) continue;
+#pragma omp simd reduction(min : least2)
       for (Index j = first; j < end; ++j) {
         const View seen = view(x, y, z, nx, ny, nz, spacing, i, j);
-        if (seen.lack <= 0.0) least2 = std::min(least2, seen.along / seen.allowed);
+        const double here2 = seen.lack <= 0.0 ? seen.along / seen.allowed : kNone;
+        least2 = here2 < least2 ? here2 : least2;
       }
     }
   }

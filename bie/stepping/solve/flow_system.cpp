@@ -187,17 +187,20 @@ LinearMap sphere_inverse(const FlowParameters& parameters, const Membrane& membr
     if (!layout.tension) block(1, 1) = 1.0;
     inverse.push_back(block.inverse());
   }
-  return [=](const Vector& r) {
-    Vector result(layout.size());
-    for (Index i = 0; i < layout.n(); ++i) {
-      const Index behind = layout.n_curvature() + i;
-      const Eigen::Matrix2d& m = inverse[static_cast<std::size_t>(degree_of(layout.entries[i]))];
-      const double curvature = layout.bending ? r[i] : 0.0;
-      const double divergence = layout.tension ? r[behind] : 0.0;
-      if (layout.bending) result[i] = m(0, 0) * curvature + m(0, 1) * divergence;
-      if (layout.tension) result[behind] = m(1, 0) * curvature + m(1, 1) * divergence;
-    }
-    return over_scales(layout, std::move(result));
+  // Per entry what it makes of both right-hand sides: of h first, then of λ, both over their scales.
+  Matrix factors(layout.n(), 4);
+  for (Index i = 0; i < layout.n(); ++i) {
+    const Eigen::Matrix2d& m = inverse[static_cast<std::size_t>(degree_of(layout.entries[i]))];
+    factors.row(i) << m.row(0) / layout.curvature_scale, m.row(1) / layout.tension_scale;
+  }
+  return [factors, bending = layout.bending, tension = layout.tension](const Vector& r) -> Vector {
+    const Index n = factors.rows();
+    if (!bending) return tension ? Vector(factors.col(3).cwiseProduct(r.head(n))) : Vector();
+    if (!tension) return factors.col(0).cwiseProduct(r.head(n));
+    Vector result(2 * n);
+    result.head(n) = factors.col(0).cwiseProduct(r.head(n)) + factors.col(1).cwiseProduct(r.tail(n));
+    result.tail(n) = factors.col(2).cwiseProduct(r.head(n)) + factors.col(3).cwiseProduct(r.tail(n));
+    return result;
   };
 }
 

@@ -69,13 +69,46 @@ Matrix cartesian(const SphereGrid& grid, const SphereVectors& field) {
   return vectors;
 }
 
+/// cos √y and sin √y/√y to rounding, for ways whose square y is no longer than this.
+constexpr double kShortWay2 = 0.25;
+inline double cosine_of_root(double y) {
+  double sum = 1.0;
+  for (int k = 7; k > 0; --k) sum = 1.0 - sum * y / (2.0 * k * (2.0 * k - 1.0));
+  return sum;
+}
+inline double sinc_of_root(double y) {
+  double sum = 1.0;
+  for (int k = 7; k > 0; --k) sum = 1.0 - sum * y / (2.0 * k * (2.0 * k + 1.0));
+  return sum;
+}
+
 /// r̂ moved by −vector, of which the tangential part counts, along great circles.
 Directions moved_back(const Directions& r, const Matrix& vectors) {
   Directions result(r.rows(), 3);
+  double longest2 = 0.0;
+#pragma omp simd reduction(max : longest2)
   for (Index i = 0; i < r.rows(); ++i) {
-    const Vector3 from = r.row(i);
-    const Vector3 way = Vector3(vectors.row(i)) - from.dot(Vector3(vectors.row(i))) * from;
-    result.row(i) = along_great_circle(from, -way);
+    const double along = r(i, 0) * vectors(i, 0) + r(i, 1) * vectors(i, 1) + r(i, 2) * vectors(i, 2);
+    double length2 = 0.0;
+    for (Index c = 0; c < 3; ++c) {
+      const double way = along * r(i, c) - vectors(i, c);
+      result(i, c) = way;
+      length2 += way * way;
+    }
+    longest2 = std::max(longest2, length2);
+  }
+  // Not (longest2 > …): directions that are not numbers stay such.
+  if (!(longest2 <= kShortWay2)) {
+    for (Index i = 0; i < r.rows(); ++i) result.row(i) = along_great_circle(r.row(i), result.row(i));
+    return result;
+  }
+#pragma omp simd
+  for (Index i = 0; i < r.rows(); ++i) {
+    const double x = result(i, 0), y = result(i, 1), z = result(i, 2), length2 = x * x + y * y + z * z;
+    const double cosine = cosine_of_root(length2), sinc = sinc_of_root(length2);
+    result(i, 0) = cosine * r(i, 0) + sinc * x;
+    result(i, 1) = cosine * r(i, 1) + sinc * y;
+    result(i, 2) = cosine * r(i, 2) + sinc * z;
   }
   return result;
 }
