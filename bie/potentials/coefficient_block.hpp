@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "bie/support/types.hpp"
 
@@ -15,8 +15,8 @@ class CoefficientBlock {
   CoefficientBlock(int order, int highest, Index cosine_columns, Index sine_columns)
       : width_(order + 1),
         columns_{cosine_columns, sine_columns},
-        values_{Vector::Zero((highest + 1) * width_ * cosine_columns),
-                Vector::Zero((highest + 1) * width_ * sine_columns)} {}
+        values_{std::vector<double>((highest + 1) * width_ * cosine_columns, 0.0),
+                std::vector<double>((highest + 1) * width_ * sine_columns, 0.0)} {}
 
   [[nodiscard]] Index columns(bool sine) const { return columns_[sine]; }
   /// From a degree of one order to the next.
@@ -29,44 +29,29 @@ class CoefficientBlock {
  private:
   Index width_;
   std::array<Index, 2> columns_;
-  std::array<Vector, 2> values_;  ///< matrices begin where registers do, other arrays do not
+  std::array<std::vector<double>, 2> values_;
 };
 
-/// Fourier amplitudes along latitudes of the rotated grid, cosines and sines apart: of each latitude the even orders,
-/// then the odd ones.
+/// Fourier amplitudes along every latitude of the rotated grid, cosines and sines apart: of each latitude the even
+/// orders, then the odd ones.
 class AzimuthalAmplitudes {
  public:
-  AzimuthalAmplitudes(int n_latitudes, int order, Index cosine_columns, Index sine_columns)
+  AzimuthalAmplitudes(int n_theta, int order, Index cosine_columns, Index sine_columns)
       : n_orders_(order + 1),
         n_even_(order / 2 + 1),
         columns_{cosine_columns, sine_columns},
-        values_{Vector::Zero(n_latitudes * n_orders_ * cosine_columns),
-                Vector::Zero(n_latitudes * n_orders_ * sine_columns)} {}
+        values_{std::vector<double>(n_theta * n_orders_ * cosine_columns, 0.0),
+                std::vector<double>(n_theta * n_orders_ * sine_columns, 0.0)} {}
 
   [[nodiscard]] Index columns(bool sine) const { return columns_[sine]; }
-  /// From an order on one latitude to the same on the next.
-  [[nodiscard]] Index latitude_stride(bool sine) const { return n_orders_ * columns_[sine]; }
   double* of_order(bool sine, int i, int m) {
     return values_[sine].data() + (i * n_orders_ + m / 2 + (m % 2 == 0 ? 0 : n_even_)) * columns_[sine];
-  }
-  /// Adds all of one latitude to those of another.
-  void add_latitude(int from, int to) {
-    for (const bool sine : {false, true}) {
-      const Index count = latitude_stride(sine);
-      for (Index i = 0; i < count; ++i) values_[sine][to * count + i] += values_[sine][from * count + i];
-    }
-  }
-  void copy_latitude(int from, int to) {
-    for (const bool sine : {false, true}) {
-      const Index count = latitude_stride(sine);
-      std::copy_n(values_[sine].data() + from * count, count, values_[sine].data() + to * count);
-    }
   }
 
  private:
   Index n_orders_, n_even_;
   std::array<Index, 2> columns_;
-  std::array<Vector, 2> values_;  ///< matrices begin where registers do, other arrays do not
+  std::array<std::vector<double>, 2> values_;
 };
 
 }  // namespace vehd

@@ -41,7 +41,7 @@ LongitudeSums::LongitudeSums(const SphereGrid& grid, int order) : n_phi_(grid.n_
 
 void LongitudeSums::run(const double* rows, Index width, const Latitude& latitude, double* amplitudes) const {
   const int half = n_phi_ / 2;
-  Vector sums(4 * n_quarter_ * kPiece);
+  std::vector<double> sums(static_cast<std::size_t>(4 * n_quarter_ * kPiece));
   const auto n_modes = std::ssize(orders_);
   for (Index first = 0; first < width; first += kPiece) {
     const Index columns = std::min(kPiece, width - first);

@@ -80,7 +80,7 @@ class NodeKernels {
  private:
   const KernelColumns& kernels_;
   Index chunk_;
-  Vector targets_;  ///< [6 x chunk], position and area vector
+  std::vector<double> targets_;  ///< [6 x chunk], position and area vector
 };
 
 }  // namespace vehd

@@ -65,7 +65,7 @@ void OperatorColumns::add(const Amplitudes& amplitudes, Index mode, const Matrix
   const Index n_latitudes = analysis.rows(), n_degrees = analysis.cols();
   // Coefficients of one order stand together in the order-major order.
   const Index own = std::find(active_.m.begin(), active_.m.end(), order) - active_.m.begin();
-  Vector sums(n_degrees * LongitudeSums::kPiece);
+  std::vector<double> sums(static_cast<std::size_t>(n_degrees * LongitudeSums::kPiece));
   for (Index column = 0; column < width_; column += LongitudeSums::kPiece) {
     const Index count = std::min(LongitudeSums::kPiece, width_ - column);
     Index lowest = 0;

@@ -66,7 +66,7 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
       azimuthal_order_(context.azimuthal_order),
       mirrored_(context.mirrored),
       inverted_(!places.degrees.shape[0] && !places.degrees.rows[0]),
-      n_half_((q_.n_theta + 1) / 2),
+      n_latitudes_(inverted_ ? (q_.n_theta + 1) / 2 : q_.n_theta),
       n_images_(mirrored_ ? 2 : 4),
       shape_kinds_(kernels_.need_source_normal() ? kShapeKinds : 1),
       n_quarter_(q_.n_phi / 4),
@@ -77,31 +77,31 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
       rows_(block_for(order_, azimuthal_order_, kernel_columns_, chunk)),
       rotated_rows_(block_for(order_, order_, kernel_columns_, chunk)),
       node_kernels_(kernels_, chunk),
-      row_amplitudes_(latitude(n_half_, 1), order_, rows_.columns(false), rows_.columns(true)),
+      row_amplitudes_(n_latitudes_, order_, rows_.columns(false), rows_.columns(true)),
       cosines_(context.phi.size(), azimuthal_order_ + 1),
       sines_(cosines_.rows(), cosines_.cols()),
-      cosine_phases_((azimuthal_order_ + 1) * chunk),
+      cosine_phases_(static_cast<std::size_t>((azimuthal_order_ + 1) * chunk)),
       sine_phases_(cosine_phases_.size()),
-      rotation_entries_((order_ + 1) * (order_ + 1) * chunk),
-      nothing_(Vector::Zero(chunk)),
+      rotation_entries_(static_cast<std::size_t>((order_ + 1) * (order_ + 1) * chunk)),
+      nothing_(static_cast<std::size_t>(chunk), 0.0),
       phases_back_(4 * cosine_phases_.size()) {
-  for (std::size_t kind = 0; kind < static_cast<std::size_t>(shape_kinds_); ++kind) {
+  Index widest = std::max(rows_.columns(false), rows_.columns(true));
+  for (int kind = 0; kind < shape_kinds_; ++kind) {
     // ∂/∂φ exchanges cosines and sines.
     const Index cosines = shape_.columns(kind == 2), sines = shape_.columns(kind != 2);
-    shape_amplitudes_.emplace_back(latitude(n_half_, 1), order_, cosines, sines);
-    for (Parts& parts : shape_parts_[kind]) {
-      for (std::size_t part = 0; part < kParts; ++part) parts[part].resize(n_quarter_ * (part < 2 ? cosines : sines));
-    }
+    widest = std::max({widest, cosines, sines});
+    shape_amplitudes_.emplace_back(n_latitudes_, order_, cosines, sines);
+    for (int part = 0; part < kParts; ++part)
+      shape_parts_[kind][part].resize(n_quarter_ * (part < 2 ? cosines : sines));
   }
-  for (Parts& parts : row_parts_) {
-    for (std::size_t part = 0; part < kParts; ++part) parts[part].resize(n_quarter_ * rows_.columns(part >= 2));
-  }
+  for (int part = 0; part < kParts; ++part) row_parts_[part].resize(n_quarter_ * rows_.columns(part >= 2));
   for (Index k = 0; k < cosines_.rows(); ++k) {
     for (int m = 0; m <= azimuthal_order_; ++m) {
       cosines_(k, m) = std::cos(m * context.phi[k]);
       sines_(k, m) = std::sin(m * context.phi[k]);
     }
   }
+  for (auto& half : half_) half.resize((q_.n_theta + 1) / 2 * widest);
   list_stored_entries();
 }
 
@@ -146,7 +146,7 @@ void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
   for (int kind = 0; kind < shape_kinds_; ++kind) {
     for (const bool sine : {false, true}) legendre_synthesis(kind, sine);
   }
-  for (int i = 0; i < n_half_; ++i) evaluate_latitude(i);
+  for (int i = 0; i < n_latitudes_; ++i) evaluate_latitude(i);
   for (const bool sine : {false, true}) legendre_adjoint(sine);
   rotate_back(targets);
   store_rows(targets, rows);

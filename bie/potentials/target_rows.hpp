@@ -49,13 +49,13 @@ struct TargetContext {
 };
 
 /// Work of one thread: the kernel rows of a chunk of targets, which share the matrix products. Targets of one latitude
-/// share rotations as well. Where all targets lie in a plane of symmetry y = 0, what they see at azimuths φ and −φ
-/// about them is equal up to signs, so that one half of the nodes is enough. Latitudes θ and π − θ of the rotated grid
-/// share their sums, of even and of odd n + m, until their nodes differ, four azimuths their Fourier sums, and the
-/// nodes of two such latitudes go from coefficients of the shape to those of the kernels before the next ones are
-/// begun, so that they stay in cache. Where x and all wanted entries have odd degrees alone, x(−s) = −x(s), opposite
-/// nodes share all sums. Source: Gimbutas and Veerapaneni 2013 for phase shift, rotation and synthesis; here the same
-/// chain runs backwards as well, so that a kernel row becomes a row over coefficients
+/// stand together. Where all targets lie in a plane of symmetry y = 0, what they see at azimuths φ and −φ about them is
+/// equal up to signs, so that one half of the nodes is enough. Latitudes θ and π − θ of the rotated grid share their
+/// Legendre sums, four azimuths their Fourier sums, and the nodes of one latitude go from coefficients of the shape to
+/// those of the kernels before the next one is begun, so that they stay in cache. Where x and all wanted entries have
+/// odd degrees alone, x(−s) = −x(s), opposite nodes share all sums. Source: Gimbutas and Veerapaneni 2013 for phase
+/// shift, rotation and synthesis; here the same chain runs backwards as well, so that a kernel row becomes a row over
+/// coefficients
 class TargetRows {
  public:
   /// @param places  must outlive the rows
@@ -75,30 +75,22 @@ class TargetRows {
   void phase_shift();
   void rotate(std::span<const Target> targets);
   void legendre_synthesis(int kind, bool sine);
-  /// Where the amplitudes of a northern latitude stand that come from even or from odd n + m: the latter behind all of
-  /// the former, but where degrees are odd alone both in the same place.
-  [[nodiscard]] int latitude(int i, int parity) const { return i + (inverted_ ? 0 : parity * n_half_); }
-  /// All nodes of one northern latitude of the rotated grid and of its image: Fourier sums of the shape, kernels,
-  /// Fourier sums of these.
+  /// All nodes of one latitude of the rotated grid: Fourier sums of the shape, kernels, Fourier sums of these.
   void evaluate_latitude(int i);
-  void fourier_synthesis(int kind, int i, int parity);
+  void fourier_synthesis(int kind, int i);
   static constexpr std::size_t kMostImages = 4;
-  /// Of all images of a node in one hemisphere.
+  /// Of all images of a node.
   template <int kWidth>
   using Nodes = std::array<NodeKernels::Node<kWidth>, kMostImages>;
   template <int kWidth>
   using Values = std::array<NodeKernels::Values<kWidth>, kMostImages>;
-  /// Of a latitude that has an image, or neither.
-  enum class Side { alone, north, south };
   template <int kWidth>
-  void load_nodes(Index quarter_node, Index first, Side side, Nodes<kWidth>& nodes) const;
-  template <int kWidth, bool kAlone>
-  void put_values(Index quarter_node, Index first, const Values<kWidth>& north, const Values<kWidth>& south);
+  void load_nodes(Index quarter_node, Index first, Nodes<kWidth>& nodes) const;
   template <int kWidth>
-  void evaluate_images(Index quarter_node, Index first, Side side, double weight, Values<kWidth>& values) const;
+  void add_values(Index quarter_node, Index first, const Values<kWidth>& values);
   template <int kWidth>
-  void evaluate_node(Index quarter_node, Index first, bool alone, double weight);
-  void fourier_adjoint(int i, int parity);
+  void evaluate_node(Index quarter_node, Index first, double weight);
+  void fourier_adjoint(int i);
   void legendre_adjoint(bool sine);
   void rotate_back(std::span<const Target> targets);
   /// Orders of one degree, up to the highest.
@@ -130,8 +122,8 @@ class TargetRows {
   int order_;
   int azimuthal_order_;
   bool mirrored_;
-  bool inverted_;         ///< degrees are odd: the southern latitudes of the rotated grid follow from the northern ones
-  int n_half_;            ///< latitudes of a hemisphere of the rotated grid, the equator among them
+  bool inverted_;  ///< degrees are odd: the southern latitudes of the rotated grid follow from the northern ones
+  int n_latitudes_;
   std::size_t n_images_;  ///< azimuths that share the Fourier sums of one
   int shape_kinds_;
   Index n_quarter_;
@@ -140,16 +132,15 @@ class TargetRows {
   NodeKernels node_kernels_;
   std::vector<AzimuthalAmplitudes> shape_amplitudes_;  ///< per kind
   AzimuthalAmplitudes row_amplitudes_;
-  using Parts = std::array<Vector, kParts>;  ///< [quarter φ x columns]
-  /// Of even and of odd n + m.
-  std::array<std::array<Parts, 2>, kShapeKinds> shape_parts_;
-  std::array<Parts, 2> row_parts_;
-  Matrix cosines_, sines_;              ///< of mφ, [longitude x m]
-  Vector cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
-  Vector rotation_entries_;             ///< of one degree
-  Vector nothing_;                      ///< zeros
+  std::array<std::vector<double>, 2> half_;  ///< Legendre sums of even and of odd n + m on one hemisphere
+  std::array<std::array<std::vector<double>, kParts>, kShapeKinds> shape_parts_;  ///< [quarter φ x columns]
+  std::array<std::vector<double>, kParts> row_parts_;
+  Matrix cosines_, sines_;                           ///< of mφ, [longitude x m]
+  std::vector<double> cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
+  std::vector<double> rotation_entries_;             ///< of one degree
+  std::vector<double> nothing_;                      ///< zeros
   std::vector<StoredEntries> stored_;
-  Vector phases_back_;  ///< factors of cosine and of sine, [m, cosines and sines][2][target]
+  std::vector<double> phases_back_;  ///< factors of cosine and of sine, [m, cosines and sines][2][target]
 };
 
 }  // namespace vehd

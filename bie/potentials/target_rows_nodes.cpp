@@ -38,65 +38,71 @@ struct HalfLegendre {
 
 }  // namespace
 
-/// Amplitudes of the shape data along the latitudes of a hemisphere, of even and of odd n + m apart: T and mT/sin θ
-/// have the parity (−1)^(n+m) about the equator, dT/dθ the opposite one.
+/// Amplitudes of the shape data along all latitudes. T and mT/sin θ have the parity (−1)^(n+m) about the equator, dT/dθ
+/// the opposite one.
 void TargetRows::legendre_synthesis(int kind, bool sine) {
-  AzimuthalAmplitudes& amplitudes = shape_amplitudes_[static_cast<std::size_t>(kind)];
   const Index columns = rotated_shape_.columns(sine);
-  // ∂/∂φ takes cosines to minus sines, sines to cosines; the sign waits for load_nodes.
+  const Index n_half = (q_.n_theta + 1) / 2;
+  // ∂/∂φ takes cosines to minus sines, sines to cosines.
   const bool into_sine = (kind == 2) != sine;
+  const double sign = kind == 2 && !sine ? -1.0 : 1.0;
+  const double south = kind == 1 ? -sign : sign;
   for (int m = sine ? 1 : 0; m <= order_; ++m) {
     for (const int parity : {0, 1}) {
       const HalfLegendre table(q_, kind, m, parity);
-      const bool are_there = places_.degrees.shape[(m + parity) % 2];
-      // Where degrees are odd, of each order there is one parity alone.
-      if (inverted_ && !are_there) continue;
-      small_product(n_half_, are_there ? table.n_degrees : 0, columns, table.synthesis,
-                    rotated_shape_.row(sine, m, m) + parity * columns, 2 * columns,
-                    amplitudes.of_order(into_sine, latitude(0, parity), m), amplitudes.latitude_stride(into_sine));
+      const Index n_degrees = places_.degrees.shape[(m + parity) % 2] ? table.n_degrees : 0;
+      small_product(n_half, n_degrees, columns, table.synthesis, rotated_shape_.row(sine, m, m) + parity * columns,
+                    2 * columns, half_[parity].data(), columns);
+    }
+    for (Index i = 0; i < n_half; ++i) {
+      const double* even = half_[0].data() + i * columns;
+      const double* odd = half_[1].data() + i * columns;
+      const int mirror_image = q_.n_theta - 1 - static_cast<int>(i);
+      double* to_north = shape_amplitudes_[kind].of_order(into_sine, static_cast<int>(i), m);
+      if (mirror_image > i && !inverted_) {
+        double* to_south = shape_amplitudes_[kind].of_order(into_sine, mirror_image, m);
+#pragma omp simd
+        for (Index c = 0; c < columns; ++c) to_south[c] = south * (even[c] - odd[c]);
+      }
+#pragma omp simd
+      for (Index c = 0; c < columns; ++c) to_north[c] = sign * (even[c] + odd[c]);
     }
   }
 }
 
-void TargetRows::fourier_synthesis(int kind, int i, int parity) {
-  AzimuthalAmplitudes& amplitudes = shape_amplitudes_[static_cast<std::size_t>(kind)];
-  std::size_t part = 0;
+void TargetRows::fourier_synthesis(int kind, int i) {
+  AzimuthalAmplitudes& amplitudes = shape_amplitudes_[kind];
+  int part = 0;
   for (const FourierTable& fourier : fourier_tables(q_)) {
     const Index columns = amplitudes.columns(fourier.sine);
     small_product(n_quarter_, fourier.n_orders(), columns, fourier.synthesis(),
-                  amplitudes.of_order(fourier.sine, latitude(i, parity), fourier.first_order), columns,
-                  shape_parts_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(parity)][part].data(), columns);
+                  amplitudes.of_order(fourier.sine, i, fourier.first_order), columns, shape_parts_[kind][part].data(),
+                  columns);
     ++part;
   }
 }
 
 /// Shape data at azimuths φ, π − φ, π + φ, −φ; in the mirror at the first two.
 template <int kWidth>
-void TargetRows::load_nodes(Index quarter_node, Index first, Side side, Nodes<kWidth>& nodes) const {
-  for (std::size_t kind = 0; kind < static_cast<std::size_t>(shape_kinds_); ++kind) {
-    const auto& parts = shape_parts_[kind];
+void TargetRows::load_nodes(Index quarter_node, Index first, Nodes<kWidth>& nodes) const {
+  for (int kind = 0; kind < shape_kinds_; ++kind) {
+    const auto& parts = shape_parts_[static_cast<std::size_t>(kind)];
     const auto part = [&](std::size_t which, std::size_t position) {
-      const Index columns = shape_amplitudes_[kind].columns(which >= 2);
-      const Index place = quarter_node * columns + static_cast<Index>(position) * chunk_ + first;
-      const auto even = Lanes<kWidth>::load(parts[0][which].data() + place);
-      if (side == Side::alone) return even;
-      const auto odd = Lanes<kWidth>::load(parts[1][which].data() + place);
-      return side == Side::north ? even + odd : kind == 1 ? odd - even : even - odd;
+      const Index columns = shape_amplitudes_[static_cast<std::size_t>(kind)].columns(which >= 2);
+      return Lanes<kWidth>::load(parts[which].data() + quarter_node * columns + static_cast<Index>(position) * chunk_ +
+                                 first);
     };
     const auto node = [&](std::size_t image, std::size_t component) -> auto& {
-      return nodes[image][kind * 3 + component];
+      return nodes[image][static_cast<std::size_t>(kind) * 3 + component];
     };
     if (!mirrored_) {
-      // Where sines count negative, φ and −φ change places.
-      const std::array<std::size_t, kMostImages> image = kind == 2 ? std::array<std::size_t, kMostImages>{3, 2, 1, 0}
-                                                                   : std::array<std::size_t, kMostImages>{0, 1, 2, 3};
       for (std::size_t c = 0; c < 3; ++c) {
         const auto ce = part(0, c), co = part(1, c), se = part(2, c), so = part(3, c);
         const auto even = ce + co, odd = ce - co, plus = se + so, minus = se - so;
-        node(image[0], c) = even + plus;
-        node(image[1], c) = odd - minus;
-        node(image[2], c) = odd + minus;
-        node(image[3], c) = even - plus;
+        node(0, c) = even + plus;
+        node(1, c) = odd - minus;
+        node(2, c) = odd + minus;
+        node(3, c) = even - plus;
       }
       continue;
     }
@@ -105,59 +111,49 @@ void TargetRows::load_nodes(Index quarter_node, Index first, Side side, Nodes<kW
       node(0, static_cast<std::size_t>(cosines[c])) = part(0, c) + part(1, c);
       node(1, static_cast<std::size_t>(cosines[c])) = part(0, c) - part(1, c);
     }
-    const double sign = kind == 2 ? -1.0 : 1.0;
     const auto& sines = components_.of(kind != 2);
     for (std::size_t c = 0; c < sines.size(); ++c) {
-      node(0, static_cast<std::size_t>(sines[c])) = sign * (part(3, c) + part(2, c));
-      node(1, static_cast<std::size_t>(sines[c])) = sign * (part(3, c) - part(2, c));
+      node(0, static_cast<std::size_t>(sines[c])) = part(3, c) + part(2, c);
+      node(1, static_cast<std::size_t>(sines[c])) = part(3, c) - part(2, c);
     }
   }
 }
 
-/// The other way for kernel values, those of even n + m from what both hemispheres have in common, of odd from the
-/// difference.
-template <int kWidth, bool kAlone>
-void TargetRows::put_values(Index quarter_node, Index first, const Values<kWidth>& north, const Values<kWidth>& south) {
-  for (std::size_t parity = 0; parity < (kAlone ? 1 : 2); ++parity) {
-    auto& parts = row_parts_[parity];
-    const auto value = [&](std::size_t image, std::size_t kernel) {
-      if constexpr (kAlone) return north[image][kernel];
-      const auto here = north[image][kernel], there = south[image][kernel];
-      return parity == 0 ? here + there : here - there;
-    };
-    const auto put = [&](std::size_t which, std::size_t position, const auto& lanes) {
-      Lanes<kWidth>::store(parts[which].data() + quarter_node * rows_.columns(which >= 2) +
-                               static_cast<Index>(position) * chunk_ + first,
-                           lanes);
-    };
-    if (!mirrored_) {
-      for (std::size_t c = 0; c < static_cast<std::size_t>(kernels_.count); ++c) {
-        const auto v0 = value(0, c), v1 = value(1, c), v2 = value(2, c), v3 = value(3, c);
-        const auto right = v0 + v3, left = v1 + v2, up = v0 - v3, down = v1 - v2;
-        put(0, c, right + left);
-        put(1, c, right - left);
-        put(2, c, up - down);
-        put(3, c, up + down);
-      }
-      continue;
-    }
-    for (const bool sine : {false, true}) {
-      const auto& columns = kernel_columns_.of(sine);
-      for (std::size_t c = 0; c < columns.size(); ++c) {
-        const auto kernel = static_cast<std::size_t>(columns[c]);
-        put(sine ? 3 : 0, c, 2.0 * (value(0, kernel) + value(1, kernel)));
-        put(sine ? 2 : 1, c, 2.0 * (value(0, kernel) - value(1, kernel)));
-      }
-    }
-  }
-}
-
-/// Kernel values at all images of a node.
+/// The other way for kernel values.
 template <int kWidth>
-void TargetRows::evaluate_images(Index quarter_node, Index first, Side side, double weight,
-                                 Values<kWidth>& values) const {
+void TargetRows::add_values(Index quarter_node, Index first, const Values<kWidth>& values) {
+  const auto put = [&](std::size_t which, std::size_t position, const auto& lanes) {
+    Lanes<kWidth>::store(row_parts_[which].data() + quarter_node * rows_.columns(which >= 2) +
+                             static_cast<Index>(position) * chunk_ + first,
+                         lanes);
+  };
+  if (!mirrored_) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(kernels_.count); ++c) {
+      const auto right = values[0][c] + values[3][c], left = values[1][c] + values[2][c];
+      const auto up = values[0][c] - values[3][c], down = values[1][c] - values[2][c];
+      put(0, c, right + left);
+      put(1, c, right - left);
+      put(2, c, up - down);
+      put(3, c, up + down);
+    }
+    return;
+  }
+  for (const bool sine : {false, true}) {
+    const auto& columns = kernel_columns_.of(sine);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto kernel = static_cast<std::size_t>(columns[c]);
+      put(sine ? 3 : 0, c, 2.0 * (values[0][kernel] + values[1][kernel]));
+      put(sine ? 2 : 1, c, 2.0 * (values[0][kernel] - values[1][kernel]));
+    }
+  }
+}
+
+/// All images of a node, for some targets of the chunk.
+template <int kWidth>
+void TargetRows::evaluate_node(Index quarter_node, Index first, double weight) {
   Nodes<kWidth> nodes;
-  load_nodes<kWidth>(quarter_node, first, side, nodes);
+  Values<kWidth> values;
+  load_nodes<kWidth>(quarter_node, first, nodes);
   for (std::size_t image = 0; image < n_images_; ++image) {
     node_kernels_.evaluate<kWidth>(first, nodes[image], weight, values[image]);
     if (!inverted_) continue;
@@ -167,69 +163,59 @@ void TargetRows::evaluate_images(Index quarter_node, Index first, Side side, dou
     node_kernels_.evaluate<kWidth>(first, nodes[image], weight, opposite);
     for (std::size_t c = 0; c < static_cast<std::size_t>(kernels_.count); ++c) values[image][c] -= opposite[c];
   }
-}
-
-/// A node with all images in both hemispheres, for some targets of the chunk.
-template <int kWidth>
-void TargetRows::evaluate_node(Index quarter_node, Index first, bool alone, double weight) {
-  Values<kWidth> north;
-  if (alone) {
-    evaluate_images<kWidth>(quarter_node, first, Side::alone, weight, north);
-    return put_values<kWidth, true>(quarter_node, first, north, north);
-  }
-  Values<kWidth> south;
-  evaluate_images<kWidth>(quarter_node, first, Side::north, weight, north);
-  evaluate_images<kWidth>(quarter_node, first, Side::south, weight, south);
-  put_values<kWidth, false>(quarter_node, first, north, south);
+  add_values<kWidth>(quarter_node, first, values);
 }
 
 void TargetRows::evaluate_latitude(int i) {
-  const bool equator = 2 * i + 1 == q_.n_theta, alone = inverted_ || equator;
-  const int n_parities = alone ? 1 : 2;
-  // The equator is its own image.
-  if (equator && !inverted_) {
-    for (int kind = 0; kind < shape_kinds_; ++kind) {
-      shape_amplitudes_[static_cast<std::size_t>(kind)].add_latitude(latitude(i, 1), latitude(i, 0));
-    }
-  }
-  for (int kind = 0; kind < shape_kinds_; ++kind) {
-    for (int parity = 0; parity < n_parities; ++parity) fourier_synthesis(kind, i, parity);
-  }
+  for (int kind = 0; kind < shape_kinds_; ++kind) fourier_synthesis(kind, i);
   // Nodes on the equator would meet their opposites twice.
-  const double weight = inverted_ && equator ? 0.5 * q_.weight[i] : q_.weight[i];
+  const bool twice = inverted_ && 2 * i + 1 == q_.n_theta;
+  const double weight = twice ? 0.5 * q_.weight[i] : q_.weight[i];
   for (Index quarter_node = 0; quarter_node < n_quarter_; ++quarter_node) {
     // Registers of this processor, and shorter ones for what is left over.
     constexpr auto kWide = static_cast<int>(kTogether);
     Index first = 0;
-    for (; first + kWide <= chunk_; first += kWide) evaluate_node<kWide>(quarter_node, first, alone, weight);
+    for (; first + kWide <= chunk_; first += kWide) evaluate_node<kWide>(quarter_node, first, weight);
     if constexpr (kWide > kLanes) {
-      if (first < chunk_) evaluate_node<kLanes>(quarter_node, first, alone, weight);
+      if (first < chunk_) evaluate_node<kLanes>(quarter_node, first, weight);
     }
   }
-  for (int parity = 0; parity < n_parities; ++parity) fourier_adjoint(i, parity);
-  // Of the odd harmonics the equator knows nothing: what they are multiplied with there is zero.
-  if (equator && !inverted_) row_amplitudes_.copy_latitude(latitude(i, 0), latitude(i, 1));
+  fourier_adjoint(i);
 }
 
-void TargetRows::fourier_adjoint(int i, int parity) {
-  std::size_t part = 0;
+void TargetRows::fourier_adjoint(int i) {
+  int part = 0;
   for (const FourierTable& fourier : fourier_tables(q_)) {
     const Index columns = row_amplitudes_.columns(fourier.sine);
-    small_product(fourier.n_orders(), n_quarter_, columns, fourier.adjoint(),
-                  row_parts_[static_cast<std::size_t>(parity)][part].data(), columns,
-                  row_amplitudes_.of_order(fourier.sine, latitude(i, parity), fourier.first_order), columns);
+    small_product(fourier.n_orders(), n_quarter_, columns, fourier.adjoint(), row_parts_[part].data(), columns,
+                  row_amplitudes_.of_order(fourier.sine, i, fourier.first_order), columns);
     ++part;
   }
 }
 
 void TargetRows::legendre_adjoint(bool sine) {
   const Index columns = rotated_rows_.columns(sine);
+  const Index n_half = (q_.n_theta + 1) / 2;
   for (int m = sine ? 1 : 0; m <= order_; ++m) {
+    for (Index i = 0; i < n_half; ++i) {
+      double* even = half_[0].data() + i * columns;
+      double* odd = half_[1].data() + i * columns;
+      const int mirror_image = q_.n_theta - 1 - static_cast<int>(i);
+      const double* north = row_amplitudes_.of_order(sine, static_cast<int>(i), m);
+      // The equator is its own image; of the odd harmonics it knows nothing.
+      const bool has_south = mirror_image > i && !inverted_;
+      const double* south = has_south ? row_amplitudes_.of_order(sine, mirror_image, m) : north;
+      const double share = has_south ? 1.0 : 0.0;
+#pragma omp simd
+      for (Index c = 0; c < columns; ++c) {
+        even[c] = north[c] + share * south[c];
+        odd[c] = north[c] - share * south[c];
+      }
+    }
     for (const int parity : {0, 1}) {
       if (!places_.degrees.rows[(m + parity) % 2]) continue;
       const HalfLegendre table(q_, 0, m, parity);
-      small_product(table.n_degrees, n_half_, columns, table.adjoint(),
-                    row_amplitudes_.of_order(sine, latitude(0, parity), m), row_amplitudes_.latitude_stride(sine),
+      small_product(table.n_degrees, n_half, columns, table.adjoint(), half_[parity].data(), columns,
                     rotated_rows_.row(sine, m, m) + parity * columns, 2 * columns);
     }
   }
