@@ -36,11 +36,11 @@ struct CostBudget {
 
 /// Cost of a scene at the given tolerances, falling, in less than ten seconds; at once if the cache has it. The loosest
 /// ones are run to the end, as long as the budget allows. The last of these predicts the others: if it took N steps and
-/// the one before, with the tolerance r times as large, M, then a tolerance T of its own times q takes q^(−1/k) times as
-/// many, with k = ln r/ln(N/M), one more for each order more. Where only one was run a step with an estimated error e may
-/// be (T/e)^(1/k) times as long, k being the time order. The spectrum at each step says which degree T needs, with what
-/// the run itself took beyond its spectrum; each step costs what the cost model says at that degree. Degree and time
-/// order of the scene are left to each tolerance.
+/// the one before, with the tolerance r times as large, M, then a tolerance T of its own times q takes q^(−1/k) times
+/// as many, with k = ln r/ln(N/M), one more for each order more. Where only one was run a step with an estimated error
+/// e may be (T/e)^(1/k) times as long, k being the time order. The spectrum at each step says which degree T needs,
+/// with what the run itself took beyond its spectrum; each step costs what the cost model says at that degree. Degree
+/// and time order of the scene are left to each tolerance.
 /// Accuracy: degrees and steps of the same budget of steps are the same on every machine
 /// (tests/estimate/cost_table_test.cpp)
 std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
