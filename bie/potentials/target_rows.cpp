@@ -82,7 +82,7 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
       sines_(cosines_.rows(), cosines_.cols()),
       cosine_phases_(static_cast<std::size_t>((azimuthal_order_ + 1) * chunk)),
       sine_phases_(cosine_phases_.size()),
-      rotation_entries_(static_cast<std::size_t>((order_ + 1) * (order_ + 1) * chunk)),
+      rotation_entries_(static_cast<std::size_t>(chunk)),
       nothing_(static_cast<std::size_t>(chunk), 0.0),
       phases_back_(4 * cosine_phases_.size()) {
   Index widest = std::max(rows_.columns(false), rows_.columns(true));
@@ -186,49 +186,25 @@ void TargetRows::phase_shift() {
   }
 }
 
-/// Entries of the rotations of all targets side by side, [column][row][target].
-void TargetRows::load_rotations(std::span<const Target> targets, int n, bool sine) {
-  const Index size = sine ? n : n + 1, n_entries = size * size;
-  for (Index first = 0; first < chunk_; first += kLanes) {
-    std::array<const double*, kLanes> entries;
-    for (std::size_t t = 0; t < kLanes; ++t) {
-      const RotationY& rotation = q_.rotations[targets[static_cast<std::size_t>(first) + t].latitude];
-      entries[t] = (sine ? rotation.sine : rotation.cosine)[n].data();
-    }
-    double* to = rotation_entries_.data() + first;
-    Index i = 0;
-    for (; i + kLanes <= n_entries; i += kLanes) {
-      std::array<LanesOfRows, kLanes> values;
-      for (std::size_t t = 0; t < kLanes; ++t) values[t] = Lanes<kLanes>::load(entries[t] + i);
-      transpose(values);
-      for (Index k = 0; k < kLanes; ++k) {
-        Lanes<kLanes>::store(to + (i + k) * chunk_, values[static_cast<std::size_t>(k)]);
-      }
-    }
-    for (; i < n_entries; ++i) {
-      for (std::size_t t = 0; t < kLanes; ++t) to[i * chunk_ + static_cast<Index>(t)] = entries[t][i];
-    }
-  }
-}
-
 void TargetRows::rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to,
                                    bool back) {
   for (const bool sine : {false, true}) {
-    load_rotations(targets, n, sine);
+    const Index columns = from.block.columns(sine);
     const int first = sine ? 1 : 0;
-    // From an entry of a sum to the next one.
-    const Index columns = from.block.columns(sine), size = n + 1 - first;
-    const Index stride = (back ? 1 : size) * chunk_, order_stride = from.block.order_stride(sine);
     for (int i = first; i <= to.highest; ++i) {
-      const double* entries = rotation_entries_.data() + (i - first) * (back ? size : 1) * chunk_;
-      for (Index column = 0; column < columns; column += kLanes) {
-        const double* entry = entries + column % chunk_;
-        const double* of_order = from.block.row(sine, n, first) + column;
-        LanesOfRows sum{};
-        for (int k = first; k <= from.highest; ++k, entry += stride, of_order += order_stride) {
-          sum += Lanes<kLanes>::load(entry) * Lanes<kLanes>::load(of_order);
+      double* sum = to.block.row(sine, n, i);
+      std::fill_n(sum, columns, 0.0);
+      for (int k = first; k <= from.highest; ++k) {
+        for (Index t = 0; t < chunk_; ++t) {
+          const RotationY& rotation = q_.rotations[targets[t].latitude];
+          rotation_entries_[t] =
+              (sine ? rotation.sine : rotation.cosine)[n]((back ? k : i) - first, (back ? i : k) - first);
         }
-        Lanes<kLanes>::store(to.block.row(sine, n, i) + column, sum);
+        const double* of_order = from.block.row(sine, n, k);
+        for (Index column = 0; column < columns; column += chunk_) {
+#pragma omp simd
+          for (Index t = 0; t < chunk_; ++t) sum[column + t] += rotation_entries_[t] * of_order[column + t];
+        }
       }
     }
   }

@@ -98,7 +98,6 @@ class TargetRows {
     CoefficientBlock& block;
     int highest;
   };
-  void load_rotations(std::span<const Target> targets, int n, bool sine);
   /// Orders of degree n of every target by its own rotation, or by its transpose.
   void rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to, bool back);
   /// Where an entry of the rows comes from: its cosine and its sine in rows_, −1 for none, and the pair of phases.
@@ -137,8 +136,8 @@ class TargetRows {
   std::array<std::vector<double>, kParts> row_parts_;
   Matrix cosines_, sines_;                           ///< of mφ, [longitude x m]
   std::vector<double> cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
-  std::vector<double> rotation_entries_;             ///< of one degree
-  std::vector<double> nothing_;                      ///< zeros
+  std::vector<double> rotation_entries_;
+  std::vector<double> nothing_;  ///< zeros
   std::vector<StoredEntries> stored_;
   std::vector<double> phases_back_;  ///< factors of cosine and of sine, [m, cosines and sines][2][target]
 };

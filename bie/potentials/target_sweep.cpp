@@ -20,10 +20,6 @@ int batch_count(int n_latitudes, int n_targets) {
   return (n_latitudes + shared - 1) / shared;
 }
 
-/// Of many targets of a latitude those that would fill a chunk with copies alone. They share chunks with those of other
-/// latitudes, where rotations cost more, but less than copies do.
-int left_over(int n_targets) { return n_targets > kChunk && n_targets % kLanes != 0 ? n_targets % kChunk : 0; }
-
 }  // namespace
 
 TargetSweep::TargetSweep(const RotatedQuadrature& quadrature, const SphereTransform& transform, const Matrix& position,
@@ -59,13 +55,6 @@ void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
   const auto n_originals = static_cast<int>(originals.size());
   const Index n_rows = layout.all_longitudes ? grid.n_phi : n_originals;
   const int n_latitudes = latitudes.count(), n_batches = batch_count(n_latitudes, n_originals);
-  const int n_left = left_over(n_originals), n_own = n_originals - n_left;
-  const auto target = [&](int latitude, int original, Index row) {
-    const int longitude = originals[static_cast<std::size_t>(original)];
-    const Index point = Index{latitude} * grid.n_phi + longitude;
-    return Target{latitude, longitude, target_positions_.row(point), area_vectors_.row(point), row};
-  };
-  RowMatrix rows_left = RowMatrix::Zero(Index{n_left} * n_latitudes, layout.width);
 #pragma omp parallel if (is_parallel())
   {
     const auto worker_for = [&](int chunk) {
@@ -73,40 +62,27 @@ void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
                         layout.places, chunk);
     };
     TargetRows worker = worker_for(kChunk), last_worker = worker_for(kLanes);
+    RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes + n_batches - 1) / n_batches), layout.width);
     std::vector<Target> targets;
-    const auto run_targets = [&](RowMatrix& rows) {
+#pragma omp for schedule(dynamic, 1)
+    for (int batch = 0; batch < n_batches; ++batch) {
+      const int first = latitudes.first + batch * n_latitudes / n_batches;
+      const int end = latitudes.first + (batch + 1) * n_latitudes / n_batches;
+      targets.clear();
+      for (int j = first; j < end; ++j) {
+        for (int i = 0; i < n_originals; ++i) {
+          const int k = originals[i];
+          const Index point = Index{j} * grid.n_phi + k;
+          targets.push_back({j, k, target_positions_.row(point), area_vectors_.row(point),
+                             (j - first) * n_rows + (layout.all_longitudes ? k : i)});
+        }
+      }
       // Copies of the last target fill the last chunk.
       while (targets.size() % kLanes != 0) targets.push_back(Target(targets.back()));
       std::span<const Target> left(targets);
       for (; left.size() >= kChunk; left = left.subspan(kChunk)) worker.run(left.first(kChunk), rows);
       if (!left.empty()) last_worker.run(left, rows);
-    };
-#pragma omp for schedule(dynamic, 1)
-    for (Index first = 0; first < rows_left.rows(); first += kChunk) {
-      targets.clear();
-      for (Index row = first; row < std::min(first + kChunk, rows_left.rows()); ++row) {
-        const auto place = static_cast<int>(row);
-        targets.push_back(target(latitudes.first + place / n_left, n_own + place % n_left, row));
-      }
-      run_targets(rows_left);
-    }
-    RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes + n_batches - 1) / n_batches), layout.width);
-#pragma omp for schedule(dynamic, 1)
-    for (int batch = 0; batch < n_batches; ++batch) {
-      const int first = latitudes.first + batch * n_latitudes / n_batches;
-      const int end = latitudes.first + (batch + 1) * n_latitudes / n_batches;
-      const auto row_of = [&](int j, int i) {
-        return (j - first) * n_rows + (layout.all_longitudes ? originals[static_cast<std::size_t>(i)] : i);
-      };
-      targets.clear();
       for (int j = first; j < end; ++j) {
-        for (int i = 0; i < n_own; ++i) targets.push_back(target(j, i, row_of(j, i)));
-      }
-      run_targets(rows);
-      for (int j = first; j < end; ++j) {
-        for (int i = 0; i < n_left; ++i) {
-          rows.row(row_of(j, n_own + i)) = rows_left.row(Index{j - latitudes.first} * n_left + i);
-        }
         auto of_latitude = rows.middleRows((j - first) * n_rows, n_rows);
         if (layout.all_longitudes) images_.fill(of_latitude.leftCols(kernels_.count * active_.count()));
         use(j, of_latitude.data());
