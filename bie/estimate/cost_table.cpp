@@ -14,7 +14,6 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/thresholds.hpp"
-#include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 

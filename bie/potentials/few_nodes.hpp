@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "bie/kernels/inverse_roots.hpp"
-#include "bie/potentials/lanes.hpp"
+#include "bie/support/lanes.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {

@@ -9,7 +9,7 @@
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
 #include "bie/potentials/kernel_columns.hpp"
-#include "bie/potentials/lanes.hpp"
+#include "bie/support/lanes.hpp"
 
 namespace vehd {
 

@@ -8,11 +8,7 @@
 
 #include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
-
-#ifndef __AVX__
-// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
+#include "bie/support/lanes.hpp"
 
 namespace vehd {
 
@@ -45,15 +41,11 @@ double* of_this_thread(Index count) {
   return numbers.get();
 }
 
-using Longitudes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+using Longitudes = Lanes<kLanes>::Values;
 
-Longitudes longitudes(const double* at) {
-  Longitudes lanes;
-  std::memcpy(&lanes, at, sizeof lanes);
-  return lanes;
-}
+Longitudes longitudes(const double* at) { return Lanes<kLanes>::load(at); }
 
-void put(double* at, const Longitudes& lanes) { std::memcpy(at, &lanes, sizeof lanes); }
+void put(double* at, const Longitudes& lanes) { Lanes<kLanes>::store(at, lanes); }
 
 Longitudes reversed(const Longitudes& lanes) { return __builtin_shufflevector(lanes, lanes, 3, 2, 1, 0); }
 

@@ -11,12 +11,8 @@
 #include "bie/sphere/legendre.hpp"
 #include "bie/sphere/small_product.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/lanes.hpp"
 #include "bie/support/parallel.hpp"
-
-#ifndef __AVX__
-// Vectors of four numbers are passed between functions of this file alone, whatever others agree on.
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
 
 namespace vehd {
 
@@ -53,7 +49,7 @@ constexpr Index kMostFields = 5;
 /// Groups that one thread takes at a time.
 constexpr Index kGroupsTogether = 4;
 
-using PointLanes [[gnu::vector_size(kPointsOfRegister * sizeof(double))]] = double;
+using PointLanes = Lanes<kPointsOfRegister>::Values;
 
 /// Cosine and sine of θ, then of φ, of as many points as fill groups.
 using Waves = Eigen::Matrix<double, Eigen::Dynamic, 4>;
@@ -68,8 +64,8 @@ struct Series {
   std::vector<double> coefficients;            ///< per degree those of cosines of all fields, then of sines
 
   /// @param fields  some columns
-  Series(const Eigen::Ref<const Matrix>& fields, int order_, int azimuthal_order_)
-      : order(order_), azimuthal_order(azimuthal_order_), n_fields(fields.cols()) {
+  Series(const Eigen::Ref<const Matrix>& fields, int highest_degree, int highest_order)
+      : order(highest_degree), azimuthal_order(highest_order), n_fields(fields.cols()) {
     for (int m = 0; m <= azimuthal_order; ++m) {
       for (int n = m; n <= order; ++n) {
         recurrence.push_back(n > m ? legendre_recurrence(n, m) : LegendreRecurrence{0.0, 0.0});

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -18,12 +17,9 @@ BOOST_AUTO_TEST_CASE(what_the_quadrature_leaves_is_magnified_by_a_membrane_that_
     scene.output.every.reset();
     scene.output.times = {share * scene.numerics.end_time};
     const vehd::HistoryTable history = vehd::testing::history_of(scene);
-    const std::vector<double>& times = history.column("time");
-    const auto is_there = [&](double time) { return std::abs(time - share * times.back()) < 1e-9 * times.back(); };
-    const auto row = std::ranges::find_if(times, is_there);
-    BOOST_TEST_REQUIRE((row != times.end()));
     const double largest = history.largest_magnitude("tension_integral");
-    return history.column("tension_integral")[static_cast<std::size_t>(row - times.begin())] / largest;
+    const std::size_t row = vehd::testing::row_at(history, share * history.column("time").back());
+    return history.column("tension_integral")[row] / largest;
   };
   const double wrong = std::abs(tension(tolerance) - tension(0.01 * tolerance));
   BOOST_TEST(wrong < 1.5 * tolerance, wrong);

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <vector>
+
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_loop.hpp"
 #include "tests/support/files.hpp"
@@ -15,6 +20,14 @@ inline HistoryTable history_of(const Scene& scene) {
   run.start();
   while (!run.simulation().at_end()) run.step();
   return HistoryTable(paths.history());
+}
+
+/// Number of the first row at a time, to rounding; one is required.
+inline std::size_t row_at(const HistoryTable& history, double time) {
+  const std::vector<double>& times = history.column("time");
+  const auto found = std::ranges::find_if(times, [&](double t) { return std::abs(t - time) < 1e-9 * times.back(); });
+  BOOST_TEST_REQUIRE((found != times.end()));
+  return static_cast<std::size_t>(found - times.begin());
 }
 
 }  // namespace vehd::testing

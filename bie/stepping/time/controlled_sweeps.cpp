@@ -14,6 +14,8 @@ namespace vehd {
 
 namespace {
 
+double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
+
 /// How many times what a step leaves of shape and V_m counts.
 VisibleDifference lasting_weights(const StepGoal& goal, double dt) {
   const double remembered = std::min(1.0 + goal.memory / dt, thresholds::most_remembered);
@@ -35,14 +37,12 @@ class SweepErrors {
     tension_.add(change.tension);
     charge_.add(change.charge);
   }
-  /// Largest of the errors of shape and V_m, each as many times as it counts.
-  [[nodiscard]] double weighted(const VisibleDifference& error) const {
-    return std::max(weights_.shape * error.shape, weights_.potential * error.potential);
-  }
-  /// The same, or what it makes of tension and charge if that is more.
+  /// Largest of these errors of shape and V_m, each as many times as it counts, and of what they make of tension and
+  /// charge.
   /// @param least  see magnification
   [[nodiscard]] double lasting_or_magnified(const VisibleDifference& error, double least) const {
-    return std::max(weighted(error), magnification(least) * std::max(error.shape, error.potential));
+    return std::max(
+        {weights_.shape * error.shape, weights_.potential * error.potential, magnification(least) * largest_of(error)});
   }
   [[nodiscard]] int sweeps() const { return static_cast<int>(shape_.count()); }
   /// Whether tension and charge are known after the last sweep as well.
@@ -130,8 +130,6 @@ std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolu
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
-
-double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
 
 /// Error of a solution that one more correction has changed so much.
 /// @param before  what the correction before has changed; zero: not known
