@@ -80,20 +80,23 @@ Stage weakened(Stage stage, const Outlook& outlook, std::size_t a) {
   return stage;
 }
 
-/// Largest Σ σ_n T of stages one after the other, of the degrees from `lowest` to that of the vesicle.
+/// Σ σ_n T of stages one after the other, of the degrees from `lowest` to that of the vesicle the largest of each: a
+/// shape hands errors on from degree to degree, and those of a low one, which outlast a tension, are in the high ones
+/// when these begin to grow. 0 where all die away.
 double exponent_of(const FlowParameters& parameters, const VesicleState& vesicle, const std::vector<Stage>& stages,
                    int lowest) {
   const double radius = radius_of(vesicle);
-  double largest = 0.0;
-  for (int degree = std::max(2, lowest); degree <= order_of(vesicle.position.rows()); ++degree) {
-    double exponent = 0.0;
-    for (const Stage& stage : stages) {
+  const int first = std::max(2, lowest), highest = order_of(vesicle.position.rows());
+  double exponent = 0.0;
+  for (const Stage& stage : stages) {
+    double fastest = first > highest ? 0.0 : -endless;
+    for (int degree = first; degree <= highest; ++degree) {
       const double rate = disturbance_rate(parameters, stage.tension, radius, degree);
-      if (rate != 0.0) exponent += rate * stage.time;
+      fastest = std::max(fastest, rate != 0.0 ? rate * stage.time : 0.0);
     }
-    largest = std::max(largest, exponent);
+    exponent += fastest;
   }
-  return largest;
+  return std::max(exponent, 0.0);
 }
 
 /// Exponents of what may happen; `sure` are those that the change of V_m and field does not speak against.

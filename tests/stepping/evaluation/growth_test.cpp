@@ -123,6 +123,38 @@ BOOST_AUTO_TEST_CASE(a_jump_that_will_compress_is_seen_before) {
   BOOST_TEST(found.growth(model, outlook).steps > 2.0 * found.growth(model, blind).steps);
 }
 
+// Of a membrane that a flow draws out, until a field compresses it.
+BOOST_AUTO_TEST_CASE(what_a_tension_smooths_last_grows_after_a_jump) {
+  const Model model = compressed();
+  CompressedStart later(model);
+  later.charge(model, 0.1);
+  Model drawn = model;
+  drawn.flow = axisymmetric_extension(0.3);
+  CompressedStart now(drawn);
+  now.charge(drawn, 0.1);
+  const VesicleDiagnostics& taut = now.evaluation.diagnostics.vesicles[0];
+  const VesicleDiagnostics& loose = later.evaluation.diagnostics.vesicles[0];
+  BOOST_REQUIRE(taut.tension_integral > 0.0);
+  BOOST_REQUIRE(loose.tension_integral < 0.0);
+  const double radius = std::sqrt(now.state.vesicles[0].reference_area / (4.0 * std::numbers::pi));
+  const auto fastest = [&](const VesicleDiagnostics& of) {
+    double rate = -std::numeric_limits<double>::infinity();
+    for (int degree = 2; degree <= kCompressedOrder; ++degree) {
+      rate = std::max(rate, disturbance_rate(flow_parameters(model, model.vesicles[0]), of.tension_integral / of.area,
+                                             radius, degree));
+    }
+    return rate;
+  };
+  constexpr double kJump = 0.02, kAfter = 0.1;
+  Outlook outlook{kJump + kAfter};
+  outlook.jump = kJump;
+  outlook.after_jump = later.evaluation;
+  const double exponent = fastest(taut) * kJump + fastest(loose) * kAfter;
+  BOOST_REQUIRE(fastest(taut) < 0.0);
+  BOOST_REQUIRE(exponent > 0.02);
+  BOOST_TEST(now.growth(drawn, outlook).steps == std::exp(exponent), boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(what_degrees_leave_out_is_not_felt_by_the_lowest) {
   const Model model = compressed();
   const CompressedStart found(model);
