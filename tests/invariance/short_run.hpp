@@ -29,8 +29,8 @@ ShortRun short_run(const Scene& scene, int most_steps);
 /// The same of a changed problem of the scene.
 ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps);
 
-/// With solves that go on to rounding: what the usual ones leave, up to 1e-5 of a step's change of curvature, is
-/// another remainder where they end elsewhere.
+/// With solves that go on to rounding, but for area and volume: what the usual ones leave, up to 1e-5 of a step's
+/// change of curvature, is another remainder where they end elsewhere.
 ShortRun solved_run(const Scene& scene, int most_steps);
 
 /// The same of a changed problem of the scene.
