@@ -97,6 +97,21 @@ BOOST_AUTO_TEST_CASE(moments_within_a_step_are_as_exact_as_its_end) {
   }
 }
 
+// A size that would be too large for a snapshot is none for a step without one.
+BOOST_AUTO_TEST_CASE(steps_after_a_snapshot_are_what_they_are_without_it) {
+  const Matrix position = start_shape();
+  EvolutionSetup setup = setup_of(field_model(), position, highest_time_order);
+  setup.control.tolerance = 1e-4;
+  const Run plain = run_of(setup, position, {});
+  BOOST_TEST_REQUIRE(plain.step_times.size() > 11U);
+  for (const std::size_t step : {3U, 7U, 10U}) {
+    const double time = 0.75 * plain.step_times[step - 1] + 0.25 * plain.step_times[step];
+    const Run run = run_of(setup, position, {.times = {time}});
+    BOOST_TEST(run.moments.size() == 1U);
+    BOOST_TEST(run.step_times == plain.step_times, boost::test_tools::per_element());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(moments_know_what_has_died_away_since_the_start) {
   // An ellipsoid has wrinkles of its tension that relax in a small part of the first step.
   const Matrix position = ellipsoid(24, {1.0, 1.0, 1.96});

@@ -170,13 +170,8 @@ Moment moment(double time, const StepPolynomial& within, const StepOperations& p
 /// Finds the states at these times.
 /// @param errors  of the sweeps
 /// @returns whether all are within what is allowed; if not there are none
-bool pass(const std::vector<double>& times, StepOperations& physics, const TimeRule& rule, double dt, double allowed,
+bool pass(const std::vector<double>& times, const StepPolynomial& within, const StepOperations& physics, double allowed,
           const SweepErrors& errors, Collocation& y, ControlledSweeps& result) {
-  // The last sweep was made at the last node alone; its rates serve the others as well.
-  for (std::size_t m = 0; m < y.last(); ++m) y.node(m) = y.corrected(m, NodeEnd::material);
-  const StepPolynomial within(physics, rule, dt, y);
-  // It falls like dt⁴ or faster. Where the moments of the next steps lie is chance.
-  result.factor = std::min(result.factor, size_factor(within.error(), allowed, 3));
   // Tension and charge are wrong by so much more.
   const double magnification = errors.magnification(thresholds::telling_share * allowed);
   double largest = 0.0;
@@ -188,8 +183,26 @@ bool pass(const std::vector<double>& times, StepOperations& physics, const TimeR
   if (largest <= allowed) return true;
   result.passed.clear();
   result.excess = std::max(result.excess, largest / allowed);
-  result.factor = std::min(result.factor, size_factor(largest, allowed, 3));
+  result.factor = std::min({result.factor, size_factor(within.error(), allowed, 3), size_factor(largest, allowed, 3)});
   return false;
+}
+
+/// What is wanted within the step, and a size of the next one with which what is wanted within that will be exact.
+/// @returns whether what is wanted is exact enough
+bool look_within(StepOperations& physics, const TimeRule& rule, double dt, const StepGoal& goal,
+                 const SweepErrors& errors, Collocation& y, ControlledSweeps& result) {
+  const double end = physics.start().time + dt;
+  const std::vector<double> times = goal.times_before(end);
+  if (times.empty()) return true;
+  // The last sweep was made at the last node alone; its rates serve the others as well.
+  for (std::size_t m = 0; m < y.last(); ++m) y.node(m) = y.corrected(m, NodeEnd::material);
+  const StepPolynomial within(physics, rule, dt, y);
+  const double allowed = thresholds::moment_share * goal.tolerance;
+  if (!pass(times, within, physics, allowed, errors, y, result)) return false;
+  // It falls like dt⁴ or faster. Where the moments of the next step lie is chance.
+  const bool next_has_any = goal.times_before(end + result.factor * dt).size() > times.size();
+  if (next_has_any) result.factor = std::min(result.factor, size_factor(within.error(), allowed, 3));
+  return true;
 }
 
 }  // namespace
@@ -241,11 +254,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   }
   // Before what is solved for within the step can be recycled.
   result.state = physics.end_state(y.node(last));
-  const std::vector<double> times = goal.times_before(physics.start().time + dt);
-  const double allowed_within = thresholds::moment_share * goal.tolerance;
-  if (!times.empty() && !pass(times, physics, rule, dt, allowed_within, errors, y, result)) {
-    return result;
-  }
+  if (!look_within(physics, rule, dt, goal, errors, y, result)) return result;
   result.end = std::move(y.node(last));
   return result;
 }
