@@ -143,7 +143,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       ->check(time_text());
   add_repeats(*command, options->bench, 1);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = scene_of_one(o.scene_file);
+    Scene scene = read_scene(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
     std::vector<double> steps;
     for (const std::string& step : o.steps) steps.push_back(positive_time("--dt", step, scene));
@@ -190,7 +190,7 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->check(CLI::Range(4, 64));
   add_repeats(*command, options->bench, 5);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = scene_of_one(o.scene_file);
+    Scene scene = read_scene(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
     return bench_threads(scene, o.threads, o.bench.repeats, observer);
   });

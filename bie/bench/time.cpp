@@ -41,7 +41,7 @@ constexpr std::array kQuantities = {
 
 struct TimedRow {
   double time = 0.0;
-  VesicleDiagnostics diagnostics;
+  std::vector<VesicleDiagnostics> vesicles;
 };
 
 struct TimedRun {
@@ -67,16 +67,22 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
     const Fields fields = resized(evaluation.fields, problem.settings.order);
     return TimedRow{
         state.time,
-        lab_frame.diagnostics(evaluation.diagnostics, resized(state, problem.settings.order), fields).vesicles.front()};
+        lab_frame.diagnostics(evaluation.diagnostics, resized(state, problem.settings.order), fields).vesicles};
+  };
+  const auto note_order = [&] {
+    for (std::size_t a = 0; a < evolution.state().vesicles.size(); ++a) {
+      run.highest_order = std::max(run.highest_order, evolution.order(a));
+    }
   };
   run.rows.clear();
   evolution.evaluate_start();
-  run.highest_order = evolution.order(0);
+  run.highest_order = 0;
+  note_order();
   if (scene.numerics.tolerance) run.rows.push_back(row_of(evolution.state(), evolution.evaluation()));
   double raw_area = 0.0;
   while (evolution.state().time < events.end_time) {
     const StepAttempt step = evolution.step(events);
-    run.highest_order = std::max(run.highest_order, evolution.order(0));
+    note_order();
     raw_area += std::abs(step.raw_area);
     for (const Evolution::Moment& moment : evolution.passed()) {
       run.rows.push_back(row_of(moment.state, moment.evaluation));
@@ -84,9 +90,11 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
     if (step.at_snapshot && evolution.state().time < events.end_time) {
       run.rows.push_back(row_of(evolution.state(), evolution.evaluation()));
     }
-    const VesicleDiagnostics& now = evolution.evaluation().diagnostics.vesicles.front();
-    observer.status({evolution.state().step, 0.0, evolution.state().time, events.end_time, step.dt,
-                     std::max(std::abs(now.area_drift), std::abs(now.volume_drift)), elapsed()});
+    double drift = 0.0;
+    for (const VesicleDiagnostics& now : evolution.evaluation().diagnostics.vesicles) {
+      drift = std::max({drift, std::abs(now.area_drift), std::abs(now.volume_drift)});
+    }
+    observer.status({evolution.state().step, 0.0, evolution.state().time, events.end_time, step.dt, drift, elapsed()});
   }
   run.rows.push_back(row_of(evolution.state(), evolution.evaluation()));
   run.n_steps = evolution.state().step;
@@ -115,7 +123,8 @@ TimedRun adaptive_run(const TimeTask& task, double tolerance, BenchObserver& obs
   return run;
 }
 
-/// Largest difference of one quantity in the rows that both have, over its largest value there; angles over a radian.
+/// Largest difference of one quantity in the rows that both have, over its largest value there, of all vesicles; angles
+/// over a radian.
 double relative_error(const Quantity& quantity, const TimedRun& run, const TimedRun& reference) {
   constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
   constexpr double kSameTime = 1e-9;
@@ -127,10 +136,12 @@ double relative_error(const Quantity& quantity, const TimedRun& run, const Timed
       ++(row->time < other->time ? row : other);
       continue;
     }
-    const double value = other->diagnostics.*quantity.member;
-    const double here = std::abs(row->diagnostics.*quantity.member - value);
-    difference = std::max(difference, is_angle ? std::min(here, 180.0 - here) : here);
-    if (!is_angle) size = std::max(size, std::abs(value));
+    for (std::size_t a = 0; a < other->vesicles.size(); ++a) {
+      const double value = other->vesicles[a].*quantity.member;
+      const double here = std::abs(row->vesicles[a].*quantity.member - value);
+      difference = std::max(difference, is_angle ? std::min(here, 180.0 - here) : here);
+      if (!is_angle) size = std::max(size, std::abs(value));
+    }
     ++row, ++other;
   }
   return difference == 0.0 ? 0.0 : difference / size;
@@ -161,6 +172,11 @@ std::vector<double> errors_of(const TimedRun& run, const TimedRun& reference) {
     errors.push_back(relative_error(quantity, run, reference));
   }
   return errors;
+}
+
+/// At the end, of the first vesicle.
+double final_value(const Quantity& quantity, const TimedRun& run) {
+  return run.rows.back().vesicles.front().*quantity.member;
 }
 
 /// What errors are taken from.
@@ -194,7 +210,7 @@ std::vector<BenchCell> row_of(const TimedRun& run, const References& references)
                              over_tolerance,
                              run.raw_drift};
   row.insert(row.end(), errors.begin(), errors.end());
-  for (const Quantity& quantity : kQuantities) row.emplace_back(run.rows.back().diagnostics.*quantity.member);
+  for (const Quantity& quantity : kQuantities) row.emplace_back(final_value(quantity, run));
   return row;
 }
 
@@ -208,16 +224,14 @@ std::vector<Quantity> shown_quantities() {
 void add_values(BenchTable& table, const std::vector<TimedRun>& runs, BenchObserver& observer) {
   for (const TimedRun& run : runs) {
     std::vector<BenchCell> row{run.integrator, run.setting};
-    for (const Quantity& quantity : shown_quantities()) row.emplace_back(run.rows.back().diagnostics.*quantity.member);
+    for (const Quantity& quantity : shown_quantities()) row.emplace_back(final_value(quantity, run));
     add_row(table, std::move(row), observer);
   }
   if (runs.size() < 3) return;
   std::vector<BenchCell> orders{runs.front().integrator, "observed order"};
   std::vector<BenchCell> limits{runs.front().integrator, "dt → 0"};
   for (const Quantity& quantity : shown_quantities()) {
-    const auto value = [&](std::size_t from_end) {
-      return runs[runs.size() - from_end].rows.back().diagnostics.*quantity.member;
-    };
+    const auto value = [&](std::size_t from_end) { return final_value(quantity, runs[runs.size() - from_end]); };
     const double coarse = value(3), middle = value(2), fine = value(1);
     const double ratio = (coarse - middle) / (middle - fine);
     // Values that do not move monotonically, or not at all, have no order.

@@ -22,10 +22,11 @@ struct TimeTask {
 /// Error of the history quantities against the step size, the steps and the seconds, for each integrator and for a
 /// tolerance; with fixed steps also the values, the order observed from the last three and the limit that follows.
 /// The reference is the last tolerance; without any, a run of the highest order with half the smallest step where
-/// orders above 2 are compared, otherwise with the middle one. Errors are the largest of all rows, over the largest
-/// value of the quantity in them; those of angles in radians. Beside a tolerance, whose degree is its own, errors of
-/// fixed steps are also taken from that run of their own degree: the errors of the steps alone. A last
-/// table has what one more digit costs with each integrator that three errors are known of.
+/// orders above 2 are compared, otherwise with the middle one. Errors are the largest of all rows and vesicles, over
+/// the largest value of the quantity in them; those of angles in radians. Values are of the first
+/// vesicle. Beside a tolerance, whose degree is its own, errors of fixed steps are also taken from that run of their
+/// own degree: the errors of the steps alone. A last table has what one more digit costs with each integrator that
+/// three errors are known of.
 /// @throws InputError, ConvergenceError
 BenchResult bench_time(const TimeTask& task, BenchObserver& observer);
 

@@ -147,6 +147,33 @@ BOOST_AUTO_TEST_CASE(what_knows_one_vesicle_alone_says_so) {
   check_refused({"run", run.scene, "-o", run.directory / "other"}, "holds 2 vesicles; accepted: a run of one");
 }
 
+BOOST_AUTO_TEST_CASE(errors_of_a_tolerance_are_those_of_the_worst_vesicle) {
+  // A sphere far from an ellipsoid that relaxes.
+  const auto scene_of = [](const std::string& first, const std::string& second) {
+    const auto vesicle = [](const std::string& axes, const char* centre) {
+      return "[[vesicle]]\n[vesicle.shape]\naxes = " + axes + "\ncentre = [0.0, 0.0, " + centre + "]\n";
+    };
+    return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.0]\n[membrane]\nbending_modulus = 1.0\n"
+           "[numerics]\ntolerance = 1e-2\nend_time = 5\n" +
+           vesicle(first, "-4.0") + vesicle(second, "4.0");
+  };
+  const std::string sphere = "[1.0, 1.0, 1.0]", ellipsoid = "[1.0, 1.0, 1.4]";
+  const TemporaryDirectory directory;
+  std::vector<double> errors;
+  for (const std::string& text : {scene_of(sphere, ellipsoid), scene_of(ellipsoid, sphere)}) {
+    write_text(directory / "scene.toml", text);
+    const ProgramResult result = run_vehd({"bench", "time", directory / "scene.toml", "--tolerance", "1e-1,1e-3",
+                                           "--at", "5", "--no-plot", "-o", directory / "out"});
+    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+    const nlohmann::json row = json_of(directory / "out/time.json")["rows"][0];
+    errors.push_back(row["error_bending_energy_scaled"].get<double>());
+    // That of a sphere is nothing but rounding.
+    BOOST_TEST(row["error_tension_integral"].get<double>() < 0.1);
+  }
+  BOOST_TEST(errors[0] > 1e-9);
+  BOOST_TEST(errors[1] == errors[0], boost::test_tools::tolerance(1e-2));
+}
+
 BOOST_AUTO_TEST_CASE(plan_counts_the_kernels_of_all) {
   const OwnCache cache;
   const FinishedRun run(quick_pair("0.2"));
