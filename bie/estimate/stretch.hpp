@@ -27,7 +27,7 @@ constexpr int steps_of_stretch = 3;
 /// @param orders  degrees with which to begin, of each step of the trial run
 /// @param in_budget  whether there is time for one more
 /// @returns       those that could be taken, by their step
-/// Accuracy: ten of them tell the steps of a whole run within a factor of 1.3 (tests/estimate/stretch_test.cpp)
+/// Accuracy: ten of them tell steps and work of a whole run within a factor of 1.5 (tests/estimate/prediction_test.cpp)
 std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, double tolerance, std::size_t count,
                                     const std::vector<int>& orders, const std::function<bool()>& in_budget);
 

@@ -53,10 +53,11 @@ double factor(double predicted, double taken) { return std::max(predicted / take
 
 BOOST_AUTO_TEST_SUITE(prediction)
 
-// A digit or two from the trial run, of another order, and one more that is predicted from the last stretches.
+// Two tolerances with stretches of their own, the second of another order, and one that is predicted from these: where
+// errors grow and degrees rise, where a field turns, and where a shape comes to rest.
 BOOST_AUTO_TEST_CASE(steps_and_work_are_within_a_factor_of_one_and_a_half) {
-  for (const auto& [name, end_time] : {std::pair("figure3", "8.0"), std::pair("pump", "6"),
-                                       std::pair("ac_field", "\"0.3 ms\""), std::pair("relaxation", "10.0")}) {
+  for (const auto& [name, end_time] :
+       {std::pair("figure3", "8.0"), std::pair("ac_field", "\"1 ms\""), std::pair("relaxation", "10.0")}) {
     AfterTrial after(name, end_time);
     for (std::size_t index = index_of_trial + 1; index < tolerances.size(); ++index) {
       const vehd::TrialRun truth = vehd::run_trial(after.scene, tolerances[index], {}, {});
