@@ -90,10 +90,10 @@ class BudgetLeft {
   [[nodiscard]] bool any_for_trials() const {
     return budget_.steps ? steps_of_trials() > 0 : seconds_of_trials() > 0.0;
   }
-  /// Whether a trial run for which that was predicted may well reach its end: it often takes less than what one with a
-  /// tenth of the accuracy predicts.
+  /// Whether a trial run for which that was predicted should reach its end. One that does not has taken the time of
+  /// stretches, which tell nearly as much.
   [[nodiscard]] bool may_do(const CostRow& predicted) const {
-    constexpr double kUncertainty = 2.0;
+    constexpr double kUncertainty = 1.25;
     return budget_.steps ? double(predicted.steps) < kUncertainty * double(steps_of_trials())
                          : predicted.seconds < kUncertainty * seconds_of_trials();
   }
@@ -148,13 +148,13 @@ std::size_t stretches_in_budget(const Knowledge& known, std::size_t index, const
 void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft& left) {
   constexpr std::size_t kFewest = 2;
   const double tolerance = known.tolerances[index];
-  known.starting_order = 0;
+  known.expect_start(tolerance);
   if (left.has_for_start(start_seconds(known, index))) {
     try {
-      known.starting_order = starting_order(scene, tolerance);
+      known.learn_start(tolerance, starting_order(scene, tolerance));
       left.take(1);
     } catch (const ConvergenceError&) {
-      // Then the spectra of the trial run have to tell.
+      // Then looser tolerances have to tell.
     }
   }
   if (!known.stretches.empty() && time_order_of(known.sampled) == highest_time_order) return;

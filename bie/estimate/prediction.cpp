@@ -101,7 +101,25 @@ Trend trend_of(const CostRow& first, const TrialRun& trial, const TrialRun& next
 
 void Knowledge::learn(TrialRun next) {
   trial = std::move(next);
+  known_start = 0;
   if (const double expected = model_seconds(trial.steps, model); expected > 0.0) ratio = trial.seconds / expected;
+}
+
+void Knowledge::expect_start(double tolerance) {
+  constexpr double kRounding = 1e-9;
+  starting_order = 0;
+  if (known_start == 0) return;
+  const int first = trial.steps.front().order;
+  const double more =
+      (known_start - first) * std::log(trial.tolerance / tolerance) / std::log(trial.tolerance / start_tolerance);
+  // Degrees that runs choose are even.
+  const int order = first + 2 * static_cast<int>(std::ceil(std::max(more, 0.0) / 2.0 - kRounding));
+  starting_order = std::min(order, accuracy_defaults(tolerance).order);
+}
+
+void Knowledge::learn_start(double tolerance, int order) {
+  starting_order = known_start = order;
+  start_tolerance = tolerance;
 }
 
 void Knowledge::learn(double tolerance, std::vector<Stretch> of_trial) {

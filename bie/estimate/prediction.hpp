@@ -30,10 +30,15 @@ struct Knowledge {
   Trend trend{};
   double ratio = 1.0;                ///< seconds of this scene to those of the model
   int starting_order = 0;            ///< of the tolerance that is predicted; 0: not known
+  int known_start = 0;               ///< the last one that was measured; 0: none
+  double start_tolerance = 0.0;      ///< of that one
   double sampled = 0.0;              ///< tolerance of the stretches; 0: there are none
   std::vector<Stretch> stretches{};  ///< of the tightest tolerance that has any, by their step
 
   void learn(TrialRun next);
+  /// Tolerances of as many digits more take as many degrees more at the start.
+  void expect_start(double tolerance);
+  void learn_start(double tolerance, int order);
   void learn(double tolerance, std::vector<Stretch> of_trial);
 };
 

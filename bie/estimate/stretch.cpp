@@ -68,6 +68,34 @@ double loose_sizes(const TrialRun& trial, std::size_t step) {
   return trial.steps[std::min(step + 1, last)].dt + trial.steps[std::min(step + 2, last)].dt;
 }
 
+/// Whether no snapshot lies in the step from a state or in the two after it: those before and after one are shorter.
+bool is_undisturbed(const TrialRun& trial, std::size_t step) {
+  const auto first = trial.steps.begin() + static_cast<std::ptrdiff_t>(std::min(step, trial.steps.size()));
+  const auto last = trial.steps.begin() + static_cast<std::ptrdiff_t>(std::min(step + 3, trial.steps.size()));
+  return std::all_of(first, last, [](const TrialStep& taken) { return taken.moments == 0; });
+}
+
+/// Whether snapshots are so rare that it is chance whether one disturbs a stretch; where they are not, what they do
+/// belongs to the run.
+bool has_rare_snapshots(const TrialRun& trial) {
+  constexpr double kRare = 0.25;
+  const auto n = std::ranges::count_if(trial.steps, [](const TrialStep& step) { return step.moments > 0; });
+  return static_cast<double>(n) <= kRare * static_cast<double>(trial.steps.size());
+}
+
+/// Of as many parts of the states, the middle of that part, or an undisturbed one near it where snapshots are rare.
+std::size_t place_in_part(const TrialRun& trial, std::size_t part, std::size_t count) {
+  const std::size_t n = trial.states.size();
+  const std::size_t first = part * n / count, last = (part + 1) * n / count, middle = (2 * part + 1) * n / (2 * count);
+  if (!has_rare_snapshots(trial)) return middle;
+  for (std::size_t away = 0; away <= n / count; ++away) {
+    for (const std::size_t place : {middle + away, middle - std::min(away, middle)}) {
+      if (place >= first && place < last && is_undisturbed(trial, trial.states[place].step)) return place;
+    }
+  }
+  return middle;
+}
+
 /// Takes the tight steps, and compares the size of the last one and of the next with the loose ones.
 /// @returns whether there was time for one
 bool take_tight_steps(const TwoTolerances& two, State state, double loose_sizes, Stretch& stretch) {
@@ -107,9 +135,7 @@ std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, d
   }
   for (const std::size_t k : parts) {
     if (!in_budget()) break;
-    // In the middle of parts of the same number of steps.
-    const std::size_t chosen = (2 * k + 1) * trial.states.size() / (2 * count);
-    const TrialState& from = trial.states[chosen];
+    const TrialState& from = trial.states[place_in_part(trial, k, count)];
     if (from.step >= trial.steps.size()) continue;
     Stretch stretch{.step = from.step};
     try {

@@ -40,7 +40,7 @@ struct AfterTrial {
     known.ratio = 1.0;
   }
   void sample(std::size_t index, std::size_t count) {
-    known.starting_order = vehd::starting_order(scene, tolerances[index]);
+    known.learn_start(tolerances[index], vehd::starting_order(scene, tolerances[index]));
     known.learn(tolerances[index], vehd::take_stretches(scene, known.trial, tolerances[index], count,
                                                         vehd::predicted_orders(known, index), [] { return true; }));
   }
@@ -61,6 +61,7 @@ BOOST_AUTO_TEST_CASE(steps_and_work_are_within_a_factor_of_one_and_a_half) {
     AfterTrial after(name, end_time);
     for (std::size_t index = index_of_trial + 1; index < tolerances.size(); ++index) {
       const vehd::TrialRun truth = vehd::run_trial(after.scene, tolerances[index], {}, {});
+      after.known.expect_start(tolerances[index]);
       if (index <= index_of_trial + 2) after.sample(index, 10);
       const vehd::CostRow row = predicted_row(after.known, index);
       BOOST_TEST_CONTEXT(name << " at " << tolerances[index] << ": " << row.steps << " steps for " << truth.steps.size()
