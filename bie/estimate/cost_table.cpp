@@ -132,21 +132,23 @@ class BudgetLeft {
 int time_order_of(double tolerance) { return accuracy_defaults(tolerance).time_order; }
 
 /// How many stretches there is time for if tolerances from that index to the first of the highest time order are to
-/// have as many.
+/// have as many; if that is none, the fewest that tell anything where this one alone may have them.
 std::size_t stretches_in_budget(const Knowledge& known, std::size_t index, const BudgetLeft& left) {
+  constexpr std::size_t kFewest = 2;
   std::vector<double> seconds;
   for (std::size_t i = index; i < known.tolerances.size(); ++i) {
     seconds.push_back(stretch_seconds(known, i));
     if (time_order_of(known.tolerances[i]) == highest_time_order) break;
   }
-  return left.stretches(seconds);
+  const std::size_t shared = left.stretches(seconds);
+  if (shared >= kFewest) return shared;
+  return left.stretches({seconds.front()}) >= kFewest ? kFewest : 0;
 }
 
 /// Finds out what a run with the tolerance of that index begins with, and takes stretches with it. Tighter tolerances
 /// than one of the highest time order are better predicted from its stretches than from their own, which are fewer and
 /// farther from the trial run.
 void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft& left) {
-  constexpr std::size_t kFewest = 2;
   const double tolerance = known.tolerances[index];
   known.expect_start(tolerance);
   if (left.has_for_start(start_seconds(known, index))) {
@@ -159,11 +161,11 @@ void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft&
   }
   if (!known.stretches.empty() && time_order_of(known.sampled) == highest_time_order) return;
   const std::size_t count = stretches_in_budget(known, index, left);
-  if (count < kFewest) return;
+  if (count == 0) return;
   std::vector<Stretch> stretches = take_stretches(scene, known.trial, tolerance, count, predicted_orders(known, index),
                                                   [&left] { return left.any(); });
   left.take(steps_of_stretch * count);
-  if (stretches.size() >= kFewest) known.learn(tolerance, std::move(stretches));
+  if (stretches.size() > 1) known.learn(tolerance, std::move(stretches));
 }
 
 std::vector<CostRow> measured_table(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
