@@ -22,7 +22,7 @@ class CostModel {
   /// @param points  at least one, ascending
   explicit CostModel(std::vector<Point> points) : points_(std::move(points)) {}
 
-  /// Between the points by power laws, beyond the last one by the powers of assembly and of operators.
+  /// Between the points by power laws, beyond the last one by a power.
   [[nodiscard]] double seconds_per_shape(int order) const;
   /// Likewise of memory.
   [[nodiscard]] double bytes(int order) const;

@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
+#include <numeric>
 
 #include "bie/estimate/cost_model.hpp"
+#include "bie/estimate/prediction.hpp"
+#include "bie/estimate/stretch.hpp"
 #include "bie/estimate/trial_run.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -56,65 +58,6 @@ std::vector<CostRow> rows_of(const nlohmann::json& entry, std::size_t count) {
   return rows.size() == count ? rows : std::vector<CostRow>();
 }
 
-/// Seconds that the model gives to the steps that a trial run took.
-double model_seconds(const TrialRun& trial, const CostModel& model) {
-  double seconds = 0.0;
-  for (const TrialStep& step : trial.steps) {
-    seconds += step.evaluations * model.seconds_per_shape(step.order);
-  }
-  return seconds;
-}
-
-/// What trial runs tell of tighter tolerances beside the steps of the last of them.
-struct Trend {
-  int degrees_per_digit = 4;    ///< that runs take, at most
-  std::optional<double> order;  ///< in dt, at the steps of the trial runs; nothing: that of the scheme
-};
-
-/// How many steps with that tolerance take the place of one of a trial run.
-double steps_for_one(const TrialStep& step, const TrialRun& trial, double tolerance, const Trend& trend) {
-  constexpr double kLongest = 4.0;  // beyond that an error estimate says nothing any more
-  const int time_order = accuracy_defaults(tolerance).time_order;
-  if (trend.order) {
-    // Stiff motions follow their steps with a lower order than that of the scheme.
-    return std::pow(trial.tolerance / tolerance, 1.0 / (*trend.order + time_order - trial.time_order));
-  }
-  const double room =
-      step.error_estimate > 0.0 ? std::pow(tolerance / step.error_estimate, 1.0 / time_order) : kLongest;
-  return 1.0 / (thresholds::step_safety * std::min(room, kLongest));
-}
-
-/// The cost table's row for the tolerance of that index, from the steps of a trial run with a looser one.
-CostRow predicted_row(const Scene& scene, const TrialRun& trial, const std::vector<double>& tolerances,
-                      std::size_t index, const CostModel& model, const Trend& trend) {
-  CostRow row;
-  row.tolerance = tolerances[index];
-  const double largest = step_control_of(at_tolerance(scene, row.tolerance)).largest;
-  const double digits = std::log10(trial.tolerance / row.tolerance);
-  const int highest = std::min(trial.highest_order + static_cast<int>(std::lround(digits * trend.degrees_per_digit)),
-                               accuracy_defaults(row.tolerance).order);
-  const auto own = static_cast<std::size_t>(std::ranges::find(tolerances, trial.tolerance) - tolerances.begin());
-  int order = 0, trial_order = 0;
-  double steps = 0.0, seconds = 0.0;
-  for (const TrialStep& step : trial.steps) {
-    const double share = std::max(steps_for_one(step, trial, row.tolerance, trend), step.dt / largest);
-    // Runs lower their degree only where it has long been idle, at other tolerances about where the trial run did.
-    if (step.order < trial_order) order = 0;
-    trial_order = step.order;
-    // Growth that is expected asks for more than the spectrum does.
-    const int of_growth = std::max(0, step.order - step.orders[own]);
-    order = std::max({order, step.order, std::min(step.orders[index] + of_growth, highest)});
-    steps += share;
-    // Snapshots cost an evaluation each, however many steps there are.
-    seconds += (share * (step.evaluations - step.moments) + step.moments) * model.seconds_per_shape(order);
-    row.order = std::max(row.order, order);
-  }
-  const double covered = trial.steps.empty() ? 1.0 : trial.steps.back().time / scene.numerics.end_time;
-  row.steps = std::llround(std::ceil(steps / covered));
-  row.seconds = seconds / covered;
-  return row;
-}
-
 /// Files of a run beside its steps: each snapshot is written in the highest degree. Measured once, 2.5 ms a snapshot at
 /// p = 16 and 6.5 ms at p = 40: a small share of any run.
 double file_seconds(const Scene& scene, const CostRow& row) {
@@ -124,24 +67,6 @@ double file_seconds(const Scene& scene, const CostRow& row) {
   return kPerRow * static_cast<double>(row.steps) + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
 }
 
-/// Degrees that a trial run needed more than the first of all, for every digit between them. The tail of a spectrum
-/// that is cut falls more slowly than the degrees beyond it, so what it predicts for many digits is too much.
-int degrees_per_digit(const CostRow& first, const TrialRun& trial) {
-  constexpr double kLeast = 4.0;
-  const double more = trial.highest_order - first.order;
-  return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(first.tolerance / trial.tolerance))));
-}
-
-/// Order in dt of two trial runs of one time order, as their steps tell: k where each digit takes 10^(1/k) times as
-/// many.
-std::optional<double> order_between(const TrialRun& trial, const TrialRun& next) {
-  constexpr double kLeastRatio = 1.3;
-  const double more = static_cast<double>(next.steps.size()) / static_cast<double>(trial.steps.size());
-  if (trial.time_order != next.time_order || more < kLeastRatio) return std::nullopt;
-  return std::clamp(std::log(trial.tolerance / next.tolerance) / std::log(more), 1.0,
-                    static_cast<double>(next.time_order));
-}
-
 /// Rows without any cost.
 std::vector<CostRow> stopping_rows(const std::vector<double>& tolerances, const std::string& reason) {
   std::vector<CostRow> rows;
@@ -149,69 +74,124 @@ std::vector<CostRow> stopping_rows(const std::vector<double>& tolerances, const 
   return rows;
 }
 
-/// What is left of a budget for trial runs.
+/// What is left of a budget.
 class BudgetLeft {
  public:
   explicit BudgetLeft(const CostBudget& budget) : budget_(budget) {}
 
   [[nodiscard]] TrialBudget of_first_trial() const {
     if (budget_.steps) return of_trial();
-    return {.seconds = std::max(seconds(), budget_.first_trial)};
+    return {.seconds = std::max(seconds_of_trials(), budget_.first_trial)};
   }
   [[nodiscard]] TrialBudget of_trial() const {
-    if (budget_.steps) return {.steps = steps()};
-    return {.seconds = seconds()};
+    if (budget_.steps) return {.steps = steps_of_trials()};
+    return {.seconds = seconds_of_trials()};
+  }
+  [[nodiscard]] bool any_for_trials() const {
+    return budget_.steps ? steps_of_trials() > 0 : seconds_of_trials() > 0.0;
+  }
+  /// Whether a trial run for which that was predicted should reach its end. One that does not has taken the time of
+  /// stretches, which tell nearly as much.
+  [[nodiscard]] bool may_do(const CostRow& predicted) const {
+    constexpr double kUncertainty = 1.25;
+    return budget_.steps ? double(predicted.steps) < kUncertainty * double(steps_of_trials())
+                         : predicted.seconds < kUncertainty * seconds_of_trials();
   }
   [[nodiscard]] bool any() const { return budget_.steps ? steps() > 0 : seconds() > 0.0; }
-  /// Whether a trial run for which that was predicted may well reach its end: it often takes less than what one with a
-  /// tenth of the accuracy predicts.
-  [[nodiscard]] bool may_do(const CostRow& predicted) const {
-    constexpr double kUncertainty = 3.0;
-    return budget_.steps ? double(predicted.steps) < kUncertainty * double(steps())
-                         : predicted.seconds < kUncertainty * seconds();
+  /// Whether there is time for the start of a run, and far more left for the rest of it.
+  [[nodiscard]] bool has_for_start(double seconds_of_start) const {
+    constexpr double kShare = 0.2;
+    return budget_.steps ? steps() > 0 : seconds_of_start < kShare * seconds();
   }
-  void take(const TrialRun& trial) { taken_ += std::ssize(trial.steps); }
+  /// How many stretches there is time for at each of some tolerances.
+  /// @param seconds_of_each  of one stretch with each of them
+  [[nodiscard]] std::size_t stretches(const std::vector<double>& seconds_of_each) const {
+    constexpr double kMost = 12.0;
+    const double of_all = std::accumulate(seconds_of_each.begin(), seconds_of_each.end(), 0.0);
+    const double n =
+        budget_.steps ? double(steps()) / (steps_of_stretch * double(seconds_of_each.size())) : seconds() / of_all;
+    return static_cast<std::size_t>(std::clamp(n, 0.0, kMost));
+  }
+  void take(std::size_t steps) { taken_ += static_cast<std::int64_t>(steps); }
 
  private:
   [[nodiscard]] std::int64_t steps() const { return *budget_.steps - taken_; }
   [[nodiscard]] double seconds() const {
     return budget_.seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
+  [[nodiscard]] std::int64_t steps_of_trials() const {
+    return steps() - std::llround(budget_.stretch_share * static_cast<double>(*budget_.steps));
+  }
+  [[nodiscard]] double seconds_of_trials() const { return seconds() - budget_.stretch_share * budget_.seconds; }
 
   CostBudget budget_;
   std::int64_t taken_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+int time_order_of(double tolerance) { return accuracy_defaults(tolerance).time_order; }
+
+/// How many stretches there is time for if tolerances from that index to the first of the highest time order are to
+/// have as many; if that is none, the fewest that tell anything where this one alone may have them.
+std::size_t stretches_in_budget(const Knowledge& known, std::size_t index, const BudgetLeft& left) {
+  constexpr std::size_t kFewest = 2;
+  std::vector<double> seconds;
+  for (std::size_t i = index; i < known.tolerances.size(); ++i) {
+    seconds.push_back(stretch_seconds(known, i));
+    if (time_order_of(known.tolerances[i]) == highest_time_order) break;
+  }
+  const std::size_t shared = left.stretches(seconds);
+  if (shared >= kFewest) return shared;
+  return left.stretches({seconds.front()}) >= kFewest ? kFewest : 0;
+}
+
+/// Finds out what a run with the tolerance of that index begins with, and takes stretches with it. Tighter tolerances
+/// than one of the highest time order are better predicted from its stretches than from their own, which are fewer and
+/// farther from the trial run.
+void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft& left) {
+  const double tolerance = known.tolerances[index];
+  known.expect_start(tolerance);
+  if (left.has_for_start(start_seconds(known, index))) {
+    try {
+      known.learn_start(tolerance, starting_order(scene, tolerance));
+      left.take(1);
+    } catch (const ConvergenceError&) {
+      // Then looser tolerances have to tell.
+    }
+  }
+  if (!known.stretches.empty() && time_order_of(known.sampled) == highest_time_order) return;
+  const std::size_t count = stretches_in_budget(known, index, left);
+  if (count == 0) return;
+  std::vector<Stretch> stretches = take_stretches(scene, known.trial, tolerance, count, predicted_orders(known, index),
+                                                  [&left] { return left.any(); });
+  left.take(steps_of_stretch * count);
+  if (stretches.size() > 1) known.learn(tolerance, std::move(stretches));
+}
+
 std::vector<CostRow> measured_table(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
                                     const CostBudget& budget) {
   BudgetLeft left(budget);
-  const CostModel model = cost_model_of(scene, budget.model_seconds, cache);
+  Knowledge known{scene, tolerances, cost_model_of(scene, budget.model_seconds, cache)};
+  TrialRun& trial = known.trial;
   std::vector<CostRow> rows;
-  TrialRun trial;
-  double ratio = 1.0;  // of this scene to others of its kind
-  Trend trend;
   bool running = true;
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     // What stops at one tolerance may well go on at the next, and says nothing of its cost.
     const bool predicts = trial.stops.empty() && !trial.steps.empty();
     if (running && predicts) {
-      CostRow predicted = predicted_row(scene, trial, tolerances, i, model, trend);
-      predicted.seconds *= ratio;
-      running = left.may_do(predicted);
+      running = left.may_do(predicted_row(known, i));
     } else if (running && i > 0) {
-      running = left.any();
+      running = left.any_for_trials();
     }
     if (running) {
       TrialRun next = run_trial(scene, tolerances[i], tolerances, i > 0 ? left.of_trial() : left.of_first_trial());
-      left.take(next);
+      left.take(next.steps.size());
       running = next.completed || !next.stops.empty();
       if (predicts && next.completed) {
         const auto first = std::ranges::find_if(rows, [](const CostRow& row) { return row.stops.empty(); });
-        trend = {degrees_per_digit(*first, next), order_between(trial, next)};
+        known.trend = trend_of(*first, trial, next);
       }
-      if (!predicts || next.completed || !next.stops.empty()) trial = std::move(next);
-      if (const double expected = model_seconds(trial, model); expected > 0.0) ratio = trial.seconds / expected;
+      if (!predicts || next.completed || !next.stops.empty()) known.learn(std::move(next));
     }
     CostRow row;
     row.tolerance = tolerances[i];
@@ -226,8 +206,8 @@ std::vector<CostRow> measured_table(const Scene& scene, const std::vector<double
       row.steps = static_cast<std::int64_t>(trial.steps.size());
       row.order = trial.highest_order;
     } else {
-      row = predicted_row(scene, trial, tolerances, i, model, trend);
-      row.seconds *= ratio;
+      sample(scene, i, known, left);
+      row = predicted_row(known, i);
       // A tighter tolerance is never cheaper.
       if (i > 0) {
         row.order = std::max(row.order, rows.back().order);
@@ -235,7 +215,7 @@ std::vector<CostRow> measured_table(const Scene& scene, const std::vector<double
         row.seconds = std::max(row.seconds, rows.back().seconds);
       }
     }
-    row.memory_bytes = static_cast<std::int64_t>(model.bytes(row.order));
+    row.memory_bytes = static_cast<std::int64_t>(known.model.bytes(row.order));
     rows.push_back(row);
   }
   for (CostRow& row : rows) {

@@ -15,12 +15,13 @@ namespace vehd {
 namespace {
 
 /// Degree that a tolerance needs at a state, of the vesicle that needs most.
-int order_for(double tolerance, const Problem& problem, const State& state) {
+/// @param share  of the tolerance, that the degrees left out may make up
+int order_for(double tolerance, double share, const Problem& problem, const State& state) {
   int order = 0;
   for (const VesicleState& vesicle : state.vesicles) {
     const Resolution resolution(problem.model, vesicle);
-    order = std::max(order, resolution.order_for(thresholds::truncation_share * tolerance, lowest_adaptive_order,
-                                                 accuracy_defaults(tolerance).order));
+    order = std::max(
+        order, resolution.order_for(share * tolerance, lowest_adaptive_order, accuracy_defaults(tolerance).order));
   }
   return order;
 }
@@ -30,6 +31,32 @@ int highest_order_of(const Evolution& evolution) {
   for (std::size_t a = 0; a < evolution.state().vesicles.size(); ++a) order = std::max(order, evolution.order(a));
   return order;
 }
+
+State without_recycled(State state) {
+  for (VesicleState& vesicle : state.vesicles) vesicle.recycled = {};
+  return state;
+}
+
+/// Keeps states that are as many steps apart, the fewest that leave no more than those that may be kept.
+class KeptStates {
+ public:
+  explicit KeptStates(std::vector<TrialState>& states) : states_(states) {}
+  /// The state before that step.
+  void offer(std::size_t step, const State& state) {
+    constexpr std::size_t kMost = 32;
+    if (step % stride_ != 0) return;
+    if (states_.size() >= kMost) {
+      stride_ *= 2;
+      std::erase_if(states_, [this](const TrialState& kept) { return kept.step % stride_ != 0; });
+      if (step % stride_ != 0) return;
+    }
+    states_.push_back({step, without_recycled(state)});
+  }
+
+ private:
+  std::vector<TrialState>& states_;
+  std::size_t stride_ = 1;
+};
 
 /// Takes steps to the end of the scene or as long as the budget lasts, one at least.
 /// @throws ConvergenceError where none is acceptable; the trial run has those before it
@@ -42,17 +69,25 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
   trial.highest_order = highest_order_of(evolution);
   const EventTimes events = events_of(scene);
   const double end = events.end_time;
+  KeptStates kept(trial.states);
   while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
+    kept.offer(trial.steps.size(), evolution.state());
     const StepAttempt step = evolution.step(events);
     TrialStep record{evolution.state().time,
                      step.dt,
                      step.error_estimate,
                      step.evaluations,
+                     step.rejected,
                      static_cast<int>(evolution.passed().size()),
                      highest_order_of(evolution),
+                     {},
                      {}};
     trial.highest_order = std::max(trial.highest_order, highest_order_of(evolution));
-    for (const double wanted : tolerances) record.orders.push_back(order_for(wanted, problem, evolution.state()));
+    for (const double wanted : tolerances) {
+      constexpr double kIdle = thresholds::idle_truncation * thresholds::truncation_share;
+      record.orders.push_back(order_for(wanted, thresholds::truncation_share, problem, evolution.state()));
+      record.idle_orders.push_back(order_for(wanted, kIdle, problem, evolution.state()));
+    }
     trial.steps.push_back(std::move(record));
   }
   trial.completed = evolution.state().time >= end;
@@ -76,6 +111,16 @@ TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<doubl
   }
   trial.seconds = spent();
   return trial;
+}
+
+int starting_order(const Scene& scene, double tolerance) {
+  const Scene asked = at_tolerance(scene, tolerance);
+  const Problem problem = problem_of(asked);
+  Instruments instruments;
+  Evolution evolution(setup_of(problem), problem.start, instruments);
+  evolution.evaluate_start();
+  evolution.step(events_of(asked));
+  return highest_order_of(evolution);
 }
 
 }  // namespace vehd

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bie/scene/scene.hpp"
+#include "bie/stepping/state/state.hpp"
 
 namespace vehd {
 
@@ -15,9 +16,18 @@ struct TrialStep {
   double dt = 0.0;
   double error_estimate = 0.0;  ///< see StepAttempt
   int evaluations = 1;          ///< of new shapes, of all tries
+  int rejected = 0;             ///< tries
   int moments = 0;              ///< of those, the ones at snapshots within the step
   int order = 0;
   std::vector<int> orders;  ///< degree that each of the tolerances asked for would need here
+  std::vector<int>
+      idle_orders;  ///< and to which a run with it would go down here, from one that is worthwhile to leave
+};
+
+/// Where a trial run was between two of its steps.
+struct TrialState {
+  std::size_t step = 0;  ///< steps before it
+  State state;           ///< without what is recycled
 };
 
 /// A run with one tolerance, without files.
@@ -29,6 +39,7 @@ struct TrialRun {
   std::string stops;       ///< why no further step could be taken; empty where that is not what ended it
   double seconds = 0.0;
   std::vector<TrialStep> steps;
+  std::vector<TrialState> states;  ///< its start and others, as many steps apart, before each of which it took a step
 };
 
 /// Where a trial run stops before the end of its scene: at whichever comes first, after one step at the earliest. Steps
@@ -43,5 +54,9 @@ struct TrialBudget {
 /// @throws InputError if the shape file of the scene cannot be used
 TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
                    const TrialBudget& budget);
+
+/// Degree of a run of a scene with this tolerance after its first step, of the vesicle that has the highest.
+/// @throws ConvergenceError, InputError if the shape file of the scene cannot be used
+int starting_order(const Scene& scene, double tolerance);
 
 }  // namespace vehd

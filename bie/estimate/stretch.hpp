@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "bie/estimate/trial_run.hpp"
+#include "bie/scene/scene.hpp"
+
+namespace vehd {
+
+/// What steps with a tighter tolerance are like at one place of a trial run.
+struct Stretch {
+  std::size_t step = 0;        ///< of the trial run that leads from there
+  double steps_for_one = 1.0;  ///< that take the place of one of the trial run there
+  double evaluations = 0.0;    ///< of new shapes by one try at one of them, without snapshots
+  int more_degrees = 0;        ///< than those with which it began, at most
+};
+
+/// Steps of a stretch: one with the tolerance of the trial run, and two with the tighter one.
+constexpr int steps_of_stretch = 3;
+
+/// From so many states of a trial run, as many steps apart as may be: a few steps with a tighter tolerance. The degrees
+/// that this needs are empty at first, and what belongs there grows within less than a step of the trial run: one of
+/// those comes first, with the higher degree. Then two tighter steps are taken, and they say how large the next one
+/// will be.
+/// @param orders  degrees with which to begin, of each step of the trial run
+/// @param in_budget  whether there is time for one more
+/// @returns       those that could be taken, by their step
+/// Accuracy: ten of them tell steps and work of a whole run within a factor of 1.5 (tests/estimate/prediction_test.cpp)
+std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, double tolerance, std::size_t count,
+                                    const std::vector<int>& orders, const std::function<bool()>& in_budget);
+
+}  // namespace vehd
