@@ -122,6 +122,7 @@ void visit_companion(CompanionType& companion, Visitor&& visit) {
   visit("node", companion.node);
   visit("waiting", companion.waiting);
   visit("sizes", companion.sizes);
+  visit("work", companion.work);
 }
 
 struct WriteVisitor {

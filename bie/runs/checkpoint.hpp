@@ -28,6 +28,7 @@ struct CompanionState {
   Vector node;                   ///< the last row of errors at which it was
   Matrix waiting;                ///< rows of the history of which no error is known yet
   Vector sizes;                  ///< largest magnitude in each column of the history so far
+  Vector work;                   ///< of the run and of the companion; empty: none
   std::int64_t bytes = 0;        ///< of history_error.csv
   std::int64_t checksum = 0;     ///< of these bytes
 };

@@ -8,6 +8,7 @@
 
 #include "bie/runs/vesicle_rows.hpp"
 #include "bie/runs/worst_error.hpp"
+#include "bie/scene/model_of.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
@@ -17,24 +18,46 @@ namespace {
 /// How much larger the tolerance of the companion is: a digit. More makes it cheaper, but what the motion makes of its
 /// errors then differs from what it makes of those of the run. Measured (docs/run_files.md).
 constexpr double companion_looseness = 10.0;
+/// How much lower the order of its steps is: of the same order they may be nearly those of the run, and as wrong.
+constexpr int lower_order = 1;
+constexpr int lowest_estimating_order = 2;
 /// Degrees that the companion does without: those of a digit, see accuracy_defaults.
 constexpr int companion_degrees = 8;
 /// How much larger the largest steps of the companion are. Where the period of the forcing limits the steps of both,
 /// those of the same size would be wrong by the same; two of eight in a period leave four.
 constexpr double companion_stride = 2.0;
 /// Steps of the run from one comparison to the next at least: solving at a moment within a step costs about half of a
-/// step of the run.
+/// step of the run. The latter of a companion that is frugal.
 constexpr int steps_to_moment = 2;
+constexpr int steps_to_frugal_moment = 5;
+/// Share of the work of the run from which on the companion is frugal: what it writes and starts with comes on top.
+constexpr double frugal_share = 0.3;
+/// Steps of the companion that come before, as the first ones of both say little.
+constexpr std::int64_t steps_before_frugal = 25;
+/// By so much of its size a step of a frugal companion may be shortened to end on a row.
+constexpr double most_shortened = 0.3;
+/// Weight of the comparison before in the mean of logarithms with it: what is wrong passes through zero now and then.
+/// Measured.
+constexpr double weight_of_former = 0.3;
+/// Share of what the degrees of a row leave out by its spectrum that it is wrong by at least. Measured.
+constexpr double share_of_truncation = 0.3;
 /// Fixed steps that are one of the companion.
 constexpr int companion_steps = 3;
 
 /// Moments that differ by rounding are one.
 bool is_same_time(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
+/// Whether a period or dt limits the steps of a run with a tolerance.
+bool has_limited_steps(const Scene& scene) {
+  return scene.numerics.tolerance && step_control_of(scene).largest < scene.numerics.end_time;
+}
+
 Scene scene_of_companion(Scene scene) {
   NumericsScene& numerics = scene.numerics;
   if (numerics.tolerance) {
     *numerics.tolerance *= companion_looseness;
+    numerics.time_order =
+        std::max(std::min(numerics.time_order, lowest_estimating_order), numerics.time_order - lower_order);
     numerics.order = std::max(std::min(numerics.order, lowest_adaptive_order), numerics.order - companion_degrees);
   } else {
     *numerics.dt *= companion_steps;
@@ -59,12 +82,8 @@ Checkpoint start_of(const std::optional<CompanionState>& from) {
   return start;
 }
 
-/// Error that steps leave of the run over its difference to the companion's. What a tolerance leaves is proportional to
-/// it; that of fixed steps is Δt^k, so the companion has 3^k of it.
-double share_of_difference(const NumericsScene& numerics) {
-  if (numerics.tolerance) return 1.0 / (companion_looseness - 1.0);
-  return 1.0 / (std::pow(companion_steps, static_cast<double>(numerics.time_order)) - 1.0);
-}
+/// Of a step, or of none: evaluations take about the cube of the degree.
+double work_of(const HistoryRow& row) { return row.step.evaluations * std::pow(row.order + 1.0, 3); }
 
 Index index_of(std::string_view column, HistoryKind kind) {
   return std::ranges::distance(history_columns(kind).begin(),
@@ -93,9 +112,9 @@ Vector differences_of(const Vector& run, const Vector& companion, HistoryKind ki
   return differences;
 }
 
-/// Errors of a row between two others: what is wrong grows and dies away exponentially.
-Vector between(const Vector& first, const Vector& last, const Vector& run, HistoryKind kind) {
-  const double share = (run[0] - first[0]) / (last[0] - first[0]);
+/// Errors of a row from those of two others, by the mean of their logarithms.
+/// @param share  of the last one
+Vector mean_of(const Vector& first, const Vector& last, double share, const Vector& run, HistoryKind kind) {
   const std::vector<HistoryColumn>& columns = history_columns(kind);
   Vector errors = Vector::Zero(run.size());
   errors[0] = run[0];
@@ -111,12 +130,25 @@ Vector between(const Vector& first, const Vector& last, const Vector& run, Histo
   return errors;
 }
 
+/// Of a row between two others: what is wrong grows and dies away exponentially.
+Vector between(const Vector& first, const Vector& last, const Vector& run, HistoryKind kind) {
+  return mean_of(first, last, (run[0] - first[0]) / (last[0] - first[0]), run, kind);
+}
+
+void scale_quantities(Vector& errors, double factor, HistoryKind kind) {
+  const std::vector<HistoryColumn>& columns = history_columns(kind);
+  for (Index i = 1; i < errors.size(); ++i) {
+    if (columns[static_cast<std::size_t>(i)].meaning == ColumnMeaning::quantity) errors[i] *= factor;
+  }
+}
+
 }  // namespace
 
 ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& from, Ranks ranks)
     : scene_(scene_of_companion(scene)),
       kind_(history_kind(scene)),
-      share_of_steps_(share_of_difference(scene.numerics)),
+      time_order_of_run_(scene.numerics.time_order),
+      has_limited_steps_(has_limited_steps(scene)),
       order_of_results_(scene.numerics.order),
       start_order_(from ? from->start_order : scene_.numerics.order),
       companion_(scene_, start_of(from), OutputUnits(scene_), std::move(ranks)),
@@ -126,6 +158,7 @@ ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& fr
   node_ = from->node;
   sizes_ = from->sizes;
   lost_ = from->lost != 0;
+  if (from->work.size() == 2) work_ = {from->work[0], from->work[1]};
   for (Index i = 0; i < from->waiting.rows(); ++i) waiting_.emplace_back(from->waiting.row(i).transpose());
 }
 
@@ -144,6 +177,7 @@ Vector ErrorBars::values_of(const RecordedSide& side) const {
 
 void ErrorBars::add(const std::vector<RecordedSide>& sides) {
   for (const RecordedSide& side : sides) {
+    work_.of_run += work_of(side.row);
     const Vector& row = waiting_.emplace_back(values_of(side));
     if (sizes_.size() == 0) sizes_ = Vector::Zero(row.size());
     for (Index i = 0; i < row.size(); ++i) {
@@ -178,30 +212,61 @@ double ErrorBars::step_error_until(const Vector& row) const {
   return error.value_or(0.0);
 }
 
+/// How many times as wrong as those of the run the steps of the companion are. That of fixed steps is Δt^k. What a
+/// tolerance leaves is proportional to it, unless something else limits the steps of either; what both have estimated
+/// of their steps tells, but not of errors that have come before. So it is the geometric mean of the two.
+/// @param difference  of the two runs: one much larger than what the last step may have left has come before
+double ErrorBars::ratio_of_steps(double difference) const {
+  if (!scene_.numerics.tolerance) return std::pow(companion_steps, static_cast<double>(time_order_of_run_));
+  double of_companion = 0.0;
+  for (const RecordedSide& side : companion_.sides()) {
+    if (side.row.step.dt > 0.0) of_companion = side.row.step.error_estimate;
+  }
+  const Index dt = index_of("dt", kind_), estimate = index_of("error_estimate", kind_);
+  double sum = 0.0;
+  int n_steps = 0;
+  for (const Vector& row : waiting_) {
+    const double start = row[0] - row[dt];
+    // Rows within a step have no size.
+    if (!(row[dt] > 0.0 && row[estimate] > 0.0) || start >= now() || is_same_time(start, now())) continue;
+    sum += std::log(row[estimate]);
+    ++n_steps;
+  }
+  if (n_steps == 0 || !(companion_looseness * of_companion > difference)) return companion_looseness;
+  const double ratio = of_companion / std::exp(sum / n_steps);
+  return std::sqrt(companion_looseness * std::clamp(ratio, 1.0, companion_looseness));
+}
+
 /// Error of the run over its differences to the companion.
-double ErrorBars::share_of(const Vector& differences, const Vector& run, const Vector& companion,
-                           double step_error) const {
+double ErrorBars::share_of(const Vector& differences, const Vector& run, const Vector& companion) const {
+  const double difference = worst(differences), share_of_steps = 1.0 / (ratio_of_steps(difference) - 1.0);
   // Fixed steps have the same degree.
-  if (!scene_.numerics.tolerance) return share_of_steps_;
-  const double difference = worst(differences);
-  if (!(difference > 0.0)) return share_of_steps_;
+  if (!scene_.numerics.tolerance) return share_of_steps;
+  const double step_error = step_error_until(run);
+  if (!(difference > 0.0)) return share_of_steps;
   const Index truncation = index_of("truncation", kind_);
   // Steps and degrees are wrong independently of each other, so squares add up.
   const double of_degrees = std::min(1.0, companion[truncation] / difference);
   const double of_steps = std::sqrt((1.0 - of_degrees) * (1.0 + of_degrees));
   const double share_of_degrees = run[truncation] / std::max(companion[truncation], difference);
-  return std::hypot(std::max(share_of_steps_ * of_steps, std::min(share_of_steps_, step_error / difference)),
+  return std::hypot(std::max(share_of_steps * of_steps, std::min(share_of_steps, step_error / difference)),
                     share_of_degrees);
 }
 
-Vector ErrorBars::errors_at(const Vector& run, const RecordedSide& companion, double step_error) const {
+Vector ErrorBars::errors_at(const Vector& run, const RecordedSide& companion) const {
   const Vector there = values_of(companion);
   Vector errors = differences_of(run, there, kind_);
-  const double share = share_of(errors, run, there, step_error);
-  const std::vector<HistoryColumn>& columns = history_columns(kind_);
-  for (Index i = 1; i < errors.size(); ++i) {
-    if (columns[static_cast<std::size_t>(i)].meaning == ColumnMeaning::quantity) errors[i] *= share;
-  }
+  scale_quantities(errors, share_of(errors, run, there), kind_);
+  // The shape at the start was not made by steps, and on either side of a jump columns have other errors.
+  const bool has_former = scene_.numerics.tolerance && node_.size() > 0 && node_[0] > 0.0 && node_[0] < errors[0];
+  return has_former ? mean_of(node_, errors, 1.0 - weight_of_former, run, kind_) : errors;
+}
+
+/// A row of history_error.csv: what the degrees leave out is known of every row.
+Vector ErrorBars::told(const Vector& run, Vector errors) const {
+  if (!scene_.numerics.tolerance) return errors;
+  const double least = share_of_truncation * run[index_of("truncation", kind_)], found = worst(errors);
+  if (found > 0.0 && found < least) scale_quantities(errors, least / found, kind_);
   return errors;
 }
 
@@ -231,23 +296,49 @@ bool ErrorBars::follow_once(bool to_end) {
   }
   const double last = waiting_.back()[0];
   if (last <= now() || is_same_time(last, now())) return false;
+  const bool frugal = is_frugal();
+  companion_.set_time_order(frugal ? time_order_of_run_ : scene_.numerics.time_order);
   const double reach = companion_.evolution().reach(events);
   if (!to_end && last < reach && !is_same_time(last, reach)) return false;
-  if (const std::optional<double> moment = moment_before(reach)) events.snapshots.times = {*moment};
+  if (const std::optional<double> end = frugal ? row_near(reach) : std::nullopt) {
+    if (!is_same_time(*end, reach)) events.discontinuity = end;
+  } else if (const std::optional<double> moment =
+                 moment_before(reach, frugal ? steps_to_frugal_moment : steps_to_moment)) {
+    events.snapshots.times = {*moment};
+  }
   companion_.step(events);
+  for (const RecordedSide& side : companion_.sides()) work_.of_companion += work_of(side.row);
   return true;
+}
+
+/// Where the order of the run makes larger steps, and comparisons are to cost nothing.
+bool ErrorBars::is_frugal() const {
+  return has_limited_steps_ || (companion_.evolution().state().step >= steps_before_frugal &&
+                                work_.of_companion > frugal_share * work_.of_run);
+}
+
+/// The last row where the next step of the companion may as well end: what is solved for there serves as the start of
+/// the step behind it.
+std::optional<double> ErrorBars::row_near(double reach) const {
+  std::optional<double> near;
+  for (const Vector& row : waiting_) {
+    if (row[0] > reach && !is_same_time(row[0], reach)) break;
+    if (row[0] >= now() + (1.0 - most_shortened) * (reach - now())) near = row[0];
+  }
+  return near;
 }
 
 /// The last row within the next step of the companion, unless the last comparison was not long ago. None of them is
 /// met by a step that turns out shorter; one at its end is met in any case.
-std::optional<double> ErrorBars::moment_before(double reach) const {
+/// @param least  steps of the run since then
+std::optional<double> ErrorBars::moment_before(double reach, int least) const {
   std::optional<double> moment;
   int n_steps = 0;
   for (const Vector& row : waiting_) {
     if (row[0] > reach) break;
     // Rows within a step have no size.
     if (row[1] > 0.0) ++n_steps;
-    if (n_steps >= steps_to_moment && row[0] > now() && !is_same_time(row[0], now())) moment = row[0];
+    if (n_steps >= least && row[0] > now() && !is_same_time(row[0], now())) moment = row[0];
   }
   return moment;
 }
@@ -271,12 +362,12 @@ void ErrorBars::compare(std::vector<Vector>& known) {
     const auto is_here = [&](const Vector& row) { return is_same_time(row[0], side.row.time); };
     const auto here = std::ranges::find_if(waiting_, is_here);
     if (here == waiting_.end()) continue;
-    const Vector arrival = errors_at(*here, side, step_error_until(*here));
+    const Vector arrival = errors_at(*here, side);
     for (; !is_here(waiting_.front()); waiting_.pop_front()) {
-      known.push_back(between(node_, arrival, waiting_.front(), kind_));
+      known.push_back(told(waiting_.front(), between(node_, arrival, waiting_.front(), kind_)));
     }
     node_ = arrival;
-    known.push_back(node_);
+    known.push_back(told(waiting_.front(), node_));
     waiting_.pop_front();
   }
 }
@@ -291,7 +382,13 @@ void ErrorBars::give_up(std::vector<Vector>& known) {
 }
 
 CompanionState ErrorBars::state() const {
-  CompanionState state{companion_.evolution().state(), start_order_, lost_ ? 1 : 0, node_, {}, sizes_};
+  CompanionState state{companion_.evolution().state(),
+                       start_order_,
+                       lost_ ? 1 : 0,
+                       node_,
+                       {},
+                       sizes_,
+                       Vector{{work_.of_run, work_.of_companion}}};
   state.waiting.resize(std::ssize(waiting_), node_.size());
   for (Index i = 0; i < state.waiting.rows(); ++i) {
     state.waiting.row(i) = waiting_[static_cast<std::size_t>(i)].transpose();

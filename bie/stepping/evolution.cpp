@@ -73,6 +73,12 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       discretisation_(discretisation_of(setup_, with_images(setup_.symmetry.exchange, state))),
       state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
+void Evolution::set_time_order(int order) {
+  if (setup_.settings.time_order == order) return;
+  setup_.settings.time_order = order;
+  discretisation_ = discretisation_.with_time_order(order);
+}
+
 void Evolution::expect_growth(double until) {
   if (!adapts()) return;
   const double delay = state_.dt_next > 0.0 ? state_.dt_next : first_step(setup_, evaluation_, state_);

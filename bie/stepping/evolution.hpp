@@ -69,6 +69,9 @@ class Evolution {
     if (adapts()) setup_.control.largest *= times;
   }
 
+  /// Steps to come have this order, 1 … highest_time_order.
+  void set_time_order(int order);
+
   /// Whoever looks at state and evaluation without a copy can keep them alive: called before either changes. May be
   /// empty.
   void keep_former(KeepFormer keep) { keep_former_ = std::move(keep); }

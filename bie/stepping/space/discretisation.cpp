@@ -76,6 +76,12 @@ Discretisation Discretisation::with(std::size_t vesicle, const Fineness& finenes
   return result;
 }
 
+Discretisation Discretisation::with_time_order(int order) const {
+  Discretisation result = *this;
+  result.settings_.time_order = order;
+  return result;
+}
+
 std::shared_ptr<const MembraneSpace> Discretisation::space_of(const Fineness& fineness) const {
   NumericalSettings settings = settings_;
   settings.order = fineness.order;

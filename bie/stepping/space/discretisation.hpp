@@ -83,6 +83,8 @@ class Discretisation {
 
   /// The same but for one vesicle.
   [[nodiscard]] Discretisation with(std::size_t vesicle, const Fineness& fineness) const;
+  /// The same but for the order of steps.
+  [[nodiscard]] Discretisation with_time_order(int order) const;
 
   [[nodiscard]] const NumericalSettings& settings() const { return settings_; }
   [[nodiscard]] const Symmetry& symmetry() const { return symmetry_; }
