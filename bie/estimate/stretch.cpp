@@ -114,7 +114,7 @@ bool take_tight_steps(const TwoTolerances& two, State state, double loose_sizes,
     highest = std::max(highest, order);
     // Of the last one: the size of the first was a guess.
     last_dt = step.dt;
-    stretch.evaluations = double(step.evaluations - moments) / (1 + step.rejected);
+    stretch.evaluations = static_cast<double>(step.evaluations - moments) / (1 + step.rejected);
   }
   stretch.more_degrees = highest - first_order;
   stretch.steps_for_one = loose_sizes / (last_dt + evolution.state().dt_next);
