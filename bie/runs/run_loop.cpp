@@ -63,7 +63,7 @@ RecordedRun::RecordedRun(const RunTask& task)
     if (!ranks_.is_first()) return;
     recorder_.emplace(task.paths, settings_of_files(task, simulation_.problem().settings), simulation_.problem().frame,
                       with_companion(simulation_.checkpoint(), error_bars_.get()), simulation_.units(),
-                      history_kind(task.scene));
+                      history_kind(task.scene), task.checkpoint_lag);
   });
 }
 
@@ -114,7 +114,9 @@ void RecordedRun::end(const RunOutcome& outcome) {
 }
 
 RunOutcome simulate(const RunTask& task, Interruption& interruption) {
-  RecordedRun run(task);
+  RunTask in_one_go = task;
+  in_one_go.checkpoint_lag = longest_lag_of_files;
+  RecordedRun run(in_one_go);
   try {
     const RunOutcome outcome = advance_to_end(run, task.ranks, interruption);
     run.end(outcome);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,9 +34,11 @@ struct RunTask {
   TellStatus tell{};                            ///< called when the start and each step are in the files
   std::function<void()> after_step{};           ///< called when a step is in the files; may be empty
   Ranks ranks{};                                ///< that run it together; the first one has the files
+  std::chrono::milliseconds checkpoint_lag{0};  ///< by which the checkpoint may be behind the steps
 };
 
-/// A simulation with its files, which are up to date after every accepted step. All calls are collective.
+/// A simulation with its files, which are up to date after every accepted step but for the lag of the checkpoint. All
+/// calls are collective.
 class RecordedRun {
  public:
   /// @param task  what it refers to must outlive the run
@@ -67,7 +70,8 @@ class RecordedRun {
 };
 
 /// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date
-/// after every accepted step. Solver failures and full disks end it early; they are not exceptions.
+/// at the end of the session, and the checkpoint half a second behind at most before. Solver failures and full disks
+/// end it early; they are not exceptions.
 /// @throws InputError, ConvergenceError if the run cannot be started; no file of a run exists then
 RunOutcome simulate(const RunTask& task, Interruption& interruption);
 

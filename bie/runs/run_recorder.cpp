@@ -13,6 +13,10 @@
 namespace vehd {
 namespace {
 
+bool is_late(const std::optional<std::chrono::steady_clock::time_point>& written, std::chrono::milliseconds lag) {
+  return !written || std::chrono::steady_clock::now() - *written >= lag;
+}
+
 bool has_several(const Checkpoint& checkpoint) { return checkpoint.state.vesicles.size() > 1; }
 
 /// Nothing is touched before the files of the run to continue are known to be intact. Then the checkpoint comes first:
@@ -68,7 +72,8 @@ void name_fields(XdmfSeries& series, const Predicate& has) {
 }  // namespace
 
 RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame,
-                         const Checkpoint& start, const OutputUnits& units, HistoryKind kind)
+                         const Checkpoint& start, const OutputUnits& units, HistoryKind kind,
+                         std::chrono::milliseconds checkpoint_lag)
     : paths_(paths),
       si_units_(si_units_of(parse_units(start.scene, "scene"))),
       output_(settings.order, make_grid(settings.order)),
@@ -76,7 +81,8 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
       last_(written(paths, start, kind)),
       snapshots_(paths.snapshots(), header_writer(output_, start, si_units_),
                  kept_snapshots(paths, output_, last_, si_units_)),
-      history_(paths.history(), start.history_bytes, start.history_checksum, units, kind) {
+      history_(paths.history(), start.history_bytes, start.history_checksum, units, kind),
+      checkpoint_lag_(checkpoint_lag) {
   if (has_several(start)) {
     vesicles_.emplace(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, units, of_each_like(kind));
   }
@@ -116,7 +122,8 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
     last_.vesicles_bytes = vesicles_->bytes();
     last_.vesicles_checksum = vesicles_->checksum();
   }
-  save(totals);
+  // A tenth of a run of short steps, and a quarter of what error bars add to it.
+  if (is_late(saved_, checkpoint_lag_)) save(totals);
 }
 
 void RunRecorder::record_errors(const std::vector<Vector>& rows, CompanionState companion) {
@@ -141,9 +148,8 @@ void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
     return checksum;
   });
   xdmf_.times.push_back(state.time);
-  // Its length grows with the run: written at every snapshot of a burst it would cost more than they do.
-  constexpr std::chrono::milliseconds longest_lag{500};
-  if (!xdmf_written_ || std::chrono::steady_clock::now() - *xdmf_written_ >= longest_lag) write_xdmf();
+  // Its length grows with the run.
+  if (is_late(xdmf_written_, longest_lag_of_files)) write_xdmf();
 }
 
 void RunRecorder::end_session(const RunTotals& totals) {
@@ -156,6 +162,7 @@ void RunRecorder::save(const RunTotals& totals) {
   last_.snapshots_checksum = snapshots_.checksum();
   last_.totals = totals;
   write_checkpoint(paths_.checkpoint(), last_);
+  saved_ = std::chrono::steady_clock::now();
 }
 
 void RunRecorder::write_xdmf() {

@@ -17,9 +17,12 @@
 
 namespace vehd {
 
+/// Files that are written anew as a whole, which costs more than a short step does, may be behind by this.
+constexpr std::chrono::milliseconds longest_lag_of_files{500};
+
 /// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
-/// the checkpoint never counts what is not there. Only run.xdmf may lag, by half a second at most: it is written anew
-/// as a whole, and the next session lists what the last one could not.
+/// the checkpoint never counts what is not there. It and run.xdmf may lag: steps that a kill leaves uncounted are made
+/// again, and the next session lists what the last one could not.
 class RunRecorder {
  public:
   /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one, and
@@ -28,12 +31,13 @@ class RunRecorder {
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
   /// @param units  of the history: where it goes on, those that it began with
   /// @param kind   of the history
+  /// @param checkpoint_lag  by which the checkpoint may be behind the rows until the session ends
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start,
-              const OutputUnits& units, HistoryKind kind);
+              const OutputUnits& units, HistoryKind kind, std::chrono::milliseconds checkpoint_lag);
 
   /// Records one accepted state: moments within its step, and then the state, which has two sides where the forcing
-  /// jumps. Rows say themselves whether there is a snapshot of them. A kill leaves either none or all of the rows to a
-  /// resumed run.
+  /// jumps. Rows say themselves whether there is a snapshot of them. A kill leaves either none or all of the rows of a
+  /// step to a resumed run.
   /// @param state  with which a run goes on
   void record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals);
 
@@ -65,7 +69,8 @@ class RunRecorder {
   std::optional<HistoryFile> vesicles_;  ///< of each, where there are several
   std::optional<HistoryFile> errors_;    ///< of the history, where they are asked for
   XdmfSeries xdmf_;
-  std::optional<std::chrono::steady_clock::time_point> xdmf_written_;
+  std::chrono::milliseconds checkpoint_lag_;
+  std::optional<std::chrono::steady_clock::time_point> xdmf_written_, saved_;
 };
 
 }  // namespace vehd
