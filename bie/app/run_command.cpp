@@ -2,6 +2,7 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -22,6 +23,7 @@ struct RunOptions {
   bool resume = false;
   bool no_plot = false;
   bool quiet = false;
+  double checkpoint_every = std::chrono::duration<double>(longest_lag_of_files).count();
   CommonOptions common;
 };
 
@@ -86,8 +88,10 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
   }
   for (const SceneChange& change : session.changes()) fmt::print("changed at {}\n", text_of(change));
   Progress progress(options.quiet || !ranks.is_first() ? Progress::Style::none : Progress::suitable_style());
+  const auto show = [&progress](const RunStatus& status) { show_run(progress, status); };
+  const std::chrono::duration<double> checkpoint_lag(options.checkpoint_every);
   const RunOutcome outcome =
-      session.simulate(*interruption, [&progress](const RunStatus& status) { show_run(progress, status); });
+      session.simulate(*interruption, show, std::chrono::duration_cast<std::chrono::milliseconds>(checkpoint_lag));
   progress.finish();
   interruption.reset();
   if (!ranks.is_first()) return outcome.completed ? ExitCode::done : ExitCode::stopped_early;
@@ -122,6 +126,12 @@ void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code)
       ->type_name("DIR");
   command->add_flag("--resume", options->resume,
                     "Continue the run in DIR, also with other [numerics] and [output]; start it if there is none");
+  command
+      ->add_option("--checkpoint-every", options->checkpoint_every,
+                   "Seconds between two checkpoints at least: what a kill may cost; 0: one after every step")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
   command->add_flag("--no-plot", options->no_plot, "Draw no pictures at the end");
   command->add_flag("--quiet", options->quiet, "Show no progress");
   add_threads_option(*command);

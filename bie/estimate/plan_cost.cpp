@@ -29,7 +29,7 @@ TimedSteps timed_steps(Scene scene, int n_timed) {
   const auto note_end = [&ends] { ends.push_back(std::chrono::steady_clock::now()); };
   RunOutcome outcome;
   try {
-    outcome = simulate({scene, paths, std::nullopt, {}, note_end}, interruption);
+    outcome = simulate({scene, paths, std::nullopt, {}, note_end, {}, longest_lag_of_files}, interruption);
   } catch (const ConvergenceError& error) {
     outcome = {.completed = false, .reason = error.what(), .cannot_step = true};
   }

@@ -114,9 +114,7 @@ void RecordedRun::end(const RunOutcome& outcome) {
 }
 
 RunOutcome simulate(const RunTask& task, Interruption& interruption) {
-  RunTask in_one_go = task;
-  in_one_go.checkpoint_lag = longest_lag_of_files;
-  RecordedRun run(in_one_go);
+  RecordedRun run(task);
   try {
     const RunOutcome outcome = advance_to_end(run, task.ranks, interruption);
     run.end(outcome);

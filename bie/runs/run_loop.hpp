@@ -70,7 +70,7 @@ class RecordedRun {
 };
 
 /// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date
-/// at the end of the session, and the checkpoint half a second behind at most before. Solver failures and full disks
+/// at the end of the session. Solver failures and full disks
 /// end it early; they are not exceptions.
 /// @throws InputError, ConvergenceError if the run cannot be started; no file of a run exists then
 RunOutcome simulate(const RunTask& task, Interruption& interruption);

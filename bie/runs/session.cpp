@@ -46,8 +46,11 @@ std::vector<SceneChange> RunSession::changes() const {
   return {checkpoint_->changes.begin() + static_cast<std::ptrdiff_t>(n_changes_before_), checkpoint_->changes.end()};
 }
 
-RunOutcome RunSession::simulate(Interruption& interruption, TellStatus tell) const {
-  return vehd::simulate(task(std::move(tell)), interruption);
+RunOutcome RunSession::simulate(Interruption& interruption, TellStatus tell,
+                                std::chrono::milliseconds checkpoint_lag) const {
+  RunTask in_one_go = task(std::move(tell));
+  in_one_go.checkpoint_lag = checkpoint_lag;
+  return vehd::simulate(in_one_go, interruption);
 }
 
 nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {

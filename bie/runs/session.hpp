@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -44,7 +45,9 @@ class RunSession {
     return {scene_, paths_, checkpoint_, std::move(tell), {}, ranks_};
   }
   /// See `simulate`.
-  RunOutcome simulate(Interruption& interruption, TellStatus tell) const;
+  /// @param checkpoint_lag  see RunTask
+  RunOutcome simulate(Interruption& interruption, TellStatus tell,
+                      std::chrono::milliseconds checkpoint_lag = longest_lag_of_files) const;
 
   /// Writes summary.json, on the first rank alone. @return its content
   /// @throws InputError, OutputError if files of the run are gone or the disk is full

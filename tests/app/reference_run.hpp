@@ -29,7 +29,8 @@ struct RunPair {
   std::string scene = directory / "scene.toml";
   std::string reference = directory / "reference";
   std::string output = directory / "out";
-  std::vector<std::string> command = vehd_command({"run", scene, "-o", output, "--resume", "--no-plot", "--quiet"});
+  std::vector<std::string> command =
+      vehd_command({"run", scene, "-o", output, "--resume", "--no-plot", "--quiet", "--checkpoint-every", "0"});
 
   explicit RunPair(const std::string& text) { write_text(scene, text); }
 
