@@ -15,12 +15,6 @@ namespace {
 
 int degree_of(const VesicleState& vesicle) { return order_of(vesicle.position.rows()); }
 
-int highest_order_of(const State& state) {
-  int highest = 0;
-  for (const VesicleState& vesicle : state.vesicles) highest = std::max(highest, degree_of(vesicle));
-  return highest;
-}
-
 /// The vesicle with the highest degree gets that one, and others as many more.
 void raise_to(int order, State& state) {
   const int more = order - highest_order_of(state);

@@ -5,6 +5,7 @@
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/thresholds.hpp"
@@ -14,21 +15,20 @@ namespace vehd {
 
 namespace {
 
+std::vector<Resolution> resolutions_of(const Problem& problem, const State& state) {
+  std::vector<Resolution> resolutions;
+  for (const VesicleState& vesicle : state.vesicles) resolutions.emplace_back(problem.model, vesicle);
+  return resolutions;
+}
+
 /// Degree that a tolerance needs at a state, of the vesicle that needs most.
 /// @param share  of the tolerance, that the degrees left out may make up
-int order_for(double tolerance, double share, const Problem& problem, const State& state) {
+int order_for(double tolerance, double share, const std::vector<Resolution>& resolutions) {
   int order = 0;
-  for (const VesicleState& vesicle : state.vesicles) {
-    const Resolution resolution(problem.model, vesicle);
+  for (const Resolution& resolution : resolutions) {
     order = std::max(
         order, resolution.order_for(share * tolerance, lowest_adaptive_order, accuracy_defaults(tolerance).order));
   }
-  return order;
-}
-
-int highest_order_of(const Evolution& evolution) {
-  int order = 0;
-  for (std::size_t a = 0; a < evolution.state().vesicles.size(); ++a) order = std::max(order, evolution.order(a));
   return order;
 }
 
@@ -66,7 +66,7 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
-  trial.highest_order = highest_order_of(evolution);
+  trial.highest_order = highest_order_of(evolution.state());
   const EventTimes events = events_of(scene);
   const double end = events.end_time;
   KeptStates kept(trial.states);
@@ -79,14 +79,15 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
                      step.evaluations,
                      step.rejected,
                      static_cast<int>(evolution.passed().size()),
-                     highest_order_of(evolution),
+                     highest_order_of(evolution.state()),
                      {},
                      {}};
-    trial.highest_order = std::max(trial.highest_order, highest_order_of(evolution));
+    trial.highest_order = std::max(trial.highest_order, highest_order_of(evolution.state()));
+    const std::vector<Resolution> resolutions = resolutions_of(problem, evolution.state());
     for (const double wanted : tolerances) {
       constexpr double kIdle = thresholds::idle_truncation * thresholds::truncation_share;
-      record.orders.push_back(order_for(wanted, thresholds::truncation_share, problem, evolution.state()));
-      record.idle_orders.push_back(order_for(wanted, kIdle, problem, evolution.state()));
+      record.orders.push_back(order_for(wanted, thresholds::truncation_share, resolutions));
+      record.idle_orders.push_back(order_for(wanted, kIdle, resolutions));
     }
     trial.steps.push_back(std::move(record));
   }
@@ -94,6 +95,12 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
 }
 
 }  // namespace
+
+int highest_order_of(const State& state) {
+  int highest = 0;
+  for (const VesicleState& vesicle : state.vesicles) highest = std::max(highest, order_of(vesicle.position.rows()));
+  return highest;
+}
 
 TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
                    const TrialBudget& budget) {
@@ -120,7 +127,7 @@ int starting_order(const Scene& scene, double tolerance) {
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
   evolution.step(events_of(asked));
-  return highest_order_of(evolution);
+  return highest_order_of(evolution.state());
 }
 
 }  // namespace vehd
