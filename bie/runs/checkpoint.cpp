@@ -19,7 +19,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t schema_of_one = 7, schema_of_several = 8;
+constexpr std::int64_t schema_of_one = 9, schema_of_several = 10;
 
 std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_of_several : schema_of_one; }
 
@@ -38,6 +38,7 @@ void visit_time(StateType& state, Visitor&& visit) {
   visit("time", state.time);
   visit("step", state.step);
   visit("dt_next", state.dt_next);
+  visit("dt_found", state.dt_found);
 }
 
 /// Those of one vesicle.
@@ -231,7 +232,7 @@ class SoundCheck {
 
   void check(const State& state) const {
     for (const VesicleState& vesicle : state.vesicles) check(vesicle);
-    require(std::isfinite(state.time) && std::isfinite(state.dt_next), state_of_run);
+    require(std::isfinite(state.time) && std::isfinite(state.dt_next) && std::isfinite(state.dt_found), state_of_run);
   }
 
   void check(const VesicleState& vesicle) const {

@@ -73,6 +73,10 @@ constexpr double decayed_potential = 1e-10;
 /// Size of the next step over the one that would be just good enough: the estimate is of the leading order alone, and a
 /// step that fails costs two sweeps or more. Measured.
 constexpr double step_safety = 0.75;
+/// The same where the last two steps tell nearly the same size of the next one. Measured.
+constexpr double steady_step_safety = 0.9;
+/// And so many times what the sizes that they tell differ by is left as a margin. Measured.
+constexpr double margin_of_disagreement = 2.0;
 /// A step changes its size by these factors at most.
 constexpr double least_step_factor = 0.2;
 constexpr double most_step_factor = 4.0;
@@ -96,9 +100,17 @@ constexpr double unsure_growth = 5.0;
 constexpr int degrees_that_feel_the_cut = 4;
 /// Share of the tolerance that what is found within a step may be wrong by. Measured.
 constexpr double moment_share = 0.25;
+/// What a step's polynomial does not tell well enough of a time within it is found by a step of its own, for so many
+/// times in one step at most: more would cost more than to repeat the step in a smaller size. Measured.
+constexpr int most_own_steps = 1;
+/// And only where the polynomial is wrong there by this many times what is allowed at most: one that is wrong by more
+/// does not resolve the step. Measured.
+constexpr double nearly_exact = 5.0;
 /// From one derivative of the rates to the last but one after it, with the time over the step, no more than this is
-/// continued: what changes faster dies away within the step, which the rule and the sweeps see to. Measured.
-constexpr double largest_change_of_derivative = 1.0;
+/// continued: of a shape what changes faster follows its tension, which the rule settles but for what it leaves of what
+/// is followed, and of V_m it is a jump. Measured.
+constexpr double largest_change_of_shape = 1.0;
+constexpr double largest_change_of_potential = 8.0;
 /// Corrections that seem to contract more than this are not believed. Where a motion relaxes about once within a step
 /// its correction passes through zero in one sweep, and the next ones contract by 0.1 to 0.3.
 constexpr double best_contraction = 0.1;

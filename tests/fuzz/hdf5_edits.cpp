@@ -51,8 +51,8 @@ constexpr std::array paths = {"/",
                               "/state/flow_entries",
                               "/state/flow_arguments",
                               "/state/flow_responses"};
-constexpr std::array attributes = {"schema_version", "time",    "step",  "checksum",          "n_rows",
-                                   "threads",        "dt_next", "pause", "unaided_iterations"};
+constexpr std::array attributes = {"schema_version", "time",    "step",     "checksum", "n_rows",
+                                   "threads",        "dt_next", "dt_found", "pause",    "unaided_iterations"};
 constexpr std::array<double, 8> written_values = {0.0,    1.0,
                                                   -1.0,   0.25,
                                                   1e300,  std::numeric_limits<double>::infinity(),

@@ -17,6 +17,7 @@ vehd::Checkpoint sample() {
   checkpoint.state.time = 0.1;
   checkpoint.state.step = 7;
   checkpoint.state.dt_next = 1.0 / 3.0;
+  checkpoint.state.dt_found = 1.0 / 7.0;
   checkpoint.state.vesicles.emplace_back();
   checkpoint.state.vesicles[0].position = vehd::Matrix::Random(25, 3);
   checkpoint.state.vesicles[0].position(0, 0) = std::numeric_limits<double>::denorm_min();
@@ -52,6 +53,7 @@ BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   BOOST_TEST(read.state.time == written.state.time);
   BOOST_TEST(read.state.step == written.state.step);
   BOOST_TEST(read.state.dt_next == written.state.dt_next);
+  BOOST_TEST(read.state.dt_found == written.state.dt_found);
   BOOST_TEST((read.state.vesicles[0].position == written.state.vesicles[0].position));
   BOOST_TEST((read.state.vesicles[0].tension == written.state.vesicles[0].tension));
   BOOST_TEST((read.state.vesicles[0].area_strain == written.state.vesicles[0].area_strain));

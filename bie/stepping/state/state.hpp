@@ -15,7 +15,7 @@ struct VesicleState : SurfaceFields {
   double reference_area = 0.0;  ///< area and volume that its constraint holds
   double reference_volume = 0.0;
   std::optional<FirstCrossing> crossing{};  ///< of a membrane with a criterion of poration
-  std::int64_t quadrature_level = 0;  ///< how often its quadrature has been made finer, see Evolution
+  std::int64_t quadrature_level = 0;        ///< how often its quadrature has been made finer, see Evolution
   RecycledSubspaces recycled;
 };
 
@@ -24,6 +24,7 @@ struct State {
   double time = 0.0;
   std::int64_t step = 0;  ///< accepted steps so far
   double dt_next = 0.0;   ///< step size the controller tries next
+  double dt_found = 0.0;  ///< the one that it made of the last step by its estimate alone; 0: that was not told
   std::vector<VesicleState> vesicles;
 };
 

@@ -99,16 +99,16 @@ VisibleDifference Collocation::derivative(int k) const {
   const int known = static_cast<int>(nodes_.size());
   // One node knows too little to continue anything.
   if (k <= known || known < 2) return polynomial_derivative(std::min(k, known));
-  const VisibleDifference highest = polynomial_derivative(known), former = polynomial_derivative(known - 2);
-  // Of the same parity: a sine and its derivatives of the other vanish at other times.
-  const int base = known - (k - known) % 2;
-  const VisibleDifference from = base == known ? highest : polynomial_derivative(base);
-  const auto continued = [&](double size, double last, double last_but_one) {
+  const VisibleDifference highest = polynomial_derivative(known), between = polynomial_derivative(known - 1),
+                          former = polynomial_derivative(known - 2);
+  // A sine and its derivatives of the other parity vanish at other times: squares of both add up.
+  const auto continued = [&](double last, double middle, double last_but_one, double largest_change) {
     if (last_but_one <= 0.0) return 0.0;
-    return size * std::pow(std::min(thresholds::largest_change_of_derivative, last / last_but_one), (k - base) / 2);
+    const double change = std::sqrt(std::min(largest_change, last / last_but_one));
+    return std::hypot(last * std::pow(change, k - known), middle * std::pow(change, k - known + 1));
   };
-  return {continued(from.shape, highest.shape, former.shape),
-          continued(from.potential, highest.potential, former.potential)};
+  return {continued(highest.shape, between.shape, former.shape, thresholds::largest_change_of_shape),
+          continued(highest.potential, between.potential, former.potential, thresholds::largest_change_of_potential)};
 }
 
 namespace {
@@ -133,7 +133,10 @@ VisibleDifference Collocation::rule_error() const {
   const int n_nodes = static_cast<int>(nodes_.size());
   if (n_nodes < 2) return {};
   const int power = 2 * n_nodes - 1;
-  return at_most_the_motion(scaled(integration_error(points_of(rule_), 1.0, power), derivative(power)));
+  VisibleDifference error = scaled(integration_error(points_of(rule_), 1.0, power), derivative(power));
+  // A shape follows what drives it as fast as its tension lets it: within about a step where steps are long.
+  error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * polynomial_derivative(n_nodes).shape);
+  return at_most_the_motion(error);
 }
 
 VisibleDifference Collocation::stage_error() const {

@@ -26,7 +26,7 @@ VisibleDifference lasting_weights(const StepGoal& goal, double dt) {
 /// What the sweeps so far have changed of all that counts, each as many times as it does.
 class SweepErrors {
  public:
-  explicit SweepErrors(const VisibleDifference& weights) : weights_(weights) {}
+  SweepErrors(const VisibleDifference& weights, double telling) : weights_(weights), telling_(telling) {}
   /// Of the shape and V_m by a sweep.
   void add(const VisibleDifference& change) {
     shape_.add(weights_.shape * change.shape);
@@ -58,7 +58,9 @@ class SweepErrors {
     const auto supposed = [&](const Corrections& changes) {
       return changes.count() > 1 ? std::max(changes.contraction(), least) : least;
     };
-    return std::max({shape_.error_after(j), potential_.error_after(j), tension_.error_after(j, supposed(tension_)),
+    const VisibleDifference visible{shape_.error_after(j) / weights_.shape,
+                                    potential_.error_after(j) / weights_.potential};
+    return std::max({lasting_or_magnified(visible, telling_), tension_.error_after(j, supposed(tension_)),
                      charge_.error_after(j, supposed(charge_))});
   }
   /// Of all after sweep j, one that was not made yet, if sweeps go on to contract as the last one did, however much
@@ -89,6 +91,7 @@ class SweepErrors {
 
  private:
   VisibleDifference weights_;
+  double telling_;
   Corrections shape_, potential_, tension_, charge_;
 };
 
@@ -167,41 +170,69 @@ Moment moment(double time, const StepPolynomial& within, const StepOperations& p
   return {std::move(third), std::max(left, of_rule(1))};
 }
 
+/// A state within the step by a step of its own from the same start, where that is exact enough.
+/// @param magnification  of what is wrong with shape and V_m by tension and charge
+std::optional<State> by_own_step(StepOperations& physics, double time, int order, const StepGoal& goal,
+                                 double magnification) {
+  StepGoal own;
+  // It is delivered at once, and no step goes on from it: nothing is remembered of it, and nothing grows.
+  own.growth = magnification;
+  own.tolerance = thresholds::moment_share / thresholds::step_share * goal.tolerance;
+  own.truncation = goal.truncation;
+  own.too_coarse = [](const State&) { return std::vector<std::size_t>(); };
+  own.times_before = [](double) { return std::vector<double>(); };
+  const ControlledSweeps sweeps = controlled_sweeps(physics, time - physics.start().time, order, own);
+  return sweeps.end ? std::optional(physics.passed_state(*sweeps.end)) : std::nullopt;
+}
+
 /// Finds the states at these times.
 /// @param errors  of the sweeps
 /// @returns whether all are within what is allowed; if not there are none
-bool pass(const std::vector<double>& times, const StepPolynomial& within, const StepOperations& physics, double allowed,
-          const SweepErrors& errors, Collocation& y, ControlledSweeps& result) {
+bool pass(const std::vector<double>& times, const StepPolynomial& within, StepOperations& physics, const StepGoal& goal,
+          int order, const SweepErrors& errors, Collocation& y, ControlledSweeps& result) {
+  const double allowed = thresholds::moment_share * goal.tolerance;
   // Tension and charge are wrong by so much more.
   const double magnification = errors.magnification(thresholds::telling_share * allowed);
   double largest = 0.0;
-  for (auto time = times.begin(); time != times.end() && largest <= allowed; ++time) {
-    const Moment found = moment(*time, within, physics, allowed / magnification, errors.contraction(), y);
-    largest = std::max(largest, magnification * found.error);
-    result.passed.push_back(physics.passed_state(found.solution));
+  int own_steps = 0;
+  for (const double time : times) {
+    const Moment found = moment(time, within, physics, allowed / magnification, errors.contraction(), y);
+    const double error = magnification * found.error;
+    if (error <= allowed) {
+      result.passed.push_back(physics.passed_state(found.solution));
+      continue;
+    }
+    largest = std::max(largest, error);
+    std::optional<State> own;
+    if (++own_steps <= thresholds::most_own_steps && error <= thresholds::nearly_exact * allowed) {
+      own = by_own_step(physics, time, order, goal, magnification);
+    }
+    if (!own) {
+      result.passed.clear();
+      result.excess = std::max(result.excess, largest / allowed);
+      result.factor =
+          std::min({result.factor, size_factor(within.error(), allowed, 3), size_factor(largest, allowed, 3)});
+      return false;
+    }
+    result.passed.push_back(std::move(*own));
   }
-  if (largest <= allowed) return true;
-  result.passed.clear();
-  result.excess = std::max(result.excess, largest / allowed);
-  result.factor = std::min({result.factor, size_factor(within.error(), allowed, 3), size_factor(largest, allowed, 3)});
-  return false;
+  return true;
 }
 
 /// What is wanted within the step, and a size of the next one with which what is wanted within that will be exact.
 /// @returns whether what is wanted is exact enough
-bool look_within(StepOperations& physics, const TimeRule& rule, double dt, const StepGoal& goal,
+bool look_within(StepOperations& physics, const TimeRule& rule, double dt, const StepGoal& goal, int order,
                  const SweepErrors& errors, Collocation& y, ControlledSweeps& result) {
   const double end = physics.start().time + dt;
   const std::vector<double> times = goal.times_before(end);
   if (times.empty()) return true;
-  // The last sweep was made at the last node alone; its rates serve the others as well.
-  for (std::size_t m = 0; m < y.last(); ++m) y.node(m) = y.corrected(m, NodeEnd::material);
   const StepPolynomial within(physics, rule, dt, y);
-  const double allowed = thresholds::moment_share * goal.tolerance;
-  if (!pass(times, within, physics, allowed, errors, y, result)) return false;
+  if (!pass(times, within, physics, goal, order, errors, y, result)) return false;
   // It falls like dt⁴ or faster. Where the moments of the next step lie is chance.
   const bool next_has_any = goal.times_before(end + result.factor * dt).size() > times.size();
-  if (next_has_any) result.factor = std::min(result.factor, size_factor(within.error(), allowed, 3));
+  if (next_has_any) {
+    result.factor = std::min(result.factor, size_factor(within.error(), thresholds::moment_share * goal.tolerance, 3));
+  }
   return true;
 }
 
@@ -217,17 +248,25 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     result.state = physics.end_state(y.node(last));
     return result;
   }
-  SweepErrors errors(lasting_weights(goal, dt));
+  const double allowed = thresholds::step_share * goal.tolerance;
+  SweepErrors errors(lasting_weights(goal, dt), thresholds::telling_share * allowed);
   double of_rule = 0.0;
   std::vector<double> found;
-  const double allowed = thresholds::step_share * goal.tolerance;
   for (int left = order - 2;; --left) {
     y.evaluate_rates();
     if (const auto change = y.change_at_last(); change && !errors.all_known()) errors.add(*change);
     // Where this sweep is likely to be the last it ends on new nodes at once.
     const bool likely = left == 0 || (errors.sweeps() > 0 && errors.error_after(errors.sweeps() + 1) <= allowed);
     NodeSolution end = y.corrected(last, likely ? NodeEnd::remapped : NodeEnd::material);
-    errors.add(physics.visible_difference(y.node(last), end));
+    // What changes the last node little by chance changes the others.
+    VisibleDifference largest = physics.visible_difference(y.node(last), end);
+    std::vector<NodeSolution> inner;
+    for (std::size_t m = 0; m < last; ++m) {
+      inner.push_back(y.corrected(m, NodeEnd::material));
+      const VisibleDifference change = physics.visible_difference(y.node(m), inner[m]);
+      largest = {std::max(largest.shape, change.shape), std::max(largest.potential, change.potential)};
+    }
+    errors.add(largest);
     const bool known = errors.sweeps() >= fewest_sweeps(order);
     if (known && errors.visible_error() <= allowed && !errors.all_known() &&
         errors.error_after(errors.sweeps(), thresholds::cautious_contraction) > allowed) {
@@ -246,15 +285,14 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
       result.factor = std::min(best_factor(errors, found, allowed, order, rule.nodes.size()),
                                size_factor(of_rule, allowed, 2 * static_cast<int>(rule.nodes.size()) - 1));
       if (!enough) return result;
-      y.node(last) = std::move(end);
-      break;
     }
-    for (std::size_t m = 0; m < last; ++m) y.node(m) = y.corrected(m, NodeEnd::material);
+    for (std::size_t m = 0; m < last; ++m) y.node(m) = std::move(inner[m]);
     y.node(last) = std::move(end);
+    if (enough) break;
   }
   // Before what is solved for within the step can be recycled.
   result.state = physics.end_state(y.node(last));
-  if (!look_within(physics, rule, dt, goal, errors, y, result)) return result;
+  if (!look_within(physics, rule, dt, goal, order, errors, y, result)) return result;
   result.end = std::move(y.node(last));
   return result;
 }

@@ -59,6 +59,16 @@ double integration_error(const std::vector<double>& points, double c, int power)
   return lacks / std::tgamma(power + 1.0);
 }
 
+double following_error(const TimeRule& rule, double relaxation) {
+  const auto n = static_cast<Index>(rule.nodes.size());
+  Vector lacks(n);
+  for (Index i = 0; i < n; ++i) {
+    lacks[i] = integration_error(rule.nodes, rule.nodes[static_cast<std::size_t>(i)], static_cast<int>(n));
+  }
+  const Matrix system = Matrix::Identity(n, n) + relaxation * rule.weights.rightCols(n);
+  return std::abs(system.partialPivLu().solve(lacks)[n - 1]);
+}
+
 Vector derivative_weights(const std::vector<double>& points, int derivative) {
   const double mean = std::accumulate(points.begin(), points.end(), 0.0) / static_cast<double>(points.size());
   Vector derivatives = Vector::Zero(static_cast<Index>(points.size()));

@@ -55,6 +55,30 @@ BOOST_AUTO_TEST_CASE(what_an_integral_lacks_is_known_of_the_first_powers_it_is_n
   BOOST_TEST(integration_error(points_of(time_rule(5)), 1.0, 5) == -1.0 / 72000.0, boost::test_tools::tolerance(1e-9));
 }
 
+BOOST_AUTO_TEST_CASE(what_a_step_leaves_of_a_motion_that_follows_another_is_that_of_the_rule) {
+  for (const int order : {3, 4, 5}) {
+    const TimeRule rule = time_rule(order);
+    const auto n = static_cast<Index>(rule.nodes.size());
+    // φ = t^(M+1)/(M+1)!
+    Vector followed(n), its_rate(n);
+    for (Index i = 0; i < n; ++i) {
+      const double c = rule.nodes[static_cast<std::size_t>(i)], k = static_cast<double>(n);
+      followed[i] = std::pow(c, k + 1.0) / std::tgamma(k + 2.0);
+      its_rate[i] = std::pow(c, k) / std::tgamma(k + 1.0);
+    }
+    const Matrix weights = rule.weights.rightCols(n);
+    for (const double relaxation : {0.1, 1.0, 7.0}) {
+      const Matrix system = Matrix::Identity(n, n) + relaxation * weights;
+      const Vector y = system.partialPivLu().solve(weights * (its_rate + relaxation * followed));
+      BOOST_TEST(following_error(rule, relaxation) == std::abs(y[n - 1] - followed[n - 1]),
+                 boost::test_tools::tolerance(1e-9));
+    }
+    BOOST_TEST(following_error(rule, 0.0) < 1e-15);
+    BOOST_TEST(following_error(rule, 1e9) < 1e-9);
+  }
+  BOOST_TEST(following_error(time_rule(5), 1.0) == 1.18e-4, boost::test_tools::tolerance(0.01));
+}
+
 BOOST_AUTO_TEST_CASE(derivatives_of_polynomials_are_exact_at_the_mean_of_the_points) {
   const std::vector<double> points{0.0, 0.2, 0.6, 1.0};
   constexpr double kMean = 0.45;
