@@ -64,6 +64,18 @@ class Programs(InFolder):
         self.assertGreaterEqual(int(match[1]), 90)
         self.assertGreater(float(match[2]), 0.2)
 
+    def test_fields_of_a_tolerance_are_compared_everywhere_on_the_membrane(self):
+        result = subprocess.run([sys.executable, SOURCE / "docs/examples/field_errors.py", SOURCE /
+                                 "docs/scenes/figure2.toml", "--tolerance", "1e-2", "--reference", "1e-4", "--end",
+                                 "2.0"], capture_output=True, text=True, check=True)
+        number = r"([\d.e-]+) at most, ([\d.e-]+) in the mean"
+        match = re.fullmatch(rf"1e-2: shape {number}; Vm {number}; q {number}\n", result.stdout)
+        self.assertTrue(match, result.stdout)
+        for largest, mean in zip(match.groups()[::2], match.groups()[1::2]):
+            self.assertLess(float(mean), float(largest))
+            self.assertGreater(float(mean), 0.0)
+            self.assertLess(float(largest), 1.0)
+
     @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
     def test_scripts_of_the_pages_run(self):
         (self.folder / "docs/scenes").mkdir(parents=True)
