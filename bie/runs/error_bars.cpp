@@ -31,7 +31,7 @@ constexpr double companion_stride = 2.0;
 constexpr int steps_to_moment = 2;
 constexpr int steps_to_frugal_moment = 5;
 /// Share of the work of the run from which on the companion is frugal: what it writes and starts with comes on top.
-constexpr double frugal_share = 0.3;
+constexpr double frugal_share = 0.2;
 /// Steps of the companion that come before, as the first ones of both say little.
 constexpr std::int64_t steps_before_frugal = 25;
 /// By so much of its size a step of a frugal companion may be shortened to end on a row.
