@@ -8,6 +8,10 @@
 
 namespace vehd {
 
+VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference& b) {
+  return {std::max(a.shape, b.shape), std::max(a.potential, b.potential)};
+}
+
 Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end)
     : physics_(physics), rule_(rule), dt_(dt) {
   for (std::size_t m = 0; m < rule.nodes.size(); ++m) {
@@ -99,8 +103,12 @@ VisibleDifference Collocation::derivative(int k) const {
   const int known = static_cast<int>(nodes_.size());
   // One node knows too little to continue anything.
   if (k <= known || known < 2) return polynomial_derivative(std::min(k, known));
-  const VisibleDifference highest = polynomial_derivative(known), between = polynomial_derivative(known - 1),
-                          former = polynomial_derivative(known - 2);
+  return continued_derivative(k, polynomial_derivative(known));
+}
+
+VisibleDifference Collocation::continued_derivative(int k, const VisibleDifference& highest) const {
+  const int known = static_cast<int>(nodes_.size());
+  const VisibleDifference between = polynomial_derivative(known - 1), former = polynomial_derivative(known - 2);
   // A sine and its derivatives of the other parity vanish at other times: squares of both add up.
   const auto continued = [&](double last, double middle, double last_but_one, double largest_change) {
     if (last_but_one <= 0.0) return 0.0;
@@ -122,9 +130,7 @@ VisibleDifference scaled(double factor, const VisibleDifference& of) {
 VisibleDifference Collocation::at_most_the_motion(const VisibleDifference& error) const {
   VisibleDifference motion{};
   for (std::size_t m = 0; m < last(); ++m) {
-    const VisibleDifference change = physics_.visible_difference(nodes_[m], nodes_.back());
-    motion.shape = std::max(motion.shape, change.shape);
-    motion.potential = std::max(motion.potential, change.potential);
+    motion = larger_of(motion, physics_.visible_difference(nodes_[m], nodes_.back()));
   }
   return {std::min(error.shape, motion.shape), std::min(error.potential, motion.potential)};
 }
@@ -133,9 +139,11 @@ VisibleDifference Collocation::rule_error() const {
   const int n_nodes = static_cast<int>(nodes_.size());
   if (n_nodes < 2) return {};
   const int power = 2 * n_nodes - 1;
-  VisibleDifference error = scaled(integration_error(points_of(rule_), 1.0, power), derivative(power));
+  const VisibleDifference highest = polynomial_derivative(n_nodes);
+  VisibleDifference error =
+      scaled(integration_error(points_of(rule_), 1.0, power), continued_derivative(power, highest));
   // A shape follows what drives it as fast as its tension lets it: within about a step where steps are long.
-  error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * polynomial_derivative(n_nodes).shape);
+  error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * highest.shape);
   return at_most_the_motion(error);
 }
 

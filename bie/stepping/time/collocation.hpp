@@ -8,6 +8,9 @@
 
 namespace vehd {
 
+/// Of each of the two what is larger.
+VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference& b);
+
 /// Approximations of y at the nodes of one step and F there: what the sweeps of a deferred correction work on.
 class Collocation {
  public:
@@ -54,6 +57,9 @@ class Collocation {
  private:
   [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
   [[nodiscard]] VisibleDifference polynomial_derivative(int k) const;
+  /// One beyond those that the polynomial through the rates has, see derivative.
+  /// @param highest  that the polynomial has
+  [[nodiscard]] VisibleDifference continued_derivative(int k, const VisibleDifference& highest) const;
   /// An error, or how far the nodes lie apart where that is less. What relaxes in a small part of the step has rates
   /// that are the solvers' errors over that time, and none of it is left in the nodes.
   [[nodiscard]] VisibleDifference at_most_the_motion(const VisibleDifference& error) const;

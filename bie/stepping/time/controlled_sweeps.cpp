@@ -263,8 +263,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     std::vector<NodeSolution> inner;
     for (std::size_t m = 0; m < last; ++m) {
       inner.push_back(y.corrected(m, NodeEnd::material));
-      const VisibleDifference change = physics.visible_difference(y.node(m), inner[m]);
-      largest = {std::max(largest.shape, change.shape), std::max(largest.potential, change.potential)};
+      largest = larger_of(largest, physics.visible_difference(y.node(m), inner[m]));
     }
     errors.add(largest);
     const bool known = errors.sweeps() >= fewest_sweeps(order);
