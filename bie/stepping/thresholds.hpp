@@ -127,6 +127,10 @@ constexpr double hopeless = 5.0;
 /// The first step covers this share of the time in which the start changes by the tolerance's root.
 constexpr double first_step_share = 0.5;
 
+/// Entries of the Stokes layers up to which threads have a node of the step each. What is larger keeps all of them busy
+/// with one node, and two would not fit the caches. Measured.
+constexpr double most_entries_of_small_operators = 1e6;
+
 // Where the grid is moved to, see remap.
 
 /// Sliding of degree n by an angle a is undone up to n a of this: a wave that slides past by a quarter of its length

@@ -5,6 +5,7 @@
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/thread_count.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -78,6 +79,45 @@ double difference(const VesicleDiagnostics& a, const VesicleDiagnostics& b) {
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(adaptive_evolution)
+
+BOOST_AUTO_TEST_CASE(steps_are_the_same_bit_for_bit_however_many_threads_have_nodes_of_their_own) {
+  struct Steps {
+    State state;
+    int evaluations = 0, iterations_flow = 0, iterations_electric = 0;
+  };
+  // Without any symmetry: every sum over threads would show.
+  const Matrix position = asymmetric_shape(10);
+  const auto steps_with = [&](int threads) {
+    const ThreadCount count(threads);
+    Instruments instruments;
+    Evolution evolution(setup_of(field_model(), position, 1e-2, 1.0), {StartMembrane{position}}, instruments);
+    evolution.evaluate_start();
+    // Of more threads share each node.
+    BOOST_TEST_REQUIRE(evolution.order(0) <= 16);
+    Steps steps;
+    for (int i = 0; i < 3; ++i) {
+      const StepAttempt step = evolution.step({{}, 1.0});
+      steps.evaluations += step.evaluations;
+      steps.iterations_flow += step.iterations_flow;
+      steps.iterations_electric += step.iterations_electric;
+    }
+    steps.state = evolution.state();
+    return steps;
+  };
+  const Steps alone = steps_with(1);
+  for (const int threads : {2, 3}) {
+    const Steps shared = steps_with(threads);
+    const VesicleState &a = alone.state.vesicles[0], &b = shared.state.vesicles[0];
+    BOOST_TEST(shared.state.time == alone.state.time);
+    BOOST_TEST(shared.evaluations == alone.evaluations);
+    BOOST_TEST(shared.iterations_flow == alone.iterations_flow);
+    BOOST_TEST(shared.iterations_electric == alone.iterations_electric);
+    BOOST_REQUIRE(b.position.rows() == a.position.rows());
+    BOOST_TEST((b.position.array() == a.position.array()).all());
+    BOOST_TEST((b.tension.array() == a.tension.array()).all());
+    BOOST_TEST((b.transmembrane_potential.array() == a.transmembrane_potential.array()).all());
+  }
+}
 
 BOOST_AUTO_TEST_CASE(tolerance_is_what_a_field_driven_vesicle_gets) {
   constexpr double kEnd = 6.0;

@@ -1,8 +1,7 @@
-#include <omp.h>
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "bie/support/thread_count.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -19,17 +18,6 @@ Matrix crowded(int order, const Vector3& axes, double a) {
   directions.rowwise().normalize();
   return transform.analyze(directions * axes.asDiagonal());
 }
-
-class Threads {
- public:
-  explicit Threads(int n) : former_(omp_get_max_threads()) { omp_set_num_threads(n); }
-  ~Threads() { omp_set_num_threads(former_); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
- private:
-  int former_;
-};
 
 }  // namespace
 
@@ -80,7 +68,7 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_the_number_of_threads) {
   Model model = field_model();
   model.flow = shear_flow(1.0);
   const auto after_a_step = [&](int n_threads) {
-    const Threads threads(n_threads);
+    const ThreadCount threads(n_threads);
     return run(model, discretisation, start(model, discretisation, asymmetric_shape(12), 0.02), 0.02, 1);
   };
   const State one = after_a_step(1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "bie/stepping/thresholds.hpp"
@@ -14,18 +15,18 @@ VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference&
 
 Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end)
     : physics_(physics), rule_(rule), dt_(dt) {
-  for (std::size_t m = 0; m < rule.nodes.size(); ++m) {
-    const bool is_last = m + 1 == rule.nodes.size();
-    nodes_.push_back(physics.first_order_step(rule.nodes[m] * dt, is_last ? end : NodeEnd::material));
-  }
+  std::vector<FirstOrderStep> steps;
+  for (const double node : rule.nodes) steps.push_back({node * dt, NodeEnd::material});
+  steps.back().end = end;
+  nodes_ = physics.first_order_steps(steps);
   first_order_nodes_ = nodes_;
 }
 
 void Collocation::evaluate_rates() {
   former_rates_ = std::move(rates_);
-  rates_ = {physics_.rate()};
-  for (std::size_t m = 0; m < last(); ++m) rates_.push_back(physics_.rate(nodes_[m]));
-  rates_.push_back(next_at_last_ ? std::move(*next_at_last_) : physics_.rate(nodes_.back()));
+  rates_ = physics_.rates(std::span(nodes_).first(next_at_last_ ? last() : nodes_.size()));
+  rates_.insert(rates_.begin(), physics_.rate());
+  if (next_at_last_) rates_.push_back(std::move(*next_at_last_));
   next_at_last_.reset();
 }
 
@@ -61,14 +62,23 @@ Residual Collocation::residual(const Vector& weights, const NodeSolution& y, con
   return residual;
 }
 
-NodeSolution Collocation::corrected(std::size_t m, NodeEnd end) {
+ImplicitSolve Collocation::correction(std::size_t m, NodeEnd end) const {
   const Vector weights = rule_.weights.row(static_cast<Index>(m));
-  return physics_.implicit_solve(nodes_[m], residual(weights, nodes_[m], rates_), rule_.implicit_sizes[m] * dt_, end);
+  return {&nodes_[m], residual(weights, nodes_[m], rates_), rule_.implicit_sizes[m] * dt_, end};
+}
+
+NodeSolution Collocation::corrected(std::size_t m, NodeEnd end) { return physics_.implicit_solve(correction(m, end)); }
+
+std::vector<NodeSolution> Collocation::all_corrected(NodeEnd end) {
+  std::vector<ImplicitSolve> solves;
+  for (std::size_t m = 0; m < last(); ++m) solves.push_back(correction(m, NodeEnd::material));
+  solves.push_back(correction(last(), end));
+  return physics_.implicit_solves(solves);
 }
 
 NodeSolution Collocation::corrected(const NodeSolution& y, NodeEnd end) {
   const Vector weights = integration_weights(points_of(rule_), place_of(y.time));
-  return physics_.implicit_solve(y, residual(weights, y, rates_), rule_.implicit_sizes.back() * dt_, end);
+  return physics_.implicit_solve({&y, residual(weights, y, rates_), rule_.implicit_sizes.back() * dt_, end});
 }
 
 NodeSolution Collocation::corrected_with_rate(const NodeSolution& y, NodeEnd end) {
@@ -77,7 +87,7 @@ NodeSolution Collocation::corrected_with_rate(const NodeSolution& y, NodeEnd end
   std::vector<Rate> rates = rates_;
   rates.push_back(physics_.rate(y));
   const Vector weights = integration_weights(points, points.back());
-  return physics_.implicit_solve(y, residual(weights, y, rates), rule_.implicit_sizes.back() * dt_, end);
+  return physics_.implicit_solve({&y, residual(weights, y, rates), rule_.implicit_sizes.back() * dt_, end});
 }
 
 double Collocation::place_of(double time) const { return (time - physics_.start().time) / dt_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bie/stepping/time/step_operations.hpp"
@@ -14,7 +15,7 @@ VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference&
 /// Approximations of y at the nodes of one step and F there: what the sweeps of a deferred correction work on.
 class Collocation {
  public:
-  /// First-order steps to every node.
+  /// First-order steps to every node. Nodes do not hear of each other within a sweep.
   /// @param physics  must outlive it
   /// @param end      of the last node
   /// @throws ConvergenceError naming the solve that failed, as all others
@@ -23,6 +24,8 @@ class Collocation {
   [[nodiscard]] std::size_t last() const { return nodes_.size() - 1; }
   [[nodiscard]] const NodeSolution& node(std::size_t m) const { return nodes_[m]; }
   NodeSolution& node(std::size_t m) { return nodes_[m]; }
+  /// Takes these for all nodes.
+  void replace(std::vector<NodeSolution> nodes) { nodes_ = std::move(nodes); }
   /// The same before all corrections.
   [[nodiscard]] const NodeSolution& first_order_node(std::size_t m) const { return first_order_nodes_[m]; }
 
@@ -48,6 +51,9 @@ class Collocation {
   [[nodiscard]] VisibleDifference stage_error() const;
   /// Node m after a correction with the rates as they are: y + (1 − d_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F_j − y).
   [[nodiscard]] NodeSolution corrected(std::size_t m, NodeEnd end);
+  /// The same of all nodes.
+  /// @param end  of the last one
+  [[nodiscard]] std::vector<NodeSolution> all_corrected(NodeEnd end);
   /// A solution at any time within the step after a correction with these rates: y + (1 − d dt L)⁻¹ (y_0 + ∫F dt − y),
   /// F being the polynomial through the rates at the start and at every node, and d that of the last node.
   [[nodiscard]] NodeSolution corrected(const NodeSolution& y, NodeEnd end);
@@ -55,6 +61,7 @@ class Collocation {
   [[nodiscard]] NodeSolution corrected_with_rate(const NodeSolution& y, NodeEnd end);
 
  private:
+  [[nodiscard]] ImplicitSolve correction(std::size_t m, NodeEnd end) const;
   [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
   [[nodiscard]] VisibleDifference polynomial_derivative(int k) const;
   /// One beyond those that the polynomial through the rates has, see derivative.

@@ -179,8 +179,6 @@ std::optional<State> by_own_step(StepOperations& physics, double time, int order
   own.growth = magnification;
   own.tolerance = thresholds::moment_share / thresholds::step_share * goal.tolerance;
   own.truncation = goal.truncation;
-  own.too_coarse = [](const State&) { return std::vector<std::size_t>(); };
-  own.times_before = [](double) { return std::vector<double>(); };
   const ControlledSweeps sweeps = controlled_sweeps(physics, time - physics.start().time, order, own);
   return sweeps.end ? std::optional(physics.passed_state(*sweeps.end)) : std::nullopt;
 }
@@ -257,13 +255,12 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     if (const auto change = y.change_at_last(); change && !errors.all_known()) errors.add(*change);
     // Where this sweep is likely to be the last it ends on new nodes at once.
     const bool likely = left == 0 || (errors.sweeps() > 0 && errors.error_after(errors.sweeps() + 1) <= allowed);
-    NodeSolution end = y.corrected(last, likely ? NodeEnd::remapped : NodeEnd::material);
+    std::vector<NodeSolution> corrected = y.all_corrected(likely ? NodeEnd::remapped : NodeEnd::material);
+    NodeSolution& end = corrected.back();
     // What changes the last node little by chance changes the others.
-    VisibleDifference largest = physics.visible_difference(y.node(last), end);
-    std::vector<NodeSolution> inner;
-    for (std::size_t m = 0; m < last; ++m) {
-      inner.push_back(y.corrected(m, NodeEnd::material));
-      largest = larger_of(largest, physics.visible_difference(y.node(m), inner[m]));
+    VisibleDifference largest{};
+    for (std::size_t m = 0; m <= last; ++m) {
+      largest = larger_of(largest, physics.visible_difference(y.node(m), corrected[m]));
     }
     errors.add(largest);
     const bool known = errors.sweeps() >= fewest_sweeps(order);
@@ -285,8 +282,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
                                size_factor(of_rule, allowed, 2 * static_cast<int>(rule.nodes.size()) - 1));
       if (!enough) return result;
     }
-    for (std::size_t m = 0; m < last; ++m) y.node(m) = std::move(inner[m]);
-    y.node(last) = std::move(end);
+    y.replace(std::move(corrected));
     if (enough) break;
   }
   // Before what is solved for within the step can be recycled.

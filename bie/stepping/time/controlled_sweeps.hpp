@@ -21,9 +21,11 @@ struct StepGoal {
   double most_weight = std::numeric_limits<double>::infinity();
   double truncation = 0.0;  ///< what a grid of another degree may move the surface by, over the radius
   /// Vesicles whose degree is too low for a state.
-  std::function<std::vector<std::size_t>(const State&)> too_coarse;
+  std::function<std::vector<std::size_t>(const State&)> too_coarse = [](const State&) {
+    return std::vector<std::size_t>();
+  };
   /// When states are wanted before the end of a step that goes that far, ascending.
-  std::function<std::vector<double>(double end)> times_before;
+  std::function<std::vector<double>(double end)> times_before = [](double) { return std::vector<double>(); };
 };
 
 /// What became of a step whose sweeps are counted by what they leave.

@@ -14,13 +14,14 @@ CorrectedNode deferred_correction(StepOperations& physics, double dt, int order)
   CorrectedNode result;
   for (int sweep = 1; sweep < order; ++sweep) {
     y.evaluate_rates();
-    const bool is_last = sweep == order - 1;
-    // Nodes do not hear of each other within a sweep, so the last one needs its end alone.
-    for (std::size_t m = is_last ? y.last() : 0; m <= y.last(); ++m) {
-      NodeSolution corrected = y.corrected(m, is_last ? NodeEnd::remapped : NodeEnd::material);
-      if (is_last) result.last_correction = physics.difference(y.node(m), corrected);
-      y.node(m) = std::move(corrected);
+    if (sweep < order - 1) {
+      y.replace(y.all_corrected(NodeEnd::material));
+      continue;
     }
+    // Nodes do not hear of each other within a sweep, so the last one needs its end alone.
+    NodeSolution corrected = y.corrected(y.last(), NodeEnd::remapped);
+    result.last_correction = physics.difference(y.node(y.last()), corrected);
+    y.node(y.last()) = std::move(corrected);
   }
   result.node = std::move(y.node(y.last()));
   return result;

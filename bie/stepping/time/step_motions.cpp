@@ -32,7 +32,7 @@ void visit_members(Sent& sent, Visit& visit) {
 }  // namespace
 
 std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt,
-                                            NodeEnd end) {
+                                            NodeEnd end, NodeWork& work) {
   std::vector<CountedMotion> all(starts.size());
   const auto move = [&](std::size_t a, Instruments& instruments) {
     CountedMotion& of_one = all[a];
@@ -46,7 +46,7 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
   };
   shares().ranks().together([&] {
     try {
-      for_each_member(shares().own(all.size()), instruments_, move);
+      for_each_member(shares().own(all.size()), work.instruments, move);
     } catch (const ConvergenceError&) {
       // Which vesicle is the first without a motion all ranks have to say.
     }
@@ -60,7 +60,7 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
   std::vector<Motion> result;
   for (CountedMotion& of_one : all) {
     // Those of solves that fail count all the same.
-    iterations_flow_ += of_one.iterations;
+    work.iterations.flow += of_one.iterations;
     if (!of_one.failure.empty()) throw ConvergenceError(of_one.failure);
     result.push_back(std::move(of_one.motion));
   }

@@ -13,6 +13,7 @@
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/porous_step.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/side_by_side.hpp"
 
 namespace vehd {
 
@@ -52,23 +53,86 @@ StepOperations::StepOperations(const Model& model, const Discretisation& discret
 
 Rate StepOperations::rate() const { return rate_of(at_start_); }
 
-Rate StepOperations::rate(const NodeSolution& node) {
-  const SolvedFields solved = solve_fields(model_, discretisation_, state_with(&Motion::material, node), instruments_,
-                                           &at_start_, Limit::before);
-  iterations_flow_ += solved.iterations_flow;
-  iterations_electric_ += solved.iterations_electric;
-  ++evaluations_;
+template <typename Body>
+void StepOperations::for_each_node(std::size_t count, const Body& body) {
+  // Ranks wait for each other.
+  const bool beside = shares().ranks().is_alone() && are_small();
+  std::vector<Iterations> of_each(count);
+  const auto add_up = [&] {
+    for (const Iterations& of_one : of_each) {
+      iterations_.flow += of_one.flow;
+      iterations_.electric += of_one.electric;
+    }
+  };
+  try {
+    for_each_side_by_side(static_cast<Index>(count), beside, instruments_, [&](Index i, Instruments& instruments) {
+      const auto m = static_cast<std::size_t>(i);
+      NodeWork work{instruments, of_each[m]};
+      body(m, work);
+    });
+  } catch (const ConvergenceError&) {
+    add_up();
+    throw;
+  }
+  add_up();
+}
+
+/// Is one node too little for all threads?
+bool StepOperations::are_small() const {
+  double entries = 0.0;
+  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+    const auto of_velocity = static_cast<double>(discretisation_.vesicle(a).subspace().vectors().size());
+    entries += of_velocity * of_velocity;
+  }
+  return entries <= thresholds::most_entries_of_small_operators;
+}
+
+std::vector<Rate> StepOperations::rates(std::span<const NodeSolution> nodes) {
+  std::vector<Rate> result(nodes.size());
+  evaluations_ += static_cast<int>(nodes.size());
+  for_each_node(nodes.size(), [&](std::size_t m, NodeWork& work) { result[m] = rate(nodes[m], work); });
+  return result;
+}
+
+Rate StepOperations::rate(const NodeSolution& node, NodeWork& work) const {
+  const SolvedFields solved = solve_fields(model_, discretisation_, state_with(&Motion::material, node),
+                                           work.instruments, &at_start_, Limit::before);
+  work.iterations.flow += solved.iterations_flow;
+  work.iterations.electric += solved.iterations_electric;
   return rate_of(solved);
 }
 
-NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
+std::vector<NodeSolution> StepOperations::first_order_steps(const std::vector<FirstOrderStep>& steps) {
+  for (const FirstOrderStep& step : steps) prepare(step.dt);
+  std::vector<NodeSolution> result(steps.size());
+  for_each_node(steps.size(), [&](std::size_t m, NodeWork& work) { result[m] = first_order_step(steps[m], work); });
+  return result;
+}
+
+std::vector<NodeSolution> StepOperations::implicit_solves(const std::vector<ImplicitSolve>& solves) {
+  for (const ImplicitSolve& solve : solves) prepare(solve.dt);
+  std::vector<NodeSolution> result(solves.size());
+  for_each_node(solves.size(), [&](std::size_t m, NodeWork& work) { result[m] = implicit_solve(solves[m], work); });
+  return result;
+}
+
+/// Makes the systems of this size, which threads then only look up.
+void StepOperations::prepare(double dt) {
+  if (!model_.mobile) return;
+  for (const std::size_t a : shares().own(flow_.size())) {
+    if (!at_start_.vesicles[a].is_sphere) static_cast<void>(flow_[a].of(dt));
+  }
+}
+
+NodeSolution StepOperations::first_order_step(const FirstOrderStep& step, NodeWork& work) {
+  const double dt = step.dt;
   NodeSolution result{start_.time + dt, {}};
   std::vector<Charge> charged;
   for (const VesicleState& vesicle : start_.vesicles) charged.push_back(charge_of(vesicle));
   if (porates()) {
-    charged = porated(charged, nullptr, result.time, dt);
+    charged = porated(charged, nullptr, result.time, dt, work);
   } else if (charges()) {
-    charge(electric_at(result.time), dt, charged);
+    charge(electric_at(result.time), dt, charged, work);
   }
   std::vector<MotionStart> starts;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
@@ -81,11 +145,14 @@ NodeSolution StepOperations::first_order_step(double dt, NodeEnd end) {
   const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
     return motion_of_velocity(sphere, at_start_.fields.vesicles[a].velocity, dt);
   };
-  result.vesicles = motions(starts, rigid, dt, end);
+  result.vesicles = motions(starts, rigid, dt, step.end, work);
   return result;
 }
 
-NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end) {
+NodeSolution StepOperations::implicit_solve(const ImplicitSolve& solve, NodeWork& work) {
+  const NodeSolution& y = *solve.y;
+  const Residual& r = solve.r;
+  const double dt = solve.dt;
   NodeSolution result{y.time, {}};
   std::vector<Charge> changes;
   for (const Residual::OfVesicle& of_vesicle : r.vesicles) {
@@ -94,14 +161,14 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
   std::vector<Charge> reached;
   if (porates()) {
     for (const Motion& motion : y.vesicles) reached.push_back(charge_of(motion.material));
-    reached = porated(reached, &changes, y.time, dt);
+    reached = porated(reached, &changes, y.time, dt, work);
   } else if (charges()) {
     std::vector<ElectricParameters> homogeneous = electric_at(y.time);
     for (ElectricParameters& electric : homogeneous) {
       electric.field.setZero();
       electric.pump = 0.0;
     }
-    charge(homogeneous, dt, changes);
+    charge(homogeneous, dt, changes, work);
     for (std::size_t a = 0; a < changes.size(); ++a) {
       const Charge now = charge_of(y.vesicles[a].material);
       reached.push_back({now.potential + changes[a].potential, now.free + changes[a].free});
@@ -119,7 +186,7 @@ NodeSolution StepOperations::implicit_solve(const NodeSolution& y, const Residua
     return motion_of_displacement(
         sphere, y.vesicles[a].material.position + r.vesicles[a].position - start_.vesicles[a].position);
   };
-  result.vesicles = motions(starts, rigid, dt, end);
+  result.vesicles = motions(starts, rigid, dt, solve.end, work);
   return result;
 }
 
@@ -131,11 +198,12 @@ std::vector<ElectricParameters> StepOperations::electric_at(double time) const {
   return result;
 }
 
-void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges) {
-  const auto timer = instruments_.time("electric");
+void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges,
+                            NodeWork& work) const {
+  const auto timer = work.instruments.time("electric");
   const SolveReport report =
       charge_step(model_, at_start_, electric, dt, discretisation_.settings().electric_tolerance, charges);
-  iterations_electric_ += report.iterations;
+  work.iterations.electric += report.iterations;
   if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
 }
 
@@ -146,14 +214,14 @@ bool StepOperations::porates() const {
 
 /// After an implicit step of membranes that porate.
 std::vector<Charge> StepOperations::porated(const std::vector<Charge>& from, const std::vector<Charge>* lacks,
-                                            double time, double dt) {
-  const auto timer = instruments_.time("electric");
+                                            double time, double dt, NodeWork& work) const {
+  const auto timer = work.instruments.time("electric");
   std::vector<ElectricParameters> electric;
   if (charges()) electric = electric_at(time);
   std::vector<Charge> reached;
   const SolveReport report =
       porous_step(model_, at_start_, electric, dt, discretisation_.settings().electric_tolerance, from, lacks, reached);
-  iterations_electric_ += report.iterations;
+  work.iterations.electric += report.iterations;
   if (!report.converged()) throw ConvergenceError("charging of a membrane that porates did not converge");
   return reached;
 }
@@ -201,7 +269,7 @@ State StepOperations::end_state(const NodeSolution& node) const {
   // What is known of images serves nobody.
   shares().gather(flow, [](const SentScalars&, std::size_t) { return SentScalars{}; });
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_flow_);
+    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_.flow);
   }
   return state;
 }

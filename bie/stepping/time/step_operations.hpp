@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "bie/stepping/evaluation/evaluation.hpp"
@@ -45,6 +47,20 @@ struct Residual {
 /// What a node is for: within a step fields stay with the material; at its end they are carried to new nodes.
 enum class NodeEnd { material, remapped };
 
+/// A step of the paper's semi-implicit scheme from the start of a step.
+struct FirstOrderStep {
+  double dt;
+  NodeEnd end;
+};
+
+/// A correction of a node: y + (1 − dt L)⁻¹ r.
+struct ImplicitSolve {
+  const NodeSolution* y;
+  Residual r;
+  double dt;
+  NodeEnd end;
+};
+
 /// The physics as a time scheme sees it during one step, with the operators at its start frozen. Four operations make
 /// every scheme:
 ///
@@ -61,6 +77,9 @@ enum class NodeEnd { material, remapped };
 /// Solving and projecting are one iteration, since what a remap does to area and volume is projected out as well: see
 /// constrained_motion. A solve that fails throws ConvergenceError and ends the attempt; the iterations count all the
 /// same.
+///
+/// Nodes do not hear of each other within one of these, so that what is asked of several is done on threads, with the
+/// same bits for any number of them.
 /// Source: paper Eqs. (27)–(31)
 class StepOperations {
  public:
@@ -73,15 +92,19 @@ class StepOperations {
 
   /// F at the start.
   [[nodiscard]] Rate rate() const;
-  /// F at a node, its forcing just before a discontinuity there.
-  Rate rate(const NodeSolution& node);
+  /// F at nodes, the forcing just before a discontinuity there.
+  std::vector<Rate> rates(std::span<const NodeSolution> nodes);
+  Rate rate(const NodeSolution& node) { return std::move(rates({&node, 1}).front()); }
 
   /// The paper's semi-implicit step from the start, Eqs. (27)–(31): y_0 + dt (1 − dt L)⁻¹ F(y_0), with the field at its
   /// end.
+  /// @param steps  of different sizes
   /// Accuracy: first order in dt (tests/stepping/time/time_order_test.cpp)
-  NodeSolution first_order_step(double dt, NodeEnd end);
-  /// y + (1 − dt L)⁻¹ r.
-  NodeSolution implicit_solve(const NodeSolution& y, const Residual& r, double dt, NodeEnd end);
+  std::vector<NodeSolution> first_order_steps(const std::vector<FirstOrderStep>& steps);
+  NodeSolution first_order_step(const FirstOrderStep& step) { return std::move(first_order_steps({step}).front()); }
+  /// @param solves  of different sizes
+  std::vector<NodeSolution> implicit_solves(const std::vector<ImplicitSolve>& solves);
+  NodeSolution implicit_solve(const ImplicitSolve& solve) { return std::move(implicit_solves({solve}).front()); }
 
   /// The state at the end of the step, from a node that is remapped; collective.
   [[nodiscard]] State end_state(const NodeSolution& node) const;
@@ -99,11 +122,27 @@ class StepOperations {
   /// Evaluations of new shapes so far.
   [[nodiscard]] int evaluations() const { return evaluations_; }
   /// Iterations so far of the flow solves.
-  [[nodiscard]] int iterations_flow() const { return iterations_flow_; }
+  [[nodiscard]] int iterations_flow() const { return iterations_.flow; }
   /// Iterations so far of the charging and charge solves.
-  [[nodiscard]] int iterations_electric() const { return iterations_electric_; }
+  [[nodiscard]] int iterations_electric() const { return iterations_.electric; }
 
  private:
+  struct Iterations {
+    int flow = 0, electric = 0;
+  };
+  /// What counts the work for one node. That of others may be done at the same time.
+  struct NodeWork {
+    Instruments& instruments;
+    Iterations& iterations;
+  };
+  /// Calls body(i, work) for each of so many nodes.
+  [[nodiscard]] bool are_small() const;
+  template <typename Body>
+  void for_each_node(std::size_t count, const Body& body);
+  [[nodiscard]] Rate rate(const NodeSolution& node, NodeWork& work) const;
+  NodeSolution first_order_step(const FirstOrderStep& step, NodeWork& work);
+  NodeSolution implicit_solve(const ImplicitSolve& solve, NodeWork& work);
+  void prepare(double dt);
   [[nodiscard]] bool charges() const {
     return model_.electric.has_value() && !is_averaged(model_) && !at_start_.electric_inactive;
   }
@@ -111,11 +150,12 @@ class StepOperations {
   [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
-  void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges);
+  void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges,
+              NodeWork& work) const;
   [[nodiscard]] double poration_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] bool porates() const;
-  std::vector<Charge> porated(const std::vector<Charge>& from, const std::vector<Charge>* lacks, double time,
-                              double dt);
+  std::vector<Charge> porated(const std::vector<Charge>& from, const std::vector<Charge>* lacks, double time, double dt,
+                              NodeWork& work) const;
   void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] const Shares& shares() const { return discretisation_.shares(); }
@@ -123,7 +163,8 @@ class StepOperations {
   using RigidMotion = std::function<SphereMotion(std::size_t vesicle, const Membrane& sphere)>;
   /// Solves and projects all vesicles, each on its rank; V_m of the start is that of the end. Collective.
   /// @param rigid  the motion of a sphere, which takes the place of the start's velocity there
-  std::vector<Motion> motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt, NodeEnd end);
+  std::vector<Motion> motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt, NodeEnd end,
+                              NodeWork& work);
   /// The same of one. Others may be moved at the same time.
   Motion motion(std::size_t vesicle, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end,
                 Instruments& instruments, int& iterations);
@@ -134,8 +175,7 @@ class StepOperations {
   const SolvedFields& at_start_;
   Instruments& instruments_;
   std::vector<FlowSystems> flow_;  // of each vesicle
-  int iterations_flow_ = 0;
-  int iterations_electric_ = 0;
+  Iterations iterations_;
   int evaluations_ = 0;
 };
 

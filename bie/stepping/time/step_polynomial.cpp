@@ -55,7 +55,7 @@ double StepPolynomial::error() const {
 }
 
 NodeSolution StepPolynomial::at(double time) const {
-  NodeSolution result = physics_.first_order_step(time - physics_.start().time, NodeEnd::material);
+  NodeSolution result = physics_.first_order_step({time - physics_.start().time, NodeEnd::material});
   correct(result, Fit::nodes_and_rate);
   return result;
 }

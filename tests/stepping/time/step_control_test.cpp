@@ -127,8 +127,6 @@ BOOST_AUTO_TEST_CASE(steps_that_agree_about_the_next_leave_less_of_a_margin) {
   const Evaluation at_start = evaluate(model, discretisation, first, instruments);
   StepGoal goal;
   goal.tolerance = 1e-2;
-  goal.too_coarse = [](const State&) { return std::vector<std::size_t>(); };
-  goal.times_before = [](double) { return std::vector<double>(); };
   const auto next = [&](double dt_found) {
     State state = first;
     state.dt_found = dt_found;

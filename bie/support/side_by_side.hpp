@@ -1,0 +1,49 @@
+#pragma once
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <exception>
+#include <vector>
+
+#include "bie/support/instruments.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Calls body(i, instruments) for a few tasks i = 0 … count − 1 that take about equally long: if `worthwhile` as many
+/// beside each other as there are threads, each on a thread of its own, and one that is left over on all of them; in an
+/// order that no result may depend on. If some throw, what the first of them threw is thrown once all have ended, in
+/// any case.
+template <typename Body>
+void for_each_side_by_side(Index count, bool worthwhile, Instruments& instruments, const Body& body) {
+  std::vector<std::exception_ptr> exceptions(static_cast<std::size_t>(count));
+  const auto run = [&](Index i, Instruments& of_one) {
+    try {
+      body(i, of_one);
+    } catch (...) {
+      exceptions[static_cast<std::size_t>(i)] = std::current_exception();
+    }
+  };
+  const Index at_once = worthwhile && omp_in_parallel() == 0 ? omp_get_max_threads() : 1;
+  for (Index first = 0, n_now = 0; first < count; first += n_now) {
+    n_now = std::min(count - first, at_once);
+    if (n_now == 1) {
+      run(first, instruments);
+      continue;
+    }
+    std::deque<Instruments> of_each(static_cast<std::size_t>(n_now));
+    const auto start = std::chrono::steady_clock::now();
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_now))
+    for (Index i = 0; i < n_now; ++i) run(first + i, of_each[static_cast<std::size_t>(i)]);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    instruments.take_side_by_side(of_each, elapsed.count());
+  }
+  for (const std::exception_ptr& exception : exceptions) {
+    if (exception) std::rethrow_exception(exception);
+  }
+}
+
+}  // namespace vehd
