@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bie/pictures/gnuplot.hpp"
+
 namespace vehd {
 namespace {
 
@@ -163,8 +165,8 @@ std::vector<BenchPanel> tolerances_panels(const BenchRecord& record) {
   BenchPanel panel{"seconds", "error over tolerance"};
   int colour = 0;
   for (const std::string& scene : record.different("scene")) {
-    panel.curves.push_back(
-        curve_of(record, scene, {"seconds", "error_over_tolerance", "scene", scene, "tolerance"}, colour++));
+    panel.curves.push_back(curve_of(record, gnuplot_literal(scene),
+                                    {"seconds", "error_over_tolerance", "scene", scene, "tolerance"}, colour++));
   }
   return {panel};
 }

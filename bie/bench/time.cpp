@@ -69,20 +69,14 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
         state.time,
         lab_frame.diagnostics(evaluation.diagnostics, resized(state, problem.settings.order), fields).vesicles};
   };
-  const auto note_order = [&] {
-    for (std::size_t a = 0; a < evolution.state().vesicles.size(); ++a) {
-      run.highest_order = std::max(run.highest_order, evolution.order(a));
-    }
-  };
   run.rows.clear();
   evolution.evaluate_start();
-  run.highest_order = 0;
-  note_order();
+  run.highest_order = highest_order_of(evolution.state());
   if (scene.numerics.tolerance) run.rows.push_back(row_of(evolution.state(), evolution.evaluation()));
   double raw_area = 0.0;
   while (evolution.state().time < events.end_time) {
     const StepAttempt step = evolution.step(events);
-    note_order();
+    run.highest_order = std::max(run.highest_order, highest_order_of(evolution.state()));
     raw_area += std::abs(step.raw_area);
     for (const Evolution::Moment& moment : evolution.passed()) {
       run.rows.push_back(row_of(moment.state, moment.evaluation));

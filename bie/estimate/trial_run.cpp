@@ -8,6 +8,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
@@ -95,12 +96,6 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
 }
 
 }  // namespace
-
-int highest_order_of(const State& state) {
-  int highest = 0;
-  for (const VesicleState& vesicle : state.vesicles) highest = std::max(highest, order_of(vesicle.position.rows()));
-  return highest;
-}
 
 TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
                    const TrialBudget& budget) {

@@ -55,9 +55,6 @@ struct TrialBudget {
 TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<double>& tolerances,
                    const TrialBudget& budget);
 
-/// Degree of the vesicle that has the highest.
-int highest_order_of(const State& state);
-
 /// Degree of a run of a scene with this tolerance after its first step, of the vesicle that has the highest.
 /// @throws ConvergenceError, InputError if the shape file of the scene cannot be used
 int starting_order(const Scene& scene, double tolerance);

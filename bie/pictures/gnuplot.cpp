@@ -34,4 +34,10 @@ std::string gnuplot_quoted(const std::string& text) {
   return quoted + "'";
 }
 
+std::string gnuplot_literal(const std::string& text) {
+  std::string literal;
+  for (const char letter : text) literal += letter == '_' ? std::string("\\_") : std::string(1, letter);
+  return literal;
+}
+
 }  // namespace vehd

@@ -12,4 +12,7 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& folder)
 /// A file name as a gnuplot string.
 std::string gnuplot_quoted(const std::string& text);
 
+/// A name that gnuplot prints as it is: it would lower what follows an underscore.
+std::string gnuplot_literal(const std::string& text);
+
 }  // namespace vehd

@@ -68,6 +68,7 @@ std::string area_script(const PageArea& area) {
 
 double text_width(std::string_view enhanced) {
   double width = 0.0;
+  bool is_literal = false;
   for (std::size_t i = 0; i < enhanced.size();) {
     const auto first = static_cast<unsigned char>(enhanced[i]);
     const int length = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
@@ -76,8 +77,12 @@ double text_width(std::string_view enhanced) {
       character = (character << 6) | (static_cast<unsigned char>(enhanced[i + k]) & 0x3f);
     }
     i += static_cast<std::size_t>(length);
-    // Marks of the notation take no room; what they lower or raise is smaller and counted in full.
-    if (character == U'_' || character == U'^' || character == U'{' || character == U'}') continue;
+    // Marks of the notation take no room, if not meant as they are; what they lower or raise is smaller and counted in
+    // full.
+    constexpr std::u32string_view marks = U"_^{}\\";
+    const bool is_mark = !is_literal && marks.find(character) != std::u32string_view::npos;
+    is_literal = is_mark && character == U'\\';
+    if (is_mark) continue;
     width += character_width(character);
   }
   return width;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/shown_numbers.hpp"
 #include "bie/pictures/sweep_panels.hpp"
 #include "bie/scene/output_units.hpp"
@@ -36,14 +37,14 @@ std::optional<KeyNumbers> numbers_of(const std::vector<std::string>& texts) {
 
 std::string tick_text(const std::string& value) {
   const auto quantity = parse_quantity(value);
-  return quantity ? fmt::format("{:.3g}", quantity->number) : printed_sweep_text(value);
+  return quantity ? fmt::format("{:.3g}", quantity->number) : gnuplot_literal(value);
 }
 
 /// Few enough to be read.
 constexpr std::size_t most_ticks = 6;
 
 std::string label_of(const std::string& key, const std::optional<KeyNumbers>& numbers) {
-  return with_unit(printed_sweep_text(key), numbers ? numbers->unit : "");
+  return with_unit(gnuplot_literal(key), numbers ? numbers->unit : "");
 }
 
 SweepAxis side_by_side(const std::string& label, const std::vector<std::string>& values) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/sweep_axis.hpp"
 #include "bie/pictures/sweep_map.hpp"
@@ -91,7 +92,7 @@ void draw_panel(Page& page, const SweepRows& rows, const std::vector<std::size_t
     const double below = box.top - 9.0 - 10.0 * static_cast<double>(s);
     const std::string& name = rows.keys()[keys[1]].name;
     page.texts.push_back(
-        {fmt::format("{} {}", printed_sweep_text(name.substr(name.rfind('.') + 1)), printed_sweep_text(series[s])),
+        {fmt::format("{} {}", gnuplot_literal(name.substr(name.rfind('.') + 1)), gnuplot_literal(series[s])),
          {box.left + 6.0, below},
          7.0,
          TextAnchor::left,

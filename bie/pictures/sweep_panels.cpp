@@ -33,10 +33,4 @@ PageArea sweep_dot(const PagePoint& at, const char* colour) {
   return area;
 }
 
-std::string printed_sweep_text(const std::string& text) {
-  std::string printed;
-  for (const char letter : text) printed += letter == '_' ? std::string("\\_") : std::string(1, letter);
-  return printed;
-}
-
 }  // namespace vehd

@@ -21,7 +21,4 @@ struct SweepPanels {
 /// A point of a plot as an octagon.
 PageArea sweep_dot(const PagePoint& at, const char* colour);
 
-/// A name as gnuplot prints it: it would lower what follows an underscore.
-std::string printed_sweep_text(const std::string& text);
-
 }  // namespace vehd

@@ -67,6 +67,7 @@ BOOST_AUTO_TEST_CASE(texts_take_no_more_room_than_is_reserved) {
   BOOST_TEST(text_width("curvature H") >= 6.3);
   BOOST_TEST(text_width("tension λ") >= 4.9);
   BOOST_TEST(text_width("V_m") >= 1.2);
+  BOOST_TEST(text_width("ac\\_field") > text_width("ac_field"));
   const Box box = box_of({"t = 1", {100.0, 50.0}, 8.0, TextAnchor::centre, "#000000"});
   BOOST_TEST(box.left + box.right == 200.0, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(box.bottom + box.top == 100.0, boost::test_tools::tolerance(1e-12));

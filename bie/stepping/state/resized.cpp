@@ -1,5 +1,6 @@
 #include "bie/stepping/state/resized.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "bie/sphere/harmonics.hpp"
@@ -42,6 +43,12 @@ State resized(State state, int order) {
 Fields resized(Fields fields, int order) {
   for (VesicleFields& vesicle : fields.vesicles) vesicle = resized(std::move(vesicle), order);
   return fields;
+}
+
+int highest_order_of(const State& state) {
+  int highest = 0;
+  for (const VesicleState& vesicle : state.vesicles) highest = std::max(highest, order_of(vesicle.position.rows()));
+  return highest;
 }
 
 }  // namespace vehd

@@ -15,4 +15,7 @@ State resized(State state, int order);
 /// The fields of every membrane likewise.
 Fields resized(Fields fields, int order);
 
+/// Degree of the vesicle that has the highest.
+int highest_order_of(const State& state);
+
 }  // namespace vehd
