@@ -42,7 +42,7 @@ struct SceneOptions {
   std::vector<int> orders, threads, time_orders;
   std::vector<std::string> steps;
   std::vector<double> tolerances;
-  int order = 0;
+  int order = 0, time_order = 0;
   std::string at;
   bool quick = false;
   std::string docs = "docs";
@@ -188,10 +188,13 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_option("--degree,--order", options->order, "Degree p; that of the scene if not given")
       ->check(CLI::Range(4, 64));
+  command->add_option("--time-order", options->time_order, "Integrator; that of the scene if not given")
+      ->check(CLI::Range(1, highest_time_order));
   add_repeats(*command, options->bench, 5);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
     Scene scene = read_scene(o.scene_file);
     if (o.order > 0) scene.numerics.order = o.order;
+    if (o.time_order > 0) scene.numerics.time_order = o.time_order;
     return bench_threads(scene, o.threads, o.bench.repeats, observer);
   });
 }

@@ -19,6 +19,7 @@
 #include "bie/estimate/cost_table.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -219,6 +220,14 @@ class AllBenches {
     Scene sheared = scene("figure5_no_field");
     if (extent_.threads_order > 0) sheared.numerics.order = extent_.threads_order;
     keep(bench_threads(sheared, thread_counts(), extent_.repeats, observer_));
+    for (const char* name : {"figure5_two", "figure3"}) {
+      observer_.section(fmt::format("threads: {}.toml, order 5", name));
+      Scene corrected = scene(name);
+      corrected.numerics.time_order = highest_time_order;
+      BenchResult result = bench_threads(corrected, thread_counts(), extent_.repeats, observer_);
+      result.name = fmt::format("threads_{}", name);
+      keep(result);
+    }
   }
 
   void symmetry() {

@@ -183,7 +183,7 @@ constexpr std::array makers = {Maker{"space", space_panels},           Maker{"ti
 }  // namespace
 
 std::vector<BenchPanel> panels_of(const std::string& bench, const BenchRecord& record) {
-  const std::string kind = bench.starts_with("time_") ? "time" : bench;
+  const std::string kind = bench.starts_with("time_") ? "time" : bench.starts_with("threads_") ? "threads" : bench;
   const auto maker = std::ranges::find_if(makers, [&](const Maker& candidate) { return kind == candidate.bench; });
   return maker == makers.end() ? std::vector<BenchPanel>{} : maker->panels(record);
 }
