@@ -17,13 +17,13 @@ namespace vehd {
 /// steps for itself; a row of the history is a moment within its step. Where its work is too large a part of that of
 /// the run, and where a period limits the steps of both, it is frugal: it has the order of the run, and its steps end
 /// on rows that are near. With fixed steps it makes one of three, and ends each on a row. It lags behind the run by one
-/// of its steps at most. What the motion has done to errors since is in those of both: those that its steps have left
-/// are r times as large, so the difference over r − 1 is the error of the run. With fixed steps r = 3^k at order k.
-/// With a tolerance r² = ρ min(ρ, max(1, e_c/e_r)), e_c being what the companion has estimated of its last step and e_r
-/// the geometric mean of what the run has of its steps since the last comparison; r = ρ where e_c < D/ρ. Degrees have
-/// no such ratio, and of a shape at rest they are all that is wrong: what they leave out is estimated from the spectrum
-/// of both. With T of the companion and t of the run, D the largest difference of a row and e the run's estimate of its
-/// last step, all relative,
+/// of its steps and one of the run at most. What the motion has done to errors since is in those of both: those that
+/// its steps have left are r times as large, so the difference over r − 1 is the error of the run. With fixed steps r =
+/// 3^k at order k. With a tolerance r² = ρ min(ρ, max(1, e_c/e_r)), e_c being what the companion has estimated of its
+/// last step and e_r the geometric mean of what the run has of its steps since the last comparison; r = ρ where e_c <
+/// D/ρ. Degrees have no such ratio, and of a shape at rest they are all that is wrong: what they leave out is estimated
+/// from the spectrum of both. With T of the companion and t of the run, D the largest difference of a row and e the
+/// run's estimate of its last step, all relative,
 ///
 ///   E² = max(√(D² − min(T, D)²)/(r − 1), min(e, D/(r − 1)))² + (t min(1, D/T))²
 ///

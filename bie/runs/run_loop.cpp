@@ -1,6 +1,11 @@
 #include "bie/runs/run_loop.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_units.hpp"
@@ -29,6 +34,12 @@ std::unique_ptr<ErrorBars> error_bars_of(const RunTask& task) {
 Checkpoint with_companion(Checkpoint start, const ErrorBars* error_bars) {
   if (error_bars != nullptr && !start.companion) start.companion = error_bars->state();
   return start;
+}
+
+/// For the companion, whose work is a part of that of the run.
+int threads_beside(int n_threads) {
+  constexpr int kPart = 4;
+  return std::max(1, n_threads / kPart);
 }
 
 RunOutcome advance_to_end(RecordedRun& run, const Ranks& ranks, Interruption& interruption) {
@@ -67,19 +78,24 @@ RecordedRun::RecordedRun(const RunTask& task)
   });
 }
 
-void RecordedRun::record() {
+/// Of the rows that are known.
+void RecordedRun::record_errors(const std::vector<Vector>& errors) {
+  if (!error_bars_) return;
+  ranks_.together([&] {
+    if (recorder_) recorder_->record_errors(errors, error_bars_->state());
+  });
+}
+
+/// The step that ended last, and what errors became known meanwhile.
+void RecordedRun::record(std::vector<Vector> errors) {
   const Simulation& simulation = simulation_;
   const std::vector<RecordedSide> sides = simulation.sides();
-  std::vector<Vector> known;
-  if (error_bars_) {
-    error_bars_->add(sides);
-    known = error_bars_->follow(simulation.at_end());
-  }
+  if (error_bars_) error_bars_->add(sides);
+  if (simulation.at_end()) std::ranges::move(errors_until(true), std::back_inserter(errors));
+  record_errors(errors);
   const RunTotals totals = simulation.totals();
   ranks_.together([&] {
-    if (!recorder_) return;
-    if (error_bars_) recorder_->record_errors(known, error_bars_->state());
-    recorder_->record(simulation.evolution().state(), sides, totals);
+    if (recorder_) recorder_->record(simulation.evolution().state(), sides, totals);
   });
   is_recorded_ = true;
   if (tell_) tell_(simulation.status());
@@ -88,12 +104,33 @@ void RecordedRun::record() {
 void RecordedRun::start() {
   simulation_.start();
   if (error_bars_) error_bars_->start();
-  if (!is_recorded_) record();
+  if (!is_recorded_) record({});
+}
+
+/// Of rows that the companion comes to.
+std::vector<Vector> RecordedRun::errors_until(bool end) {
+  return error_bars_ ? error_bars_->follow(end) : std::vector<Vector>();
+}
+
+/// The companion follows as far as rows have come; on threads of its own where there are any, while the run goes on.
+std::future<std::vector<Vector>> RecordedRun::following() {
+  const int n_threads = omp_get_max_threads();
+  const bool beside = error_bars_ && n_threads > 1 && ranks_.is_alone();
+  return std::async(beside ? std::launch::async : std::launch::deferred, [this, beside, n_threads] {
+    if (beside) omp_set_num_threads(threads_beside(n_threads));
+    return errors_until(false);
+  });
 }
 
 void RecordedRun::step() {
-  simulation_.step();
-  record();
+  std::future<std::vector<Vector>> errors = following();
+  try {
+    simulation_.step();
+  } catch (const ConvergenceError&) {
+    record_errors(errors.get());
+    throw;
+  }
+  record(errors.get());
   if (after_step_) after_step_();
 }
 
@@ -105,6 +142,7 @@ RunOutcome RecordedRun::failed(const ConvergenceError& error) {
 }
 
 void RecordedRun::end(const RunOutcome& outcome) {
+  record_errors(errors_until(simulation_.at_end()));
   const RunTotals totals = simulation_.totals();
   ranks_.together([&] {
     if (!recorder_) return;

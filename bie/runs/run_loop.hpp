@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/error_bars.hpp"
@@ -58,7 +60,10 @@ class RecordedRun {
   void end(const RunOutcome& outcome);
 
  private:
-  void record();
+  void record(std::vector<Vector> errors);
+  [[nodiscard]] std::vector<Vector> errors_until(bool end);
+  void record_errors(const std::vector<Vector>& errors);
+  [[nodiscard]] std::future<std::vector<Vector>> following();
 
   Simulation simulation_;
   std::unique_ptr<ErrorBars> error_bars_;  ///< where they are asked for

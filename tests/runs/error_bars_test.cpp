@@ -12,6 +12,7 @@
 #include "bie/scene/reader.hpp"
 #include "bie/scene/shipped_scenes.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/thread_count.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/recorded_history.hpp"
 
@@ -244,6 +245,25 @@ BOOST_AUTO_TEST_CASE(a_resumed_run_has_the_same_errors_bit_for_bit) {
     parts.go_on(scene);
     BOOST_TEST((file_text(parts.paths.history()) == file_text(whole.paths.history())));
     BOOST_TEST((file_text(parts.paths.history_error()) == file_text(whole.paths.history_error())));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_companion_beside_the_run_makes_the_same_errors_bit_for_bit) {
+  for (const std::string numerics : {"degree = 6\ndt = 0.01", "tolerance = 1e-2\n[output]\nevery = 0.05"}) {
+    const vehd::Scene scene = pulsed(numerics);
+    const Files alone, beside, mixed;
+    const auto go_on = [&scene](const Files& files, int n_threads, int n_steps) {
+      const vehd::ThreadCount threads(n_threads);
+      files.go_on(scene, n_steps);
+    };
+    go_on(alone, 1, -1);
+    go_on(beside, 2, -1);
+    go_on(mixed, 2, 5);
+    go_on(mixed, 1, -1);
+    for (const Files* other : {&beside, &mixed}) {
+      BOOST_TEST((file_text(other->paths.history()) == file_text(alone.paths.history())));
+      BOOST_TEST((file_text(other->paths.history_error()) == file_text(alone.paths.history_error())));
+    }
   }
 }
 
