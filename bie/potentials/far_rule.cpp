@@ -6,6 +6,7 @@
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
 #include "bie/potentials/few_nodes.hpp"
+#include "bie/potentials/smooth_grid.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bie/sphere/neighbourhood.hpp"
 #include "bie/sphere/transform.hpp"
 
 namespace vehd {
