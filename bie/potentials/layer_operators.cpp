@@ -11,7 +11,7 @@ namespace vehd {
 namespace {
 
 /// Matrix entries below which waking a second thread costs more than it saves.
-constexpr Index kParallelEntries = 250000;
+constexpr Index kParallelEntries = 1000000;
 /// More than the Cartesian components that a solve applies an operator to.
 constexpr Index kFewDensities = 9;
 

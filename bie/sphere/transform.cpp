@@ -27,7 +27,7 @@ struct Kinds {
 };
 
 /// Grid values below which waking a second thread costs more than it saves.
-constexpr Index kParallelValues = 60000;
+constexpr Index kParallelValues = 200000;
 
 }  // namespace
 
