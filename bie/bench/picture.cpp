@@ -35,10 +35,11 @@ std::string style_of(const BenchCurve& curve) {
     return fmt::format("with lines lw {:.3g} lc rgb '#60{}'", line_width(5.0), colours[style] + 1);
   }
   const bool dashed = curve.kind == CurveKind::dashed;
-  // Where colours come again, the markers tell.
+  // Where colours come again, the lines tell.
   const bool again = static_cast<std::size_t>(curve.colour) / colours.size() % 2 == 1;
-  return fmt::format("with linespoints lw {:.3g} {} pt {} ps {:.3g} lc rgb '{}'", line_width(dashed ? 0.8 : 1.3),
-                     dashed ? "dashtype (8,6)" : "dashtype solid", markers[style] - (dashed || again ? 1 : 0), 2.2,
+  const char* dashes = dashed ? "(8,6)" : again ? "(4,6)" : "solid";
+  return fmt::format("with linespoints lw {:.3g} dashtype {} pt {} ps {:.3g} lc rgb '{}'",
+                     line_width(dashed ? 0.8 : 1.3), dashes, markers[style] - (dashed || again ? 1 : 0), 2.2,
                      colours[style]);
 }
 
