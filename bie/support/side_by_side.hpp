@@ -27,17 +27,18 @@ void for_each_side_by_side(Index count, bool worthwhile, Instruments& instrument
       exceptions[static_cast<std::size_t>(i)] = std::current_exception();
     }
   };
-  const Index at_once = worthwhile && omp_in_parallel() == 0 ? omp_get_max_threads() : 1;
-  for (Index first = 0, n_now = 0; first < count; first += n_now) {
-    n_now = std::min(count - first, at_once);
+  const int at_once = worthwhile && omp_in_parallel() == 0 ? omp_get_max_threads() : 1;
+  int n_now = 0;
+  for (Index first = 0; first < count; first += n_now) {
+    n_now = static_cast<int>(std::min<Index>(count - first, at_once));
     if (n_now == 1) {
       run(first, instruments);
       continue;
     }
     std::deque<Instruments> of_each(static_cast<std::size_t>(n_now));
     const auto start = std::chrono::steady_clock::now();
-#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_now))
-    for (Index i = 0; i < n_now; ++i) run(first + i, of_each[static_cast<std::size_t>(i)]);
+#pragma omp parallel for schedule(static, 1) num_threads(n_now)
+    for (int i = 0; i < n_now; ++i) run(first + i, of_each[static_cast<std::size_t>(i)]);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     instruments.take_side_by_side(of_each, elapsed.count());
   }

@@ -135,8 +135,8 @@ class StepOperations {
     Instruments& instruments;
     Iterations& iterations;
   };
-  /// Calls body(i, work) for each of so many nodes.
   [[nodiscard]] bool are_small() const;
+  /// Calls body(i, work) for each of so many nodes, on threads where these are small.
   template <typename Body>
   void for_each_node(std::size_t count, const Body& body);
   [[nodiscard]] Rate rate(const NodeSolution& node, NodeWork& work) const;
