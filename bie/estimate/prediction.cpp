@@ -72,14 +72,16 @@ double tries_per_step(const TrialRun& trial) {
   return 1.0 + rejected / static_cast<double>(trial.steps.size());
 }
 
-/// From a stretch with that tolerance or a looser one. A step of j sweeps has order j + 1.
+/// From a stretch with that tolerance or a looser one. A step of j sweeps has order j + 1, and one that begins with the
+/// past that of its nodes more, see next_step.
 Pace pace_of(const Knowledge& known, const Stretch& stretch, double tolerance) {
   const int sampled_order = accuracy_defaults(known.sampled).time_order;
   const int time_order = accuracy_defaults(tolerance).time_order;
   const double of_sweep = (evaluations_per_step(time_order) - 1.0) / (time_order - 1.0);
   Pace pace{stretch.steps_for_one, stretch.evaluations * more_evaluations(time_order, sampled_order)};
   const double order = std::clamp(1.0 + (pace.evaluations - 1.0) / of_sweep, 1.0, static_cast<double>(time_order));
-  pace.steps_for_one *= std::pow(known.sampled / tolerance, 1.0 / order);
+  const double of_past = stretch.begins_with_past ? of_sweep : 0.0;
+  pace.steps_for_one *= std::pow(known.sampled / tolerance, 1.0 / (order + of_past));
   pace.evaluations *= tries_per_step(known.trial);
   return pace;
 }

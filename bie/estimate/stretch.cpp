@@ -56,10 +56,11 @@ State filled(const TwoTolerances& two, State state, int order) {
   return result;
 }
 
-/// Of the two steps after the one that is taken again.
-double loose_sizes(const TrialRun& trial, std::size_t step) {
-  const std::size_t last = trial.steps.size() - 1;
-  return trial.steps[std::min(step + 1, last)].dt + trial.steps[std::min(step + 2, last)].dt;
+/// Size of the step of the trial run so much time after one, which is taken again.
+double loose_size(const TrialRun& trial, std::size_t step, double after) {
+  std::size_t i = std::min(step + 1, trial.steps.size() - 1);
+  for (; i + 1 < trial.steps.size() && after > trial.steps[i].dt; ++i) after -= trial.steps[i].dt;
+  return trial.steps[i].dt;
 }
 
 /// Whether no snapshot lies in the step from a state or in the two after it: those before and after one are shorter.
@@ -90,10 +91,12 @@ std::size_t place_in_part(const TrialRun& trial, std::size_t part, std::size_t c
   return middle;
 }
 
-/// Takes the tight steps, and compares the size of the last one and of the next with the loose ones.
+/// Takes the tight steps, and compares the size of the last one and of the next with those of the loose ones at the
+/// same times.
 /// @returns whether there was time for one
-bool take_tight_steps(const TwoTolerances& two, State state, double loose_sizes, Stretch& stretch) {
+bool take_tight_steps(const TwoTolerances& two, State state, const TrialRun& trial, Stretch& stretch) {
   if (two.is_over(state)) return false;
+  const double begin = state.time;
   state.dt_next *= two.expected_factor();
   Instruments instruments;
   Evolution evolution(setup_of(two.tight), std::move(state), instruments);
@@ -102,6 +105,7 @@ bool take_tight_steps(const TwoTolerances& two, State state, double loose_sizes,
   int highest = first_order;
   double last_dt = 0.0;
   for (int i = 1; i < steps_of_stretch && !two.is_over(evolution.state()); ++i) {
+    stretch.begins_with_past = evolution.state().past.is_continued == 1;
     const StepAttempt step = evolution.step(two.events);
     const auto moments = static_cast<int>(evolution.passed().size());
     const int order = highest_order_of(evolution.state());
@@ -111,7 +115,10 @@ bool take_tight_steps(const TwoTolerances& two, State state, double loose_sizes,
     stretch.evaluations = static_cast<double>(step.evaluations - moments) / (1 + step.rejected);
   }
   stretch.more_degrees = highest - first_order;
-  stretch.steps_for_one = loose_sizes / (last_dt + evolution.state().dt_next);
+  const double next_dt = evolution.state().dt_next, passed = evolution.state().time - begin;
+  const double loose =
+      loose_size(trial, stretch.step, passed - 0.5 * last_dt) + loose_size(trial, stretch.step, passed + 0.5 * next_dt);
+  stretch.steps_for_one = loose / (last_dt + next_dt);
   return true;
 }
 
@@ -133,7 +140,7 @@ std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, d
     if (from.step >= trial.steps.size()) continue;
     Stretch stretch{.step = from.step};
     try {
-      if (!take_tight_steps(two, filled(two, from.state, orders[from.step]), loose_sizes(trial, from.step), stretch)) {
+      if (!take_tight_steps(two, filled(two, from.state, orders[from.step]), trial, stretch)) {
         continue;
       }
     } catch (const ConvergenceError&) {

@@ -11,14 +11,15 @@ namespace vehd {
 
 /// What steps with a tighter tolerance are like at one place of a trial run.
 struct Stretch {
-  std::size_t step = 0;        ///< of the trial run that leads from there
-  double steps_for_one = 1.0;  ///< that take the place of one of the trial run there
-  double evaluations = 0.0;    ///< of new shapes by one try at one of them, without snapshots
-  int more_degrees = 0;        ///< than those with which it began, at most
+  std::size_t step = 0;           ///< of the trial run that leads from there
+  double steps_for_one = 1.0;     ///< that take the place of one of the trial run there
+  double evaluations = 0.0;       ///< of new shapes by one try at one of them, without snapshots
+  bool begins_with_past = false;  ///< that one, see Past
+  int more_degrees = 0;           ///< than those with which it began, at most
 };
 
-/// Steps of a stretch: one with the tolerance of the trial run, and two with the tighter one.
-constexpr int steps_of_stretch = 3;
+/// Steps of a stretch: one with the tolerance of the trial run, and three with the tighter one.
+constexpr int steps_of_stretch = 4;
 
 /// From so many states of a trial run, as many steps apart as may be: a few steps with a tighter tolerance. The degrees
 /// that this needs are empty at first, and what belongs there grows within less than a step of the trial run: one of

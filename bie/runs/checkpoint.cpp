@@ -12,14 +12,16 @@
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/state/unknowns.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
 
-constexpr std::int64_t schema_of_one = 9, schema_of_several = 10;
+constexpr std::int64_t schema_of_one = 11, schema_of_several = 12;
 
 std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_of_several : schema_of_one; }
 
@@ -39,6 +41,10 @@ void visit_time(StateType& state, Visitor&& visit) {
   visit("step", state.step);
   visit("dt_next", state.dt_next);
   visit("dt_found", state.dt_found);
+  visit("past_times", state.past.times);
+  visit("past_is_continued", state.past.is_continued);
+  visit("afresh_dt", state.past.afresh_dt);
+  visit("afresh_errors", state.past.afresh_errors);
 }
 
 /// Those of one vesicle.
@@ -63,6 +69,7 @@ void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("flow", vesicle.recycled.flow);
   visit("unaided_iterations", vesicle.recycled.unaided_iterations);
   visit("pause", vesicle.recycled.pause);
+  visit("past", vesicle.past);
 }
 
 /// What is known of a map is the coefficients of its rows and two matrices, behind its name.
@@ -233,6 +240,23 @@ class SoundCheck {
   void check(const State& state) const {
     for (const VesicleState& vesicle : state.vesicles) check(vesicle);
     require(std::isfinite(state.time) && std::isfinite(state.dt_next) && std::isfinite(state.dt_found), state_of_run);
+    check(state.past);
+    for (const VesicleState& vesicle : state.vesicles) {
+      const Matrix& past = vesicle.past;
+      require(past.size() == 0 || (past.rows() == vesicle.position.rows() && state.past.times.size() > 0 &&
+                                   past.cols() == state.past.times.size() * unknowns(vesicle).cols()),
+              "/state/past");
+      require(past.allFinite(), "/state/past");
+    }
+  }
+
+  void check(const Past& past) const {
+    const char* name = "/state, its past,";
+    require(past.times.size() < highest_time_order && past.times.allFinite(), name);
+    for (const double time : past.times) require(time < 0.0, name);
+    require(past.is_continued == 0 || past.is_continued == 1, name);
+    require(std::isfinite(past.afresh_dt) && past.afresh_errors.allFinite(), name);
+    require(past.afresh_errors.size() == 0 || past.afresh_dt > 0.0, name);
   }
 
   void check(const VesicleState& vesicle) const {

@@ -186,6 +186,8 @@ void Evolution::arrive(State state) {
   tell_crossings(state, state.time, evaluation);
   if (before) tell_crossings(state, state.time, *before);
   discretisation_ = std::move(discretisation);
+  // No polynomial goes on through a jump.
+  if (before) state.past = {};
   replace(std::move(state), std::move(evaluation));
   gap_ = gap;
   before_jump_ = std::move(before);

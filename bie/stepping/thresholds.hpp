@@ -124,6 +124,10 @@ constexpr double telling_share = 0.2;
 constexpr double most_magnification = 100.0;
 /// Sweeps are not gone on with where those left would still leave this many times what is allowed.
 constexpr double hopeless = 5.0;
+/// The past is continued to a time at most this many times as far away as it began. Measured.
+constexpr double longest_continuation = 2.0;
+/// And only where steps that begin with it are expected to cost at most this share of others. Measured.
+constexpr double worthwhile_past = 0.8;
 /// The first step covers this share of the time in which the start changes by the tolerance's root.
 constexpr double first_step_share = 0.5;
 

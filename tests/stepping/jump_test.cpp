@@ -92,4 +92,25 @@ BOOST_AUTO_TEST_CASE(flow_that_is_switched_has_two_sides_as_well) {
   BOOST_TEST((velocity - before).norm() > 0.5 * before.norm());
 }
 
+BOOST_AUTO_TEST_CASE(no_past_goes_on_through_a_jump) {
+  const Matrix position = prolate(10);
+  Model model = field_model();
+  model.electric->waveform = Waveform::pulse(1.0, 0.0, 0.3);
+  EvolutionSetup setup = setup_of(model, position);
+  setup.settings.time_order = 5;
+  setup.control = {1.0, 1e-9, 1e-2};
+  Instruments instruments;
+  Evolution evolution(setup, {StartMembrane{position}}, instruments);
+  evolution.evaluate_start();
+  int n_jumps = 0;
+  while (evolution.state().time < 0.5) {
+    evolution.step({{}, 0.5});
+    const bool has_jumped = evolution.before_jump().has_value();
+    n_jumps += has_jumped ? 1 : 0;
+    BOOST_TEST(evolution.state().past.times.size() == (has_jumped ? 0 : 3));
+    BOOST_TEST(evolution.state().past.is_continued <= (has_jumped ? 0 : 1));
+  }
+  BOOST_TEST(n_jumps == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

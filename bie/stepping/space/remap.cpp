@@ -133,13 +133,27 @@ Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, cons
          share(fine.order() + 1) * beyond;
 }
 
-/// Every column at the given places.
-Matrix carried(const SphereTransform& fine, const Matrix& columns, const Directions& from) {
+/// Coefficients of every column at the given places.
+Matrix carried_to(const SphereTransform& fine, const Matrix& columns, const Directions& from) {
   return fine.analyze(evaluate_harmonics(columns, from, fine.azimuthal_order()));
 }
 
-/// All fields at the given places, which cost little more together than one of them.
-SurfaceFields carried(const SphereTransform& fine, const SurfaceFields& fields, const Directions& from) {
+}  // namespace
+
+GridMove::GridMove(const SphereTransform& fine, const Matrix& displacement, const Matrix& position) : fine_(fine) {
+  const Directions nodes = node_directions(fine.grid());
+  const Matrix sliding = midway_sliding(fine, nodes, sliding_part(fine, make_surface(fine, position), displacement));
+  // Smoothing answers to the shape at its new nodes. Taken at the old ones it would be out of phase with modes whose
+  // wavelength the sliding of one step passes, and would feed them.
+  const Matrix slid = sliding.isZero(0.0) ? position : carried_to(fine, position, moved_back(nodes, sliding));
+  const SphereVectors smoothing = smoothing_gradient(fine, make_surface(fine, slid), slid);
+  from_ = moved_back(nodes, sliding + cartesian(fine.grid(), smoothing));
+}
+
+Matrix GridMove::carried(const Matrix& columns) const { return carried_to(fine_, columns, from_); }
+
+/// All together cost little more than one of them.
+SurfaceFields GridMove::carried(const SurfaceFields& fields) const {
   SurfaceFields result = fields;
   Index n_scalars = 0;
   for_each_scalar(fields, [&](const Vector&) { ++n_scalars; });
@@ -147,24 +161,15 @@ SurfaceFields carried(const SphereTransform& fine, const SurfaceFields& fields, 
   columns.leftCols(3) = fields.position;
   Index column = 3;
   for_each_scalar(fields, [&](const Vector& scalar) { columns.col(column++) = scalar; });
-  columns = carried(fine, columns, from);
+  columns = carried(columns);
   result.position = columns.leftCols(3);
   column = 3;
   for_each_scalar(result, [&](Vector& scalar) { scalar = columns.col(column++); });
   return result;
 }
 
-}  // namespace
-
 SurfaceFields remap(const SphereTransform& fine, const Matrix& displacement, const SurfaceFields& fields) {
-  const Matrix& position = fields.position;
-  const Directions nodes = node_directions(fine.grid());
-  const Matrix sliding = midway_sliding(fine, nodes, sliding_part(fine, make_surface(fine, position), displacement));
-  // Smoothing answers to the shape at its new nodes. Taken at the old ones it would be out of phase with modes whose
-  // wavelength the sliding of one step passes, and would feed them.
-  const Matrix slid = sliding.isZero(0.0) ? position : carried(fine, position, moved_back(nodes, sliding));
-  const SphereVectors smoothing = smoothing_gradient(fine, make_surface(fine, slid), slid);
-  return carried(fine, fields, moved_back(nodes, sliding + cartesian(fine.grid(), smoothing)));
+  return GridMove(fine, displacement, fields.position).carried(fields);
 }
 
 }  // namespace vehd

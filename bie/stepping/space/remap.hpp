@@ -19,18 +19,32 @@ struct SphereVectors {
 /// Source: Helmholtz decomposition on the unit sphere
 SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, const Matrix& displacement);
 
-/// Moves the grid over the surface without moving the surface: new node s takes what the material point Φ(s) carries,
-/// for every field by spectral evaluation. Φ undoes the part of the last displacement that only slides
+/// Moves the grid over a surface without moving the surface: new node s takes what the material point Φ(s) carries, for
+/// every field by spectral evaluation. Φ undoes the part of the last displacement that only slides
 /// points along the surface (the divergence-free part of the tangential velocity, which shears a grid without end
 /// in tank-treading while area elements stay), and descends the energy of the high degrees of x (Veerapaneni et al.
 /// 2011) by one step. Sliding of degrees whose wavelength one step passes is left: undoing it would feed them.
-/// @param fine          degree p ↔ upsampled grid
-/// @param displacement  dt u, coefficients: the last move of the material
-/// @param fields        at the material points
-/// @return              the same fields at the new nodes
 /// Accuracy: spectral; area to 1e-11, volume to 1e-12, energy to 1e-8 at p = 32, new nodes on the
 /// old surface to 1e-7 (tests/stepping/space/remap_test.cpp)
 /// Source: Veerapaneni et al. 2011 for the descent; undoing the sliding is of this project
+class GridMove {
+ public:
+  /// @param fine          degree p ↔ upsampled grid; must outlive it
+  /// @param displacement  dt u, coefficients: the last move of the material
+  /// @param position      of the material points
+  GridMove(const SphereTransform& fine, const Matrix& displacement, const Matrix& position);
+
+  /// Fields at the material points, at the new nodes.
+  [[nodiscard]] SurfaceFields carried(const SurfaceFields& fields) const;
+  /// Coefficients of any others likewise, every column by itself.
+  [[nodiscard]] Matrix carried(const Matrix& columns) const;
+
+ private:
+  const SphereTransform& fine_;
+  Matrix from_;  // unit vectors to where the new nodes are on the parameter sphere of the material
+};
+
+/// The fields of a surface carried by the move of its grid.
 SurfaceFields remap(const SphereTransform& fine, const Matrix& displacement, const SurfaceFields& fields);
 
 }  // namespace vehd

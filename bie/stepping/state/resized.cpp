@@ -20,6 +20,7 @@ VesicleState resized(VesicleState vesicle, int order) {
   if (n_coefficients(order) != vesicle.position.rows()) vesicle.recycled = {};
   vesicle.position = resized(vesicle.position, order);
   for_each_scalar(vesicle, [&](Vector& scalar) { scalar = resized(Matrix(scalar), order); });
+  vesicle.past = resized(vesicle.past, order);
   return vesicle;
 }
 

@@ -13,13 +13,36 @@ VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference&
   return {std::max(a.shape, b.shape), std::max(a.potential, b.potential)};
 }
 
-Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end)
-    : physics_(physics), rule_(rule), dt_(dt) {
+Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end, Beginning beginning)
+    : physics_(physics), rule_(rule), dt_(dt), beginning_(beginning) {
+  if (beginning == Beginning::with_past) {
+    for (const double node : rule.nodes) nodes_.push_back(initial(physics.start().time + node * dt));
+    initial_nodes_ = nodes_;
+    return;
+  }
   std::vector<FirstOrderStep> steps;
   for (const double node : rule.nodes) steps.push_back({node * dt, NodeEnd::material});
   steps.back().end = end;
   nodes_ = physics.first_order_steps(steps);
-  first_order_nodes_ = nodes_;
+  initial_nodes_ = nodes_;
+}
+
+NodeSolution Collocation::initial(double time) const {
+  if (beginning_ == Beginning::with_past) return physics_.continued(time);
+  return physics_.first_order_step({time - physics_.start().time, NodeEnd::material});
+}
+
+VisibleDifference Collocation::error_of_explicit_step(const NodeSolution& end) const {
+  NodeSolution reached = end;
+  for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
+    const SurfaceFields& from = physics_.start().vesicles[a];
+    const Rate::OfVesicle& rate = rates_.front().vesicles[a];
+    SurfaceFields& fields = reached.vesicles[a].material;
+    if (rate.velocity.size() > 0) fields.position = from.position + dt_ * rate.velocity;
+    if (rate.potential.size() > 0) fields.transmembrane_potential = from.transmembrane_potential + dt_ * rate.potential;
+    if (rate.poration.size() > 0) fields.poration = from.poration + dt_ * rate.poration;
+  }
+  return physics_.visible_difference(reached, end);
 }
 
 void Collocation::evaluate_rates() {

@@ -12,22 +12,32 @@ namespace vehd {
 /// Of each of the two what is larger.
 VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference& b);
 
+/// What the nodes of a step are before its sweeps: first-order steps, or the past continued.
+enum class Beginning { afresh, with_past };
+
 /// Approximations of y at the nodes of one step and F there: what the sweeps of a deferred correction work on.
 class Collocation {
  public:
-  /// First-order steps to every node. Nodes do not hear of each other within a sweep.
+  /// Initial approximations at every node. Nodes do not hear of each other within a sweep.
   /// @param physics  must outlive it
-  /// @param end      of the last node
+  /// @param end      of the last node of a step that begins afresh; the past goes on with the material
   /// @throws ConvergenceError naming the solve that failed, as all others
-  Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end);
+  Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end,
+              Beginning beginning = Beginning::afresh);
 
+  [[nodiscard]] Beginning beginning() const { return beginning_; }
   [[nodiscard]] std::size_t last() const { return nodes_.size() - 1; }
   [[nodiscard]] const NodeSolution& node(std::size_t m) const { return nodes_[m]; }
   NodeSolution& node(std::size_t m) { return nodes_[m]; }
   /// Takes these for all nodes.
   void replace(std::vector<NodeSolution> nodes) { nodes_ = std::move(nodes); }
+  [[nodiscard]] const std::vector<NodeSolution>& nodes() const { return nodes_; }
   /// The same before all corrections.
-  [[nodiscard]] const NodeSolution& first_order_node(std::size_t m) const { return first_order_nodes_[m]; }
+  [[nodiscard]] const NodeSolution& initial_node(std::size_t m) const { return initial_nodes_[m]; }
+  /// Initial approximation at any time within the step.
+  [[nodiscard]] NodeSolution initial(double time) const;
+  /// What an explicit Euler step is wrong by where this is the end: y_0 + dt F_0 against it.
+  [[nodiscard]] VisibleDifference error_of_explicit_step(const NodeSolution& end) const;
 
   /// F at the start and at every node.
   void evaluate_rates();
@@ -75,8 +85,9 @@ class Collocation {
   StepOperations& physics_;
   const TimeRule& rule_;
   double dt_;
+  Beginning beginning_;
   std::vector<NodeSolution> nodes_;
-  std::vector<NodeSolution> first_order_nodes_;
+  std::vector<NodeSolution> initial_nodes_;
   std::vector<Rate> rates_, former_rates_;
   std::optional<Rate> next_at_last_;  // where it is known already
 };

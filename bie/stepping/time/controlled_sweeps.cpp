@@ -1,126 +1,25 @@
 #include "bie/stepping/time/controlled_sweeps.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <iterator>
 #include <utility>
 
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/collocation.hpp"
 #include "bie/stepping/time/corrections.hpp"
+#include "bie/stepping/time/next_step.hpp"
 #include "bie/stepping/time/step_polynomial.hpp"
+#include "bie/stepping/time/sweep_errors.hpp"
 
 namespace vehd {
 
 namespace {
-
-double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
 
 /// How many times what a step leaves of shape and V_m counts.
 VisibleDifference lasting_weights(const StepGoal& goal, double dt) {
   const double remembered = std::min(1.0 + goal.memory / dt, thresholds::most_remembered);
   const double of_shape = std::max(goal.growth, thresholds::remembered_share * remembered);
   return {std::min(goal.most_weight, of_shape), std::min(goal.most_weight, goal.growth)};
-}
-
-/// What the sweeps so far have changed of all that counts, each as many times as it does.
-class SweepErrors {
- public:
-  SweepErrors(const VisibleDifference& weights, double telling) : weights_(weights), telling_(telling) {}
-  /// Of the shape and V_m by a sweep.
-  void add(const VisibleDifference& change) {
-    shape_.add(weights_.shape * change.shape);
-    potential_.add(weights_.potential * change.potential);
-  }
-  /// Of tension and charge, each by the sweep before.
-  void add(const InstantaneousDifference& change) {
-    tension_.add(change.tension);
-    charge_.add(change.charge);
-  }
-  /// Largest of these errors of shape and V_m, each as many times as it counts, and of what they make of tension and
-  /// charge.
-  /// @param least  see magnification
-  [[nodiscard]] double lasting_or_magnified(const VisibleDifference& error, double least) const {
-    return std::max(
-        {weights_.shape * error.shape, weights_.potential * error.potential, magnification(least) * largest_of(error)});
-  }
-  [[nodiscard]] int sweeps() const { return static_cast<int>(shape_.count()); }
-  /// Whether tension and charge are known after the last sweep as well.
-  [[nodiscard]] bool all_known() const { return tension_.count() == shape_.count(); }
-  /// Estimated error of shape and V_m after the last sweep.
-  [[nodiscard]] double visible_error() const {
-    return std::max(shape_.error_after(shape_.count()), potential_.error_after(potential_.count()));
-  }
-  /// Of all after sweep j = 1, 2, …, whether it was made or not.
-  /// @param least  sweeps whose changes of tension and charge are not known are not supposed to contract more than this
-  [[nodiscard]] double error_after(int sweep, double least = thresholds::best_contraction) const {
-    const auto j = static_cast<std::size_t>(sweep);
-    const auto supposed = [&](const Corrections& changes) {
-      return changes.count() > 1 ? std::max(changes.contraction(), least) : least;
-    };
-    const VisibleDifference visible{shape_.error_after(j) / weights_.shape,
-                                    potential_.error_after(j) / weights_.potential};
-    return std::max({lasting_or_magnified(visible, telling_), tension_.error_after(j, supposed(tension_)),
-                     charge_.error_after(j, supposed(charge_))});
-  }
-  /// Of all after sweep j, one that was not made yet, if sweeps go on to contract as the last one did, however much
-  /// that was; tension and charge as what they follow from where they are known of one sweep alone.
-  [[nodiscard]] double hoped_error_after(int sweep) const {
-    const auto j = static_cast<std::size_t>(sweep);
-    Corrections visible;
-    for (std::size_t k = 1; k <= shape_.count(); ++k) visible.add(std::max(shape_.change(k), potential_.change(k)));
-    const auto hoped = [&](const Corrections& changes) {
-      return changes.error_after(j, (changes.count() > 1 ? changes : visible).measured_contraction());
-    };
-    return std::max({hoped(visible), hoped(tension_), hoped(charge_)});
-  }
-  /// By the last sweep.
-  [[nodiscard]] VisibleDifference contraction() const { return {shape_.contraction(), potential_.contraction()}; }
-  /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as in the sweep
-  /// that has changed them the most times as much. The last ones change what the step leaves.
-  /// @param least  what a sweep has to change of shape or V_m, as often as it counts, to tell
-  [[nodiscard]] double magnification(double least) const {
-    double largest = 1.0;
-    for (std::size_t j = 1; j <= tension_.count(); ++j) {
-      if (std::max(shape_.change(j), potential_.change(j)) < least) continue;
-      const double visible = std::max(shape_.change(j) / weights_.shape, potential_.change(j) / weights_.potential);
-      largest = std::max(largest, std::max(tension_.change(j), charge_.change(j)) / visible);
-    }
-    return std::min(largest, thresholds::most_magnification);
-  }
-
- private:
-  VisibleDifference weights_;
-  double telling_;
-  Corrections shape_, potential_, tension_, charge_;
-};
-
-/// dt times this would leave just the error that is allowed after sweep j.
-double size_factor(double error, double allowed, int j) {
-  if (error <= 0.0) return thresholds::most_step_factor;
-  const double factor = thresholds::step_safety * std::pow(allowed / error, 1.0 / (j + 1));
-  return std::clamp(factor, thresholds::least_step_factor, thresholds::most_step_factor);
-}
-
-/// Two sweeps tell how they contract; one tells nothing.
-int fewest_sweeps(int order) { return std::min(2, order - 1); }
-
-/// Size of the step that gets on at the least cost, over that of this one.
-/// @param found  error after each sweep as far as it was made, as estimated then: a step ends by what it knows
-double best_factor(const SweepErrors& errors, const std::vector<double>& found, double allowed, int order,
-                   std::size_t n_nodes) {
-  double best = thresholds::least_step_factor, least_cost = std::numeric_limits<double>::infinity();
-  for (int j = fewest_sweeps(order); j < order; ++j) {
-    const auto made = static_cast<std::size_t>(j);
-    const double error = made <= found.size() ? found[made - 1] : errors.error_after(j);
-    const double factor = size_factor(error, allowed, j);
-    const double cost = (1.0 + static_cast<double>(n_nodes) * j) / factor;
-    if (cost < least_cost) {
-      least_cost = cost;
-      best = factor;
-    }
-  }
-  return best;
 }
 
 std::vector<std::size_t> coarse_at(const StepOperations& physics, const NodeSolution& end, const StepGoal& goal) {
@@ -209,7 +108,7 @@ bool pass(const std::vector<double>& times, const StepPolynomial& within, StepOp
       result.passed.clear();
       result.excess = std::max(result.excess, largest / allowed);
       result.factor =
-          std::min({result.factor, size_factor(within.error(), allowed, 3), size_factor(largest, allowed, 3)});
+          std::min({result.factor, size_factor(within.error(), allowed, 4), size_factor(largest, allowed, 4)});
       return false;
     }
     result.passed.push_back(std::move(*own));
@@ -229,19 +128,35 @@ bool look_within(StepOperations& physics, const TimeRule& rule, double dt, const
   // It falls like dt⁴ or faster. Where the moments of the next step lie is chance.
   const bool next_has_any = goal.times_before(end + result.factor * dt).size() > times.size();
   if (next_has_any) {
-    result.factor = std::min(result.factor, size_factor(within.error(), thresholds::moment_share * goal.tolerance, 3));
+    result.factor = std::min(result.factor, size_factor(within.error(), thresholds::moment_share * goal.tolerance, 4));
   }
   return true;
+}
+
+/// What became of the sweeps says what the next step is to be.
+/// @param found  error after each sweep as far as it was made, as estimated then: a step ends by what it knows
+NextStep next_step(const StepOperations& physics, const Collocation& y, const NodeSolution& end,
+                   const SweepErrors& errors, const std::vector<double>& found, double allowed, int order,
+                   bool accepted) {
+  StepErrors result{allowed, found, errors.lasting(y.error_of_explicit_step(end))};
+  for (int j = static_cast<int>(std::ssize(found)) + 1; j < order; ++j) result.after.push_back(errors.error_after(j));
+  const double dt = end.time - physics.start().time;
+  if (physics.knows_past(dt)) {
+    result.of_past = errors.lasting(physics.visible_difference(physics.continued(end.time), end));
+  }
+  const int n_nodes = static_cast<int>(y.last()) + 1;
+  return next_step(result, physics.start().past, dt, n_nodes, y.beginning(), accepted);
 }
 
 }  // namespace
 
 ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order, const StepGoal& goal) {
   const TimeRule rule = time_rule(order);
-  Collocation y(physics, rule, dt, NodeEnd::remapped);
+  const bool continues = physics.start().past.is_continued == 1 && physics.knows_past(dt);
+  Collocation y(physics, rule, dt, NodeEnd::remapped, continues ? Beginning::with_past : Beginning::afresh);
   const std::size_t last = y.last();
   ControlledSweeps result;
-  result.too_coarse = coarse_at(physics, y.node(last), goal);
+  if (!continues) result.too_coarse = coarse_at(physics, y.node(last), goal);
   if (!result.too_coarse.empty()) {
     result.state = physics.end_state(y.node(last));
     return result;
@@ -250,6 +165,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   SweepErrors errors(lasting_weights(goal, dt), thresholds::telling_share * allowed);
   double of_rule = 0.0;
   std::vector<double> found;
+  NextStep next;
   for (int left = order - 2;; --left) {
     y.evaluate_rates();
     if (const auto change = y.change_at_last(); change && !errors.all_known()) errors.add(*change);
@@ -278,8 +194,9 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     if (enough || left == 0 || (known && errors.hoped_error_after(order - 1) > thresholds::hopeless * allowed) ||
         (known && of_rule > allowed)) {
       result.excess = error / allowed;
-      result.factor = std::min(best_factor(errors, found, allowed, order, rule.nodes.size()),
-                               size_factor(of_rule, allowed, 2 * static_cast<int>(rule.nodes.size()) - 1));
+      next = next_step(physics, y, end, errors, found, allowed, order, enough);
+      result.factor = std::min(next.factor, size_factor(of_rule, allowed, 2 * static_cast<int>(rule.nodes.size())));
+      result.next_beginning = next.beginning;
       if (!enough) return result;
     }
     y.replace(std::move(corrected));
@@ -288,6 +205,10 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   // Before what is solved for within the step can be recycled.
   result.state = physics.end_state(y.node(last));
   if (!look_within(physics, rule, dt, goal, order, errors, y, result)) return result;
+  physics.remember(y.nodes(), result.state);
+  result.state.past.is_continued = next.beginning == Beginning::with_past ? 1 : 0;
+  result.state.past.afresh_dt = next.afresh_dt;
+  result.state.past.afresh_errors = std::move(next.afresh_errors);
   result.end = std::move(y.node(last));
   return result;
 }

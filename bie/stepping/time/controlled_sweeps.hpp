@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "bie/stepping/time/step_operations.hpp"
+#include "bie/stepping/time/collocation.hpp"
 
 namespace vehd {
 
@@ -30,11 +30,13 @@ struct StepGoal {
 
 /// What became of a step whose sweeps are counted by what they leave.
 struct ControlledSweeps {
-  std::optional<NodeSolution> end;      ///< where the step is good enough
-  State state;                          ///< at that end; with `too_coarse` a guess at it
-  std::vector<State> passed;            ///< at the times of the goal
-  double excess = 0.0;                  ///< estimated error over what the step may leave
-  double factor = 1.0;                  ///< the size that gets on at the least cost, over that of this step
+  std::optional<NodeSolution> end;  ///< where the step is good enough
+  State state;                      ///< at that end; with `too_coarse` a guess at it
+  std::vector<State> passed;        ///< at the times of the goal
+  double excess = 0.0;              ///< estimated error over what the step may leave
+  double factor = 1.0;              ///< the size that gets on at the least cost, over that of this step
+  /// How the next step begins where it has that size, or the next try of this one where it was not good enough.
+  Beginning next_beginning = Beginning::afresh;
   std::vector<std::size_t> too_coarse;  ///< vesicles whose degree is to rise before anything else is tried
 };
 
@@ -53,12 +55,18 @@ struct ControlledSweeps {
 ///   remembered for more steps, and with V_m where it is expected to grow.
 /// - Order: e_j, the error after sweep j, is known for every sweep made and falls like dt^(j+1) at least. The size
 ///   that makes (1 + sweeps × nodes)/dt smallest is that of the next step; more sweeps are made if need be.
-/// - Degree: judged at the end of the first-order step already, before any sweep is paid for.
+/// - Beginning: where motions are smooth, the polynomial through the nodes of the last step tells those of this one
+///   tens to thousands of times more exactly than first-order steps, which saves these and one or two sweeps. What it
+///   makes of rounding and of what solvers leave is larger than that, so that near rest and after jumps steps begin
+///   afresh; what the next step does is decided by what both would cost, see next_step.
+/// - Degree: judged at the end of the first-order step already, before any sweep is paid for. The past continued has
+///   high degrees of its own, and a step that begins with it is judged at its end.
 ///
 /// @param order  sweeps are order − 1 at most
 /// @throws ConvergenceError naming the solve that failed
 /// Accuracy: see Evolution
-/// Source: sweeps as of deferred_correction; the control is of this project, step-size law of Hairer and Wanner 1996
+/// Source: sweeps as of deferred_correction; the past continued as starting values of implicit Runge–Kutta methods and
+/// the step-size law in Hairer and Wanner 1996; the control is of this project
 ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order, const StepGoal& goal);
 
 }  // namespace vehd

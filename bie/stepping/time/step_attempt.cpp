@@ -31,6 +31,7 @@ void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& ph
   ControlledSweeps sweeps = controlled_sweeps(physics, dt, order, goal);
   attempt.error_estimate = sweeps.excess * goal.tolerance;
   attempt.factor = sweeps.factor;
+  attempt.next_beginning = sweeps.next_beginning;
   attempt.too_coarse = std::move(sweeps.too_coarse);
   attempt.state = std::move(sweeps.state);
   attempt.passed = std::move(sweeps.passed);

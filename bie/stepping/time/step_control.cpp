@@ -30,12 +30,13 @@ StepAttempt controlled_step(const Model& model, const Discretisation& discretisa
   constexpr double kRounding = 1e-9;
   const bool adapts = goal != nullptr;
   StepAttempt result;
+  State from = state;
   double wanted = std::min(state.dt_next, control.largest);
   while (wanted >= control.smallest) {
     // A limit that is the wanted step up to rounding is taken exactly: the caller has an appointment there.
     const double dt = dt_limit <= wanted * (1.0 + kRounding) ? dt_limit : wanted;
     const StepAttempt former = std::move(result);
-    result = attempt_step(model, discretisation, state, at_start, dt, instruments, goal);
+    result = attempt_step(model, discretisation, from, at_start, dt, instruments, goal);
     result.add_work_of(former);
     if (result.accepted) {
       const double found = dt * result.factor;
@@ -51,6 +52,7 @@ StepAttempt controlled_step(const Model& model, const Discretisation& discretisa
     }
     ++result.rejected;
     if (!result.too_coarse.empty()) return result;
+    from.past.is_continued = result.next_beginning == Beginning::with_past ? 1 : 0;
     wanted = adapts ? dt * std::min(result.factor, thresholds::most_after_rejection) : 0.5 * dt;
   }
   return result;

@@ -71,6 +71,8 @@ struct ImplicitSolve {
 /// - projection: each solve is repeated for what it leaves until area elements, areas and volumes hold;
 /// - remap: the end of the step on nodes that keep the grid good.
 ///
+/// Beside them a step may begin with how the past goes on, for which nothing is solved, and leaves a past of its own.
+///
 /// L knows each membrane's bending and tension on itself, and the charging of all on all: what membranes do to each
 /// other in the flow is smooth and enters through F.
 ///
@@ -102,6 +104,17 @@ class StepOperations {
   /// Accuracy: first order in dt (tests/stepping/time/time_order_test.cpp)
   std::vector<NodeSolution> first_order_steps(const std::vector<FirstOrderStep>& steps);
   NodeSolution first_order_step(const FirstOrderStep& step) { return std::move(first_order_steps({step}).front()); }
+  /// How the past goes on: the polynomial through it and the start, at a time within twice as long. Nothing is solved
+  /// for, and no constraint holds but for what its error leaves. Only where `knows_past`.
+  /// Accuracy: of order one more than there are times in the past (tests/stepping/time/past_test.cpp)
+  [[nodiscard]] NodeSolution continued(double time) const;
+  /// Whether a step of this size can begin with the past continued.
+  [[nodiscard]] bool knows_past(double dt) const;
+  /// Makes the start and the nodes before the last the past of the state at the last one; collective. A rigid sphere
+  /// turns on the spot, which no polynomial follows as exactly as its own motion: with one there is no past.
+  /// @param nodes  the last one remapped
+  void remember(const std::vector<NodeSolution>& nodes, State& state) const;
+
   /// @param solves  of different sizes
   std::vector<NodeSolution> implicit_solves(const std::vector<ImplicitSolve>& solves);
   NodeSolution implicit_solve(const ImplicitSolve& solve) { return std::move(implicit_solves({solve}).front()); }

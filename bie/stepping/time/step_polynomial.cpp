@@ -1,7 +1,7 @@
 #include "bie/stepping/time/step_polynomial.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "bie/stepping/time/corrections.hpp"
@@ -10,20 +10,16 @@ namespace vehd {
 
 namespace {
 
-/// Weights at x of the values at the places: Lagrange's polynomials, times powers of x that are 1 at the place so that
-/// they vanish at x = 0.
-Vector weights_from_zero(const std::vector<double>& places, double x, StepPolynomial::Fit fit) {
-  const std::size_t first = fit == StepPolynomial::Fit::later_nodes ? 1 : 0;
-  const int power = fit == StepPolynomial::Fit::nodes_and_rate ? 2 : 1;
-  Vector values = Vector::Zero(static_cast<Index>(places.size()));
-  for (std::size_t i = first; i < places.size(); ++i) {
-    double value = std::pow(x / places[i], power);
-    for (std::size_t j = first; j < places.size(); ++j) {
-      if (j != i) value *= (x - places[j]) / (places[i] - places[j]);
-    }
-    values[static_cast<Index>(i)] = value;
-  }
-  return values;
+/// Weights at x of the corrections of all nodes.
+Vector weights_of(const std::vector<double>& nodes, double x, StepPolynomial::Fit fit) {
+  const Vector all = Eigen::Map<const Vector>(nodes.data(), std::ssize(nodes));
+  const Index first = fit == StepPolynomial::Fit::last_node                       ? all.size() - 1
+                      : fit == StepPolynomial::Fit::later_nodes && all.size() > 1 ? 1
+                                                                                  : 0;
+  Vector weights = Vector::Zero(all.size());
+  weights.tail(all.size() - first) =
+      weights_from_zero(all.tail(all.size() - first), x, fit == StepPolynomial::Fit::nodes_and_rate ? 2 : 1);
+  return weights;
 }
 
 }  // namespace
@@ -31,16 +27,22 @@ Vector weights_from_zero(const std::vector<double>& places, double x, StepPolyno
 StepPolynomial::StepPolynomial(StepOperations& physics, const TimeRule& rule, double dt, const Collocation& y)
     : physics_(physics), rule_(rule), y_(y), dt_(dt) {}
 
+std::vector<StepPolynomial::Fit> StepPolynomial::fits() const {
+  if (y_.beginning() == Beginning::afresh) return {Fit::later_nodes, Fit::nodes, Fit::nodes_and_rate};
+  return {Fit::last_node, Fit::later_nodes, Fit::nodes};
+}
+
 double StepPolynomial::error(double time) const {
   // Any shape near that of the time does: only the corrections differ.
-  NodeSolution shape = y_.first_order_node(y_.last());
+  NodeSolution shape = y_.initial_node(y_.last());
   shape.time = time;
+  const std::vector<Fit> all = fits();
   NodeSolution former = shape;
-  correct(former, Fit::later_nodes);
+  correct(former, all.front());
   Corrections moved, charged;
-  for (const Fit fit : {Fit::nodes, Fit::nodes_and_rate}) {
+  for (auto fit = all.begin() + 1; fit != all.end(); ++fit) {
     NodeSolution better = shape;
-    correct(better, fit);
+    correct(better, *fit);
     const VisibleDifference change = physics_.visible_difference(former, better);
     moved.add(change.shape);
     charged.add(change.potential);
@@ -55,18 +57,18 @@ double StepPolynomial::error() const {
 }
 
 NodeSolution StepPolynomial::at(double time) const {
-  NodeSolution result = physics_.first_order_step({time - physics_.start().time, NodeEnd::material});
-  correct(result, Fit::nodes_and_rate);
+  NodeSolution result = y_.initial(time);
+  correct(result, fits().back());
   return result;
 }
 
 /// Adds what the polynomial says of the corrections at the time of a solution.
 void StepPolynomial::correct(NodeSolution& solution, Fit fit) const {
-  const Vector weights = weights_from_zero(rule_.nodes, (solution.time - physics_.start().time) / dt_, fit);
+  const Vector weights = weights_of(rule_.nodes, (solution.time - physics_.start().time) / dt_, fit);
   for (std::size_t a = 0; a < solution.vesicles.size(); ++a) {
     SurfaceFields& fields = solution.vesicles[a].material;
     for (std::size_t m = 0; m <= y_.last(); ++m) {
-      const SurfaceFields& from = y_.first_order_node(m).vesicles[a].material;
+      const SurfaceFields& from = y_.initial_node(m).vesicles[a].material;
       const SurfaceFields& to = y_.node(m).vesicles[a].material;
       const double weight = weights[static_cast<Index>(m)];
       fields.position += weight * (to.position - from.position);

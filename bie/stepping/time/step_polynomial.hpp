@@ -6,17 +6,18 @@
 
 namespace vehd {
 
-/// y within a step, on the material points of its start: the first-order step to that time and a polynomial of what the
-/// corrections have changed. What is stiff and dies away within the step is in the former; a polynomial through the
-/// start would carry it on to the end.
+/// y within a step, on the material points of its start: what the step began with, at that time, and a polynomial of
+/// what the corrections have changed. What is stiff and dies away within the step is in first-order steps; a polynomial
+/// through the start would carry it on to the end.
 class StepPolynomial {
  public:
   /// @param y  with its last sweep made; must outlive the polynomial, as the physics
   StepPolynomial(StepOperations& physics, const TimeRule& rule, double dt, const Collocation& y);
 
-  /// What the polynomial is fitted to, each an order better than the one before: all nodes but the first; all; these
-  /// and the rate at the start, where the first-order step has the right one.
-  enum class Fit { later_nodes, nodes, nodes_and_rate };
+  /// What the polynomial is fitted to, each an order better than the one before: the last node; all but the first; all;
+  /// these and the rate at the start. The last only after first-order steps, which have that rate: what is wrong with
+  /// that of a past, rounding and what solvers leave, the others take away.
+  enum class Fit { last_node, later_nodes, nodes, nodes_and_rate };
 
   /// Estimated error of `at` at a time, of the shape or V_m: from how much each fit differs from the one before.
   [[nodiscard]] double error(double time) const;
@@ -30,6 +31,8 @@ class StepPolynomial {
 
  private:
   void correct(NodeSolution& solution, Fit fit) const;
+  /// Those that there are, the best one last.
+  [[nodiscard]] std::vector<Fit> fits() const;
 
   StepOperations& physics_;
   const TimeRule& rule_;

@@ -50,6 +50,18 @@ Vector integration_weights(const std::vector<double>& points, double c) {
   return weights_of_moments(points, integrals);
 }
 
+Vector weights_from_zero(const Vector& places, double x, int power) {
+  Vector weights(places.size());
+  for (Index i = 0; i < places.size(); ++i) {
+    double weight = std::pow(x / places[i], power);
+    for (Index j = 0; j < places.size(); ++j) {
+      if (j != i) weight *= (x - places[j]) / (places[i] - places[j]);
+    }
+    weights[i] = weight;
+  }
+  return weights;
+}
+
 double integration_error(const std::vector<double>& points, double c, int power) {
   const Vector weights = integration_weights(points, c);
   double lacks = power_of(c, power + 1) / (power + 1.0);

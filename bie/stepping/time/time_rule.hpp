@@ -30,7 +30,13 @@ std::vector<double> points_of(const TimeRule& rule);
 /// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
 Vector integration_weights(const std::vector<double>& points, double c);
 
-/// What such an integral lacks of that of x^k/k!, the factor of f^(k) in its error.
+/// Weights at x of values at these places for the polynomial through them that is zero at x = 0: Lagrange's, times
+/// x/place to this power, with which it vanishes there like x^power, [number of places].
+/// @param places  not zero
+/// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
+Vector weights_from_zero(const Vector& places, double x, int power = 1);
+
+/// What an integral with integration_weights lacks of that of x^k/k!, the factor of f^(k) in its error.
 double integration_error(const std::vector<double>& points, double c, int power);
 
 /// |Error| at the end of a step of y' = φ' − r (y − φ)/Δt from y = φ, over Δt^(M+1) φ^(M+1), with M nodes: where a

@@ -38,6 +38,19 @@ BOOST_AUTO_TEST_CASE(weights_integrate_polynomials_through_all_points_to_any_tim
   }
 }
 
+BOOST_AUTO_TEST_CASE(weights_from_zero_continue_polynomials_that_vanish_there) {
+  const Vector places{{-1.0, -0.8, -0.3}};
+  for (const int power : {1, 2}) {
+    for (const double x : {-0.5, 0.4, 1.0, 2.0}) {
+      const Vector weights = weights_from_zero(places, x, power);
+      for (int degree = power; degree < power + 3; ++degree) {
+        const double value = weights.dot(Vector(places.array().pow(degree)));
+        BOOST_TEST(std::abs(value - std::pow(x, degree)) < 1e-12, x << " " << degree);
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_an_integral_lacks_is_known_of_the_first_powers_it_is_not_exact_for) {
   const std::vector<double> points{0.0, 0.3, 0.55, 1.0};
   for (const double c : {0.2, 0.7, 1.0}) {
