@@ -114,8 +114,8 @@ constexpr double largest_change_of_potential = 8.0;
 /// Corrections that seem to contract more than this are not believed. Where a motion relaxes about once within a step
 /// its correction passes through zero in one sweep, and the next ones contract by 0.1 to 0.3.
 constexpr double best_contraction = 0.1;
-/// Where tension or charge would have to contract more than this, and one sweep alone tells of them, they are solved
-/// for once more before a step is accepted. Measured.
+/// The same of a step that begins with the past. And where tension or charge would have to contract more than this, and
+/// one sweep alone tells of them, they are solved for once more before a step is accepted. Measured.
 constexpr double cautious_contraction = 0.2;
 /// Share of what is allowed at a moment that a sweep has to change to tell how tension and charge magnify it.
 constexpr double telling_share = 0.2;

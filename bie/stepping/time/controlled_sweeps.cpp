@@ -162,7 +162,9 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     return result;
   }
   const double allowed = thresholds::step_share * goal.tolerance;
-  SweepErrors errors(lasting_weights(goal, dt), thresholds::telling_share * allowed);
+  // First-order steps leave what the first sweep contracts best, the past what it does not.
+  const double least = continues ? thresholds::cautious_contraction : thresholds::best_contraction;
+  SweepErrors errors(lasting_weights(goal, dt), thresholds::telling_share * allowed, least);
   double of_rule = 0.0;
   std::vector<double> found;
   NextStep next;

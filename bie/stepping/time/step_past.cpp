@@ -38,19 +38,20 @@ NodeSolution StepOperations::continued(double time) const {
   NodeSolution result{time, std::vector<Motion>(start_.vesicles.size())};
   const Exchange& exchange = discretisation_.symmetry().exchange;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
-    Motion& motion = result.vesicles[a];
-    if (exchange.is_image(a)) {
-      motion.material = image_of(exchange.image(a), result.vesicles[exchange.original(a)].material);
-    } else {
-      SurfaceFields fields = start_.vesicles[a];
-      const Matrix& past = start_.vesicles[a].past;
-      const Index n_columns = past.cols() / weights.size();
-      for (Index j = 0; j < weights.size(); ++j) {
-        add_unknowns(past.middleCols(j * n_columns, n_columns), weights[j], fields);
-      }
-      if (model_.mobile) fields.tension = at_start_.fields.vesicles[a].tension;
-      motion.material = symmetric_part(discretisation_.vesicle(a).subspace(), std::move(fields));
+    if (exchange.is_image(a)) continue;
+    SurfaceFields fields = start_.vesicles[a];
+    const Matrix& past = start_.vesicles[a].past;
+    const Index n_columns = past.cols() / weights.size();
+    for (Index j = 0; j < weights.size(); ++j) {
+      add_unknowns(past.middleCols(j * n_columns, n_columns), weights[j], fields);
     }
+    if (model_.mobile) fields.tension = at_start_.fields.vesicles[a].tension;
+    result.vesicles[a].material = symmetric_part(discretisation_.vesicle(a).subspace(), std::move(fields));
+  }
+  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+    Motion& motion = result.vesicles[a];
+    if (exchange.is_image(a))
+      motion.material = image_of(exchange.image(a), result.vesicles[exchange.original(a)].material);
     motion.arrived = motion.material;
   }
   return result;

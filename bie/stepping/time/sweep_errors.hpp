@@ -15,7 +15,9 @@ inline double largest_of(const VisibleDifference& error) { return std::max(error
 /// What the sweeps so far have changed of all that counts, each as many times as it does.
 class SweepErrors {
  public:
-  SweepErrors(const VisibleDifference& weights, double telling) : weights_(weights), telling_(telling) {}
+  /// @param least  sweeps of shape and V_m are not believed to contract more than this
+  SweepErrors(const VisibleDifference& weights, double telling, double least)
+      : weights_(weights), telling_(telling), least_(least) {}
   /// Of the shape and V_m by a sweep.
   void add(const VisibleDifference& change) {
     shape_.add(weights_.shape * change.shape);
@@ -41,7 +43,7 @@ class SweepErrors {
   [[nodiscard]] bool all_known() const { return tension_.count() == shape_.count(); }
   /// Estimated error of shape and V_m after the last sweep.
   [[nodiscard]] double visible_error() const {
-    return std::max(shape_.error_after(shape_.count()), potential_.error_after(potential_.count()));
+    return std::max(error_of(shape_, shape_.count()), error_of(potential_, potential_.count()));
   }
   /// Of all after sweep j = 1, 2, …, whether it was made or not.
   /// @param least  sweeps whose changes of tension and charge are not known are not supposed to contract more than this
@@ -50,8 +52,7 @@ class SweepErrors {
     const auto supposed = [&](const Corrections& changes) {
       return changes.count() > 1 ? std::max(changes.contraction(), least) : least;
     };
-    const VisibleDifference visible{shape_.error_after(j) / weights_.shape,
-                                    potential_.error_after(j) / weights_.potential};
+    const VisibleDifference visible{error_of(shape_, j) / weights_.shape, error_of(potential_, j) / weights_.potential};
     return std::max({lasting_or_magnified(visible, telling_), tension_.error_after(j, supposed(tension_)),
                      charge_.error_after(j, supposed(charge_))});
   }
@@ -67,7 +68,9 @@ class SweepErrors {
     return std::max({hoped(visible), hoped(tension_), hoped(charge_)});
   }
   /// By the last sweep.
-  [[nodiscard]] VisibleDifference contraction() const { return {shape_.contraction(), potential_.contraction()}; }
+  [[nodiscard]] VisibleDifference contraction() const {
+    return {std::max(shape_.contraction(), least_), std::max(potential_.contraction(), least_)};
+  }
   /// How much larger an error of tension or charge may be than that of shape and V_m it comes from: as in the sweep
   /// that has changed them the most times as much. The last ones change what the step leaves.
   /// @param least  what a sweep has to change of shape or V_m, as often as it counts, to tell
@@ -82,8 +85,12 @@ class SweepErrors {
   }
 
  private:
+  [[nodiscard]] double error_of(const Corrections& changes, std::size_t j) const {
+    return changes.error_after(j, std::max(changes.contraction(), least_));
+  }
+
   VisibleDifference weights_;
-  double telling_;
+  double telling_, least_;
   Corrections shape_, potential_, tension_, charge_;
 };
 
