@@ -127,7 +127,7 @@ constexpr double hopeless = 5.0;
 /// The past is continued to a time at most this many times as far away as it began. Measured.
 constexpr double longest_continuation = 2.0;
 /// And only where steps that begin with it are expected to cost at most this share of others. Measured.
-constexpr double worthwhile_past = 0.8;
+constexpr double worthwhile_past = 0.9;
 /// The first step covers this share of the time in which the start changes by the tolerance's root.
 constexpr double first_step_share = 0.5;
 
