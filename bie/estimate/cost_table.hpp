@@ -31,8 +31,9 @@ struct CostBudget {
 /// as many, with k = ln r/ln(N/M), one more for each order more; of one alone a step with an estimated error e may be
 /// (T/e)^(1/k) times as long, k being the time order. The spectrum at each step says which degree T needs, with what
 /// the run itself took beyond its spectrum, and the first step with T which one it begins with; each step costs what
-/// the cost model says at that degree. Degree and time order of the scene are left to each tolerance. Accuracy: degrees
-/// and steps of the same budget of steps are the same on every machine (tests/estimate/cost_table_test.cpp)
+/// the cost model says at that degree. Degree and time order of the scene are left to each tolerance.
+/// Accuracy: degrees and steps of the same budget of steps are the same on every machine
+/// (tests/estimate/cost_table_test.cpp)
 std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
                                    const CostBudget& budget = {});
 
