@@ -80,16 +80,16 @@ Pace pace_of(const Knowledge& known, const Stretch& stretch, double tolerance) {
   const double of_sweep = (evaluations_per_step(time_order) - 1.0) / (time_order - 1.0);
   Pace pace{stretch.steps_for_one, stretch.evaluations * more_evaluations(time_order, sampled_order)};
   const double order = std::clamp(1.0 + (pace.evaluations - 1.0) / of_sweep, 1.0, static_cast<double>(time_order));
-  const double of_past = stretch.begins_with_past ? of_sweep : 0.0;
+  const double of_past = stretch.share_with_past * of_sweep;
   pace.steps_for_one *= std::pow(known.sampled / tolerance, 1.0 / (order + of_past));
   pace.evaluations *= tries_per_step(known.trial);
   return pace;
 }
 
-/// The one whose place is nearest.
+/// The one whose place is nearest. How a scene starts tells of nothing else.
 const Stretch* nearest(const std::vector<Stretch>& stretches, std::size_t step) {
   const auto away = [step](const Stretch& stretch) {
-    return stretch.step > step ? stretch.step - step : step - stretch.step;
+    return std::pair(stretch.step == 0 && step > 0, std::max(stretch.step, step) - std::min(stretch.step, step));
   };
   const auto found = std::ranges::min_element(stretches, {}, away);
   return found == stretches.end() ? nullptr : &*found;
@@ -127,6 +127,14 @@ void Knowledge::learn_start(double tolerance, int order) {
 void Knowledge::learn(double tolerance, std::vector<Stretch> of_trial) {
   sampled = tolerance;
   stretches = std::move(of_trial);
+  double seconds = 0.0, expected = 0.0;
+  for (const Stretch& stretch : stretches) {
+    for (const TimedEvaluations& timed : stretch.timed) {
+      seconds += timed.seconds;
+      expected += timed.count * model.seconds_per_shape(timed.order);
+    }
+  }
+  if (expected > 0.0) ratio = seconds / expected;
 }
 
 std::vector<int> predicted_orders(const Knowledge& known, std::size_t index) {

@@ -1,7 +1,9 @@
 #include "bie/estimate/stretch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
@@ -53,12 +55,13 @@ State filled(const TwoTolerances& two, State state, int order) {
   evolution.step(two.events);
   State result = evolution.state();
   raise_to(order, result);
+  result.dt_next *= two.expected_factor();
   return result;
 }
 
-/// Size of the step of the trial run so much time after one, which is taken again.
+/// Size of the step of the trial run so much time after the beginning of one.
 double loose_size(const TrialRun& trial, std::size_t step, double after) {
-  std::size_t i = std::min(step + 1, trial.steps.size() - 1);
+  std::size_t i = std::min(step, trial.steps.size() - 1);
   for (; i + 1 < trial.steps.size() && after > trial.steps[i].dt; ++i) after -= trial.steps[i].dt;
   return trial.steps[i].dt;
 }
@@ -91,35 +94,89 @@ std::size_t place_in_part(const TrialRun& trial, std::size_t part, std::size_t c
   return middle;
 }
 
-/// Takes the tight steps, and compares the size of the last one and of the next with those of the loose ones at the
-/// same times.
-/// @returns whether there was time for one
-bool take_tight_steps(const TwoTolerances& two, State state, const TrialRun& trial, Stretch& stretch) {
-  if (two.is_over(state)) return false;
-  const double begin = state.time;
-  state.dt_next *= two.expected_factor();
-  Instruments instruments;
-  Evolution evolution(setup_of(two.tight), std::move(state), instruments);
-  evolution.evaluate_start();
-  const int first_order = highest_order_of(evolution.state());
-  int highest = first_order;
-  double last_dt = 0.0;
-  for (int i = 1; i < steps_of_stretch && !two.is_over(evolution.state()); ++i) {
-    stretch.begins_with_past = evolution.state().past.is_continued == 1;
-    const StepAttempt step = evolution.step(two.events);
-    const auto moments = static_cast<int>(evolution.passed().size());
-    const int order = highest_order_of(evolution.state());
-    highest = std::max(highest, order);
-    // Of the last one: the size of the first was a guess.
-    last_dt = step.dt;
-    stretch.evaluations = static_cast<double>(step.evaluations - moments) / (1 + step.rejected);
+/// One with the tight tolerance.
+struct TightStep {
+  double begin = 0.0;  // after that of the stretch
+  double dt = 0.0;
+  int order = 0;
+  int tries = 1;
+  int evaluations = 0;
+  int moments = 0;
+  bool begins_with_past = false;
+  double seconds = 0.0;
+};
+
+std::vector<TightStep> take_tight_steps(Evolution& evolution, const EventTimes& events) {
+  std::vector<TightStep> steps;
+  const double begin = evolution.state().time;
+  while (std::ssize(steps) + 1 < steps_of_stretch && evolution.state().time < events.end_time) {
+    TightStep taken{.begin = evolution.state().time - begin,
+                    .begins_with_past = evolution.state().past.is_continued == 1};
+    const auto start = std::chrono::steady_clock::now();
+    const StepAttempt step = evolution.step(events);
+    taken.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    taken.dt = step.dt;
+    taken.order = highest_order_of(evolution.state());
+    taken.tries += step.rejected;
+    taken.evaluations = step.evaluations;
+    taken.moments = static_cast<int>(evolution.passed().size());
+    steps.push_back(taken);
   }
-  stretch.more_degrees = highest - first_order;
-  const double next_dt = evolution.state().dt_next, passed = evolution.state().time - begin;
-  const double loose =
-      loose_size(trial, stretch.step, passed - 0.5 * last_dt) + loose_size(trial, stretch.step, passed + 0.5 * next_dt);
-  stretch.steps_for_one = loose / (last_dt + next_dt);
-  return true;
+  return steps;
+}
+
+/// Compares the sizes of the tight steps and of the next one with those of the loose ones at the same times.
+/// @param steps    one at least
+/// @param next_dt  that they tell
+/// @param first    step of the trial run in whose place they begin
+Stretch compared(const std::vector<TightStep>& steps, double next_dt, const TrialRun& trial, std::size_t first) {
+  Stretch stretch{.step = first};
+  double tight = next_dt;
+  double loose = loose_size(trial, first, steps.back().begin + steps.back().dt + 0.5 * next_dt);
+  double evaluations = 0.0, tries = 0.0, with_past = 0.0;
+  // The size of the first one was a guess, and it had nothing recycled.
+  const std::size_t told = std::min<std::size_t>(1, steps.size() - 1);
+  for (std::size_t i = told; i < steps.size(); ++i) {
+    const TightStep& step = steps[i];
+    tight += step.dt;
+    loose += loose_size(trial, first, step.begin + 0.5 * step.dt);
+    evaluations += step.evaluations - step.moments;
+    tries += step.tries;
+    with_past += step.begins_with_past ? 1.0 : 0.0;
+    stretch.timed.push_back({step.order, step.evaluations, step.seconds});
+  }
+  stretch.steps_for_one = loose / tight;
+  stretch.evaluations = evaluations / tries;
+  stretch.share_with_past = with_past / static_cast<double>(steps.size() - told);
+  return stretch;
+}
+
+/// Tight steps in place of that one of the trial run and of those after it; nothing where there is no time for one.
+/// @param evolution  at its start
+/// @param order      degree that is expected there
+std::optional<Stretch> stretch_at(std::size_t step, Evolution& evolution, const TwoTolerances& two,
+                                  const TrialRun& trial, int order) {
+  if (step >= trial.steps.size() || two.is_over(evolution.state())) return std::nullopt;
+  evolution.evaluate_start();
+  order = std::max(order, highest_order_of(evolution.state()));
+  const std::vector<TightStep> steps = take_tight_steps(evolution, two.events);
+  Stretch stretch = compared(steps, evolution.state().dt_next, trial, step);
+  stretch.more_degrees = std::max(0, std::ranges::max(steps, {}, &TightStep::order).order - order);
+  return stretch;
+}
+
+/// The start of a scene has nothing that is to be filled.
+std::optional<Stretch> stretch_at_start(const TwoTolerances& two, const TrialRun& trial, int order) {
+  Instruments instruments;
+  Evolution evolution(setup_of(two.tight), two.tight.start, instruments);
+  return stretch_at(0, evolution, two, trial, order);
+}
+
+std::optional<Stretch> stretch_from(const TrialState& from, const TwoTolerances& two, const TrialRun& trial,
+                                    int order) {
+  Instruments instruments;
+  Evolution evolution(setup_of(two.tight), filled(two, from.state, order), instruments);
+  return stretch_at(from.step + 1, evolution, two, trial, order);
 }
 
 }  // namespace
@@ -128,27 +185,23 @@ std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, d
                                     const std::vector<int>& orders, const std::function<bool()>& in_budget) {
   const TwoTolerances two(scene, trial.tolerance, tolerance);
   std::vector<Stretch> stretches;
-  count = std::min(count, trial.states.size());
-  // Every other one first: where time runs out, these tell of the whole run.
-  std::vector<std::size_t> parts;
-  for (const std::size_t first : {0, 1}) {
-    for (std::size_t k = first; k < count; k += 2) parts.push_back(k);
-  }
-  for (const std::size_t k : parts) {
-    if (!in_budget()) break;
-    const TrialState& from = trial.states[place_in_part(trial, k, count)];
-    if (from.step >= trial.steps.size()) continue;
-    Stretch stretch{.step = from.step};
+  const auto add = [&](const auto& taken) {
+    if (!in_budget()) return;
     try {
-      if (!take_tight_steps(two, filled(two, from.state, orders[from.step]), trial, stretch)) {
-        continue;
-      }
+      if (std::optional<Stretch> stretch = taken()) stretches.push_back(std::move(*stretch));
     } catch (const ConvergenceError&) {
       // A step that fails says nothing of others.
-      continue;
     }
-    stretches.push_back(std::move(stretch));
-  }
+  };
+  count = std::min(count, trial.states.size());
+  const auto add_part = [&](std::size_t k) {
+    const TrialState& from = trial.states[place_in_part(trial, k, count)];
+    if (from.step < trial.steps.size()) add([&] { return stretch_from(from, two, trial, orders[from.step]); });
+  };
+  // Every other one first: where time runs out, these tell of the whole run.
+  for (std::size_t k = 0; k < count; k += 2) add_part(k);
+  add([&] { return stretch_at_start(two, trial, orders.front()); });
+  for (std::size_t k = 1; k < count; k += 2) add_part(k);
   std::ranges::sort(stretches, {}, &Stretch::step);
   return stretches;
 }

@@ -9,22 +9,31 @@
 
 namespace vehd {
 
-/// What steps with a tighter tolerance are like at one place of a trial run.
-struct Stretch {
-  std::size_t step = 0;           ///< of the trial run that leads from there
-  double steps_for_one = 1.0;     ///< that take the place of one of the trial run there
-  double evaluations = 0.0;       ///< of new shapes by one try at one of them, without snapshots
-  bool begins_with_past = false;  ///< that one, see Past
-  int more_degrees = 0;           ///< than those with which it began, at most
+/// Seconds of evaluations of new shapes, all that a step does beside them included.
+struct TimedEvaluations {
+  int order = 0;
+  int count = 0;
+  double seconds = 0.0;
 };
 
-/// Steps of a stretch: one with the tolerance of the trial run, and three with the tighter one.
-constexpr int steps_of_stretch = 4;
+/// What steps with a tighter tolerance are like at one place of a trial run.
+struct Stretch {
+  std::size_t step = 0;                   ///< of the trial run in whose place they begin; 0: at the scene's own start
+  double steps_for_one = 1.0;             ///< that take the place of one of the trial run there
+  double evaluations = 0.0;               ///< of new shapes by one try at one of them, without snapshots
+  double share_with_past = 0.0;           ///< of them that begin with it, see Past
+  int more_degrees = 0;                   ///< than those with which it began, at most
+  std::vector<TimedEvaluations> timed{};  ///< of those that tell
+};
+
+/// Steps of a stretch: one with the tolerance of the trial run, and four with the tighter one.
+constexpr int steps_of_stretch = 5;
 
 /// From so many states of a trial run, as many steps apart as may be: a few steps with a tighter tolerance. The degrees
 /// that this needs are empty at first, and what belongs there grows within less than a step of the trial run: one of
-/// those comes first, with the higher degree. Then two tighter steps are taken, and they say how large the next one
-/// will be.
+/// those comes first, with the higher degree. The size of the first tighter step is a guess, the others and the size of
+/// the next one tell. Where there is time for more than half of them, one from the start of the scene comes beside
+/// them: motions that begin with it take steps that nothing else tells.
 /// @param orders  degrees with which to begin, of each step of the trial run
 /// @param in_budget  whether there is time for one more
 /// @returns       those that could be taken, by their step

@@ -42,13 +42,11 @@ State adapted(State state, const Scene& before, const Scene& scene) {
   for (VesicleState& vesicle : state.vesicles) {
     const int order = order_of_state(scene, vesicle);
     vesicle = resized(std::move(vesicle), order);
-    vesicle.past = {};
     if (before.numerics.symmetry != scene.numerics.symmetry) vesicle.recycled = {};
   }
-  state.past = {};
   // Steps chosen by a tolerance find their first size themselves.
   state.dt_next = scene.numerics.tolerance ? 0.0 : *scene.numerics.dt;
-  return state;
+  return without_past(std::move(state));
 }
 
 }  // namespace

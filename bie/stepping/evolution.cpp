@@ -187,10 +187,7 @@ void Evolution::arrive(State state) {
   if (before) tell_crossings(state, state.time, *before);
   discretisation_ = std::move(discretisation);
   // No polynomial goes on through a jump.
-  if (before) {
-    state.past = {};
-    for (VesicleState& vesicle : state.vesicles) vesicle.past = {};
-  }
+  if (before) state = without_past(std::move(state));
   replace(std::move(state), std::move(evaluation));
   gap_ = gap;
   before_jump_ = std::move(before);

@@ -87,6 +87,8 @@ constexpr double step_share = 0.5;
 /// Where errors of a shape are remembered for more steps, so many of those remembered count in full, as they add up
 /// with the same sign: a part of them dies away. Measured.
 constexpr double remembered_share = 0.6;
+/// The same where steps begin with the past: what they leave turns with the motion, and most of it dies away. Measured.
+constexpr double remembered_share_of_past = 0.2;
 /// And no more steps than this, the last one among them, are supposed to be remembered. Measured.
 constexpr double most_remembered = 6.0;
 /// What steps leave of a compressed membrane is expected to grow by this at most until the run ends: so much less is

@@ -43,6 +43,7 @@ struct AfterTrial {
     known.learn_start(tolerances[index], vehd::starting_order(scene, tolerances[index]));
     known.learn(tolerances[index], vehd::take_stretches(scene, known.trial, tolerances[index], count,
                                                         vehd::predicted_orders(known, index), [] { return true; }));
+    known.ratio = 1.0;
   }
 };
 

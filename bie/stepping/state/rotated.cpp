@@ -43,10 +43,8 @@ State rotated(const Matrix3& rotation, State state) {
     if (vesicle.crossing) vesicle.crossing->place = rotation * vesicle.crossing->place;
     // In the coefficients of other axes, with another symmetry: solves there learn anew.
     vesicle.recycled = {};
-    vesicle.past = {};
   }
-  state.past = {};
-  return state;
+  return without_past(std::move(state));
 }
 
 Fields rotated(const Matrix3& rotation, Fields fields) {

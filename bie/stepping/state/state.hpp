@@ -38,4 +38,11 @@ struct State {
   Past past{};
 };
 
+/// The same without what it knows of the step before: the next one begins afresh.
+inline State without_past(State state) {
+  state.past = {};
+  for (VesicleState& vesicle : state.vesicles) vesicle.past = {};
+  return state;
+}
+
 }  // namespace vehd

@@ -16,9 +16,11 @@ namespace vehd {
 namespace {
 
 /// How many times what a step leaves of shape and V_m counts.
-VisibleDifference lasting_weights(const StepGoal& goal, double dt) {
+VisibleDifference lasting_weights(const StepGoal& goal, double dt, Beginning beginning) {
   const double remembered = std::min(1.0 + goal.memory / dt, thresholds::most_remembered);
-  const double of_shape = std::max(goal.growth, thresholds::remembered_share * remembered);
+  const double share =
+      beginning == Beginning::with_past ? thresholds::remembered_share_of_past : thresholds::remembered_share;
+  const double of_shape = std::max(goal.growth, share * remembered);
   return {std::min(goal.most_weight, of_shape), std::min(goal.most_weight, goal.growth)};
 }
 
@@ -135,14 +137,19 @@ bool look_within(StepOperations& physics, const TimeRule& rule, double dt, const
 
 /// What became of the sweeps says what the next step is to be.
 /// @param found  error after each sweep as far as it was made, as estimated then: a step ends by what it knows
-NextStep next_step(const StepOperations& physics, const Collocation& y, const NodeSolution& end,
+NextStep next_step(const StepOperations& physics, const Collocation& y, const NodeSolution& end, const StepGoal& goal,
                    const SweepErrors& errors, const std::vector<double>& found, double allowed, int order,
                    bool accepted) {
-  StepErrors result{allowed, found, errors.lasting(y.error_of_explicit_step(end))};
-  for (int j = static_cast<int>(std::ssize(found)) + 1; j < order; ++j) result.after.push_back(errors.error_after(j));
   const double dt = end.time - physics.start().time;
-  if (physics.knows_past(dt)) {
-    result.of_past = errors.lasting(physics.visible_difference(physics.continued(end.time), end));
+  const auto counted = [&](const VisibleDifference& error, Beginning beginning) {
+    return weighted(lasting_weights(goal, dt, beginning), error);
+  };
+  StepErrors result{allowed, found, counted(y.error_of_explicit_step(end), Beginning::afresh)};
+  for (int j = static_cast<int>(std::ssize(found)) + 1; j < order; ++j) result.after.push_back(errors.error_after(j));
+  if (y.beginning() == Beginning::with_past) {
+    result.of_past = counted(physics.visible_difference(y.initial_node(y.last()), end), Beginning::with_past);
+  } else if (physics.knows_past(dt)) {
+    result.of_past = counted(physics.visible_difference(physics.continued(end.time), end), Beginning::with_past);
   }
   const int n_nodes = static_cast<int>(y.last()) + 1;
   return next_step(result, physics.start().past, dt, n_nodes, y.beginning(), accepted);
@@ -164,7 +171,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   const double allowed = thresholds::step_share * goal.tolerance;
   // First-order steps leave what the first sweep contracts best, the past what it does not.
   const double least = continues ? thresholds::cautious_contraction : thresholds::best_contraction;
-  SweepErrors errors(lasting_weights(goal, dt), thresholds::telling_share * allowed, least);
+  SweepErrors errors(lasting_weights(goal, dt, y.beginning()), thresholds::telling_share * allowed, least);
   double of_rule = 0.0;
   std::vector<double> found;
   NextStep next;
@@ -196,7 +203,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     if (enough || left == 0 || (known && errors.hoped_error_after(order - 1) > thresholds::hopeless * allowed) ||
         (known && of_rule > allowed)) {
       result.excess = error / allowed;
-      next = next_step(physics, y, end, errors, found, allowed, order, enough);
+      next = next_step(physics, y, end, goal, errors, found, allowed, order, enough);
       result.factor = std::min(next.factor, size_factor(of_rule, allowed, 2 * static_cast<int>(rule.nodes.size())));
       result.next_beginning = next.beginning;
       if (!enough) return result;

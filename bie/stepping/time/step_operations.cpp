@@ -245,15 +245,13 @@ void StepOperations::forget_decayed(double time, std::size_t a, Vector& potentia
 }
 
 State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const {
-  State state = start_;
+  State state = without_past(start_);
   state.time = node.time;
-  state.past = {};
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     VesicleState& vesicle = state.vesicles[a];
     static_cast<SurfaceFields&>(vesicle) =
         symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].*fields);
     vesicle.recycled = at_start_.vesicles[a].recycled;
-    vesicle.past = {};
   }
   return with_images(discretisation_.symmetry().exchange, std::move(state));
 }

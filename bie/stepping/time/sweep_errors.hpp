@@ -12,6 +12,11 @@ namespace vehd {
 /// Of shape and V_m.
 inline double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
 
+/// The larger one of shape and V_m, each as many times as it counts.
+inline double weighted(const VisibleDifference& weights, const VisibleDifference& error) {
+  return std::max(weights.shape * error.shape, weights.potential * error.potential);
+}
+
 /// What the sweeps so far have changed of all that counts, each as many times as it does.
 class SweepErrors {
  public:
@@ -32,11 +37,7 @@ class SweepErrors {
   /// charge.
   /// @param least  see magnification
   [[nodiscard]] double lasting_or_magnified(const VisibleDifference& error, double least) const {
-    return std::max(lasting(error), magnification(least) * largest_of(error));
-  }
-  /// Of shape and V_m, the larger one, each as many times as it counts.
-  [[nodiscard]] double lasting(const VisibleDifference& error) const {
-    return std::max(weights_.shape * error.shape, weights_.potential * error.potential);
+    return std::max(weighted(weights_, error), magnification(least) * largest_of(error));
   }
   [[nodiscard]] int sweeps() const { return static_cast<int>(shape_.count()); }
   /// Whether tension and charge are known after the last sweep as well.
