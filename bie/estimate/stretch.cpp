@@ -53,7 +53,8 @@ State filled(const TwoTolerances& two, State state, int order) {
   Evolution evolution(setup, std::move(state), instruments);
   evolution.evaluate_start();
   evolution.step(two.events);
-  State result = evolution.state();
+  // What it remembers is as wrong as its tolerance allows.
+  State result = without_past(evolution.state());
   raise_to(order, result);
   result.dt_next *= two.expected_factor();
   return result;
@@ -134,8 +135,8 @@ Stretch compared(const std::vector<TightStep>& steps, double next_dt, const Tria
   double tight = next_dt;
   double loose = loose_size(trial, first, steps.back().begin + steps.back().dt + 0.5 * next_dt);
   double evaluations = 0.0, tries = 0.0, with_past = 0.0;
-  // The size of the first one was a guess, and it had nothing recycled.
-  const std::size_t told = std::min<std::size_t>(1, steps.size() - 1);
+  // The size of the first one was a guess, and it had nothing recycled and no past; the second one follows from it.
+  const std::size_t told = std::min<std::size_t>(2, steps.size() - 1);
   for (std::size_t i = told; i < steps.size(); ++i) {
     const TightStep& step = steps[i];
     tight += step.dt;

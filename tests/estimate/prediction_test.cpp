@@ -75,4 +75,14 @@ BOOST_AUTO_TEST_CASE(steps_and_work_are_within_a_factor_of_one_and_a_half) {
   }
 }
 
+// Steps with the tighter tolerance are what is predicted: their seconds count, not those of the looser trial run.
+BOOST_AUTO_TEST_CASE(seconds_are_those_of_the_stretches) {
+  AfterTrial after("relaxation", "1.0");
+  vehd::Knowledge& known = after.known;
+  known.learn(1e-4, {{.step = 0, .timed = {{8, 3, 2.0 * 3 * std::pow(8, 3)}, {16, 5, 4.0 * 5 * std::pow(16, 3)}}}});
+  const double work = 3 * std::pow(8, 3) + 5 * std::pow(16, 3);
+  const double seconds = 2.0 * 3 * std::pow(8, 3) + 4.0 * 5 * std::pow(16, 3);
+  BOOST_TEST(known.ratio == seconds / work, boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
