@@ -1,12 +1,13 @@
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <optional>
+#include <vector>
 
 #include "bie/runs/run_loop.hpp"
 #include "bie/scene/reader.hpp"
 #include "tests/support/files.hpp"
 
-BOOST_AUTO_TEST_SUITE(checkpoint_lag)
+BOOST_AUTO_TEST_SUITE(going_on)
 
 namespace {
 
@@ -14,6 +15,16 @@ vehd::Scene relaxing() {
   return vehd::parse_scene(
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\n"
       "[numerics]\ndegree = 8\ndt = 0.05\nend_time = 0.4\n[output]\nevery = 0.1\n",
+      "scene.toml", ".");
+}
+
+/// A field that is switched on and off again, with steps that begin with the past before both.
+vehd::Scene switched() {
+  return vehd::parse_scene(
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\ncapacitance = 1.0\n"
+      "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 0.5\nconductivity_out = 1.0\n"
+      "[electric.waveform]\nkind = \"pulse\"\nstart = 0.6\nduration = 0.4\n"
+      "[numerics]\ntolerance = 1e-3\nend_time = 1.4\n[output]\nevery = 0.5\n",
       "scene.toml", ".");
 }
 
@@ -58,6 +69,44 @@ BOOST_AUTO_TEST_CASE(steps_behind_the_checkpoint_are_made_again) {
   BOOST_TEST(file_text(killed.paths.history()) == file_text(whole.paths.history()));
   BOOST_TEST(killed.checkpoint().n_snapshots == 5);
   BOOST_TEST(killed.checkpoint().snapshots_checksum == whole.checkpoint().snapshots_checksum);
+}
+
+// Just after a jump a checkpoint holds a state without a past.
+BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit_from_each_of_its_steps) {
+  const vehd::Scene scene = switched();
+  const Directory whole;
+  const std::optional<vehd::Checkpoint> none;
+  std::vector<vehd::State> states;
+  {
+    vehd::RecordedRun run({scene, whole.paths, none});
+    run.start();
+    while (run.simulation().evolution().state().time < scene.numerics.end_time) {
+      run.step();
+      states.push_back(run.simulation().evolution().state());
+    }
+    run.end({.completed = true, .reason = {}});
+  }
+  int n_jumps = 0, n_with_past = 0;
+  for (std::size_t n = 1; n < states.size(); ++n) {
+    const vehd::State& state = states[n - 1];
+    const bool jumps = state.time == 0.6 || state.time == 1.0;
+    n_jumps += jumps ? 1 : 0;
+    n_with_past += state.past.times.size() > 0 ? 1 : 0;
+    BOOST_TEST((jumps && state.past.times.size() > 0) == false);
+    const Directory stopped;
+    {
+      vehd::RecordedRun run({scene, stopped.paths, none});
+      go_on(run, static_cast<int>(n));
+      run.end({.completed = false, .reason = "a signal"});
+    }
+    const std::optional<vehd::Checkpoint> left = stopped.checkpoint();
+    vehd::RecordedRun run({scene, stopped.paths, left});
+    go_on(run, static_cast<int>(states.size() - n));
+    run.end({.completed = true, .reason = {}});
+    BOOST_TEST((file_text(stopped.paths.history()) == file_text(whole.paths.history())), "stopped after step " << n);
+  }
+  BOOST_TEST(n_jumps == 2);
+  BOOST_TEST(n_with_past > 0);
 }
 
 BOOST_AUTO_TEST_CASE(the_end_of_a_session_brings_the_checkpoint_up_to_date) {
