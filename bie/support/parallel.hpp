@@ -24,6 +24,40 @@ void for_each_index(Index count, bool worthwhile, const Body& body) {
   for (Index i = 0; i < count; ++i) body(i);
 }
 
+/// What calls on several threads throw.
+class Exceptions {
+ public:
+  explicit Exceptions(Index count) : of_each_(static_cast<std::size_t>(count)) {}
+  /// Calls body, as number i.
+  template <typename Body>
+  void keep(Index i, const Body& body) {
+    try {
+      body();
+    } catch (...) {
+      of_each_[static_cast<std::size_t>(i)] = std::current_exception();
+    }
+  }
+  /// Throws what the first of them threw, if any has.
+  void rethrow_first() const {
+    for (const std::exception_ptr& exception : of_each_) {
+      if (exception) std::rethrow_exception(exception);
+    }
+  }
+
+ private:
+  std::vector<std::exception_ptr> of_each_;
+};
+
+/// Calls body(of_each) with instruments of their own for so many tasks that it does beside each other.
+template <typename Body>
+void count_side_by_side(Index count, Instruments& instruments, const Body& body) {
+  std::deque<Instruments> of_each(static_cast<std::size_t>(count));
+  const auto start = std::chrono::steady_clock::now();
+  body(of_each);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  instruments.take_side_by_side(of_each, elapsed.count());
+}
+
 /// Are there so many members of a group that threads share them? With fewer they share what is done for each.
 inline bool are_many(Index count) {
   constexpr Index kFew = 8;
@@ -38,18 +72,10 @@ void for_each_member(Index count, const Body& body) {
     for (Index i = 0; i < count; ++i) body(i);
     return;
   }
-  std::vector<std::exception_ptr> exceptions(static_cast<std::size_t>(count));
+  Exceptions exceptions(count);
 #pragma omp parallel for schedule(dynamic, 1)
-  for (Index i = 0; i < count; ++i) {
-    try {
-      body(i);
-    } catch (...) {
-      exceptions[static_cast<std::size_t>(i)] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& exception : exceptions) {
-    if (exception) std::rethrow_exception(exception);
-  }
+  for (Index i = 0; i < count; ++i) exceptions.keep(i, [&] { body(i); });
+  exceptions.rethrow_first();
 }
 
 /// The same for these members: body(member).
@@ -65,11 +91,9 @@ void for_each_member(Index count, Instruments& instruments, const Body& body) {
     for (Index i = 0; i < count; ++i) body(i, instruments);
     return;
   }
-  std::deque<Instruments> of_each(static_cast<std::size_t>(count));
-  const auto start = std::chrono::steady_clock::now();
-  for_each_member(count, [&](Index i) { body(i, of_each[static_cast<std::size_t>(i)]); });
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  instruments.take_side_by_side(of_each, elapsed.count());
+  count_side_by_side(count, instruments, [&](std::deque<Instruments>& of_each) {
+    for_each_member(count, [&](Index i) { body(i, of_each[static_cast<std::size_t>(i)]); });
+  });
 }
 
 /// The same for these members: body(member, instruments).

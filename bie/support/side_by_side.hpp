@@ -3,12 +3,10 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <deque>
-#include <exception>
-#include <vector>
 
 #include "bie/support/instruments.hpp"
+#include "bie/support/parallel.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -19,14 +17,8 @@ namespace vehd {
 /// any case.
 template <typename Body>
 void for_each_side_by_side(Index count, bool worthwhile, Instruments& instruments, const Body& body) {
-  std::vector<std::exception_ptr> exceptions(static_cast<std::size_t>(count));
-  const auto run = [&](Index i, Instruments& of_one) {
-    try {
-      body(i, of_one);
-    } catch (...) {
-      exceptions[static_cast<std::size_t>(i)] = std::current_exception();
-    }
-  };
+  Exceptions exceptions(count);
+  const auto run = [&](Index i, Instruments& of_one) { exceptions.keep(i, [&] { body(i, of_one); }); };
   const int at_once = worthwhile && omp_in_parallel() == 0 ? omp_get_max_threads() : 1;
   int n_now = 0;
   for (Index first = 0; first < count; first += n_now) {
@@ -35,16 +27,12 @@ void for_each_side_by_side(Index count, bool worthwhile, Instruments& instrument
       run(first, instruments);
       continue;
     }
-    std::deque<Instruments> of_each(static_cast<std::size_t>(n_now));
-    const auto start = std::chrono::steady_clock::now();
+    count_side_by_side(n_now, instruments, [&](std::deque<Instruments>& of_each) {
 #pragma omp parallel for schedule(static, 1) num_threads(n_now)
-    for (int i = 0; i < n_now; ++i) run(first + i, of_each[static_cast<std::size_t>(i)]);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    instruments.take_side_by_side(of_each, elapsed.count());
+      for (int i = 0; i < n_now; ++i) run(first + i, of_each[static_cast<std::size_t>(i)]);
+    });
   }
-  for (const std::exception_ptr& exception : exceptions) {
-    if (exception) std::rethrow_exception(exception);
-  }
+  exceptions.rethrow_first();
 }
 
 }  // namespace vehd
