@@ -135,8 +135,11 @@ Stretch compared(const std::vector<TightStep>& steps, double next_dt, const Tria
   double tight = next_dt;
   double loose = loose_size(trial, first, steps.back().begin + steps.back().dt + 0.5 * next_dt);
   double evaluations = 0.0, tries = 0.0, with_past = 0.0;
-  // The size of the first one was a guess, and it had nothing recycled and no past; the second one follows from it.
-  const std::size_t told = std::min<std::size_t>(2, steps.size() - 1);
+  // The first ones go on from a guess of a size, no past and nothing recycled, and see what the loose step has left die
+  // away. A scene's start has no loose step, and its motions are gone soon.
+  constexpr std::size_t kTelling = 2;
+  const std::size_t told =
+      first > 0 ? steps.size() - std::min(kTelling, steps.size()) : std::min<std::size_t>(1, steps.size() - 1);
   for (std::size_t i = told; i < steps.size(); ++i) {
     const TightStep& step = steps[i];
     tight += step.dt;

@@ -26,14 +26,15 @@ struct Stretch {
   std::vector<TimedEvaluations> timed{};  ///< of those that tell
 };
 
-/// Steps of a stretch: one with the tolerance of the trial run, and four with the tighter one.
-constexpr int steps_of_stretch = 5;
+/// Steps of a stretch: one with the tolerance of the trial run, and five with the tighter one.
+constexpr int steps_of_stretch = 6;
 
 /// From so many states of a trial run, as many steps apart as may be: a few steps with a tighter tolerance. The degrees
 /// that this needs are empty at first, and what belongs there grows within less than a step of the trial run: one of
-/// those comes first, with the higher degree. The size of the first tighter step is a guess and the second one follows
-/// from it; the last two and the size of the next one tell. Where there is time for more than half of the stretches,
-/// one from the start of the scene comes beside them: motions that begin with it take steps that nothing else tells.
+/// those comes first, with the higher degree. The size of the first tighter step is a guess, those after it follow from
+/// it while what the loose step has left dies away, and the last two and the size of the next one tell. Where there is
+/// time for more than half of the stretches, one from the start of the scene comes beside them: motions that begin with
+/// it take steps that nothing else tells.
 /// @param orders  degrees with which to begin, of each step of the trial run
 /// @param in_budget  whether there is time for one more
 /// @returns       those that could be taken, by their step
