@@ -162,9 +162,13 @@ void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft&
   if (!known.stretches.empty() && time_order_of(known.sampled) == highest_time_order) return;
   const std::size_t count = stretches_in_budget(known, index, left);
   if (count == 0) return;
-  std::vector<Stretch> stretches = take_stretches(scene, known.trial, tolerance, count, predicted_orders(known, index),
-                                                  [&left] { return left.any(); });
-  left.take(steps_of_stretch * count);
+  const auto begins = [&left] {
+    const bool any = left.any();
+    if (any) left.take(steps_of_stretch);
+    return any;
+  };
+  std::vector<Stretch> stretches =
+      take_stretches(scene, known.trial, tolerance, count, predicted_orders(known, index), begins);
   if (stretches.size() > 1) known.learn(tolerance, std::move(stretches));
 }
 

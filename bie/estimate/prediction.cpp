@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"

@@ -186,11 +186,11 @@ std::optional<Stretch> stretch_from(const TrialState& from, const TwoTolerances&
 }  // namespace
 
 std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, double tolerance, std::size_t count,
-                                    const std::vector<int>& orders, const std::function<bool()>& in_budget) {
+                                    const std::vector<int>& orders, const std::function<bool()>& begins) {
   const TwoTolerances two(scene, trial.tolerance, tolerance);
   std::vector<Stretch> stretches;
   const auto add = [&](const auto& taken) {
-    if (!in_budget()) return;
+    if (!begins()) return;
     try {
       if (std::optional<Stretch> stretch = taken()) stretches.push_back(std::move(*stretch));
     } catch (const ConvergenceError&) {

@@ -36,10 +36,10 @@ constexpr int steps_of_stretch = 6;
 /// time for more than half of the stretches, one from the start of the scene comes beside them: motions that begin with
 /// it take steps that nothing else tells.
 /// @param orders  degrees with which to begin, of each step of the trial run
-/// @param in_budget  whether there is time for one more
+/// @param begins  asked before each whether there is time for it
 /// @returns       those that could be taken, by their step
 /// Accuracy: ten of them tell steps and work of a whole run within a factor of 1.5 (tests/estimate/prediction_test.cpp)
 std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, double tolerance, std::size_t count,
-                                    const std::vector<int>& orders, const std::function<bool()>& in_budget);
+                                    const std::vector<int>& orders, const std::function<bool()>& begins);
 
 }  // namespace vehd

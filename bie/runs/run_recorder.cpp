@@ -111,9 +111,7 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
       for (const HistoryRow& own : rows_of_each(shown)) vesicles_->append(own);
     }
     ++last_.n_rows;
-    if (side.row.step.at_snapshot) {
-      add_snapshot(resized(side.state, output_.order()), resized(side.fields, output_.order()));
-    }
+    if (side.row.step.at_snapshot) waiting_.push_back({side.state, side.fields});
   }
   last_.state = state;
   last_.history_bytes = history_.bytes();
@@ -122,6 +120,7 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
     last_.vesicles_bytes = vesicles_->bytes();
     last_.vesicles_checksum = vesicles_->checksum();
   }
+  if (is_late(snapshots_written_, longest_lag_of_files)) write_snapshots();
   // A tenth of a run of short steps, and a quarter of what error bars add to it.
   if (is_late(saved_, checkpoint_lag_)) save(totals);
 }
@@ -134,30 +133,39 @@ void RunRecorder::record_errors(const std::vector<Vector>& rows, CompanionState 
 }
 
 void RunRecorder::keep_last_state(const Fields& fields) {
+  write_snapshots();
   if (xdmf_.times.empty() || xdmf_.times.back() >= last_.state.time) return;
-  add_snapshot(resized(last_.state, output_.order()), resized(fields, output_.order()));
+  waiting_.push_back({last_.state, fields});
+  write_snapshots();
 }
 
-void RunRecorder::add_snapshot(const State& state, const Fields& fields) {
-  snapshots_.add([&](Hdf5Writer& file, const std::string& name) {
+/// Those that wait.
+void RunRecorder::write_snapshots() {
+  if (waiting_.empty()) return;
+  snapshots_.add(waiting_.size(), [&](Hdf5Writer& file, const std::string& name, std::size_t i) {
+    const State state = resized(waiting_[i].state, output_.order());
+    const Fields fields = resized(waiting_[i].fields, output_.order());
     const std::int64_t checksum =
         write_snapshot(file, name, output_, lab_frame_.state(state), lab_frame_.fields(fields), si_units_);
     const std::string first = "/snapshots/" + name + (vesicles_ ? "/vesicles/" + vesicle_group(0) : "");
     const auto has = [&](const std::string& field) { return file.has(first + "/" + field); };
-    if (xdmf_.times.empty()) name_fields(xdmf_, has);
+    if (xdmf_.scalars.empty() && xdmf_.vectors.empty()) name_fields(xdmf_, has);
     return checksum;
   });
-  xdmf_.times.push_back(state.time);
+  for (const Snapshot& written : waiting_) xdmf_.times.push_back(written.state.time);
+  waiting_.clear();
   // Its length grows with the run.
-  if (is_late(xdmf_written_, longest_lag_of_files)) write_xdmf();
+  write_xdmf();
+  snapshots_written_ = std::chrono::steady_clock::now();
 }
 
 void RunRecorder::end_session(const RunTotals& totals) {
-  if (!xdmf_.times.empty()) write_xdmf();
   save(totals);
+  if (!xdmf_.times.empty()) write_xdmf();
 }
 
 void RunRecorder::save(const RunTotals& totals) {
+  write_snapshots();
   last_.n_snapshots = snapshots_.size();
   last_.snapshots_checksum = snapshots_.checksum();
   last_.totals = totals;
@@ -165,9 +173,6 @@ void RunRecorder::save(const RunTotals& totals) {
   saved_ = std::chrono::steady_clock::now();
 }
 
-void RunRecorder::write_xdmf() {
-  replace_file(paths_.xdmf(), xdmf_text(xdmf_));
-  xdmf_written_ = std::chrono::steady_clock::now();
-}
+void RunRecorder::write_xdmf() { replace_file(paths_.xdmf(), xdmf_text(xdmf_)); }
 
 }  // namespace vehd

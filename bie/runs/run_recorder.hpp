@@ -17,12 +17,13 @@
 
 namespace vehd {
 
-/// Files that are written anew as a whole, which costs more than a short step does, may be behind by this.
+/// Files that are written anew as a whole or opened and closed, which costs more than a short step does, may be behind
+/// by this.
 constexpr std::chrono::milliseconds longest_lag_of_files{500};
 
 /// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
-/// the checkpoint never counts what is not there. It and run.xdmf may lag: steps that a kill leaves uncounted are made
-/// again, and the next session lists what the last one could not.
+/// the checkpoint never counts what is not there. It, run.h5 and run.xdmf may lag: steps that a kill leaves uncounted
+/// are made again, and the next session lists what the last one could not.
 class RunRecorder {
  public:
   /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one, and
@@ -55,7 +56,7 @@ class RunRecorder {
   void finish() { snapshots_.finish(); }
 
  private:
-  void add_snapshot(const State& state, const Fields& fields);
+  void write_snapshots();
   void save(const RunTotals& totals);
   void write_xdmf();
 
@@ -64,13 +65,18 @@ class RunRecorder {
   SphereTransform output_;  ///< degree and grid of the files
   LabFrameOutput lab_frame_;
   Checkpoint last_;
+  struct Snapshot {
+    State state;
+    Fields fields;
+  };
   SnapshotStore snapshots_;
+  std::vector<Snapshot> waiting_;  ///< to be written
   HistoryFile history_;
   std::optional<HistoryFile> vesicles_;  ///< of each, where there are several
   std::optional<HistoryFile> errors_;    ///< of the history, where they are asked for
   XdmfSeries xdmf_;
   std::chrono::milliseconds checkpoint_lag_;
-  std::optional<std::chrono::steady_clock::time_point> xdmf_written_, saved_;
+  std::optional<std::chrono::steady_clock::time_point> snapshots_written_, saved_;
 };
 
 }  // namespace vehd

@@ -85,22 +85,25 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
   or_remove(spare_, [&] { copy_whole(path_, spare_); });
 }
 
-void SnapshotStore::add(const WriteSnapshot& write_snapshot) {
-  std::int64_t checksum = 0;
+void SnapshotStore::add(std::size_t count, const WriteSnapshot& write) {
+  if (count == 0) return;
+  std::vector<std::int64_t> checksums;
   or_remove(spare_, [&] {
     Hdf5Writer spare(spare_, Hdf5Writer::Mode::extend);
     if (spare_size_ < size_) {
       Hdf5Writer current(path_, Hdf5Writer::Mode::read);
       for (; spare_size_ < size_; ++spare_size_) spare.copy_from(current, group_of(spare_size_));
     }
-    checksum = write_snapshot(spare, snapshot_name(size_));
+    for (std::size_t i = 0; i < count; ++i) {
+      checksums.push_back(write(spare, snapshot_name(size_ + static_cast<std::int64_t>(i)), i));
+    }
     spare.close();
     synchronise_file(spare_);
   });
   exchange_files(path_, spare_);
   spare_size_ = size_;
-  ++size_;
-  checksum_.add(checksum);
+  size_ += static_cast<std::int64_t>(count);
+  for (const std::int64_t checksum : checksums) checksum_.add(checksum);
 }
 
 void SnapshotStore::finish() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -20,15 +21,14 @@ std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t c
 
 /// A growing run.h5 that is a complete, closed HDF5 file at every instant.
 ///
-/// A hidden second file lags by one snapshot. A new snapshot is written there, together with the one it lacks, and
+/// A hidden second file lags by what was added last. New snapshots are written there, together with those it lacks, and
 /// then the two names are exchanged: a kill leaves either the old or the new file under the name run.h5.
-/// The cost of a snapshot does not grow with the run.
+/// The cost of a snapshot does not grow with the run; those added together share the opening and closing of files.
 class SnapshotStore {
  public:
   using WriteHeader = std::function<void(Hdf5Writer&)>;
-  /// Returns the checksum of the snapshot.
-  using WriteSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
-
+  /// Writes one of those that are added together. Returns its checksum.
+  using WriteSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name, std::size_t i)>;
   /// Writes a kept snapshot from the present file in another degree. Returns its checksum.
   using ConvertSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
 
@@ -42,8 +42,8 @@ class SnapshotStore {
   /// Starts a file, with the first snapshots of an existing one or without any. @throws OutputError
   SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, const Kept& kept);
 
-  /// @throws OutputError
-  void add(const WriteSnapshot& write_snapshot);
+  /// Adds so many, each written by its call of write(file, name, i) for i = 0 … count − 1. @throws OutputError
+  void add(std::size_t count, const WriteSnapshot& write);
 
   /// Number of snapshots in the file.
   [[nodiscard]] std::int64_t size() const { return size_; }
