@@ -155,15 +155,10 @@ Matrix GridMove::carried(const Matrix& columns) const { return carried_to(fine_,
 /// All together cost little more than one of them.
 SurfaceFields GridMove::carried(const SurfaceFields& fields) const {
   SurfaceFields result = fields;
-  Index n_scalars = 0;
-  for_each_scalar(fields, [&](const Vector&) { ++n_scalars; });
-  Matrix columns(fields.position.rows(), 3 + n_scalars);
-  columns.leftCols(3) = fields.position;
-  Index column = 3;
-  for_each_scalar(fields, [&](const Vector& scalar) { columns.col(column++) = scalar; });
-  columns = carried(columns);
+  const Matrix columns =
+      carried(columns_of(fields, [](const auto& of, const auto& visit) { for_each_scalar(of, visit); }));
   result.position = columns.leftCols(3);
-  column = 3;
+  Index column = 3;
   for_each_scalar(result, [&](Vector& scalar) { scalar = columns.col(column++); });
   return result;
 }

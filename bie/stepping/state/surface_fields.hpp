@@ -38,4 +38,16 @@ void visit_members(Fields& fields, Visit& visit) {
   visit(capacitance, conductance, pump_current, bending_modulus, spontaneous_curvature);
 }
 
+/// x and the scalars that for_each(fields, visit) visits, one behind the other, [n_coefficients x 3 …].
+template <typename ForEachScalar>
+Matrix columns_of(const SurfaceFields& fields, const ForEachScalar& for_each) {
+  Index n_scalars = 0;
+  for_each(fields, [&](const Vector&) { ++n_scalars; });
+  Matrix columns(fields.position.rows(), 3 + n_scalars);
+  columns.leftCols(3) = fields.position;
+  Index column = 3;
+  for_each(fields, [&](const Vector& scalar) { columns.col(column++) = scalar; });
+  return columns;
+}
+
 }  // namespace vehd

@@ -15,13 +15,7 @@ void for_each_unknown_scalar(Fields& fields, const Visit& visit) {
 }  // namespace
 
 Matrix unknowns(const SurfaceFields& fields) {
-  Index n_scalars = 0;
-  for_each_unknown_scalar(fields, [&](const Vector&) { ++n_scalars; });
-  Matrix columns(fields.position.rows(), 3 + n_scalars);
-  columns.leftCols(3) = fields.position;
-  Index column = 3;
-  for_each_unknown_scalar(fields, [&](const Vector& scalar) { columns.col(column++) = scalar; });
-  return columns;
+  return columns_of(fields, [](const auto& of, const auto& visit) { for_each_unknown_scalar(of, visit); });
 }
 
 void add_unknowns(const Eigen::Ref<const Matrix>& columns, double weight, SurfaceFields& fields) {
