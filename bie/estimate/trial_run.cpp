@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
@@ -59,21 +60,34 @@ class KeptStates {
   std::size_t stride_ = 1;
 };
 
+/// Calls work and adds the seconds that it takes.
+template <typename Work>
+void add_seconds(double& seconds, const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Takes steps to the end of the scene or as long as the budget lasts, one at least.
 /// @throws ConvergenceError where none is acceptable; the trial run has those before it
 template <typename InBudget>
 void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget, TrialRun& trial) {
   const Problem problem = problem_of(scene);
   Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.start, instruments);
-  evolution.evaluate_start();
+  std::optional<Evolution> begun;
+  add_seconds(trial.seconds, [&] {
+    begun.emplace(setup_of(problem), problem.start, instruments);
+    begun->evaluate_start();
+  });
+  Evolution& evolution = *begun;
   trial.highest_order = highest_order_of(evolution.state());
   const EventTimes events = events_of(scene);
   const double end = events.end_time;
   KeptStates kept(trial.states);
   while (evolution.state().time < end && (trial.steps.empty() || in_budget())) {
     kept.offer(trial.steps.size(), evolution.state());
-    const StepAttempt step = evolution.step(events);
+    StepAttempt step;
+    add_seconds(trial.seconds, [&] { step = evolution.step(events); });
     TrialStep record{evolution.state().time,
                      step.dt,
                      step.error_estimate,
@@ -111,7 +125,6 @@ TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<doubl
   } catch (const ConvergenceError& error) {
     trial.stops = error.what();
   }
-  trial.seconds = spent();
   return trial;
 }
 

@@ -37,7 +37,7 @@ struct TrialRun {
   int highest_order = 0;
   bool completed = false;  ///< reached the end of the scene
   std::string stops;       ///< why no further step could be taken; empty where that is not what ended it
-  double seconds = 0.0;
+  double seconds = 0.0;    ///< of its start and its steps, without what they are asked for other tolerances
   std::vector<TrialStep> steps;
   std::vector<TrialState> states;  ///< its start and others, as many steps apart, before each of which it took a step
 };

@@ -172,7 +172,7 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, cons
   } else if (vesicle.area_strain.size() == transform.grid().n_points()) {
     writer.grid_field("area_strain", vesicle.area_strain, strain_label);
   }
-  writer.grid_field("area_element", make_surface(transform, vesicle.position).area_element,
+  writer.grid_field("area_element", area_element(transform, vesicle.position),
                     {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
   writer.field("capacitance", material.capacitance, capacitance_label);
   writer.field("pump_current", material.pump_current, pump_label);

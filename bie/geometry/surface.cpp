@@ -18,6 +18,12 @@ struct At {
 
 inline double dot(const At& a, const At& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+inline At cross(const At& a, const At& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline At at(const Matrix& vectors, Index i) { return {vectors(i, 0), vectors(i, 1), vectors(i, 2)}; }
+
 inline At combined(double alpha, const At& a, double beta, const At& b) {
   return {alpha * a.x + beta * b.x, alpha * a.y + beta * b.y, alpha * a.z + beta * b.z};
 }
@@ -39,11 +45,11 @@ Surface make_surface(const SphereTransform& transform, const Matrix& position_co
   }
 #pragma omp simd
   for (Index i = 0; i < n; ++i) {
-    const auto at = [i](const Matrix& vectors) { return At{vectors(i, 0), vectors(i, 1), vectors(i, 2)}; };
-    const At x1 = at(s.tangent_1), x2 = at(s.tangent_2), x11 = at(x.d11), x12 = at(x.d12), x22 = at(x.d22);
-    const At cross{x1.y * x2.z - x1.z * x2.y, x1.z * x2.x - x1.x * x2.z, x1.x * x2.y - x1.y * x2.x};
-    const double area = std::sqrt(dot(cross, cross)), determinant = area * area;
-    const At normal{cross.x / area, cross.y / area, cross.z / area};
+    const At x1 = at(s.tangent_1, i), x2 = at(s.tangent_2, i);
+    const At x11 = at(x.d11, i), x12 = at(x.d12, i), x22 = at(x.d22, i);
+    const At x1_x2 = cross(x1, x2);
+    const double area = std::sqrt(dot(x1_x2, x1_x2)), determinant = area * area;
+    const At normal{x1_x2.x / area, x1_x2.y / area, x1_x2.z / area};
     const double g11 = dot(x2, x2) / determinant, g12 = -dot(x1, x2) / determinant, g22 = dot(x1, x1) / determinant;
     const At dual_1 = combined(g11, x1, g12, x2), dual_2 = combined(g12, x1, g22, x2);
     const double b11 = dot(x11, normal), b12 = dot(x12, normal), b22 = dot(x22, normal);
@@ -73,6 +79,18 @@ Surface make_surface(const SphereTransform& transform, const Matrix& position_co
         grid.weight[j] * s.area_element.segment(j * grid.n_phi, grid.n_phi);
   }
   return s;
+}
+
+Vector area_element(const SphereTransform& transform, const Matrix& position_coefficients) {
+  require_size("position (Cartesian components)", position_coefficients.cols(), 3);
+  const SphereDerivatives x = transform.synthesize_first_derivatives(position_coefficients);
+  Vector result(x.d1.rows());
+#pragma omp simd
+  for (Index i = 0; i < result.size(); ++i) {
+    const At x1_x2 = cross(at(x.d1, i), at(x.d2, i));
+    result[i] = std::sqrt(dot(x1_x2, x1_x2));
+  }
+  return result;
 }
 
 Matrix surface_gradient(const Surface& surface, const SphereDerivatives& scalar) {

@@ -32,6 +32,12 @@ struct Surface {
 /// (tests/geometry/curvature_test.cpp)
 Surface make_surface(const SphereTransform& transform, const Matrix& position_coefficients);
 
+/// J = W/sin θ alone, which first derivatives determine.
+/// @throws ShapeError unless there are three columns
+/// Accuracy: that of make_surface, to rounding (tests/geometry/curvature_test.cpp)
+/// Source: paper Eq. (20)
+Vector area_element(const SphereTransform& transform, const Matrix& position_coefficients);
+
 /// ∇_γ f, [n_points x 3], from the derivatives of one scalar field; Eq. (19).
 /// Accuracy: spectral; gradients of smooth functions to 1e-11 (tests/geometry/surface_calculus_test.cpp)
 /// Source: paper Eq. (19)

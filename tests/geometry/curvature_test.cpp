@@ -64,6 +64,13 @@ BOOST_AUTO_TEST_CASE(prolate_has_the_area_and_volume_of_the_formula) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(area_element_alone_is_that_of_the_surface) {
+  const SphereTransform transform = fine_transform(24);
+  const Matrix position = move_poles(asymmetric_shape(24), general_rotation());
+  const Vector expected = make_surface(transform, position).area_element;
+  BOOST_TEST(max_difference(area_element(transform, position), expected) < 1e-13 * expected.maxCoeff());
+}
+
 BOOST_AUTO_TEST_CASE(gauss_curvature_integrates_to_four_pi) {
   for (const bool moved : {false, true}) {
     const Matrix position = asymmetric_shape(24);

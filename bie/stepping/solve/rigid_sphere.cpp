@@ -84,7 +84,7 @@ Motion rigid_sphere_motion(const SurfaceFields& start, const Membrane& sphere, c
   const Vector3 centre = centroid(s) + motion.translation;
   result.material = start;
   result.material.position = sphere.fine.analyze(radial.rowwise() + centre.transpose());
-  const Vector stretch = make_surface(sphere.fine, result.material.position).area_element.cwiseQuotient(s.area_element);
+  const Vector stretch = area_element(sphere.fine, result.material.position).cwiseQuotient(s.area_element);
   const Vector stretch_before = 1.0 + sphere.fine.synthesize(start.area_strain).col(0).array();
   result.material.area_strain = sphere.fine.analyze(stretch_before.cwiseProduct(stretch).array() - 1.0);
   result.arrived = arrival(result.material);
