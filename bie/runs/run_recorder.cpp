@@ -154,9 +154,9 @@ void RunRecorder::write_snapshots() {
   });
   for (const Snapshot& written : waiting_) xdmf_.times.push_back(written.state.time);
   waiting_.clear();
-  // Its length grows with the run.
-  write_xdmf();
   snapshots_written_ = std::chrono::steady_clock::now();
+  // Its length grows with the run, and checkpoints may ask for snapshots after every step.
+  if (is_late(xdmf_written_, longest_lag_of_files)) write_xdmf();
 }
 
 void RunRecorder::end_session(const RunTotals& totals) {
@@ -173,6 +173,9 @@ void RunRecorder::save(const RunTotals& totals) {
   saved_ = std::chrono::steady_clock::now();
 }
 
-void RunRecorder::write_xdmf() { replace_file(paths_.xdmf(), xdmf_text(xdmf_)); }
+void RunRecorder::write_xdmf() {
+  replace_file(paths_.xdmf(), xdmf_text(xdmf_));
+  xdmf_written_ = std::chrono::steady_clock::now();
+}
 
 }  // namespace vehd

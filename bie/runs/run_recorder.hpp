@@ -76,7 +76,7 @@ class RunRecorder {
   std::optional<HistoryFile> errors_;    ///< of the history, where they are asked for
   XdmfSeries xdmf_;
   std::chrono::milliseconds checkpoint_lag_;
-  std::optional<std::chrono::steady_clock::time_point> snapshots_written_, saved_;
+  std::optional<std::chrono::steady_clock::time_point> snapshots_written_, xdmf_written_, saved_;
 };
 
 }  // namespace vehd

@@ -86,7 +86,6 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
 }
 
 void SnapshotStore::add(std::size_t count, const WriteSnapshot& write) {
-  if (count == 0) return;
   std::vector<std::int64_t> checksums;
   or_remove(spare_, [&] {
     Hdf5Writer spare(spare_, Hdf5Writer::Mode::extend);
