@@ -1,6 +1,7 @@
 #include "bie/potentials/target_sweep.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "bie/sphere/harmonics.hpp"
@@ -61,7 +62,12 @@ void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
       return TargetRows({quadrature_, kernels_, position_, grid.phi, transform_.azimuthal_order(), images_.in_mirror()},
                         layout.places, chunk);
     };
-    TargetRows worker = worker_for(kChunk), last_worker = worker_for(kLanes);
+    // Each holds tables that it fills with zeros first; a meridian needs one of them.
+    std::optional<TargetRows> worker, last_worker;
+    const auto run = [&](std::optional<TargetRows>& of_chunk, std::span<const Target> chunk, RowMatrix& rows) {
+      if (!of_chunk) of_chunk.emplace(worker_for(static_cast<int>(chunk.size())));
+      of_chunk->run(chunk, rows);
+    };
     RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes + n_batches - 1) / n_batches), layout.width);
     std::vector<Target> targets;
 #pragma omp for schedule(dynamic, 1)
@@ -80,8 +86,8 @@ void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
       // Copies of the last target fill the last chunk.
       while (targets.size() % kLanes != 0) targets.push_back(Target(targets.back()));
       std::span<const Target> left(targets);
-      for (; left.size() >= kChunk; left = left.subspan(kChunk)) worker.run(left.first(kChunk), rows);
-      if (!left.empty()) last_worker.run(left, rows);
+      for (; left.size() >= kChunk; left = left.subspan(kChunk)) run(worker, left.first(kChunk), rows);
+      if (!left.empty()) run(last_worker, left, rows);
       for (int j = first; j < end; ++j) {
         auto of_latitude = rows.middleRows((j - first) * n_rows, n_rows);
         if (layout.all_longitudes) images_.fill(of_latitude.leftCols(kernels_.count * active_.count()));

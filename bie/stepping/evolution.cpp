@@ -16,6 +16,7 @@
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/side_by_side.hpp"
 
 namespace vehd {
 
@@ -239,13 +240,16 @@ StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const St
 }
 
 std::vector<Evolution::Moment> Evolution::evaluated(const std::vector<State>& passed, StepAttempt& attempt) {
-  std::vector<Moment> moments;
-  for (const State& state : passed) {
-    Evaluation evaluation = evaluate(setup_.model, discretisation_, state, instruments_, &evaluation_);
-    moments.push_back({state, without_operators(std::move(evaluation)), find_smallest_gap(state)});
-    for (VesicleState& vesicle : moments.back().state.vesicles) vesicle.recycled = {};
-    ++attempt.evaluations;
-  }
+  std::vector<Moment> moments(passed.size());
+  attempt.evaluations += static_cast<int>(passed.size());
+  for_each_side_by_side(
+      std::ssize(passed), discretisation_.leaves_threads_idle(), instruments_, [&](Index i, Instruments& instruments) {
+        const State& state = passed[static_cast<std::size_t>(i)];
+        Moment& moment = moments[static_cast<std::size_t>(i)];
+        Evaluation evaluation = evaluate(setup_.model, discretisation_, state, instruments, &evaluation_);
+        moment = {state, without_operators(std::move(evaluation)), find_smallest_gap(state)};
+        for (VesicleState& vesicle : moment.state.vesicles) vesicle.recycled = {};
+      });
   return moments;
 }
 

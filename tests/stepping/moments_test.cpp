@@ -4,6 +4,7 @@
 
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/time/time_rule.hpp"
+#include "bie/support/thread_count.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -54,6 +55,19 @@ Run run_of(const EvolutionSetup& setup, const Matrix& position, const SnapshotTi
 }
 
 Matrix start_shape() { return prolate(20); }
+
+void require_same_bits(const std::vector<Evolution::Moment>& found, const std::vector<Evolution::Moment>& expected) {
+  BOOST_TEST_REQUIRE(expected.size() > 10U);
+  BOOST_TEST_REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const VesicleState& x = expected[i].state.vesicles[0];
+    const VesicleState& y = found[i].state.vesicles[0];
+    BOOST_TEST((x.position - y.position).isZero(0.0));
+    BOOST_TEST((x.transmembrane_potential - y.transmembrane_potential).isZero(0.0));
+    BOOST_TEST(expected[i].evaluation.diagnostics.vesicles[0].tension_integral ==
+               found[i].evaluation.diagnostics.vesicles[0].tension_integral);
+  }
+}
 
 }  // namespace
 
@@ -149,16 +163,19 @@ BOOST_AUTO_TEST_CASE(moments_after_a_resumption_are_the_same_to_the_bit) {
   const Run expected = rest_of(whole, snapshots);
   const Run found = rest_of(resumed, snapshots);
   BOOST_TEST(found.step_times == expected.step_times, boost::test_tools::per_element());
-  BOOST_TEST_REQUIRE(expected.moments.size() > 10U);
-  BOOST_TEST_REQUIRE(found.moments.size() == expected.moments.size());
-  for (std::size_t i = 0; i < found.moments.size(); ++i) {
-    const VesicleState& x = expected.moments[i].state.vesicles[0];
-    const VesicleState& y = found.moments[i].state.vesicles[0];
-    BOOST_TEST((x.position - y.position).isZero(0.0));
-    BOOST_TEST((x.transmembrane_potential - y.transmembrane_potential).isZero(0.0));
-    BOOST_TEST(expected.moments[i].evaluation.diagnostics.vesicles[0].tension_integral ==
-               found.moments[i].evaluation.diagnostics.vesicles[0].tension_integral);
-  }
+  require_same_bits(found.moments, expected.moments);
+}
+
+BOOST_AUTO_TEST_CASE(moments_are_the_same_to_the_bit_however_many_threads_have_them) {
+  const Matrix position = start_shape();
+  const EvolutionSetup setup = setup_of(field_model(), position, 4);
+  const SnapshotTimes snapshots{.windows = {{kFrom, kEnd, kEvery}}};
+  const auto moments_with = [&](int threads) {
+    const ThreadCount count(threads);
+    return run_of(setup, position, snapshots).moments;
+  };
+  const std::vector<Evolution::Moment> alone = moments_with(1);
+  for (const int threads : {2, 3}) require_same_bits(moments_with(threads), alone);
 }
 
 BOOST_AUTO_TEST_CASE(a_snapshot_at_the_end_of_a_step_is_taken_there) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "bie/potentials/pair_layers.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
@@ -80,6 +81,15 @@ Discretisation Discretisation::with_time_order(int order) const {
   Discretisation result = *this;
   result.settings_.time_order = order;
   return result;
+}
+
+bool Discretisation::leaves_threads_idle() const {
+  double entries = 0.0;
+  for (const auto& space : vesicles_) {
+    const auto of_velocity = static_cast<double>(space->subspace().vectors().size());
+    entries += of_velocity * of_velocity;
+  }
+  return shares_.ranks().is_alone() && entries <= thresholds::most_entries_of_small_operators;
 }
 
 std::shared_ptr<const MembraneSpace> Discretisation::space_of(const Fineness& fineness) const {

@@ -95,6 +95,9 @@ class Discretisation {
   [[nodiscard]] const Shares& shares() const { return shares_; }
   /// What layers between the vesicles need at every step and what takes little memory of it.
   [[nodiscard]] const SharedTransforms& pair_transforms() const { return pair_transforms_; }
+  /// Is solving for one state too little for all threads, so that they had better have a state each? Never where ranks
+  /// wait for each other.
+  [[nodiscard]] bool leaves_threads_idle() const;
 
  private:
   void prepare_pairs(const Ranks& ranks);

@@ -55,8 +55,6 @@ Rate StepOperations::rate() const { return rate_of(at_start_); }
 
 template <typename Body>
 void StepOperations::for_each_node(std::size_t count, const Body& body) {
-  // Ranks wait for each other.
-  const bool beside = shares().ranks().is_alone() && are_small();
   std::vector<Iterations> of_each(count);
   const auto add_up = [&] {
     for (const Iterations& of_one : of_each) {
@@ -65,26 +63,17 @@ void StepOperations::for_each_node(std::size_t count, const Body& body) {
     }
   };
   try {
-    for_each_side_by_side(static_cast<Index>(count), beside, instruments_, [&](Index i, Instruments& instruments) {
-      const auto m = static_cast<std::size_t>(i);
-      NodeWork work{instruments, of_each[m]};
-      body(m, work);
-    });
+    for_each_side_by_side(static_cast<Index>(count), discretisation_.leaves_threads_idle(), instruments_,
+                          [&](Index i, Instruments& instruments) {
+                            const auto m = static_cast<std::size_t>(i);
+                            NodeWork work{instruments, of_each[m]};
+                            body(m, work);
+                          });
   } catch (const ConvergenceError&) {
     add_up();
     throw;
   }
   add_up();
-}
-
-/// Is one node too little for all threads?
-bool StepOperations::are_small() const {
-  double entries = 0.0;
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
-    const auto of_velocity = static_cast<double>(discretisation_.vesicle(a).subspace().vectors().size());
-    entries += of_velocity * of_velocity;
-  }
-  return entries <= thresholds::most_entries_of_small_operators;
 }
 
 std::vector<Rate> StepOperations::rates(std::span<const NodeSolution> nodes) {

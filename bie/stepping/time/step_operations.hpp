@@ -148,7 +148,6 @@ class StepOperations {
     Instruments& instruments;
     Iterations& iterations;
   };
-  [[nodiscard]] bool are_small() const;
   /// Calls body(i, work) for each of so many nodes, on threads where these are small.
   template <typename Body>
   void for_each_node(std::size_t count, const Body& body);
