@@ -33,8 +33,8 @@ constexpr double most_uncertain_after_misleading = 3e-8;
 /// A look at the true residual that finds it halved since the last one has found the search on its way.
 constexpr double gain_between_looks = 0.5;
 
-/// Columns that a secant inverse keeps. Measured: half as many take seven percent more iterations in tank-treading, twice
-/// as many save less than one and cost twice the products.
+/// Columns that a secant inverse keeps. Measured: half as many take seven percent more iterations in tank-treading,
+/// twice as many save less than one and cost twice the products.
 constexpr std::size_t most_secant_columns = 96;
 
 /// A response that lies within this of the span of newer ones, relative to its norm, says nothing new but rounding: its

@@ -11,8 +11,8 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// While alive, SIGINT, SIGTERM and SIGUSR1 wait until `requested` looks for them, so that a step is never torn. Threads
-/// started later inherit this; create it before the first parallel region.
+/// While alive, SIGINT, SIGTERM and SIGUSR1 wait until `requested` looks for them, so that a step is never torn.
+/// Threads started later inherit this; create it before the first parallel region.
 class Interruption {
  public:
   Interruption();

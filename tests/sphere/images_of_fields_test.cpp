@@ -1,7 +1,6 @@
-#include "bie/sphere/exchange.hpp"
-
 #include <boost/test/unit_test.hpp>
 
+#include "bie/sphere/exchange.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/rotation.hpp"
 #include "tests/support/fields.hpp"

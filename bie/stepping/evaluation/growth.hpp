@@ -31,12 +31,13 @@ struct ErrorGrowth {
 };
 
 /// By what a small error of a shape is expected to grow: exp Σ σ_n T with the rates of disturbance_rate for the mean
-/// tension before a jump and after it, of the degrees where each is largest and of the vesicle where the sum is. A compression is expected to last until the membrane
-/// has moved by its own radius along its normal at the speed it has, or until the end. How V_m and field change it says
-/// more: where that weakens it, it lasts until it would be gone at that rate, with half its strength. A charge that
-/// saturates may deceive this, so thresholds::unsure_growth is expected without it. After a jump of the forcing that is
-/// still to come the growth goes on from what the tension at hand makes of an error until then; what the jump brings
-/// lasts until V_m has changed so much that its stress has changed by all that it is.
+/// tension before a jump and after it, of the degrees where each is largest and of the vesicle where the sum is. A
+/// compression is expected to last until the membrane has moved by its own radius along its normal at the speed it has,
+/// or until the end. How V_m and field change it says more: where that weakens it, it lasts until it would be gone at
+/// that rate, with half its strength. A charge that saturates may deceive this, so thresholds::unsure_growth is
+/// expected without it. After a jump of the forcing that is still to come the growth goes on from what the tension at
+/// hand makes of an error until then; what the jump brings lasts until V_m has changed so much that its stress has
+/// changed by all that it is.
 ///
 /// @param solved  of the state
 /// @return        1 where nothing is compressed, at most thresholds::most_growth_of_steps and _of_degrees

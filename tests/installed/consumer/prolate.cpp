@@ -1,6 +1,5 @@
 // Area and volume of a 2:1 prolate spheroid against their formulas.
 #include <bie/geometry/surface.hpp>
-
 #include <cmath>
 #include <cstdio>
 #include <numbers>

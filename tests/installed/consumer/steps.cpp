@@ -2,7 +2,6 @@
 #include <bie/scene/problem.hpp>
 #include <bie/scene/reader.hpp>
 #include <bie/stepping/evolution.hpp>
-
 #include <cmath>
 #include <cstdio>
 #include <exception>
