@@ -58,17 +58,17 @@ void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
   const int n_latitudes = latitudes.count(), n_batches = batch_count(n_latitudes, n_originals);
 #pragma omp parallel if (is_parallel())
   {
-    const auto worker_for = [&](int chunk) {
-      return TargetRows({quadrature_, kernels_, position_, grid.phi, transform_.azimuthal_order(), images_.in_mirror()},
-                        layout.places, chunk);
-    };
-    // Each holds tables that it fills with zeros first; a meridian needs one of them.
+    RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes + n_batches - 1) / n_batches), layout.width);
+    // Making one clears its tables, and where targets are few one of them is enough.
     std::optional<TargetRows> worker, last_worker;
-    const auto run = [&](std::optional<TargetRows>& of_chunk, std::span<const Target> chunk, RowMatrix& rows) {
-      if (!of_chunk) of_chunk.emplace(worker_for(static_cast<int>(chunk.size())));
+    const auto fill_rows = [&](std::optional<TargetRows>& of_chunk, std::span<const Target> chunk) {
+      if (!of_chunk) {
+        of_chunk.emplace(TargetContext{quadrature_, kernels_, position_, grid.phi, transform_.azimuthal_order(),
+                                       images_.in_mirror()},
+                         layout.places, static_cast<int>(chunk.size()));
+      }
       of_chunk->run(chunk, rows);
     };
-    RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes + n_batches - 1) / n_batches), layout.width);
     std::vector<Target> targets;
 #pragma omp for schedule(dynamic, 1)
     for (int batch = 0; batch < n_batches; ++batch) {
@@ -86,8 +86,8 @@ void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
       // Copies of the last target fill the last chunk.
       while (targets.size() % kLanes != 0) targets.push_back(Target(targets.back()));
       std::span<const Target> left(targets);
-      for (; left.size() >= kChunk; left = left.subspan(kChunk)) run(worker, left.first(kChunk), rows);
-      if (!left.empty()) run(last_worker, left, rows);
+      for (; left.size() >= kChunk; left = left.subspan(kChunk)) fill_rows(worker, left.first(kChunk));
+      if (!left.empty()) fill_rows(last_worker, left);
       for (int j = first; j < end; ++j) {
         auto of_latitude = rows.middleRows((j - first) * n_rows, n_rows);
         if (layout.all_longitudes) images_.fill(of_latitude.leftCols(kernels_.count * active_.count()));

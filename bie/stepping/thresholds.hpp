@@ -133,8 +133,8 @@ constexpr double worthwhile_past = 0.9;
 /// The first step covers this share of the time in which the start changes by the tolerance's root.
 constexpr double first_step_share = 0.5;
 
-/// Entries of the Stokes layers up to which threads have a node of the step each. What is larger keeps all of them busy
-/// with one node, and two would not fit the caches. Measured.
+/// Entries of the Stokes layers up to which threads have a state each, nodes of the step or snapshots within it. What
+/// is larger keeps all of them busy with one, and two would not fit the caches. Measured.
 constexpr double most_entries_of_small_operators = 1e6;
 
 // Where the grid is moved to, see remap.
