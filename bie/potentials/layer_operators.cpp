@@ -31,14 +31,22 @@ Matrix scattered(const Matrix& values, const std::vector<Index>& active, Index s
   return result;
 }
 
-/// transposedᵗ · density, every entry by one thread.
-Matrix product(const Matrix& transposed, const Matrix& density) {
+/// result = transposedᵗ · density, every entry by one thread.
+template <class Result>
+void multiply(const Matrix& transposed, const Eigen::Ref<const Matrix>& density, Result&& result) {
   // Read once for each density, a matrix costs as much as the sums while they are few. Of many, a blocked product.
-  if (density.cols() > kFewDensities) return transposed.transpose() * density;
-  Matrix result(transposed.cols(), density.cols());
+  if (density.cols() > kFewDensities) {
+    result = transposed.transpose() * density;
+    return;
+  }
   for_each_index(transposed.cols(), transposed.size() > kParallelEntries, [&](Index out) {
     for (Index f = 0; f < density.cols(); ++f) result(out, f) = transposed.col(out).dot(density.col(f));
   });
+}
+
+Matrix product(const Matrix& transposed, const Matrix& density) {
+  Matrix result(transposed.cols(), density.cols());
+  multiply(transposed, density, result);
   return result;
 }
 
@@ -50,8 +58,13 @@ Matrix ScalarOperator::apply(const Matrix& density) const {
     return product(parts_[0].transposed, density);
   }
   Matrix result = Matrix::Zero(density.rows(), density.cols());
+  // Parts are many and small, so that rooms of their own would cost as much as their products.
+  Matrix from(n_coefficients_, density.cols()), to(n_coefficients_, density.cols());
   for (const Part& part : parts_) {
-    result(part.indices, Eigen::all) = product(part.transposed, gathered(density, part.indices));
+    const auto n = static_cast<Index>(part.indices.size());
+    from.topRows(n) = density(part.indices, Eigen::all);
+    multiply(part.transposed, from.topRows(n), to.topRows(n));
+    result(part.indices, Eigen::all) = to.topRows(n);
   }
   return result;
 }

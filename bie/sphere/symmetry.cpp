@@ -97,16 +97,17 @@ Matrix axisymmetric_part(const Matrix& field) {
 std::vector<std::vector<Index>> classes_of(const Symmetry& symmetry, int order) {
   // A class is known by its |m| modulo the turns and by its signs under the reflections.
   std::map<std::vector<int>, std::vector<Index>> classes;
+  std::vector<int> key;
   for (int n = 0; n <= order; ++n) {
     for (int m = -n; m <= n; ++m) {
       const int rest = std::abs(m) % symmetry.fold;
-      std::vector<int> key{symmetry.axisymmetric ? std::abs(m) : std::min(rest, symmetry.fold - rest)};
+      key.assign(1, symmetry.axisymmetric ? std::abs(m) : std::min(rest, symmetry.fold - rest));
       for (const Reflection& g : symmetry.reflections) key.push_back(g.parity(n, m));
       classes[key].push_back(coefficient_index(n, m));
     }
   }
   std::vector<std::vector<Index>> result;
-  for (auto& [key, indices] : classes) result.push_back(std::move(indices));
+  for (auto& [known, indices] : classes) result.push_back(std::move(indices));
   return result;
 }
 
