@@ -38,10 +38,6 @@ struct Extent {
   int repeats;
 };
 
-/// Where the tightest tolerance of a scene is predicted to take longer than this many seconds, all are compared
-/// earlier.
-constexpr double longest_run = 120.0;
-
 Extent extent_of(bool quick) {
   if (quick) return {{6, 8}, {6, 8}, {6, 8}, 0, 0, 3, {1e-1, 1e-2, 1e-3}, 2};
   return {{8, 12, 16, 20, 24, 32},
@@ -146,50 +142,34 @@ class AllBenches {
                     observer_));
   }
 
-  /// A scene up to a time at which every tolerance is affordable, and what its cost table says of that.
-  struct Affordable {
-    Scene scene;
-    std::vector<CostRow> costs;  ///< empty in a trial
-  };
-
-  [[nodiscard]] Affordable affordable(const Scene& whole) const {
-    Affordable result{whole, {}};
-    if (task_.quick) return result;
-    CostCache cache;
-    const auto ask = [&] { result.costs = cost_table_of(result.scene, extent_.tolerances, cache); };
-    ask();
-    double seconds = result.costs.back().seconds;
-    if (seconds <= longest_run) return result;
-    for (; seconds > longest_run; seconds *= 0.5) result.scene.numerics.end_time *= 0.5;
-    ask();
-    return result;
-  }
-
   void tolerances() {
     BenchResult all{"tolerances",
                     machine_record(),
                     1,
                     {{"reference", "the run with the last tolerance of the scene"},
-                     {"time", fmt::format("the end of the scene, halved until the reference is predicted to take less "
-                                          "than {:g} s",
-                                          longest_run)},
-                     {"predicted", "seconds of the cost table without files, which these runs do not write"}},
+                     {"predicted", "of the cost table, seconds without files, which these runs do not write"}},
                     {{"rows",
                       {{"scene", "scene", "{}", false, 24},
                        {"time", "t", "{:g}"},
                        {"tolerance", "tolerance", "{:.0e}"},
                        {"steps", "steps"},
+                       {"predicted_steps", "predicted steps"},
                        {"order", "highest degree"},
                        {"error_over_tolerance", "error/tolerance", "{:.2f}"},
                        {"seconds", "seconds", "{:.2g}", true},
-                       {"predicted", "predicted", "{:.2g}"}}}}};
+                       {"predicted", "predicted seconds", "{:.2g}"}}}}};
     for (const fs::path& file : scenes_) {
       observer_.section("tolerances: " + file.filename().string());
-      const Affordable asked = affordable(read_scene(file));
-      const BenchResult one = bench_time({.scene = asked.scene,
-                                          .at = asked.scene.numerics.end_time,
+      const Scene asked = read_scene(file);
+      std::vector<CostRow> costs;  // none in a trial
+      if (!task_.quick) {
+        CostCache cache;
+        costs = cost_table_of(asked, extent_.tolerances, cache);
+      }
+      const BenchResult one = bench_time({.scene = asked,
+                                          .at = asked.numerics.end_time,
                                           .tolerances = extent_.tolerances,
-                                          .snapshots = events_of(asked.scene).snapshots},
+                                          .snapshots = events_of(asked).snapshots},
                                          observer_);
       const BenchTable& rows = one.tables.front();
       const auto cell = [&](std::size_t row, const std::string& key) {
@@ -198,13 +178,12 @@ class AllBenches {
         return rows.rows[row][static_cast<std::size_t>(column - rows.columns.begin())];
       };
       for (std::size_t row = 0; row < rows.rows.size(); ++row) {
-        std::vector<BenchCell> cells{file.filename().string(), asked.scene.numerics.end_time};
-        for (const char* key : {"tolerance", "steps", "order", "error_over_tolerance", "seconds"}) {
-          cells.push_back(cell(row, key));
-        }
-        cells.emplace_back();
-        if (!asked.costs.empty()) cells.back() = asked.costs[row].seconds - asked.costs[row].file_seconds;
-        all.tables.front().rows.push_back(std::move(cells));
+        const auto predicted = [&](auto of_row) { return costs.empty() ? BenchCell() : BenchCell(of_row(costs[row])); };
+        all.tables.front().rows.push_back(
+            {file.filename().string(), asked.numerics.end_time, cell(row, "tolerance"), cell(row, "steps"),
+             predicted([](const CostRow& cost) { return cost.steps; }), cell(row, "order"),
+             cell(row, "error_over_tolerance"), cell(row, "seconds"),
+             predicted([](const CostRow& cost) { return cost.seconds - cost.file_seconds; })});
       }
     }
     keep(all);
