@@ -38,7 +38,7 @@ struct BenchOptions {
 };
 
 struct SceneOptions {
-  std::string scene_file;
+  SceneChoice scene;
   std::vector<int> orders, threads, time_orders;
   std::vector<std::string> steps;
   std::vector<double> tolerances;
@@ -50,9 +50,9 @@ struct SceneOptions {
   BenchOptions bench;
 };
 
-Scene scene_of_one(const std::string& file) {
-  Scene scene = read_scene(file);
-  require_one_vesicle(scene, file, "vehd bench");
+Scene scene_of_one(const SceneChoice& choice) {
+  Scene scene = read_scene(choice.source);
+  require_one_vesicle(scene, choice.source.file, "vehd bench");
   return scene;
 }
 
@@ -69,10 +69,6 @@ CLI::Option* add_repeats(CLI::App& command, BenchOptions& options, int repeats) 
   return command.add_option("--repeats", options.repeats, "Of each timing, fewer of long ones; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-}
-
-void add_scene(CLI::App& command, SceneOptions& options) {
-  command.add_option("SCENE", options.scene_file, "Scene file (TOML)")->required();
 }
 
 void add_orders(CLI::App& command, SceneOptions& options, std::vector<int> orders) {
@@ -94,7 +90,9 @@ void add_bench(CLI::App& command, const std::shared_ptr<SceneOptions>& options, 
     BenchPrinter printer;
     // Before anything is measured: a place that cannot be written is said at once.
     make_directory(options->bench.directory);
-    write_json(options->bench.common, write_bench(measure(*options, printer), options->bench.output(), printer));
+    BenchResult result = measure(*options, printer);
+    if (!options->scene.source.file.empty()) result.facts["scene"] = options->scene.text();
+    write_json(options->bench.common, write_bench(result, options->bench.output(), printer));
     exit_code = ExitCode::done;
   });
 }
@@ -120,7 +118,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command =
       bench.add_subcommand("time", "Errors against step size, steps and seconds, and against the tolerance");
   const auto options = std::make_shared<SceneOptions>();
-  add_scene(*command, *options);
+  add_scene_choice(*command, options->scene);
   auto* choice = command->add_option_group("what varies");
   choice
       ->add_option("--dt", options->steps,
@@ -143,7 +141,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       ->check(time_text());
   add_repeats(*command, options->bench, 1);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = read_scene(o.scene_file);
+    Scene scene = read_scene(o.scene.source);
     if (o.order > 0) scene.numerics.order = o.order;
     std::vector<double> steps;
     for (const std::string& step : o.steps) steps.push_back(positive_time("--dt", step, scene));
@@ -169,18 +167,18 @@ struct StepBench {
 void add_step_bench(CLI::App& bench, ExitCode& exit_code, const StepBench& what) {
   CLI::App* command = bench.add_subcommand(what.name, what.description);
   const auto options = std::make_shared<SceneOptions>();
-  add_scene(*command, *options);
+  add_scene_choice(*command, options->scene);
   add_orders(*command, *options, what.orders);
   add_repeats(*command, options->bench, what.repeats);
   add_bench(*command, options, exit_code, [measure = what.measure](const SceneOptions& o, BenchObserver& observer) {
-    return measure(scene_of_one(o.scene_file), o.orders, o.bench.repeats, observer);
+    return measure(scene_of_one(o.scene), o.orders, o.bench.repeats, observer);
   });
 }
 
 void add_threads(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command = bench.add_subcommand("threads", "Seconds of each part of a step against the number of threads");
   const auto options = std::make_shared<SceneOptions>();
-  add_scene(*command, *options);
+  add_scene_choice(*command, options->scene);
   options->threads = thread_counts();
   command->add_option("--threads", options->threads, "Numbers of threads; speed-up is over the first")
       ->delimiter(',')
@@ -192,7 +190,7 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->check(CLI::Range(1, highest_time_order));
   add_repeats(*command, options->bench, 5);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = read_scene(o.scene_file);
+    Scene scene = read_scene(o.scene.source);
     if (o.order > 0) scene.numerics.order = o.order;
     if (o.time_order > 0) scene.numerics.time_order = o.time_order;
     return bench_threads(scene, o.threads, o.bench.repeats, observer);
@@ -235,9 +233,13 @@ void add_all(CLI::App& bench, ExitCode& exit_code) {
 
 void add_stability(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command = bench.add_subcommand("stability", "Hard cases, each against its criterion");
-  const auto options = std::make_shared<SceneOptions>();
-  options->scene_file = "tests/hard/scenes";
-  command->add_option("SCENES", options->scene_file, "Folder of scenes with criteria, or one of them")
+  struct StabilityOptions {
+    std::string scenes = "tests/hard/scenes";
+    bool quick = false;
+    BenchOptions bench;
+  };
+  const auto options = std::make_shared<StabilityOptions>();
+  command->add_option("SCENES", options->scenes, "Folder of scenes with criteria, or one of them")
       ->check(CLI::ExistingPath)
       ->capture_default_str();
   command->add_flag("--quick", options->quick, "The short form of every case");
@@ -248,8 +250,8 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
     Interruption interruption;
     BenchPrinter printer;
     make_directory(options->bench.directory);
-    const StabilityOutcome outcome = bench_stability(
-        {scene_files(options->scene_file), options->bench.output(), options->quick}, interruption, printer);
+    const StabilityOutcome outcome =
+        bench_stability({scene_files(options->scenes), options->bench.output(), options->quick}, interruption, printer);
     write_json(options->bench.common, write_bench(outcome.result, options->bench.output(), printer));
     exit_code = outcome.n_failed == 0 ? ExitCode::done : ExitCode::does_not_hold;
   });

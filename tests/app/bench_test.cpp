@@ -120,6 +120,20 @@ BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
   BOOST_TEST(fs::exists(bench.file("_equal.csv")));
 }
 
+BOOST_AUTO_TEST_CASE(values_of_the_command_line_take_the_place_of_those_of_the_scene) {
+  const std::vector<std::string> asked = {"parts", "SCENE", "--orders", "8", "--repeats", "1"};
+  std::vector<std::string> without_symmetry = asked;
+  without_symmetry.insert(without_symmetry.end(), {"--set", "numerics.symmetry=off"});
+  const Bench with(asked), without(without_symmetry);
+  const auto operations = [](const Bench& bench) {
+    const nlohmann::json& row = bench.json["rows"].front();
+    return number(row, "peak_fraction_operator_assembly") * number(bench.json, "peak_operations_per_second") *
+           number(row, "seconds_operator_assembly");
+  };
+  BOOST_TEST(operations(without) > 2.0 * operations(with));
+  BOOST_TEST(without.json["scene"].get<std::string>().ends_with("scene.toml --set numerics.symmetry=off"));
+}
+
 BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
   const Bench bench({"parts", "SCENE", "--orders", "6,10", "--repeats", "1"});
   files_say_what_they_hold_for(bench);
