@@ -145,7 +145,7 @@ void sum_series(const Series& series, const Waves& waves, Eigen::Ref<Matrix> val
   (std::make_integer_sequence<int, kMostFields>());
   const auto sum_at = sums[static_cast<std::size_t>(series.n_fields - 1)];
   // Terms below which waking a second thread costs more than it saves.
-  constexpr Index kParallelTerms = 30000;
+  constexpr Index kParallelTerms = 1000000;
   const Index terms = values.rows() * (series.order + 1) * (series.azimuthal_order + 1);
   constexpr Index kTogether = kGroupsTogether * kGroup;
   for_each_index((values.rows() + kTogether - 1) / kTogether, terms > kParallelTerms, [&](Index block) {
