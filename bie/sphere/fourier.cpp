@@ -16,11 +16,13 @@ namespace {
 
 /// Longitudes of axisymmetric fields, where sines and cosines are 0 and ±1.
 constexpr int kQuarterTurns = 4;
-/// Latitudes whose sums stay in registers with those of their images: eight sums each.
+/// Latitudes whose sums stay in registers with those of their images, eight sums each; and longitudes of a register.
 #ifdef __AVX512F__
 constexpr int kMostLatitudes = 3;
+constexpr int kWidest = 2 * kLanes;
 #else
 constexpr int kMostLatitudes = 1;
+constexpr int kWidest = kLanes;
 #endif
 /// Up to this order products take less than fast transforms: measured without AVX, and with it at all degrees up to 64,
 /// where they take half as long (docs/performance.md).
@@ -41,31 +43,34 @@ double* of_this_thread(Index count) {
   return numbers.get();
 }
 
-using Longitudes = Lanes<kLanes>::Values;
+template <int kWidth>
+using Longitudes = typename Lanes<kWidth>::Values;
 
-Longitudes longitudes(const double* at) { return Lanes<kLanes>::load(at); }
-
-void put(double* at, const Longitudes& lanes) { Lanes<kLanes>::store(at, lanes); }
-
-Longitudes reversed(const Longitudes& lanes) { return __builtin_shufflevector(lanes, lanes, 3, 2, 1, 0); }
+inline Longitudes<4> reversed(const Longitudes<4>& lanes) { return __builtin_shufflevector(lanes, lanes, 3, 2, 1, 0); }
+inline Longitudes<8> reversed(const Longitudes<8>& lanes) {
+  return __builtin_shufflevector(lanes, lanes, 7, 6, 5, 4, 3, 2, 1, 0);
+}
 
 /// Sums over even and odd orders of cosines and sines on one latitude, over longitudes of a quarter of the circle.
+template <int kWidth>
 struct QuarterSums {
-  Longitudes even_cosines, odd_cosines, even_sines, odd_sines;
+  Longitudes<kWidth> even_cosines, odd_cosines, even_sines, odd_sines;
 };
 
 /// Puts one row at longitudes φ, π − φ, π + φ and −φ of some φ from the at-th of the quarter on.
-void unfold(const QuarterSums& sums, Index at, Index n_phi, double* values) {
+template <int kWidth>
+void unfold(const QuarterSums<kWidth>& sums, Index at, Index n_phi, double* values) {
+  const auto put = [](double* to, const Longitudes<kWidth>& lanes) { Lanes<kWidth>::store(to, lanes); };
   double *here = values + at, *opposite = here + n_phi / 2;
-  double *before_opposite = values + n_phi / 2 - at - (kLanes - 1), *below = before_opposite + n_phi / 2;
-  const Longitudes cosines = sums.even_cosines + sums.odd_cosines, sines = sums.even_sines + sums.odd_sines;
-  const Longitudes opposite_cosines = sums.even_cosines - sums.odd_cosines;
-  const Longitudes opposite_sines = sums.even_sines - sums.odd_sines;
+  double *before_opposite = values + n_phi / 2 - at - (kWidth - 1), *below = before_opposite + n_phi / 2;
+  const Longitudes<kWidth> cosines = sums.even_cosines + sums.odd_cosines, sines = sums.even_sines + sums.odd_sines;
+  const Longitudes<kWidth> opposite_cosines = sums.even_cosines - sums.odd_cosines;
+  const Longitudes<kWidth> opposite_sines = sums.even_sines - sums.odd_sines;
   put(here, cosines + sines);
   put(opposite, opposite_cosines + opposite_sines);
   // Sines of 0 are 0, so that φ = π gets the same value twice; φ = 2π is beyond the row.
   put(before_opposite, reversed(opposite_cosines - opposite_sines));
-  const Longitudes mirrored = reversed(cosines - sines);
+  const Longitudes<kWidth> mirrored = reversed(cosines - sines);
   if (at == 0) {
     std::memcpy(below, &mirrored, sizeof mirrored - sizeof(double));
   } else {
@@ -74,7 +79,7 @@ void unfold(const QuarterSums& sums, Index at, Index n_phi, double* values) {
 }
 
 /// The same where a quarter does not fill a register.
-void unfold_few(const QuarterSums& sums, Index n_quarter, Index n_phi, double* values) {
+void unfold_few(const QuarterSums<kLanes>& sums, Index n_quarter, Index n_phi, double* values) {
   double *here = values, *opposite = values + n_phi / 2, *below = values + n_phi;
   for (Index k = 0; k < n_quarter; ++k) {
     const double cosines = sums.even_cosines[k] + sums.odd_cosines[k], sines = sums.even_sines[k] + sums.odd_sines[k];
@@ -111,17 +116,39 @@ struct FoldedRows {
 /// The values themselves, or with those of a mirror image.
 struct Alone {
   const double* row;
-  [[nodiscard]] Longitudes lanes(Index k) const { return longitudes(row + k); }
+  template <int kWidth>
+  [[nodiscard]] Longitudes<kWidth> lanes(Index k) const {
+    return Lanes<kWidth>::load(row + k);
+  }
   [[nodiscard]] double one(Index k) const { return row[k]; }
 };
 template <int kSign>
 struct WithImage {
   const double *row, *image;
-  [[nodiscard]] Longitudes lanes(Index k) const {
-    return kSign > 0 ? longitudes(row + k) + longitudes(image + k) : longitudes(row + k) - longitudes(image + k);
+  template <int kWidth>
+  [[nodiscard]] Longitudes<kWidth> lanes(Index k) const {
+    const Longitudes<kWidth> own = Lanes<kWidth>::load(row + k), of_image = Lanes<kWidth>::load(image + k);
+    return kSign > 0 ? own + of_image : own - of_image;
   }
   [[nodiscard]] double one(Index k) const { return kSign > 0 ? row[k] + image[k] : row[k] - image[k]; }
 };
+
+/// The longitudes from 1 to before the end, which are one register at least.
+template <int kWidth, typename Values>
+void fold_registers(const Values& values, Index end, Index n_phi, const FoldedRows& to) {
+  const Index half = n_phi / 2;
+  // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
+  for (Index k = 1; k < end; k += kWidth) {
+    const Index at = std::min<Index>(k, end - kWidth), mirrored = at + kWidth - 1;
+    const auto lanes = [&](Index first) { return values.template lanes<kWidth>(first); };
+    const Folded<Longitudes<kWidth>> sums(lanes(at), reversed(lanes(half - mirrored)), lanes(half + at),
+                                          reversed(lanes(n_phi - mirrored)));
+    Lanes<kWidth>::store(to.even_cosines + at, sums.even_cosines);
+    Lanes<kWidth>::store(to.odd_cosines + at, sums.odd_cosines);
+    Lanes<kWidth>::store(to.even_sines + at, sums.even_sines);
+    Lanes<kWidth>::store(to.odd_sines + at, sums.odd_sines);
+  }
+}
 
 template <typename Values>
 void fold(const Values& values, Index n_quarter, Index n_phi, const FoldedRows& to) {
@@ -135,25 +162,14 @@ void fold(const Values& values, Index n_quarter, Index n_phi, const FoldedRows& 
   const Index end = n_phi % 4 == 0 ? n_quarter - 1 : n_quarter;
   fold_pair(0);
   if (end < n_quarter) fold_pair(end);
-  if (end - 1 < kLanes) {
-    for (Index k = 1; k < end; ++k) {
-      const Folded<double> sums(values.one(k), values.one(half - k), values.one(half + k), values.one(n_phi - k));
-      to.even_cosines[k] = sums.even_cosines;
-      to.odd_cosines[k] = sums.odd_cosines;
-      to.even_sines[k] = sums.even_sines;
-      to.odd_sines[k] = sums.odd_sines;
-    }
-    return;
-  }
-  // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
-  for (Index k = 1; k < end; k += kLanes) {
-    const Index at = std::min(k, end - kLanes), mirrored = at + kLanes - 1;
-    const Folded<Longitudes> sums(values.lanes(at), reversed(values.lanes(half - mirrored)), values.lanes(half + at),
-                                  reversed(values.lanes(n_phi - mirrored)));
-    put(to.even_cosines + at, sums.even_cosines);
-    put(to.odd_cosines + at, sums.odd_cosines);
-    put(to.even_sines + at, sums.even_sines);
-    put(to.odd_sines + at, sums.odd_sines);
+  if (end - 1 >= kWidest) return fold_registers<kWidest>(values, end, n_phi, to);
+  if (end - 1 >= kLanes) return fold_registers<kLanes>(values, end, n_phi, to);
+  for (Index k = 1; k < end; ++k) {
+    const Folded<double> sums(values.one(k), values.one(half - k), values.one(half + k), values.one(n_phi - k));
+    to.even_cosines[k] = sums.even_cosines;
+    to.odd_cosines[k] = sums.odd_cosines;
+    to.even_sines[k] = sums.even_sines;
+    to.odd_sines[k] = sums.odd_sines;
   }
 }
 
@@ -183,19 +199,19 @@ FourierSums::FourierSums(int n_phi, int order)
   }
 }
 
-template <int kRows>
+template <int kRows, int kWidth>
 void FourierSums::synthesize_rows(Index first, Index n_theta, const HemisphereAmplitudes& amplitudes,
                                   double* values) const {
-  const Index stride = amplitudes.stride, width = filled_up(n_quarter_), last = std::max<Index>(n_quarter_ - kLanes, 0);
-  for (Index k = 0; k < n_quarter_; k += kLanes) {
+  const Index stride = amplitudes.stride, width = filled_up(n_quarter_), last = std::max<Index>(n_quarter_ - kWidth, 0);
+  for (Index k = 0; k < n_quarter_; k += kWidth) {
     // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
     const Index at = std::min(k, last);
     const double *cosine = synthesis_.data() + at, *sine = cosine + (amplitudes.minus_sines ? 2 : 1) * width;
     // Of the symmetric and the antisymmetric part.
-    Longitudes cosines[2][2][kRows] = {}, sines[2][2][kRows] = {};
+    Longitudes<kWidth> cosines[2][2][kRows] = {}, sines[2][2][kRows] = {};
     const auto add = [&](int m, int parity) {
-      const Longitudes of_cosine = longitudes(cosine + m * synthesis_.cols());
-      const Longitudes of_sine = longitudes(sine + m * synthesis_.cols());
+      const Longitudes<kWidth> of_cosine = Lanes<kWidth>::load(cosine + m * synthesis_.cols());
+      const Longitudes<kWidth> of_sine = Lanes<kWidth>::load(sine + m * synthesis_.cols());
 #pragma GCC unroll 2
       for (int part = 0; part < 2; ++part) {
         const double* c = amplitudes.cosines[part] + m * stride + first;
@@ -215,12 +231,11 @@ void FourierSums::synthesize_rows(Index first, Index n_theta, const HemisphereAm
     if (m == order_) add(m, 0);
 #pragma GCC unroll 3
     for (int r = 0; r < kRows; ++r) {
-      const auto put_row = [&](const QuarterSums& sums, Index row) {
-        if (n_quarter_ < kLanes) {
-          unfold_few(sums, n_quarter_, n_phi_, values + row * n_phi_);
-        } else {
-          unfold(sums, at, n_phi_, values + row * n_phi_);
+      const auto put_row = [&](const QuarterSums<kWidth>& sums, Index row) {
+        if constexpr (kWidth == kLanes) {
+          if (n_quarter_ < kLanes) return unfold_few(sums, n_quarter_, n_phi_, values + row * n_phi_);
         }
+        unfold(sums, at, n_phi_, values + row * n_phi_);
       };
       const Index row = first + r;
       // The equator is its own image, and stays what it is in the north.
@@ -234,18 +249,24 @@ void FourierSums::synthesize_rows(Index first, Index n_theta, const HemisphereAm
   }
 }
 
-void FourierSums::synthesize(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const {
-  if (n_phi_ == kQuarterTurns && order_ == 1) return synthesize_quarter_turns(n_theta, amplitudes, values);
-  if (fast_) return synthesize_fast(n_theta, amplitudes, values);
+template <int kWidth>
+void FourierSums::synthesize_by_products(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const {
   const Index n_half = (n_theta + 1) / 2;
   Index first = 0;
   for (; first + kMostLatitudes <= n_half; first += kMostLatitudes) {
-    synthesize_rows<kMostLatitudes>(first, n_theta, amplitudes, values);
+    synthesize_rows<kMostLatitudes, kWidth>(first, n_theta, amplitudes, values);
   }
   if constexpr (kMostLatitudes > 2) {
-    if (n_half - first == 2) return synthesize_rows<2>(first, n_theta, amplitudes, values);
+    if (n_half - first == 2) return synthesize_rows<2, kWidth>(first, n_theta, amplitudes, values);
   }
-  if (first < n_half) synthesize_rows<1>(first, n_theta, amplitudes, values);
+  if (first < n_half) synthesize_rows<1, kWidth>(first, n_theta, amplitudes, values);
+}
+
+void FourierSums::synthesize(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const {
+  if (n_phi_ == kQuarterTurns && order_ == 1) return synthesize_quarter_turns(n_theta, amplitudes, values);
+  if (fast_) return synthesize_fast(n_theta, amplitudes, values);
+  if (n_quarter_ < kWidest) return synthesize_by_products<kLanes>(n_theta, amplitudes, values);
+  synthesize_by_products<kWidest>(n_theta, amplitudes, values);
 }
 
 void FourierSums::synthesize_quarter_turns(Index n_theta, const HemisphereAmplitudes& amplitudes,

@@ -52,8 +52,11 @@ class FourierSums {
   /// Cosines, sines and minus sines of even and of odd orders.
   static constexpr int kWaves = 3;
 
+  /// As many longitudes at a time.
+  template <int kWidth>
+  void synthesize_by_products(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
   /// So many latitudes from the first one on with their images.
-  template <int kRows>
+  template <int kRows, int kWidth>
   void synthesize_rows(Index first, Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
   void synthesize_quarter_turns(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
   void synthesize_fast(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
