@@ -16,8 +16,8 @@ struct Case {
 };
 
 /// Lengths with and without a centre of the quarter circle, and with a large prime.
-constexpr Case kCases[] = {{4, 1, 5},    {6, 2, 3},    {10, 4, 1},    {34, 16, 17}, {66, 16, 5},
-                           {74, 32, 33}, {130, 64, 3}, {260, 64, 18}, {270, 130, 5}};
+constexpr Case kCases[] = {{4, 1, 5},   {6, 2, 3},    {10, 4, 1},   {18, 8, 7},    {24, 9, 6},   {34, 16, 17},
+                           {66, 16, 5}, {74, 32, 33}, {130, 64, 3}, {260, 64, 18}, {270, 130, 5}};
 
 /// Amplitudes of a mode in a row at [mode * stride + row], with room between the modes.
 Matrix random_amplitudes(const Case& c) {
