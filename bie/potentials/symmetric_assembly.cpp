@@ -63,13 +63,20 @@ void analyse_latitudes(const OperatorBlock& block, int order, const Matrix& ampl
 
 /// See SymmetricBlocks.
 void symmetrize(const std::vector<Index>& entries, Index n_all, Matrix& transposed) {
-  const auto degree = [&](std::size_t i) { return degree_of(entries[i] % n_all); };
-  for (std::size_t j = 0; j < entries.size(); ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
-      const int change = degree(j) - degree(i);
-      double& of_i = transposed(static_cast<Index>(j), static_cast<Index>(i));
-      double& of_j = transposed(static_cast<Index>(i), static_cast<Index>(j));
-      of_i = of_j = change > 0 ? of_j : change < 0 ? of_i : 0.5 * (of_i + of_j);
+  std::vector<int> degrees;
+  for (const Index entry : entries) degrees.push_back(degree_of(entry % n_all));
+  const Index n = std::ssize(degrees);
+  // So many columns and rows that a square of them and its mirror image stay in cache.
+  constexpr Index kTogether = 32;
+  for (Index first_j = 0; first_j < n; first_j += kTogether) {
+    for (Index first_i = 0; first_i <= first_j; first_i += kTogether) {
+      for (Index j = first_j; j < std::min(first_j + kTogether, n); ++j) {
+        for (Index i = first_i; i < std::min(first_i + kTogether, j); ++i) {
+          const int change = degrees[static_cast<std::size_t>(j)] - degrees[static_cast<std::size_t>(i)];
+          double &of_i = transposed(j, i), &of_j = transposed(i, j);
+          of_i = of_j = change > 0 ? of_j : change < 0 ? of_i : 0.5 * (of_i + of_j);
+        }
+      }
     }
   }
 }
