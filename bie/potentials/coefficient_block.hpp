@@ -9,8 +9,8 @@
 namespace vehd {
 
 /// Harmonic coefficients of many columns in the rectangular layout [m][n][column], cosines and sines apart: rows of
-/// one m are contiguous (Legendre sums), rows of one n have a constant stride (Wigner blocks). Sines of order 0 are zero;
-/// all else is for who fills it, since clearing as much took longer than many a sum.
+/// one m are contiguous (Legendre sums), rows of one n have a constant stride (Wigner blocks). Sines of order 0 are
+/// zero; all else is for who fills it, since clearing as much took longer than many a sum.
 class CoefficientBlock {
  public:
   /// @param highest  m
