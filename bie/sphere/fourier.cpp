@@ -46,10 +46,12 @@ double* of_this_thread(Index count) {
 template <int kWidth>
 using Longitudes = typename Lanes<kWidth>::Values;
 
-inline Longitudes<4> reversed(const Longitudes<4>& lanes) { return __builtin_shufflevector(lanes, lanes, 3, 2, 1, 0); }
-inline Longitudes<8> reversed(const Longitudes<8>& lanes) {
+Longitudes<4> reversed(const Longitudes<4>& lanes) { return __builtin_shufflevector(lanes, lanes, 3, 2, 1, 0); }
+#ifdef __AVX512F__
+Longitudes<8> reversed(const Longitudes<8>& lanes) {
   return __builtin_shufflevector(lanes, lanes, 7, 6, 5, 4, 3, 2, 1, 0);
 }
+#endif
 
 /// Sums over even and odd orders of cosines and sines on one latitude, over longitudes of a quarter of the circle.
 template <int kWidth>
