@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "meshes/breaks.hpp"
 #include "meshes/gauss_rule.hpp"
 
 namespace vehd::meshes {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "bie/physics/coupled_charging.hpp"
+
 namespace vehd {
 
 namespace {

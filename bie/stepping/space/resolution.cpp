@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bie/physics/averaged_field.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/degree_bounds.hpp"
 #include "bie/stepping/thresholds.hpp"
