@@ -63,6 +63,8 @@ class BendingForce {
   /// trace function w, for FlowProblem::force.
   /// @throws std::invalid_argument if the degree of the discretisation is above that of the surface
   [[nodiscard]] VectorOnSurface on_trace() const;
+  /// Of the surface, three for each node.
+  [[nodiscard]] long n_unknowns() const { return functional_.size(); }
 
  private:
   std::shared_ptr<const Space> space_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <utility>
@@ -237,6 +238,8 @@ void write_check_inputs(const std::filesystem::path& path, const std::vector<Che
     VesicleWriter& writer = writers[i];
     if (inputs.size() > 1) writer.attribute("/", "name", frozen.names.at(input.vesicle));
     write_shape(writer, frozen.state.vesicles[input.vesicle].position);
+    writer.attribute("/", "solver_tolerance",
+                     std::max(frozen.settings.flow_tolerance, frozen.settings.electric_tolerance));
     write_physics(writer, input);
     write_given(writer, input);
     write_stored(writer, input);

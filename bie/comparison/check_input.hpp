@@ -12,7 +12,7 @@
 namespace vehd {
 
 /// Version of the layout, which both sides must agree in.
-constexpr std::int64_t check_schema_version = 3;
+constexpr std::int64_t check_schema_version = 4;
 
 /// What is asked about V_m in time.
 struct InTime {

@@ -11,7 +11,9 @@
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/vesicles.hpp"
-#include "bie/stepping/evaluation/initial_state.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -81,12 +83,11 @@ FrozenState start_of_scene(const SceneSource& source) {
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
   const Problem problem = problem_of(scene);
-  const Discretisation discretisation(problem.settings, problem.symmetry,
-                                      std::vector<Fineness>(problem.start.size(), {problem.settings.order, 1.0}));
   Instruments instruments;
-  const State start = initial_state(problem.model, discretisation, problem.start, 0.0, instruments);
-  frozen.fields = in_laboratory(problem.frame, solve_fields(problem.model, discretisation, start, instruments).fields);
-  frozen.state = in_laboratory(problem.frame, start);
+  Evolution evolution(setup_of(problem), problem.start, instruments);
+  evolution.evaluate_start();
+  frozen.fields = in_laboratory(problem.frame, evolution.evaluation().fields);
+  frozen.state = in_laboratory(problem.frame, evolution.state());
   frozen.symmetry = symmetry_of(scene, frozen);
   frozen.settings = settings_of(scene);
   frozen.names = vesicle_names(scene);
@@ -140,6 +141,10 @@ void read_vesicle(const RunReader& run, std::size_t snapshot, std::size_t number
     vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1, number);
   }
   take_membrane(scene, read, of_model, vesicle, fields);
+  // The file continues them by zeros to its own degree, at which nothing was solved.
+  const int degree = run.degree(snapshot, number);
+  vesicle = resized(std::move(vesicle), degree);
+  fields = resized(std::move(fields), degree);
 }
 
 FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
@@ -193,7 +198,8 @@ FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::opti
   FrozenShape shape;
   shape.note = choice.note;
   for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
-    shape.positions.push_back(run.coefficients(choice.snapshot, "x", 3, a));
+    const Matrix position = run.coefficients(choice.snapshot, "x", 3, a);
+    shape.positions.push_back(resize_order(position, run.degree(choice.snapshot, a)));
   }
   return shape;
 }

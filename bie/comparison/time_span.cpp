@@ -85,7 +85,7 @@ void take_shapes(const RunReader& run, std::size_t first, std::size_t last, Time
   for (std::size_t i = first; i <= last; ++i) {
     run.require_sealed(i);
     span.shape_times.push_back(run.times()[i]);
-    span.positions.push_back(run.coefficients(i, "x", 3));
+    span.positions.push_back(resize_order(run.coefficients(i, "x", 3), run.degree(i)));
     if (run.has_field(i, "velocity")) span.velocities.push_back(run.coefficients(i, "velocity", 3));
     order = std::max(order, order_of(span.positions.back().rows()));
   }
@@ -137,7 +137,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
                     "of an earlier snapshot",
                     file.string(), from, span.end));
   }
-  span.potential = run.coefficients(choice.snapshot, "Vm", 1);
+  span.potential = resize_order(run.coefficients(choice.snapshot, "Vm", 1), run.degree(choice.snapshot));
   span.control = step_control_of(parse_scene(run.scene(), file.string() + " (scene)", file.parent_path()));
   take_shapes(run, choice.snapshot, run.nearest(span.end), span);
   take_field(end, file.string(), span);
@@ -181,7 +181,8 @@ Vector potential_in_time(const FrozenState& end, const TimeSpan& span, int order
 
 Vector change_by_finer_motion(const FrozenState& end, const TimeSpan& span) {
   if (span.positions.size() == 1) return {};
-  const int order = order_of(end.state.vesicles.front().position.rows());
+  // With a tolerance the degree follows the state, up to this one.
+  const int order = end.settings.order;
   const VesicleState as_run = advanced(end, span, span.positions.front(), end.model, order, false),
                      finer = advanced(end, span, span.positions.front(), end.model, order, true);
   Instruments instruments;
@@ -191,7 +192,8 @@ Vector change_by_finer_motion(const FrozenState& end, const TimeSpan& span) {
       surface_gradient(membrane.surface, membrane.fine.synthesize_gradient(finer.transmembrane_potential));
   const Matrix way = membrane.fine.synthesize(as_run.position - finer.position);
   const Vector moved = membrane.fine.analyze(way.cwiseProduct(slope).rowwise().sum());
-  return finer.transmembrane_potential + moved - as_run.transmembrane_potential;
+  const Matrix change = finer.transmembrane_potential + moved - as_run.transmembrane_potential;
+  return resize_order(change, order_of(end.state.vesicles.front().position.rows()));
 }
 
 }  // namespace vehd

@@ -6,6 +6,7 @@
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/surface_mesh.hpp"
+#include "bie/stepping/state/resized.hpp"
 #include "bie/support/checksum.hpp"
 #include "bie/support/complex_columns.hpp"
 
@@ -229,8 +230,12 @@ std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Sph
       file.group(own);
       write_grid(file, own, transform.grid());
     }
+    const std::int64_t degree = order_of(state.vesicles[a].position.rows());
+    file.attribute(own, degree_attribute, degree);
+    checksum.add(degree);
     VesicleWriter writer(file, own, transform, si_units, checksum);
-    write_vesicle(writer, transform, state.vesicles[a], fields.vesicles[a]);
+    write_vesicle(writer, transform, resized(state.vesicles[a], transform.order()),
+                  resized(fields.vesicles[a], transform.order()));
   }
   file.attribute(group, "checksum", checksum.value());
   return checksum.value();

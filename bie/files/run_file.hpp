@@ -31,7 +31,8 @@ std::string vesicle_group(std::size_t vesicle);
 
 /// Writes /snapshots/NAME: grid fields, coefficients/ and surface/; of several vesicles the same of each in
 /// /snapshots/NAME/vesicles/NN, with its grid.
-/// @param state, fields  of the degree of the transform
+/// @param state, fields  each vesicle in the degree that it was solved in, which its attribute "degree" keeps: the file
+///                       has it continued by zeros to that of the transform
 /// @param si_units  every dataset says in `unit` and `scale` what it says
 /// @return its checksum
 /// @throws OutputError

@@ -42,6 +42,7 @@ std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group)
   checksum.add(std::span(&time, 1));
   checksum.add(file.integer_attribute(group, "step"));
   for (const std::string& vesicle : vesicle_groups(file, group)) {
+    if (file.has_attribute(vesicle, degree_attribute)) checksum.add(file.integer_attribute(vesicle, degree_attribute));
     for (const std::string_view field : snapshot_fields) {
       for (const std::string_view part : snapshot_parts) {
         const std::string dataset = fmt::format("{}/{}{}", vesicle, part, field);
@@ -52,6 +53,14 @@ std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group)
     }
   }
   return checksum.value();
+}
+
+int solved_degree(const Hdf5Reader& file, const std::string& vesicle) {
+  const int of_file = order_of(file.matrix(vesicle + "/coefficients/x").rows());
+  if (!file.has_attribute(vesicle, degree_attribute)) return of_file;
+  const std::int64_t degree = file.integer_attribute(vesicle, degree_attribute);
+  if (degree >= lowest_order && degree <= of_file) return static_cast<int>(degree);
+  file.refuse(fmt::format("{} has the degree {}; accepted: {} to {}", vesicle, degree, lowest_order, of_file));
 }
 
 void require_checksum(const Hdf5Reader& file, const std::string& group, std::int64_t checksum) {
@@ -93,9 +102,12 @@ std::size_t RunReader::at(double time) const {
   file_.refuse(fmt::format("no snapshot at time {:g}; the nearest is at {:g}", time, times_[nearest(time)]));
 }
 
+std::string RunReader::vesicle_group_of(std::size_t snapshot, std::size_t vesicle) const {
+  return group_of(snapshot) + (n_vesicles_ > 1 ? fmt::format("/vesicles/{:02d}", vesicle) : "");
+}
+
 std::string RunReader::path_of(std::size_t snapshot, const std::string& name, std::size_t vesicle) const {
-  const std::string own = n_vesicles_ > 1 ? fmt::format("/vesicles/{:02d}", vesicle) : "";
-  return group_of(snapshot) + own + "/coefficients/" + name;
+  return vesicle_group_of(snapshot, vesicle) + "/coefficients/" + name;
 }
 
 void RunReader::require_one_vesicle(const std::string& who) const {

@@ -52,7 +52,15 @@ void require_run_schema(const Hdf5Reader& file);
 /// Groups of the vesicles of a snapshot: that of the snapshot itself where there is one vesicle.
 std::vector<std::string> vesicle_groups(const Hdf5Reader& file, const std::string& group);
 
-/// Checksum of time, step and all numbers of a snapshot as they are in the file.
+/// Attribute of a vesicle of a snapshot: the degree that it was solved in, beyond which its coefficients are zero.
+constexpr const char* degree_attribute = "degree";
+
+/// That degree: with a tolerance it is lower than that of the file, as a rule. A file of an earlier program does not
+/// have it: that of the file. @throws InputError if it is none that the coefficients can have
+/// @param vesicle  its group, which has x
+int solved_degree(const Hdf5Reader& file, const std::string& vesicle);
+
+/// Checksum of time, step, degrees and all numbers of a snapshot as they are in the file.
 std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group);
 
 /// @throws InputError if the snapshot's attribute "checksum" says otherwise
@@ -91,6 +99,10 @@ class RunReader {
   [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name) const {
     return read(snapshot, name, 0);
   }
+  /// See solved_degree().
+  [[nodiscard]] int degree(std::size_t snapshot, std::size_t vesicle = 0) const {
+    return solved_degree(file_, vesicle_group_of(snapshot, vesicle));
+  }
   /// The same, of the stated number of components and of the order of x.
   /// @param vesicle  of several
   [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name, Index components,
@@ -99,6 +111,7 @@ class RunReader {
  private:
   [[nodiscard]] std::string group_of(std::size_t snapshot) const { return "/snapshots/" + names_.at(snapshot); }
   [[nodiscard]] Matrix read(std::size_t snapshot, const std::string& name, std::size_t vesicle) const;
+  [[nodiscard]] std::string vesicle_group_of(std::size_t snapshot, std::size_t vesicle) const;
   [[nodiscard]] std::string path_of(std::size_t snapshot, const std::string& name, std::size_t vesicle) const;
 
   Hdf5Reader file_;

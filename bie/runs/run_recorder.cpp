@@ -7,7 +7,6 @@
 #include "bie/scene/reader.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/stepping/space/resolution.hpp"
-#include "bie/stepping/state/resized.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -143,10 +142,8 @@ void RunRecorder::keep_last_state(const Fields& fields) {
 void RunRecorder::write_snapshots() {
   if (waiting_.empty()) return;
   snapshots_.add(waiting_.size(), [&](Hdf5Writer& file, const std::string& name, std::size_t i) {
-    const State state = resized(waiting_[i].state, output_.order());
-    const Fields fields = resized(waiting_[i].fields, output_.order());
-    const std::int64_t checksum =
-        write_snapshot(file, name, output_, lab_frame_.state(state), lab_frame_.fields(fields), si_units_);
+    const std::int64_t checksum = write_snapshot(file, name, output_, lab_frame_.state(waiting_[i].state),
+                                                 lab_frame_.fields(waiting_[i].fields), si_units_);
     const std::string first = "/snapshots/" + name + (vesicles_ ? "/vesicles/" + vesicle_group(0) : "");
     const auto has = [&](const std::string& field) { return file.has(first + "/" + field); };
     if (xdmf_.scalars.empty() && xdmf_.vectors.empty()) name_fields(xdmf_, has);

@@ -57,11 +57,15 @@ std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const s
   state.time = source.number_attribute(group, "time");
   state.step = source.integer_attribute(group, "step");
   Fields fields;
-  for (const std::string& vesicle : vesicle_groups(source, group)) {
-    read_vesicle(source, vesicle, state.vesicles.emplace_back(), fields.vesicles.emplace_back());
+  for (const std::string& of_vesicle : vesicle_groups(source, group)) {
+    VesicleState vesicle;
+    VesicleFields of_fields;
+    read_vesicle(source, of_vesicle, vesicle, of_fields);
+    const int degree = solved_degree(source, of_vesicle);
+    state.vesicles.push_back(resized(std::move(vesicle), degree));
+    fields.vesicles.push_back(resized(std::move(of_fields), degree));
   }
-  return write_snapshot(target, name, transform, resized(std::move(state), transform.order()),
-                        resized(std::move(fields), transform.order()), si_units);
+  return write_snapshot(target, name, transform, state, fields, si_units);
 }
 
 }  // namespace vehd

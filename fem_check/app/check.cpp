@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "fem_check/app/bending_levels.hpp"
 #include "fem_check/app/field_files.hpp"
 #include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/questions.hpp"
@@ -14,7 +15,7 @@ namespace vehd::fem_check {
 namespace {
 
 void add(CheckResult& result, const std::vector<FieldQuestion>& questions, const LevelSequence& sequence,
-         double required) {
+         const Requirement& required) {
   for (const FieldQuestion& question : questions) result.fields.push_back(compare(question, sequence, required));
 }
 
@@ -91,7 +92,9 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
   if (solved.potential) {
     add_own_force(inputs, meshes, setups, refinement, *solved.potential, solved.flow->sequence, report);
   }
-  if (single) {
+  if (!single) {
+    solved.shape_flow = solve_bending_levels(inputs, meshes, refinement, report);
+  } else {
     const PotentialLevels* potential = solved.potential ? &*solved.potential : nullptr;
     solved.shape_flow = solve_shape_levels(input, meshes, setups, refinement, potential, report);
   }
@@ -109,6 +112,7 @@ class OneVesicle {
     part_.places = {solved.places.surface.picked(points_), shape.radius(), shape.centroid()};
     if (part_.potential) keep(part_.potential->sequence);
     if (part_.flow) keep(part_.flow->sequence);
+    if (part_.shape_flow) keep(*part_.shape_flow);
   }
   [[nodiscard]] const SolvedState& part() const { return part_; }
 
@@ -137,8 +141,9 @@ CheckResult result_of(const CheckInput& input, const SolvedState& solved, double
 }
 
 /// @param solved  on the membrane of this vesicle alone
-CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, double required) {
-  CheckResult result = result_of(input, solved, required);
+CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, double required_error) {
+  CheckResult result = result_of(input, solved, required_error);
+  const Requirement required{required_error, input.solver_tolerance};
   result.name = input.name;
   result.order = input.bie.order;
   result.high_order = input.bie_high.order;
@@ -147,6 +152,7 @@ CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, do
     const LevelSequence& sequence = solved.potential->sequence;
     result.levels = sequence.levels;
     add(result, electric_questions(input, places, sequence), sequence, required);
+    add(result, current_questions(input, places), sequence, required);
     add(result, stored_electric_questions(input, places), sequence, required);
   }
   if (solved.charging && input.in_time) {
@@ -159,9 +165,13 @@ CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, do
     const LevelSequence& sequence = solved.flow->sequence;
     result.levels.insert(result.levels.end(), sequence.levels.begin(), sequence.levels.end());
     add(result, flow_questions(input, places, sequence), sequence, required);
+    const LevelSequence none;
+    const LevelSequence& of_shape = solved.shape_flow ? *solved.shape_flow : none;
+    const Level* last = of_shape.levels.empty() ? nullptr : &of_shape.levels.back();
+    add(result, stored_shape_questions(input, places, last), of_shape, required);
     add(result, stored_flow_questions(input, places), sequence, required);
-    if (solved.shape_flow) {
-      add(result, shape_questions(input, places), *solved.shape_flow, required);
+    if (last != nullptr) {
+      add(result, shape_questions(input, places, *last), of_shape, required);
       result.levels.insert(result.levels.end(), solved.shape_flow->levels.begin(), solved.shape_flow->levels.end());
     }
     result.divergence = divergence_of(input, sequence, places);

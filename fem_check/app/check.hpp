@@ -29,13 +29,13 @@ struct SolvedState {
   ComparisonPlaces places;  ///< radius and centre are those of the first vesicle
   std::optional<PotentialLevels> potential;
   std::optional<FlowLevels> flow;
-  std::optional<LevelSequence> shape_flow;
+  std::optional<LevelSequence> shape_flow;  ///< of several vesicles f_b alone
   std::optional<ChargingLevels> charging;
   double outer_radius = 0.0;
 };
 
 /// Solves the problems that the inputs of all vesicles have, at rising degree: of several vesicles those in which V_m
-/// and the force are given. @throws SolveError
+/// and the force are given, and f_b of their shapes. @throws SolveError
 /// @param geometry  mesh of the finest geometry, on which fields are compared
 SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, const Discretisation& geometry,
                         const Refinement& refinement, const Report& report);

@@ -9,7 +9,7 @@
 namespace vehd::fem_check {
 namespace {
 
-constexpr double schema_version = 3;
+constexpr double schema_version = 4;
 
 void require_schema(const Hdf5Input& file) {
   const double version = file.number("/", "schema_version");
@@ -218,6 +218,7 @@ CheckInput read_vesicle(const VesicleGroup& file) {
   input.force = given.optional("force", 3);
   if (!input.electric() && !input.flow()) file.refuse("has neither /given/Vm nor /given/force: nothing to compare");
   input.stored = read_stored(file, input);
+  input.solver_tolerance = file.number("/", "solver_tolerance");
   input.bie = read_fields(file, "/bie", input);
   input.bie_high = read_fields(file, "/bie_high", input);
   read_samples(file, input);

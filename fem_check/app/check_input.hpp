@@ -87,8 +87,9 @@ struct CheckInput {
   Eigen::MatrixXd free_charge_in, free_charge_out;  ///< q_i and q_e of its faces; with displacement currents alone
   Eigen::MatrixXd force;                            ///< f on the fluid
   StoredFields stored;
-  BieFields bie;       ///< in the order of the state: what is compared
-  BieFields bie_high;  ///< in another one: what estimates the error of the first
+  double solver_tolerance = 0.0;  ///< at which the solvers of the run stop
+  BieFields bie;                  ///< in the order of the state: what is compared
+  BieFields bie_high;             ///< in another one: what estimates the error of the first
   Samples samples;
   std::optional<InTime> in_time;
 

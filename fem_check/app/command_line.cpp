@@ -1,6 +1,7 @@
 #include "fem_check/app/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <fstream>
@@ -32,10 +33,14 @@ void write_json(const std::string& path, const nlohmann::json& json) {
 
 /// Names the rows that do not agree.
 void print_reasons(const CheckResult& result) {
-  const std::string wrong = result.rows_with(Verdict::does_not), open = result.rows_with(Verdict::undecided);
-  if (!wrong.empty()) fmt::print(stderr, "{}: the two methods do not agree in: {}\n", result.source, wrong);
+  const std::vector<std::string> wrong = result.rows_with(Verdict::disagree),
+                                 open = result.rows_with(Verdict::undecided);
+  if (!wrong.empty()) {
+    fmt::print(stderr, "{}: the two methods disagree in: {}\n", result.source, fmt::join(wrong, ", "));
+  }
   if (!open.empty()) {
-    fmt::print(stderr, "{}: undecided, errors above {:.3g} of the field: {}\n", result.source, result.required, open);
+    fmt::print(stderr, "{}: undecided, errors above {:.3g} of the field: {}\n", result.source, result.required,
+               fmt::join(open, ", "));
   }
 }
 

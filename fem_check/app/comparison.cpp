@@ -8,12 +8,13 @@
 namespace vehd::fem_check {
 namespace {
 
-/// A field below this share of its natural size is zero but for the rounding of its derivatives: what it should be
-/// small against is its natural size.
+/// Of the natural size of a field: a rounding error in x, times the fourth power of degree 48 for the derivatives of
+/// f_b.
 constexpr double rounding = 1e-9;
-/// Error that a tolerance leaves over what it changes when it is made coarser by rough_factor: ten times what it would
-/// be if errors fell like residuals.
-constexpr double solver_share = 10.0 / rough_factor;
+/// Errors that a tolerance leaves, over what it would be if they fell like residuals.
+constexpr double solver_factor = 10.0;
+/// Error that a tolerance leaves over what it changes when it is made coarser by rough_factor.
+constexpr double solver_share = solver_factor / rough_factor;
 /// Slowest power of the mesh size that levels are taken to converge with.
 constexpr double slowest_order = 1.0;
 /// Levels that differ by a larger share of the field do not show an order yet.
@@ -66,23 +67,24 @@ Eigen::MatrixXd values_of(const FieldQuestion& question, const Level& level) {
   return question.from_level ? question.from_level(values) : values;
 }
 
-/// Relative to the field: to the larger of what is judged and what it is judged by, so that neither hides the other.
+/// Relative to the field: to the larger of what is judged and what it is judged by, so that neither hides the other,
+/// and to the size below which it vanishes.
 class Measure {
  public:
-  Measure(const FieldQuestion& question, const Eigen::MatrixXd& by) : weight_(question.weight) {
-    const double natural_l2 = question.natural_size * std::sqrt(weight_.sum());
-    l2_ = std::max(norm(question.judged), norm(by));
-    max_ = std::max(largest(question.judged), largest(by));
-    l2_ = std::max(l2_, question.whole_size * std::sqrt(weight_.sum()));
-    max_ = std::max(max_, question.whole_size);
-    if (question.is_remainder || norm(question.judged) <= rounding * natural_l2) {
-      l2_ = std::max(natural_l2, std::numeric_limits<double>::min());
-      max_ = std::max(question.natural_size, std::numeric_limits<double>::min());
-    }
+  Measure(const FieldQuestion& question, const Eigen::MatrixXd& by, double required) : weight_(question.weight) {
+    const double share = question.is_remainder ? 1.0 : required;
+    const double least = std::max({share * question.natural_size, question.whole_size, least_number});
+    l2_ = least * std::sqrt(weight_.sum());
+    max_ = least;
+    if (question.is_remainder) return;
+    l2_ = std::max({norm(question.judged), norm(by), l2_});
+    max_ = std::max({largest(question.judged), largest(by), max_});
   }
   [[nodiscard]] Norms operator()(const Eigen::MatrixXd& difference) const {
     return {norm(difference) / l2_, largest(difference) / max_};
   }
+  /// Of a root mean square.
+  [[nodiscard]] double share_of(double size) const { return size * std::sqrt(weight_.sum()) / l2_; }
 
  private:
   [[nodiscard]] double norm(const Eigen::MatrixXd& field) const {
@@ -90,22 +92,22 @@ class Measure {
   }
   [[nodiscard]] static double largest(const Eigen::MatrixXd& field) { return field.colwise().norm().maxCoeff(); }
 
+  static constexpr double least_number = std::numeric_limits<double>::min();
   const Vector& weight_;
   double l2_, max_;
 };
 
 Verdict verdict_of(const FieldComparison& field, double required) {
   // Written so that a NaN never agrees.
-  if (!(field.difference.l2 <= field.fem_error() + field.bie_error())) return Verdict::does_not;
+  if (!(field.difference.l2 <= field.fem_error() + field.bie_error())) return Verdict::disagree;
   const bool precise = field.fem_error() <= required && field.bie_error() <= required;
   return precise ? Verdict::agree : Verdict::undecided;
 }
 
 /// By the last levels, which have the values.
-void compare_with_levels(const FieldQuestion& question, const LevelSequence& sequence,
+void compare_with_levels(const FieldQuestion& question, const LevelSequence& sequence, const Measure& measure,
                          const std::vector<Eigen::MatrixXd>& values, const std::vector<double>& n_unknowns,
                          FieldComparison& result) {
-  const Measure measure(question, values.back());
   for (const Eigen::MatrixXd& of_level : values) result.of_levels.push_back(measure(question.judged - of_level));
   const std::size_t last = values.size() - 1;
   result.difference = result.of_levels.back();
@@ -133,36 +135,45 @@ void compare_with_levels(const FieldQuestion& question, const LevelSequence& seq
 
 const char* name_of(Verdict verdict) {
   if (verdict == Verdict::agree) return "agree";
-  return verdict == Verdict::does_not ? "does not" : "undecided";
+  return verdict == Verdict::disagree ? "disagree" : "undecided";
 }
 
-FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence, double required) {
+const char* name_of(Judge judge) {
+  if (judge == Judge::elements) return "elements";
+  return judge == Judge::constraint ? "constraint" : "boundary integrals";
+}
+
+FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence, const Requirement& required) {
   FieldComparison result;
   result.name = question.name;
   result.label = question.label;
   result.group = question.group;
+  result.judge = question.judge;
+  result.has_work_row = question.has_work_row;
   std::vector<Eigen::MatrixXd> values;
   std::vector<double> n_unknowns;
   for (const Level& level : sequence.levels) {
-    Eigen::MatrixXd of_level = values_of(question, level);
+    Eigen::MatrixXd of_level = question.judge == Judge::elements ? values_of(question, level) : Eigen::MatrixXd();
     if (of_level.size() == 0) continue;
     values.push_back(std::move(of_level));
     n_unknowns.push_back(static_cast<double>(level.n_unknowns));
   }
-  if (values.empty() && !question.values.empty()) {
+  if (values.empty() && question.judge == Judge::elements) {
     throw std::logic_error("no level has the values \"" + question.values + "\" of " + question.name);
   }
-  const Measure measure(question, values.empty() ? question.bie : values.back());
+  const Measure measure(question, values.empty() ? question.bie : values.back(), required.error);
   if (values.empty()) {
     result.difference = measure(question.judged - question.bie);
   } else {
-    compare_with_levels(question, sequence, values, n_unknowns, result);
+    compare_with_levels(question, sequence, measure, values, n_unknowns, result);
   }
   result.bie_change = measure(question.bie - question.bie_high);
   result.bie_tail = degree_tail(result.bie_change.l2, question.degrees);
   if (question.further_error.size() > 0) result.bie_further = measure(question.further_error).l2;
   if (question.time_error.size() > 0) result.time = measure(question.time_error).l2;
-  result.verdict = verdict_of(result, required);
+  result.floor =
+      measure.share_of(question.natural_size * std::max(rounding, solver_factor * required.solver_tolerance));
+  result.verdict = verdict_of(result, required.error);
   return result;
 }
 

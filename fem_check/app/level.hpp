@@ -14,12 +14,15 @@ using FieldValues = std::map<std::string, Eigen::MatrixXd>;
 /// Name of the flow that follows from the shape.
 constexpr const char* shape_flow_problem = "flow from the shape";
 
+/// Name of f_b of the shapes of several vesicles, without a flow.
+constexpr const char* bending_problem = "bending";
+
 /// Name of V_m that is advanced in time.
 constexpr const char* charging_problem = "charging";
 
 /// One discrete solution: its fields at the points of the comparison, and what it took.
 struct Level {
-  std::string problem;  ///< "potential", "flow", shape_flow_problem or charging_problem
+  std::string problem;  ///< "potential", "flow" or one of the names above
   int degree = 0;
   double outer_radius = 0.0;
   int n_cells = 0;

@@ -1,9 +1,7 @@
 #include "fem_check/app/question_maker.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -33,7 +31,7 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
   const double shear = physics.flow_gradient.norm();
   sizes.force = physics.bending_modulus / (radius * radius * radius) + physics.viscosity_out * shear +
                 mean_size(input.force, places.surface);
-  sizes.velocity = shear * radius + mean_size(input.force, places.surface) * radius / physics.viscosity_out;
+  sizes.velocity = sizes.force * radius / physics.viscosity_out;
   sizes.rate = sizes.velocity / radius;
   return sizes;
 }
@@ -85,36 +83,6 @@ FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoint
     const double mean = values->cwiseProduct(direction).colwise().sum().dot(points.weight) / points.weight.sum();
     *values -= mean * direction;
   }
-  return question;
-}
-
-namespace {
-
-/// L2(γ) projection on harmonics of low degree, by values at points.
-class SmoothPart {
- public:
-  explicit SmoothPart(const SurfacePoints& points) {
-    constexpr Eigen::Index highest_degree = 4, n_harmonics = (highest_degree + 1) * (highest_degree + 1);
-    values_ = SurfaceSeries(Eigen::MatrixXd::Identity(n_harmonics, n_harmonics))(points);
-    weighted_ = values_ * points.weight.asDiagonal();
-    mass_.compute(weighted_ * values_.transpose());
-  }
-  /// @param field  [components x points]
-  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& field) const {
-    return mass_.solve(weighted_ * field.transpose()).transpose() * values_;
-  }
-
- private:
-  Eigen::MatrixXd values_, weighted_;  // [harmonics x points]
-  Eigen::LLT<Eigen::MatrixXd> mass_;
-};
-
-}  // namespace
-
-FieldQuestion work_on_smooth(FieldQuestion question, const SurfacePoints& points) {
-  const auto smooth = std::make_shared<const SmoothPart>(points);
-  for (Eigen::MatrixXd* force : {&question.judged, &question.bie, &question.bie_high}) *force = (*smooth)(*force);
-  question.from_level = [smooth](const Eigen::MatrixXd& force) { return (*smooth)(force); };
   return question;
 }
 

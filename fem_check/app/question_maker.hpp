@@ -37,8 +37,7 @@ class QuestionMaker {
  public:
   explicit QuestionMaker(const ComparisonPlaces& places) : places_(places) {}
 
-  /// Of coefficients, whose numbers tell their degrees; judged by `values` of the levels, or by `bie` where that is
-  /// empty.
+  /// Of coefficients, whose numbers tell their degrees; judged by `values` of the levels.
   [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label, const std::string& values,
                                          const Eigen::MatrixXd& judged, const Eigen::MatrixXd& bie,
                                          const Eigen::MatrixXd& bie_high, double natural_size) const;
@@ -49,11 +48,6 @@ class QuestionMaker {
 
 /// The same question about a tension, or a force of one, that is known up to a uniform one.
 FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoints& points);
-
-/// The same question about the work of a force on smooth displacements: about the L2(γ) projection of the force on
-/// fields whose components are harmonics in (θ, φ) of degree 4 at most, which has the same ∫ f·w dA with all of these
-/// w. As a functional f_b is known much better than as a field, whose small waves have four derivatives.
-FieldQuestion work_on_smooth(FieldQuestion question, const SurfacePoints& points);
 
 /// The same question about what is left when `of_points` is taken from everything that is compared.
 FieldQuestion without(FieldQuestion question, const Eigen::MatrixXd& of_points);

@@ -1,6 +1,7 @@
 #include "fem_check/app/result.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,20 +11,30 @@ namespace {
 nlohmann::json json_of(const Norms& norms) { return {{"l2", norms.l2}, {"max", norms.max}}; }
 
 nlohmann::json json_of(const FieldComparison& field) {
-  return {{"l2", field.difference.l2},        {"max", field.difference.max},
-          {"fem_error", field.fem_error()},   {"fem_levels_change", json_of(field.levels_change)},
-          {"fem_tail", field.tail},           {"fem_truncation", json_of(field.truncation)},
-          {"fem_solver", field.solver},       {"fem_time", field.time},
-          {"bie_error", field.bie_error()},   {"bie_change", json_of(field.bie_change)},
-          {"bie_tail", field.bie_tail},       {"bie_further", field.bie_further},
-          {"verdict", name_of(field.verdict)}};
+  return {{"l2", field.difference.l2},
+          {"max", field.difference.max},
+          {"fem_error", field.fem_error()},
+          {"fem_levels_change", json_of(field.levels_change)},
+          {"fem_tail", field.tail},
+          {"fem_truncation", json_of(field.truncation)},
+          {"fem_solver", field.solver},
+          {"fem_time", field.time},
+          {"bie_error", field.bie_error()},
+          {"bie_change", json_of(field.bie_change)},
+          {"bie_tail", field.bie_tail},
+          {"bie_further", field.bie_further},
+          {"floor", field.floor},
+          {"judged_by", name_of(field.judge)},
+          {"verdict", name_of(field.verdict)},
+          {"counts", field.counts()}};
 }
 
 /// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
 nlohmann::json level_fields(const CheckResult& result, const Level& level, std::size_t index, std::size_t n_levels) {
   nlohmann::json json = nlohmann::json::object();
   // Both flows have a velocity, and V_m is advanced in time as well.
-  const RowGroup group = level.problem == shape_flow_problem ? RowGroup::from_shape
+  const bool of_shape = level.problem == shape_flow_problem || level.problem == bending_problem;
+  const RowGroup group = of_shape                            ? RowGroup::from_shape
                          : level.problem == charging_problem ? RowGroup::in_time
                                                              : RowGroup::fields;
   for (const FieldComparison& field : result.fields) {
@@ -74,12 +85,59 @@ std::vector<Row> rows_of(const CheckResult& result) {
   return rows;
 }
 
-std::string text_of(const Row& row, std::size_t width) {
+/// With the error that leaves it open, and the marks that the legend explains.
+std::string verdict_text(const FieldComparison& field, double required) {
+  std::string text = name_of(field.verdict);
+  if (field.verdict == Verdict::undecided) {
+    const bool elements = !(field.fem_error() <= required), run = !(field.bie_error() <= required);
+    text += fmt::format(": {} error", elements && run ? "either" : elements ? "FEM" : "run");
+  }
+  if (!field.counts()) text = "(" + text + ")";
+  return field.judge == Judge::boundary_integrals ? text + " *" : text;
+}
+
+std::string text_of(const Row& row, std::size_t width, double required) {
   const FieldComparison& field = *row.field;
-  const std::string fem = field.of_levels.empty() ? "-" : fmt::format("{:.1e}", field.fem_error());
+  const std::string fem = field.judge == Judge::elements ? fmt::format("{:.1e}", field.fem_error()) : "-";
   return fmt::format("{:<{}} {:>9.1e} {:>9.1e}   {:>9} {:>6}   {:>9.1e}   {}\n", row.label, width, field.difference.l2,
                      field.difference.max, fem, field.order ? fmt::format("{:.1f}", *field.order) : "-",
-                     field.bie_error(), name_of(field.verdict));
+                     field.bie_error(), verdict_text(field, required));
+}
+
+/// What the columns and marks mean, and what no row says.
+std::string legend_of(const CheckResult& result, const std::vector<Row>& rows) {
+  const auto any = [&](const auto& holds) {
+    return std::ranges::any_of(rows, [&](const Row& row) { return holds(*row.field); });
+  };
+  std::string text = fmt::format(
+      "  diff.: finite elements against boundary integrals, or against the number of the snapshot (stored), over the "
+      "field\n"
+      "  FEM error, run error: what the elements leave out, and what the degree of the run leaves out: its own error\n"
+      "  agree: the difference is within both errors, each at most {0:.3g} of the field; disagree: it is larger;\n"
+      "  undecided: it is within them, but the error that is named is larger than {0:.3g}\n",
+      result.required);
+  if (any([](const FieldComparison& field) { return field.judge == Judge::boundary_integrals; })) {
+    text += "  *: judged by boundary integrals alone, which solve again; no finite element has a part in it\n";
+  }
+  if (any([](const FieldComparison& field) { return !field.counts(); })) {
+    text += "  (...): does not count, as the row of the work of this force is judged in its place\n";
+  }
+  const bool in_time = any([](const FieldComparison& field) { return field.group == RowGroup::in_time; });
+  const bool electric = any([](const FieldComparison& field) { return field.name == "q"; });
+  if (electric && !in_time) {
+    text += "  V_m is given to both methods: C_m, G_m and the mean of V_m are judged by --from alone\n";
+  }
+  return text;
+}
+
+/// "verdict: agree, in all 24 rows".
+std::string verdict_line(const CheckResult& result, const std::vector<Row>& rows) {
+  const Verdict verdict = result.verdict();
+  if (verdict == Verdict::agree) return "verdict: the two methods agree\n";
+  const std::string which = fmt::format("in {} of {} rows: {}", result.rows_with(verdict).size(), rows.size(),
+                                        fmt::join(result.rows_with(verdict), ", "));
+  if (verdict == Verdict::disagree) return fmt::format("verdict: the two methods disagree {}\n", which);
+  return fmt::format("verdict: undecided {}\n", which);
 }
 
 /// Below the table.
@@ -118,18 +176,19 @@ std::string degrees_of(const CheckResult& result) {
 Verdict CheckResult::verdict() const {
   const std::vector<Row> rows = rows_of(*this);
   const auto has = [&](Verdict verdict) {
-    return std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.field->verdict == verdict; });
+    return std::ranges::any_of(rows,
+                               [&](const Row& row) { return row.field->counts() && row.field->verdict == verdict; });
   };
-  if (has(Verdict::does_not)) return Verdict::does_not;
+  if (has(Verdict::disagree)) return Verdict::disagree;
   return has(Verdict::undecided) || rows.empty() ? Verdict::undecided : Verdict::agree;
 }
 
-std::string CheckResult::rows_with(Verdict verdict) const {
-  std::string text;
+std::vector<std::string> CheckResult::rows_with(Verdict verdict) const {
+  std::vector<std::string> labels;
   for (const Row& row : rows_of(*this)) {
-    if (row.field->verdict == verdict) text += (text.empty() ? "" : ", ") + row.label;
+    if (row.field->counts() && row.field->verdict == verdict) labels.push_back(row.label);
   }
-  return text;
+  return labels;
 }
 
 std::string table_of(const CheckResult& result) {
@@ -141,9 +200,9 @@ std::string table_of(const CheckResult& result) {
       "field\n",
       result.source, result.time, degrees_of(result), result.outer_radius, result.required);
   text += fmt::format("{:<{}} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", width, "diff. L2", "max", "FEM error",
-                      "order", "BIE error", "verdict");
-  for (const Row& row : rows) text += text_of(row, width);
-  return text + further_lines(result);
+                      "order", "run error", "verdict");
+  for (const Row& row : rows) text += text_of(row, width, result.required);
+  return text + further_lines(result) + legend_of(result, rows) + verdict_line(result, rows);
 }
 
 namespace {

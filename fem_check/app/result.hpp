@@ -42,10 +42,10 @@ struct CheckResult {
   double seconds = 0.0;
   std::vector<CheckResult> vesicles{};
 
-  /// Of all rows together: the worst of them.
+  /// Of all rows that count: the worst of them.
   [[nodiscard]] Verdict verdict() const;
-  /// Labels of the rows with this verdict, of several vesicles with their names, separated by commas.
-  [[nodiscard]] std::string rows_with(Verdict verdict) const;
+  /// Labels of the rows with this verdict that count, of several vesicles with their names.
+  [[nodiscard]] std::vector<std::string> rows_with(Verdict verdict) const;
 };
 
 /// The table for the terminal.

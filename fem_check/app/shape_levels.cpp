@@ -5,17 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "fem_check/app/bending_levels.hpp"
 #include "fem_check/bending.hpp"
 #include "fem_check/inextensible_flow.hpp"
 #include "meshes/frozen_shape.hpp"
 
 namespace vehd::fem_check {
 namespace {
-
-/// Of the bending elements above that of the velocity: four derivatives of x would make f_b the largest error by far.
-constexpr int further_degrees = 6;
-/// Of f_b as a field above that of the velocity: it is rougher than all that follows from it.
-constexpr int degrees_of_field = 3;
 
 /// The force of the shape on elements of one degree.
 struct Bending {
@@ -92,7 +88,7 @@ class ShapeFlow {
     Bending& bending = place->second;
     if (!is_new || !(physics_.bending_modulus > 0.0)) return bending;
     const SurfacePoints points = space.quadrature_points(points_per_edge_);
-    const int surface_degree = space.degree() + further_degrees, field_degree = space.degree() + degrees_of_field;
+    const int surface_degree = space.degree() + bending_degrees, field_degree = space.degree() + bending_field_degrees;
     const BendingForce plain(space, {physics_.bending_modulus, 0.0}, surface_degree);
     bending.fields["bending"] = plain.field(field_degree)(points);
     if (physics_.spontaneous_curvature == 0.0) {

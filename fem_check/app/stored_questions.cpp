@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "fem_check/app/questions.hpp"
+#include "fem_check/app/smooth_work.hpp"
 #include "fem_check/app/surface_divergence.hpp"
 #include "fem_check/app/surface_series.hpp"
 
@@ -23,14 +24,14 @@ Eigen::MatrixXd current_through(const CheckInput& input, const SurfacePoints& po
 }
 
 /// −(σ_i ∂φ_i/∂n + G_m V_m + J_p), the current that charges the membrane, from ∂φ_i/∂n of a level; C_m dV_m/dt of the
-/// run, or with displacement currents dq_i/dt.
+/// run, or with displacement currents dq_i/dt. No snapshot has it.
 FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces& places, const NaturalSizes& sizes,
                                 const QuestionMaker& maker) {
   const Physics& physics = input.physics;
   const Eigen::MatrixXd rate = physics.capacitance * input.bie.potential_rate;
   FieldQuestion question =
-      stored(maker.on_surface("charging_current", input.charged_faces() ? "dq_i/dt" : "C dV_m/dt", "flux_in", rate,
-                              rate, physics.capacitance * input.bie_high.potential_rate, sizes.current));
+      maker.on_surface("charging_current", input.charged_faces() ? "dq_i/dt" : "C dV_m/dt", "flux_in", rate, rate,
+                       physics.capacitance * input.bie_high.potential_rate, sizes.current);
   question.is_remainder = true;
   const Eigen::MatrixXd leak = current_through(input, places.surface);
   question.from_level = [leak, sigma = physics.conductivity_in](const Eigen::MatrixXd& flux_in) {
@@ -39,12 +40,12 @@ FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces&
   return question;
 }
 
-/// σ_i E_i − σ_e E_e, at which the free charge of both faces grows.
+/// σ_i E_i − σ_e E_e, at which the free charge of both faces grows; no snapshot has it.
 FieldQuestion free_current_question(const CheckInput& input, const NaturalSizes& sizes, const QuestionMaker& maker) {
   const double capacitance = input.physics.capacitance;
   const Eigen::MatrixXd rate = capacitance * input.bie.free_charge_rate;
-  FieldQuestion question = stored(maker.on_surface("free_current", "dQ_f/dt", "free_current", rate, rate,
-                                                   capacitance * input.bie_high.free_charge_rate, sizes.current));
+  FieldQuestion question = maker.on_surface("free_current", "dQ_f/dt", "free_current", rate, rate,
+                                            capacitance * input.bie_high.free_charge_rate, sizes.current);
   question.is_remainder = true;
   return question;
 }
@@ -61,6 +62,7 @@ FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlace
   FieldQuestion question;
   question.name = "surface_divergence";
   question.label = "div_S v";
+  question.judge = Judge::constraint;
   question.group = RowGroup::stored;
   question.is_remainder = true;
   question.natural_size = rate;
@@ -81,13 +83,19 @@ std::vector<FieldQuestion> stored_electric_questions(const CheckInput& input, co
       stored(
           maker.on_surface("q", "q", "q", input.stored.charge, input.bie.charge, input.bie_high.charge, sizes.charge)),
       stored(maker.on_surface("force", "f_E", "force", input.stored.force_electric, input.bie.force_electric,
-                              input.bie_high.force_electric, sizes.electric_force)),
-      charging_question(input, places, sizes, maker)};
+                              input.bie_high.force_electric, sizes.electric_force))};
   if (!input.charged_faces()) return list;
   list.push_back(
       stored(maker.on_surface("Vm_of_charges", "V_m", "Vm_of_charges", input.potential, input.bie.potential_of_charges,
                               input.bie_high.potential_of_charges, sizes.potential)));
-  list.push_back(free_current_question(input, sizes, maker));
+  return list;
+}
+
+std::vector<FieldQuestion> current_questions(const CheckInput& input, const ComparisonPlaces& places) {
+  const NaturalSizes sizes = natural_sizes(input, places);
+  const QuestionMaker maker(places);
+  std::vector<FieldQuestion> list{charging_question(input, places, sizes, maker)};
+  if (input.charged_faces()) list.push_back(free_current_question(input, sizes, maker));
   return list;
 }
 
@@ -108,26 +116,90 @@ FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& 
   return question;
 }
 
+namespace {
+
+/// Numbers of the snapshot that follow from the shape: by what boundary integrals find for it, and by the elements
+/// where these have them.
+class StoredOfShape {
+ public:
+  StoredOfShape(const CheckInput& input, const ComparisonPlaces& places, const Level* of_shape)
+      : input_(input), places_(places), sizes_(natural_sizes(input, places)), of_shape_(of_shape) {}
+
+  void add_bending() {
+    if (input_.stored.force_bending.size() == 0) return;
+    FieldQuestion field = question("force_bending", "f_b", input_.stored.force_bending, &BieFields::force_bending);
+    FieldQuestion work = field;
+    field.has_work_row = elements_have("bending");
+    list.push_back(std::move(field));
+    if (!elements_have("bending")) return;
+    work.name = "force_bending_work";
+    work.label = "f_b, work";
+    let_elements_judge(work, "bending");
+    list.push_back(work_on_smooth(std::move(work), places_.surface));
+  }
+
+  void add_tension() {
+    if (input_.stored.tension.size() == 0) return;
+    FieldQuestion field = question("force_tension", "f_lambda", input_.stored.force_tension, &BieFields::force_tension);
+    FieldQuestion tension = question("tension", "lambda", input_.stored.tension, &BieFields::tension);
+    tension.natural_size *= places_.radius;
+    FieldQuestion work = field;
+    field.has_work_row = elements_have("tension");
+    list.push_back(std::move(field));
+    if (elements_have("tension")) {
+      work.name = "force_tension_work";
+      work.label = "f_lambda, work";
+      for (FieldQuestion* each : {&work, &tension}) let_elements_judge(*each, "tension");
+      list.push_back(work_of_tension(std::move(work), input_.position, places_.surface));
+    }
+    list.push_back(std::move(tension));
+  }
+
+  std::vector<FieldQuestion> list;
+
+ private:
+  [[nodiscard]] bool elements_have(const std::string& values) const {
+    return of_shape_ != nullptr && of_shape_->surface.contains(values);
+  }
+  /// By boundary integrals alone.
+  [[nodiscard]] FieldQuestion question(const std::string& name, const std::string& label, const Eigen::MatrixXd& judged,
+                                       Eigen::MatrixXd BieFields::*field) const {
+    FieldQuestion result = stored(QuestionMaker(places_).on_surface(name, label, "", judged, input_.bie.*field,
+                                                                    input_.bie_high.*field, sizes_.force));
+    result.judge = Judge::boundary_integrals;
+    if (name != "force_bending" && input_.bie.tension_is_free) {
+      result = without_uniform_tension(std::move(result), places_.surface);
+    }
+    return result;
+  }
+  static void let_elements_judge(FieldQuestion& question, const std::string& values) {
+    question.judge = Judge::elements;
+    question.values = values;
+  }
+
+  const CheckInput& input_;
+  const ComparisonPlaces& places_;
+  NaturalSizes sizes_;
+  const Level* of_shape_;
+};
+
+}  // namespace
+
+std::vector<FieldQuestion> stored_shape_questions(const CheckInput& input, const ComparisonPlaces& places,
+                                                  const Level* of_shape) {
+  StoredOfShape questions(input, places, of_shape);
+  questions.add_bending();
+  questions.add_tension();
+  return std::move(questions.list);
+}
+
 std::vector<FieldQuestion> stored_flow_questions(const CheckInput& input, const ComparisonPlaces& places) {
   const NaturalSizes sizes = natural_sizes(input, places);
-  const QuestionMaker maker(places);
   const SurfacePoints& points = places.surface;
   std::vector<FieldQuestion> list;
-  const auto add_reproduced = [&](const std::string& name, const std::string& label, const Eigen::MatrixXd& judged,
-                                  Eigen::MatrixXd BieFields::*field, double size) {
-    if (judged.size() == 0) return;
-    FieldQuestion question =
-        stored(maker.on_surface(name, label, "", judged, input.bie.*field, input.bie_high.*field, size));
-    const bool is_free = input.bie.tension_is_free && name != "force_bending";
-    list.push_back(is_free ? without_uniform_tension(std::move(question), points) : std::move(question));
-  };
-  add_reproduced("force_bending", "f_b", input.stored.force_bending, &BieFields::force_bending, sizes.force);
-  add_reproduced("force_tension", "f_lambda", input.stored.force_tension, &BieFields::force_tension, sizes.force);
-  add_reproduced("tension", "lambda", input.stored.tension, &BieFields::tension, sizes.force * places.radius);
-
   FieldQuestion velocity =
-      without(stored(maker.on_surface("velocity", "v", "velocity", input.stored.velocity, input.bie.velocity,
-                                      input.bie_high.velocity, sizes.velocity)),
+      without(stored(QuestionMaker(places).on_surface("velocity", "v", "velocity", input.stored.velocity,
+                                                      input.bie.velocity, input.bie_high.velocity, sizes.velocity)),
               input.physics.flow_gradient * points.position);
   // The run has v of its forces, the elements that of the forces in the file, which are truncated.
   if (input.bie.velocity_truncation.size() > 0) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "fem_check/types.hpp"
 
 namespace vehd::fem_check {
@@ -9,5 +11,10 @@ namespace vehd::fem_check {
 /// @param directions          r̂ of the points, [3 x n]
 /// Accuracy: rounding; of v = x it is 2 (tests/fem_check/app/surface_divergence_test.cpp)
 Vector surface_divergence(const Eigen::MatrixXd& position, const Eigen::MatrixXd& velocity, const Vectors& directions);
+
+/// Components of ∇_γ f = tᵃ ∂_a f of scalar fields on γ, [fields x points] each, likewise.
+/// @param fields  coefficients, [n_coefficients x fields]
+std::array<Eigen::MatrixXd, 3> surface_gradients(const Eigen::MatrixXd& position, const Eigen::MatrixXd& fields,
+                                                 const Vectors& directions);
 
 }  // namespace vehd::fem_check

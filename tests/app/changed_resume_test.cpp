@@ -123,6 +123,9 @@ BOOST_AUTO_TEST_CASE(degree_may_rise_and_fall_and_no_snapshot_loses_a_digit) {
   BOOST_TEST(file.vector("/grid/theta").size() == 10);
   for (const std::string& name : file.members("/snapshots")) {
     BOOST_TEST(file.matrix("/snapshots/" + name + "/x").rows() == 10 * 20);
+    // Each keeps the degree that it was solved in.
+    const double time = file.number_attribute("/snapshots/" + name, "time");
+    BOOST_TEST(vehd::solved_degree(file, "/snapshots/" + name) == (time < 1.1 ? 6 : time < 2.1 ? 9 : 5), time);
     vehd::require_checksum(file, "/snapshots/" + name, vehd::snapshot_checksum(file, "/snapshots/" + name));
   }
   BOOST_TEST(run_vehd({"plot", run.output}).exit_code == 0);

@@ -169,10 +169,9 @@ std::vector<Damage> all_damages(const Sizes& sizes) {
   add_field(damages, "f_E", &CheckFields::force_electric, "fields/force", electric);
   add_field(damages, "steady V_m", &CheckFields::steady_potential, "fields/Vm", electric);
   add_field(damages, "steady q", &CheckFields::steady_charge, "fields/q_steady", electric);
-  add_field(damages, "dV_m/dt", &CheckFields::potential_rate, "stored/charging_current", electric);
+  add_field(damages, "dV_m/dt", &CheckFields::potential_rate, "fields/charging_current", electric);
   add_field(damages, "f_b", &CheckFields::force_bending, "stored/force_bending", factors);
   add_field(damages, "f_lambda", &CheckFields::force_tension, "stored/force_tension", factors);
-  add_field(damages, "lambda", &CheckFields::tension, "stored/tension", factors);
   add_field(damages, "v", &CheckFields::velocity, "fields/velocity", factors);
   add_field(damages, "v of own f_E", &CheckFields::velocity_own_force, "fields/velocity_own_force", factors);
   add_field(damages, "f_b from the shape", &CheckFields::force_bending, "from_shape/bending_work", factors);
@@ -232,9 +231,9 @@ std::vector<Damage> all_damages(const Sizes& sizes) {
     damages.push_back({"other order random", [=](Numbers& n) { random(n.high); }, row});
   }
   // One side of the comparison has another coefficient, or exchanges the sides.
-  add_coefficient(damages, "C_m x 100", "stored/charging_current",
+  add_coefficient(damages, "C_m x 100", "fields/charging_current",
                   [](FrozenState& s) { s.model.vesicles[0].charging.capacitance *= 100.0; });
-  add_coefficient(damages, "C_m", "stored/charging_current",
+  add_coefficient(damages, "C_m", "fields/charging_current",
                   [=](FrozenState& s) { s.model.vesicles[0].charging.capacitance *= larger; });
   add_coefficient(damages, "G_m", "fields/Vm",
                   [=](FrozenState& s) { s.model.vesicles[0].charging.conductance *= 1.0 + sizes.conductance; });

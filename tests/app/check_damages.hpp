@@ -87,7 +87,7 @@ inline void check_and_damage(const FinishedRun& run, const std::string& time, co
   BOOST_TEST_REQUIRE(json["further"].size() == damages.size());
   for (std::size_t i = 0; i < damages.size(); ++i) {
     const Damage& damage = damages[i];
-    BOOST_TEST(json["further"][i][damage.group][damage.row]["verdict"] == "does not",
+    BOOST_TEST(json["further"][i][damage.group][damage.row]["verdict"] == "disagree",
                damage.name << " in " << damage.row << ": " << json["further"][i][damage.group][damage.row]);
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fem_check/app/question_maker.hpp"
+#include "fem_check/app/smooth_work.hpp"
 #include "tests/fem_check/cases.hpp"
 
 using namespace vehd::fem_check;
@@ -48,13 +49,13 @@ FieldQuestion question() {
 }
 
 Verdict verdict(const FieldQuestion& asked, double required = 0.02) {
-  return compare(asked, levels(), required).verdict;
+  return compare(asked, levels(), {required}).verdict;
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_what_levels_and_orders_differ_by) {
-  const FieldComparison result = compare(question(), levels(), 0.02);
+  const FieldComparison result = compare(question(), levels(), {0.02});
   BOOST_TEST((result.verdict == Verdict::agree));
   BOOST_TEST(result.difference.l2 == fine_error, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(result.levels_change.l2 == 9.0 * fine_error, boost::test_tools::tolerance(1e-3));
@@ -68,7 +69,7 @@ BOOST_AUTO_TEST_CASE(wrong_numbers_do_not) {
   for (const double factor : {1.003, 0.997, -1.0, 0.5, 100.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
     FieldQuestion wrong = question();
     for (Eigen::MatrixXd* numbers : {&wrong.judged, &wrong.bie, &wrong.bie_high}) *numbers *= factor;
-    BOOST_TEST((verdict(wrong) == Verdict::does_not), factor);
+    BOOST_TEST((verdict(wrong) == Verdict::disagree), factor);
   }
 }
 
@@ -96,32 +97,86 @@ BOOST_AUTO_TEST_CASE(errors_above_what_is_required_decide_nothing) {
 // A small field is a remainder of large ones: half of it wrong is not hidden by the size of those.
 BOOST_AUTO_TEST_CASE(small_fields_are_judged_by_their_own_size) {
   FieldQuestion small = question();
-  small.natural_size = 30.0e7;
+  small.natural_size = 30.0e5;
   BOOST_TEST((verdict(small) == Verdict::agree));
   small.judged *= 1.01;
-  BOOST_TEST((verdict(small) == Verdict::does_not));
+  BOOST_TEST((verdict(small) == Verdict::disagree));
 }
 
 BOOST_AUTO_TEST_CASE(zero_is_judged_by_the_natural_size) {
   FieldQuestion zero = question();
   for (Eigen::MatrixXd* numbers : {&zero.judged, &zero.bie, &zero.bie_high}) numbers->setZero();
-  BOOST_TEST((verdict(zero) == Verdict::does_not), "the elements have a field");
+  BOOST_TEST((verdict(zero) == Verdict::disagree), "the elements have a field");
   zero.natural_size = 1e6;
   LevelSequence rounded = levels();
   for (Level* each : {&rounded.levels[0], &rounded.levels[1], &rounded.levels[2], &rounded.truncated, &rounded.rough}) {
     each->surface["q"].setZero();
   }
-  BOOST_TEST((compare(zero, rounded, 0.02).verdict == Verdict::agree));
+  BOOST_TEST((compare(zero, rounded, {0.02}).verdict == Verdict::agree));
   rounded.levels[2].surface["q"].setConstant(27.0);
   rounded.levels[1].surface["q"].setConstant(26.0);
-  BOOST_TEST((compare(zero, rounded, 0.02).verdict == Verdict::does_not), "27 times an error is no zero");
+  BOOST_TEST((compare(zero, rounded, {0.02}).verdict == Verdict::disagree), "27 times an error is no zero");
+}
+
+// What remains of terms that cancel is known to the required share of these, and to no more.
+BOOST_AUTO_TEST_CASE(vanishing_fields_are_judged_by_the_natural_size) {
+  for (const double size : {0.0, 1e-12, 1e-6, 1e-3}) {
+    FieldQuestion remains = question();
+    remains.natural_size = 30.0 / std::max(size, 1e-12);
+    // Errors of a twentieth of the field, or of 5e-14 of the natural size where it is zero.
+    remains.bie_high = field(1.05);
+    if (size == 0.0) {
+      for (Eigen::MatrixXd* numbers : {&remains.judged, &remains.bie}) numbers->setZero();
+      remains.bie_high = 0.05 * field();
+    }
+    BOOST_TEST((verdict(remains) != Verdict::disagree), size);
+    BOOST_TEST((verdict(remains) == Verdict::agree), size);
+  }
+  FieldQuestion whole = question();
+  whole.bie_high = field(1.05);
+  BOOST_TEST((verdict(whole) == Verdict::undecided));
+}
+
+// Rounding and solvers that stop leave something that no change shows: two equal computations have the same.
+BOOST_AUTO_TEST_CASE(rounding_and_solvers_are_no_disagreement) {
+  const auto with_difference = [](double share, double solver_tolerance) {
+    FieldQuestion asked = question();
+    asked.judge = Judge::boundary_integrals;
+    asked.bie_high = asked.bie;
+    asked.natural_size = std::sqrt(field().squaredNorm() / 50.0);
+    asked.judged = field(1.0 + share);
+    return compare(asked, levels(), {0.02, solver_tolerance}).verdict;
+  };
+  BOOST_TEST((with_difference(5e-10, 0.0) == Verdict::agree));
+  BOOST_TEST((with_difference(1e-8, 0.0) == Verdict::disagree));
+  BOOST_TEST((with_difference(1e-8, 1e-7) == Verdict::agree));
+  BOOST_TEST((with_difference(1e-5, 1e-7) == Verdict::disagree));
+  // Of a small remainder as of the terms that it is made of.
+  FieldQuestion remains = question();
+  remains.natural_size = 30.0e9;
+  remains.judged = remains.bie = remains.bie_high = field(1.5);
+  BOOST_TEST((verdict(remains) == Verdict::agree));
+}
+
+// A force that is not resolved as a field may be known by its work.
+BOOST_AUTO_TEST_CASE(undecided_force_does_not_count_beside_its_work) {
+  FieldQuestion force = question();
+  force.has_work_row = true;
+  BOOST_TEST(compare(force, levels(), {0.02}).counts());
+  force.bie_high = field(1.1);
+  BOOST_TEST(!compare(force, levels(), {0.02}).counts());
+  force.judged *= 2.0;
+  BOOST_TEST(compare(force, levels(), {0.02}).counts());
+  force.has_work_row = false;
+  force.judged = field();
+  BOOST_TEST(compare(force, levels(), {0.02}).counts());
 }
 
 // At a ratio of conductivities of 1e7 a residual of 1e-11 left 5 % of q.
 BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_measured) {
   LevelSequence sequence = levels();
   sequence.rough = level(0.5, 1000);
-  const FieldComparison result = compare(question(), sequence, 0.02);
+  const FieldComparison result = compare(question(), sequence, {0.02});
   BOOST_TEST(result.solver > 0.04);
   BOOST_TEST((result.verdict == Verdict::undecided));
 }
@@ -134,7 +189,7 @@ BOOST_AUTO_TEST_CASE(background_does_not_hide_what_is_left) {
     each->surface["q"] += background;
   }
   for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers = 1.01 * *numbers + background;
-  BOOST_TEST((compare(without(asked, background), shifted, 0.02).verdict == Verdict::does_not));
+  BOOST_TEST((compare(without(asked, background), shifted, {0.02}).verdict == Verdict::disagree));
 }
 
 // As a functional on smooth displacements a force is known to more digits than as a field: waves of high degree count
@@ -152,7 +207,7 @@ BOOST_AUTO_TEST_CASE(work_on_smooth_displacements_is_that_of_the_whole_force) {
   asked.judged = asked.bie = asked.bie_high = smooth;
   LevelSequence sequence = levels();
   for (Level& each : sequence.levels) each.surface["bending"] = smooth + wave;
-  BOOST_TEST((compare(asked, sequence, 0.02).verdict == Verdict::does_not), "the wave is in the field");
+  BOOST_TEST((compare(asked, sequence, {0.02}).verdict == Verdict::disagree), "the wave is in the field");
 
   const FieldQuestion work = work_on_smooth(asked, points);
   const Eigen::MatrixXd of_level = work.from_level(smooth + wave);
@@ -162,13 +217,32 @@ BOOST_AUTO_TEST_CASE(work_on_smooth_displacements_is_that_of_the_whole_force) {
   BOOST_TEST((of_level - smooth).norm() < 0.5 * wave.norm());
 }
 
+// ∫ f_λ·w dA = −∫ λ ∇_γ·w dA: on the unit sphere f_λ of λ = z + z² is ∇_γ λ − 2 λ n.
+BOOST_AUTO_TEST_CASE(work_of_a_tension_force_follows_from_the_tension) {
+  const Eigen::MatrixXd sphere = shapes::ellipsoid(1.0, 1.0, 1.0);
+  const Discretisation space = discretise(sphere, {.cells_per_edge = 2, .shell_layers = 2, .degree = 5});
+  const SurfacePoints points = space.quadrature_points(10);
+  Eigen::MatrixXd tension(1, points.size());
+  FieldQuestion asked = question();
+  asked.judged.resize(3, points.size());
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    const Vector3 n = points.direction.col(i);
+    tension(0, i) = n.z() + n.z() * n.z();
+    asked.judged.col(i) = (1.0 + 2.0 * n.z()) * (Vector3::UnitZ() - n.z() * n) - 2.0 * tension(0, i) * n;
+  }
+  asked.bie = asked.bie_high = asked.judged;
+  const FieldQuestion work = work_of_tension(asked, sphere, points);
+  BOOST_TEST((work.judged - asked.judged).norm() < 1e-4 * asked.judged.norm());
+  BOOST_TEST((work.from_level(tension) - work.judged).norm() < 1e-4 * work.judged.norm());
+}
+
 BOOST_AUTO_TEST_CASE(numbers_without_finite_elements_are_judged_by_the_boundary_integrals) {
   FieldQuestion asked = question();
-  asked.values.clear();
+  asked.judge = Judge::boundary_integrals;
   BOOST_TEST((verdict(asked) == Verdict::agree));
-  BOOST_TEST(compare(asked, levels(), 0.02).fem_error() == 0.0);
+  BOOST_TEST(compare(asked, levels(), {0.02}).fem_error() == 0.0);
   asked.judged *= 1.001;
-  BOOST_TEST((verdict(asked) == Verdict::does_not));
+  BOOST_TEST((verdict(asked) == Verdict::disagree));
 }
 
 // The last change is no larger than the error itself where levels come near in a row.
@@ -186,13 +260,13 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
     for (int i = 0; i < 3; ++i) {
       slow.levels[i] = level(100 * fine_error * std::pow(2.0, -order * i / 3.0), 1000 << i);
     }
-    return compare(question(), slow, 0.02);
+    return compare(question(), slow, {0.02});
   };
   for (const double order : {1.0, 1.5, 2.0, 3.0}) {
     const FieldComparison result = with_order(order);
     BOOST_TEST(result.order.value() == order, boost::test_tools::tolerance(1e-2));
     BOOST_TEST(result.tail * result.levels_change.l2 == result.difference.l2, boost::test_tools::tolerance(1e-2));
-    BOOST_TEST((result.verdict != Verdict::does_not), order);
+    BOOST_TEST((result.verdict != Verdict::disagree), order);
   }
   BOOST_TEST(with_order(4.0).tail == 1.0);
   // An order below one is none.
@@ -205,7 +279,7 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
     LevelSequence sequence = levels();
     sequence.levels = {level(coarse, 1000), level(middle, 2000), level(fine, 4000)};
     sequence.truncated = sequence.rough = sequence.levels.front();
-    return compare(question(), sequence, 0.02);
+    return compare(question(), sequence, {0.02});
   };
   const FieldComparison far = with_errors(0.8, 0.45, 0.26);
   BOOST_TEST(far.order.value() > 2.5);
@@ -213,7 +287,7 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
   BOOST_TEST((far.verdict == Verdict::undecided));
   const FieldComparison near = with_errors(0.08, 0.045, 0.026);
   BOOST_TEST(near.order.value() == far.order.value(), boost::test_tools::tolerance(1e-3));
-  BOOST_TEST((near.verdict == Verdict::does_not));
+  BOOST_TEST((near.verdict == Verdict::disagree));
 }
 
 // Elements know the work of f_b to 1e-11, so a difference of all that degree p misses meets the estimate from the other
@@ -228,7 +302,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
     for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.truncated, &exact.rough}) {
       each->surface["q"] = field();
     }
-    return compare(asked, exact, 0.05);
+    return compare(asked, exact, {0.05});
   };
   const auto geometric = [&](double rate, int degree, int other) {
     return with_errors(degree, std::pow(rate, degree), other, std::pow(rate, other));
@@ -249,11 +323,11 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
   FieldQuestion bulbs = question();
   bulbs.bie_high = field(1.022);
   bulbs.degrees = {24, 28, {}};
-  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::undecided));
+  BOOST_TEST((compare(bulbs, levels(), {0.05}).verdict == Verdict::undecided));
   bulbs.degrees.decay = 0.2;
-  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::agree));
+  BOOST_TEST((compare(bulbs, levels(), {0.05}).verdict == Verdict::agree));
   bulbs.degrees.decay = 0.95;
-  BOOST_TEST((compare(bulbs, levels(), 0.05).verdict == Verdict::undecided));
+  BOOST_TEST((compare(bulbs, levels(), {0.05}).verdict == Verdict::undecided));
   // A change that errors falling to the other degree cannot make says nothing.
   const FieldComparison unknown = with_errors(40, 0.44, 42, 0.40);
   BOOST_TEST((unknown.verdict == Verdict::undecided));
@@ -287,7 +361,7 @@ BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
 BOOST_AUTO_TEST_CASE(single_level_has_an_unknown_error) {
   LevelSequence one = levels();
   one.levels = {one.levels.back()};
-  BOOST_TEST((compare(question(), one, 0.02).verdict == Verdict::undecided));
+  BOOST_TEST((compare(question(), one, {0.02}).verdict == Verdict::undecided));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

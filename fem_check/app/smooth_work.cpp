@@ -1,0 +1,67 @@
+#include "fem_check/app/smooth_work.hpp"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <memory>
+
+#include "fem_check/app/surface_divergence.hpp"
+#include "fem_check/app/surface_series.hpp"
+
+namespace vehd::fem_check {
+namespace {
+
+constexpr Eigen::Index highest_degree = 4, n_harmonics = (highest_degree + 1) * (highest_degree + 1);
+
+/// Coefficients of each harmonic.
+Eigen::MatrixXd each_harmonic() { return Eigen::MatrixXd::Identity(n_harmonics, n_harmonics); }
+
+/// L2(γ) projection on the harmonics, by values at points.
+class SmoothPart {
+ public:
+  explicit SmoothPart(const SurfacePoints& points) {
+    values_ = SurfaceSeries(each_harmonic())(points);
+    weighted_ = values_ * points.weight.asDiagonal();
+    mass_.compute(weighted_ * values_.transpose());
+  }
+  /// @param field  [components x points]
+  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& field) const {
+    return with_moments(weighted_ * field.transpose());
+  }
+  /// The field that has these.
+  /// @param moments  ∫ f_c Y_k dA in row k and column c
+  [[nodiscard]] Eigen::MatrixXd with_moments(const Eigen::MatrixXd& moments) const {
+    return mass_.solve(moments).transpose() * values_;
+  }
+
+ private:
+  Eigen::MatrixXd values_, weighted_;  // [harmonics x points]
+  Eigen::LLT<Eigen::MatrixXd> mass_;
+};
+
+FieldQuestion projected(FieldQuestion question, const SmoothPart& smooth) {
+  for (Eigen::MatrixXd* force : {&question.judged, &question.bie, &question.bie_high}) *force = smooth(*force);
+  return question;
+}
+
+}  // namespace
+
+FieldQuestion work_on_smooth(FieldQuestion question, const SurfacePoints& points) {
+  const auto smooth = std::make_shared<const SmoothPart>(points);
+  question.from_level = [smooth](const Eigen::MatrixXd& force) { return (*smooth)(force); };
+  return projected(std::move(question), *smooth);
+}
+
+FieldQuestion work_of_tension(FieldQuestion question, const Eigen::MatrixXd& position, const SurfacePoints& points) {
+  const auto smooth = std::make_shared<const SmoothPart>(points);
+  std::array<Eigen::MatrixXd, 3> slopes = surface_gradients(position, each_harmonic(), points.direction);
+  for (Eigen::MatrixXd& component : slopes) component = component * points.weight.asDiagonal();
+  question.from_level = [smooth, slopes](const Eigen::MatrixXd& tension) {
+    Eigen::MatrixXd moments(n_harmonics, 3);
+    // Of w = Y e_d the divergence is the component d of ∇_γ Y.
+    for (int d = 0; d < 3; ++d) moments.col(d) = -slopes[d] * tension.transpose();
+    return smooth->with_moments(moments);
+  };
+  return projected(std::move(question), *smooth);
+}
+
+}  // namespace vehd::fem_check
