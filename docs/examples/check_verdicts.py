@@ -99,7 +99,7 @@ def main() -> int:
     parser.add_argument("--as-they-are", action="store_true", help="with the numerics of the scene")
     parser.add_argument("--until", type=float, default=1.0, metavar="SHARE", help="of the end of each scene")
     parser.add_argument("--check", default="--quick --ranks 1", help="further arguments of vehd check")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     program = str(pathlib.Path(arguments.program).resolve())
     any_disagrees = False
     for scene in scenes_of(arguments.scenes):

@@ -1,8 +1,10 @@
 #include "fem_check/app/comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 namespace vehd::fem_check {
@@ -28,6 +30,17 @@ constexpr double slowest_degree_order = 4.0;
 /// @param growth  of the unknowns from the level before
 double order_tail(double order, double growth) {
   return std::max(1.0, 1.0 / (std::pow(growth, std::max(order, slowest_order) / 3.0) - 1.0));
+}
+
+/// @param changes  of the last two levels, over the field
+/// @param n_unknowns  of the last three
+std::optional<Convergence> convergence(const std::array<double, 2>& changes, const std::array<double, 3>& n_unknowns) {
+  if (!(changes[0] > 0.0 && changes[1] > 0.0)) return {};
+  Convergence result;
+  result.order = 3.0 * std::log(changes[0] / changes[1]) / std::log(n_unknowns[1] / n_unknowns[0]);
+  const bool shows_order = changes[1] <= largest_change_with_an_order;
+  result.tail = order_tail(shows_order ? result.order : slowest_order, n_unknowns[2] / n_unknowns[1]);
+  return result;
 }
 
 /// Error e_p of the lower of two degrees p < P if errors fall geometrically, e_n = r^n of the field, and e_p − e_P is
@@ -122,13 +135,11 @@ void compare_with_levels(const FieldQuestion& question, const LevelSequence& seq
     result.solver = solver_share * measure(rough - values_of(question, repeated)).l2;
   }
   if (values.size() < 3) return;
-  const double before = measure(values[last - 1] - values[last - 2]).l2;
-  if (result.levels_change.l2 > 0.0 && before > 0.0) {
-    result.order =
-        3.0 * std::log(before / result.levels_change.l2) / std::log(n_unknowns[last - 1] / n_unknowns[last - 2]);
-    const bool shows_order = result.levels_change.l2 <= largest_change_with_an_order;
-    result.tail = order_tail(shows_order ? *result.order : slowest_order, n_unknowns[last] / n_unknowns[last - 1]);
-  }
+  const auto found = convergence({measure(values[last - 1] - values[last - 2]).l2, result.levels_change.l2},
+                                 {n_unknowns[last - 2], n_unknowns[last - 1], n_unknowns[last]});
+  if (!found) return;
+  result.order = found->order;
+  result.tail = found->tail;
 }
 
 }  // namespace
@@ -141,6 +152,18 @@ const char* name_of(Verdict verdict) {
 const char* name_of(Judge judge) {
   if (judge == Judge::elements) return "elements";
   return judge == Judge::constraint ? "constraint" : "boundary integrals";
+}
+
+std::optional<Convergence> convergence_of(const LevelSequence& sequence, const std::string& field) {
+  const auto& levels = sequence.levels;
+  if (levels.size() < 3) return {};
+  const auto last_three = std::span(levels).last<3>();
+  const double size = last_three[2].surface.at(field).norm();
+  const auto change = [&](std::size_t i) {
+    return (last_three[i + 1].surface.at(field) - last_three[i].surface.at(field)).norm() / size;
+  };
+  const auto unknowns = [&](std::size_t i) { return static_cast<double>(last_three[i].n_unknowns); };
+  return convergence({change(0), change(1)}, {unknowns(0), unknowns(1), unknowns(2)});
 }
 
 FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence, const Requirement& required) {

@@ -104,6 +104,16 @@ struct FieldQuestion {
   bool is_remainder = false;
 };
 
+/// How the levels of a field converge.
+struct Convergence {
+  double order = 0.0;  ///< observed from the last three, in the mesh size N^(−1/3), N unknowns
+  double tail = 1.0;   ///< what the last level leaves, over the change to it
+};
+
+/// Of a surface field of a sequence; nothing where it has less than three levels that differ. Root mean square over the
+/// points.
+std::optional<Convergence> convergence_of(const LevelSequence& sequence, const std::string& field);
+
 /// What is asked of both methods.
 struct Requirement {
   double error = 0.0;             ///< share of the field that each error may reach for both to agree

@@ -84,8 +84,9 @@ void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSe
   const VectorOnSurface change = [&](const SurfacePoints& at) {
     return Vectors(given(at) - electric.on_surface(at).force);
   };
+  const double tail = tail_of_force(potential);
   const VectorOnSurface electric_change = [&](const SurfacePoints& at) {
-    return Vectors(electric.on_surface(at).force - electric_before.on_surface(at).force);
+    return Vectors(tail * (electric.on_surface(at).force - electric_before.on_surface(at).force));
   };
   const int first = sequence.levels.front().degree;
   const double enough = negligible_share * (last.surface.at("velocity") - before.surface.at("velocity")).norm();

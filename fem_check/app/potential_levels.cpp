@@ -1,5 +1,6 @@
 #include "fem_check/app/potential_levels.hpp"
 
+#include "fem_check/app/comparison.hpp"
 #include "fem_check/app/level_loop.hpp"
 #include "fem_check/app/sample_values.hpp"
 #include "fem_check/app/vesicle_fields.hpp"
@@ -30,6 +31,11 @@ Eigen::MatrixXd free_current(const PotentialTraces& traces, const PotentialProbl
 }
 
 }  // namespace
+
+double tail_of_force(const PotentialLevels& potential) {
+  const std::optional<Convergence> found = convergence_of(potential.sequence, "force");
+  return found ? found->tail : 1.0;
+}
 
 PotentialProblem given_problem(const std::vector<CheckInput>& inputs) {
   PotentialProblem problem = base_problem(inputs);

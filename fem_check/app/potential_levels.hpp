@@ -20,6 +20,9 @@ struct PotentialLevels {
   std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
 };
 
+/// What the finest f_E leaves out, over its change from the level before.
+double tail_of_force(const PotentialLevels& potential);
+
 /// V_m given; with displacement currents the free charge of both faces, from which V_m follows.
 /// @param inputs  of all vesicles of the meshes
 PotentialProblem given_problem(const std::vector<CheckInput>& inputs);

@@ -152,8 +152,9 @@ LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, FlowSe
   if (potential == nullptr) return sequence;
 
   const PotentialSolution& before = potential->solutions[potential->solutions.size() - 2];
+  const double tail = tail_of_force(*potential);
   const VectorOnSurface change = [&](const SurfacePoints& at) {
-    return Vectors(electric(at) - before.on_surface(at).force);
+    return Vectors(tail * (electric(at) - before.on_surface(at).force));
   };
   const Level moved = solve_level("flow by the change of f_E", meshes.discretise(refinement.shape_flow_degrees.front()),
                                   meshes.outer_radius(), report, [&](const Discretisation& space) {

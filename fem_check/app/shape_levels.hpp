@@ -21,8 +21,9 @@ Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, co
 /// velocity; bending, f_b without spontaneous curvature, where the membrane resists bending; spontaneous_curvature,
 /// what that adds to f_b, where there is one; tension where it is inextensible, without its mean where a uniform one
 /// does nothing.
-/// @param potential  null without a field; f_E is that of its finest level. What the level before has instead stands
-///                   between the last two levels, as an error of the last
+/// @param potential  null without a field; f_E is that of its finest level. What that leaves out stands between the
+/// last
+///                   two levels, as an error of the last
 /// @throws SolveError
 LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, FlowSetups& setups,
                                  const Refinement& refinement, const PotentialLevels* potential, const Report& report);
