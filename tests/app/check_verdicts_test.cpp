@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bie/comparison/check_input.hpp"
+#include "bie/files/hdf5_reader.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
