@@ -82,11 +82,16 @@ class CoupledFrozenSolver {
         in_field_, interaction, weighted_fluxes(in_field_, interaction, potentials), settings_.electric_tolerance);
     require_converged(densities.report, "charge densities, Eq. (12)");
     const std::vector<Vector> of_others = potentials_of_others(in_field_, interaction, potentials, densities.membranes);
-    for (std::size_t a = 0; a < results.size(); ++a) {
+    std::vector<Vector> charges(results.size());
+    for (const std::size_t a : interaction.shares().own(results.size())) {
       const ElectricTraces traces =
           electric_traces(in_field_[a].electric, membrane(a), potentials[a], densities.membranes[a], of_others[a]);
-      results[a].steady_charge = membrane(a).fine.analyze(traces.charge);
+      charges[a] = membrane(a).fine.analyze(traces.charge);
+    }
+    interaction.gather_potentials(charges);
+    for (std::size_t a = 0; a < results.size(); ++a) {
       if (charging[a].conductance == 0.0) remove_mean(membrane(a), potentials[a]);
+      results[a].steady_charge = std::move(charges[a]);
       results[a].steady_potential = std::move(potentials[a]);
     }
   }
@@ -120,14 +125,16 @@ class CoupledFrozenSolver {
  private:
   [[nodiscard]] const Membrane& membrane(std::size_t a) const { return *solved_.vesicles[a].membrane; }
 
-  /// Of the background flow and forces, coefficients.
+  /// Of the background flow and forces, coefficients; those of images follow from their originals.
   [[nodiscard]] std::vector<Matrix> velocities_of(CoupledFlow& flow, const std::vector<Matrix>& forces) const {
     std::vector<Matrix> weighted, background;
     for (std::size_t a = 0; a < results.size(); ++a) {
       weighted.push_back(membrane(a).weighted(membrane(a).fine.synthesize(forces[a])));
       background.push_back(state_.vesicles[a].position * flow_gradient(frozen_).transpose());
     }
-    return flow.velocities(weighted, background);
+    std::vector<Matrix> velocities = flow.velocities(weighted, background);
+    solved_.interaction->gather_vectors(velocities);
+    return velocities;
   }
 
   /// In the degrees of the state alone.

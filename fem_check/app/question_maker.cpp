@@ -79,7 +79,9 @@ FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::stri
 
 FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoints& points) {
   for (Eigen::MatrixXd* values : {&question.judged, &question.bie, &question.bie_high}) {
-    const Eigen::MatrixXd direction = values->rows() == 1 ? Eigen::MatrixXd::Ones(1, points.size()) : points.normal;
+    const bool is_tension = values->rows() == 1;
+    const Eigen::MatrixXd direction =
+        is_tension ? Eigen::MatrixXd(Eigen::MatrixXd::Ones(1, points.size())) : Eigen::MatrixXd(points.normal);
     const double mean = values->cwiseProduct(direction).colwise().sum().dot(points.weight) / points.weight.sum();
     *values -= mean * direction;
   }
