@@ -24,7 +24,7 @@ ExitCode mesh(const MeshOptions& options) {
   const FrozenShape shape = read_frozen_shape(options.file, options.time);
   if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
   const FemProgram::Result result =
-      write_volume_mesh(fem, {shape.positions, options.output, options.family, options.refine});
+      write_volume_mesh(fem, {shape, options.output, options.family, options.refine});
   if (result.code != ExitCode::done) return result.code;
   fmt::print("mesh: {}\n", options.output);
   write_json(options.common, result.json);

@@ -12,6 +12,7 @@
 #include "bie/comparison/check_samples.hpp"
 #include "bie/comparison/coupled_check_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -57,6 +58,16 @@ int estimate_order(int order, bool quick) {
 
 namespace {
 
+/// Solves by boundary integrals, with the file and the degree in front of the reason where that fails.
+template <typename Solve>
+auto solved_or_named(const FrozenState& frozen, int order, const Solve& solve) {
+  try {
+    return solve();
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(fmt::format("{}, boundary integrals of degree {}: {}", frozen.source, order, error.what()));
+  }
+}
+
 /// Lets the finite elements solve what the file has, and compare.
 FemProgram::Result run_elements(const FemProgram& fem, const CheckTask& task, const std::filesystem::path& input) {
   std::vector<std::string> arguments{"check", input.string(), "-o", task.directory.string()};
@@ -72,7 +83,8 @@ void compare_one(const CheckTask& task, const std::filesystem::path& input) {
   make_directory(task.directory);
   CheckSamples samples = check_samples(frozen.state.vesicles.front().position);
   const auto solved_at = [&](int order) {
-    CheckFields fields = check_fields(frozen, contents, force, order, samples.points);
+    CheckFields fields =
+        solved_or_named(frozen, order, [&] { return check_fields(frozen, contents, force, order, samples.points); });
     if (task.tell) task.tell(fields);
     return fields;
   };
@@ -100,7 +112,8 @@ void compare_several(const CheckTask& task, const std::filesystem::path& input) 
   }
   make_directory(task.directory);
   const auto solved_at = [&](const std::vector<int>& of_each) {
-    std::vector<CheckFields> fields = coupled_check_fields(frozen, contents, forces, of_each);
+    std::vector<CheckFields> fields = solved_or_named(
+        frozen, of_each.front(), [&] { return coupled_check_fields(frozen, contents, forces, of_each); });
     if (task.tell) task.tell(fields.front());
     return fields;
   };

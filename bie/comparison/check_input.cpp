@@ -251,9 +251,11 @@ void write_check_inputs(const std::filesystem::path& path, const std::vector<Che
   file.close();
 }
 
-void write_shape_input(const std::filesystem::path& path, const std::vector<Matrix>& positions) {
+void write_shape_input(const std::filesystem::path& path, const FrozenShape& shape) {
+  const std::vector<Matrix>& positions = shape.positions;
   Hdf5Writer file(path, Hdf5Writer::Mode::create);
   file.attribute("/", "schema_version", check_schema_version);
+  file.attribute("/", "source", shape.source);
   std::vector<VesicleWriter> writers = writers_of(file, positions.size());
   for (std::size_t a = 0; a < positions.size(); ++a) write_shape(writers[a], positions[a]);
   file.close();

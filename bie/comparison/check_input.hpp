@@ -40,7 +40,7 @@ void write_check_input(const std::filesystem::path& file, const CheckInput& inpu
 void write_check_inputs(const std::filesystem::path& file, const std::vector<CheckInput>& inputs);
 
 /// The same file with the shapes alone. @throws OutputError
-void write_shape_input(const std::filesystem::path& file, const std::vector<Matrix>& positions);
+void write_shape_input(const std::filesystem::path& file, const FrozenShape& shape);
 
 /// The shape and the point sources that make the exact solution on it. @throws OutputError
 void write_sources_input(const std::filesystem::path& file, const Matrix& position, const ElectricParameters& electric,

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "bie/files/run_reader.hpp"
 #include "bie/files/snapshot_choice.hpp"
+#include "bie/geometry/surface.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/scene/given_time.hpp"
 #include "bie/scene/initial_shape.hpp"
@@ -22,6 +25,38 @@ namespace {
 void require_few_vesicles(std::size_t n, const std::filesystem::path& file, const std::string& who) {
   if (n <= most_checked_vesicles) return;
   throw InputError(fmt::format("{}: has {} vesicles; {} accepts one or two", file.string(), n, who));
+}
+
+/// Before a solve or a mesher meets what is no shape.
+/// @param what  "scene.toml: the shape", for the message
+void require_outward(const std::string& what, const Matrix& position) {
+  const int order = order_of(position.rows());
+  const Surface surface = make_surface(SphereTransform(order, make_grid(2 * order)), position);
+  const Vector& area = surface.area_element;
+  const double volume = enclosed_volume(surface);
+  if (area.allFinite() && !(area.minCoeff() > 0.0)) {
+    throw InputError(fmt::format("{} is no surface: its area element vanishes somewhere", what));
+  }
+  if (!area.allFinite() || !std::isfinite(volume)) {
+    throw InputError(fmt::format("{} is too large: its area or its volume is no finite number", what));
+  }
+  if (volume > 0.0) return;
+  throw InputError(fmt::format(
+      "{} encloses the volume {:.6g}; accepted: a positive one, with x_θ × x_φ pointing outwards", what, volume));
+}
+
+/// Of one vesicle of a scene.
+void require_outward(const Scene& scene, const std::filesystem::path& file, std::size_t vesicle,
+                     const Matrix& position) {
+  const std::vector<std::string> names = vesicle_names(scene);
+  const std::string of_one = names.size() < 2 ? "" : fmt::format(" of \"{}\"", names[vesicle]);
+  require_outward(fmt::format("{}: the shape{}", file.string(), of_one), position);
+}
+
+/// Of one vesicle of a snapshot.
+void require_outward(const RunReader& run, std::size_t snapshot, std::size_t vesicle, const Matrix& position) {
+  const std::string of_one = run.n_vesicles() < 2 ? "" : fmt::format(" of vesicle {:02}", vesicle);
+  require_outward(fmt::format("{}: x{} at time {:g}", run.name(), of_one, run.times()[snapshot]), position);
 }
 
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
@@ -83,6 +118,9 @@ FrozenState start_of_scene(const SceneSource& source) {
   frozen.source = source.file.string();
   frozen.model = model_of(scene);
   const Problem problem = problem_of(scene);
+  for (std::size_t a = 0; a < problem.start.size(); ++a) {
+    require_outward(scene, source.file, a, problem.start[a].position);
+  }
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
@@ -94,57 +132,71 @@ FrozenState start_of_scene(const SceneSource& source) {
   return frozen;
 }
 
-/// What differs from place to place, and the state of poration.
-/// @param read  coefficients of a field of the snapshot, empty where it has none
-template <typename Read>
-void take_membrane(const MembraneScene& scene, const Read& read, VesicleModel& of_model, VesicleState& vesicle,
-                   VesicleFields& fields) {
-  vesicle.material.capacitance = read("capacitance", 1);
-  vesicle.material.pump_current = read("pump_current", 1);
-  // The file has the sum of what porates and what conducts there anyway.
-  if (scene.conductance_by_place) of_model.reaction.reset();
-  if (of_model.reaction) {
-    vesicle.poration = read("poration", 1);
-    fields.conductance = read("conductance", 1);
-  } else {
-    vesicle.material.conductance = read("conductance", 1);
-  }
-}
+/// One vesicle of a snapshot: every field that a run of this scene writes, so that none can be missing unnoticed.
+class VesicleOfSnapshot {
+ public:
+  VesicleOfSnapshot(const RunReader& run, std::size_t snapshot, std::size_t vesicle)
+      : run_(run), snapshot_(snapshot), vesicle_(vesicle) {}
 
-/// One vesicle of a snapshot.
-void read_vesicle(const RunReader& run, std::size_t snapshot, std::size_t number, const MembraneScene& scene,
-                  FrozenState& frozen) {
-  const auto read = [&](const std::string& name, Index components) {
-    return run.has_field(snapshot, name) ? run.coefficients(snapshot, name, components, number) : Matrix();
-  };
-  VesicleState& vesicle = frozen.state.vesicles.emplace_back();
-  vesicle.position = run.coefficients(snapshot, "x", 3, number);
-  vesicle.area_strain = Vector::Zero(vesicle.position.rows());
-  VesicleModel& of_model = frozen.model.vesicles[number];
-  if (of_model.inextensible) vesicle.tension = Vector::Zero(vesicle.position.rows());
-  VesicleFields& fields = frozen.fields.vesicles.emplace_back();
-  fields.velocity = read("velocity", 3);
-  fields.force_bending = read("force_bending", 3);
-  fields.force_tension = read("force_tension", 3);
-  fields.force_electric = read("force_electric", 3);
-  fields.force_contact = read("force_contact", 3);
-  fields.tension = read("tension", 1);
-  fields.charge = read("q", 1);
-  if (relaxes_charge(frozen.model)) {
-    fields.potential = run.coefficients(snapshot, "Vm", 1, number);
-    fields.free_charge_in = run.coefficients(snapshot, "free_charge_in", 1, number);
-    fields.free_charge_out = run.coefficients(snapshot, "free_charge_out", 1, number);
-    const double capacitance = of_model.charging.capacitance;
-    vesicle.transmembrane_potential = fields.free_charge_in / capacitance;
-    vesicle.free_charge = (fields.free_charge_in + fields.free_charge_out) / capacitance;
-  } else if (frozen.model.electric) {
-    vesicle.transmembrane_potential = run.coefficients(snapshot, "Vm", 1, number);
+  void read(const MembraneScene& scene, FrozenState& frozen) const {
+    const Model& model = frozen.model;
+    VesicleModel& of_model = frozen.model.vesicles[vesicle_];
+    VesicleState& state = frozen.state.vesicles.emplace_back();
+    VesicleFields& fields = frozen.fields.vesicles.emplace_back();
+    const bool electric = model.electric.has_value(), tense = model.mobile && of_model.inextensible;
+    state.position = coefficients("x", 3);
+    require_outward(run_, snapshot_, vesicle_, state.position);
+    state.area_strain = Vector::Zero(state.position.rows());
+    if (of_model.inextensible) state.tension = Vector::Zero(state.position.rows());
+    fields.velocity = coefficients("velocity", 3, model.mobile);
+    fields.force_bending = coefficients("force_bending", 3, model.mobile && of_model.bending);
+    fields.force_tension = coefficients("force_tension", 3, tense);
+    fields.tension = coefficients("tension", 1, tense);
+    fields.force_contact = coefficients("force_contact", 3, model.contact.has_value());
+    fields.force_electric = coefficients("force_electric", 3, electric);
+    fields.charge = coefficients("q", 1, electric);
+    if (electric) read_potential(relaxes_charge(model), of_model.charging.capacitance, state, fields);
+    state.material.capacitance = coefficients("capacitance", 1, electric && scene.capacitance_by_place);
+    state.material.pump_current = coefficients("pump_current", 1, electric && scene.pump);
+    // The file has the sum of what porates and what conducts there anyway.
+    if (scene.conductance_by_place) of_model.reaction.reset();
+    state.material.conductance = coefficients("conductance", 1, electric && scene.conductance_by_place);
+    state.poration = coefficients("poration", 1, of_model.reaction != nullptr);
+    fields.conductance = coefficients("conductance", 1, of_model.reaction != nullptr);
+    // The file continues them by zeros to its own degree, at which nothing was solved.
+    const int degree = run_.degree(snapshot_, vesicle_);
+    state = resized(std::move(state), degree);
+    fields = resized(std::move(fields), degree);
   }
-  take_membrane(scene, read, of_model, vesicle, fields);
-  // The file continues them by zeros to its own degree, at which nothing was solved.
-  const int degree = run.degree(snapshot, number);
-  vesicle = resized(std::move(vesicle), degree);
-  fields = resized(std::move(fields), degree);
+
+ private:
+  void read_potential(bool relaxes, double capacitance, VesicleState& state, VesicleFields& fields) const {
+    const Vector potential = coefficients("Vm", 1);
+    if (!relaxes) {
+      state.transmembrane_potential = potential;
+      return;
+    }
+    fields.potential = potential;
+    fields.free_charge_in = coefficients("free_charge_in", 1);
+    fields.free_charge_out = coefficients("free_charge_out", 1);
+    state.transmembrane_potential = fields.free_charge_in / capacitance;
+    state.free_charge = (fields.free_charge_in + fields.free_charge_out) / capacitance;
+  }
+
+  /// @param is_written  by a run of this scene; else empty
+  [[nodiscard]] Matrix coefficients(const std::string& name, Index components, bool is_written = true) const {
+    return is_written ? run_.coefficients(snapshot_, name, components, vesicle_) : Matrix();
+  }
+
+  const RunReader& run_;
+  std::size_t snapshot_, vesicle_;
+};
+
+void require_same_vesicles(const RunReader& run, const Scene& scene) {
+  const std::size_t n = run.n_vesicles();
+  if (n == n_vesicles(scene)) return;
+  throw InputError(fmt::format("{}: has {} vesicle{} in its snapshots, and its scene has {}", run.name(), n,
+                               n == 1 ? "" : "s", n_vesicles(scene)));
 }
 
 FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
@@ -156,6 +208,7 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   require_instant(scene, file);
   require_known_places(scene, file);
+  require_same_vesicles(run, scene);
   FrozenState frozen;
   frozen.source = file.string();
   frozen.note = choice.note;
@@ -163,7 +216,9 @@ FrozenState snapshot_of_run(const std::filesystem::path& file, const std::option
   frozen.names = vesicle_names(scene);
   frozen.state.time = run.times()[snapshot];
   const std::vector<Scene> alone = each_alone(scene);
-  for (std::size_t a = 0; a < run.n_vesicles(); ++a) read_vesicle(run, snapshot, a, alone[a].membrane, frozen);
+  for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
+    VesicleOfSnapshot(run, snapshot, a).read(alone[a].membrane, frozen);
+  }
   frozen.symmetry = symmetry_of(scene, frozen);
   frozen.settings = settings_of(scene);
   return frozen;
@@ -184,22 +239,26 @@ FrozenState read_frozen_state(const SceneSource& source, const std::optional<std
 }
 
 FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::optional<std::string>& time) {
+  FrozenShape shape;
+  shape.source = file.string();
   if (is_scene(file)) {
     require_start(file, time);
     const Scene scene = read_scene(file);
     require_few_vesicles(n_vesicles(scene), file, "vehd mesh");
-    FrozenShape shape;
-    for (const Scene& one : each_alone(scene)) shape.positions.push_back(initial_position(one));
+    for (const Scene& one : each_alone(scene)) {
+      const Matrix& position = shape.positions.emplace_back(initial_position(one));
+      require_outward(scene, file, shape.positions.size() - 1, position);
+    }
     return shape;
   }
   const RunReader run(file);
   require_few_vesicles(run.n_vesicles(), file, "vehd mesh");
   const SnapshotChoice choice = choice_of(run, file, time);
-  FrozenShape shape;
   shape.note = choice.note;
   for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
     const Matrix position = run.coefficients(choice.snapshot, "x", 3, a);
     shape.positions.push_back(resize_order(position, run.degree(choice.snapshot, a)));
+    require_outward(run, choice.snapshot, a, shape.positions.back());
   }
   return shape;
 }

@@ -31,6 +31,7 @@ constexpr std::size_t most_checked_vesicles = 2;
 
 /// The shapes alone.
 struct FrozenShape {
+  std::string source;             ///< as above
   std::vector<Matrix> positions;  ///< of each vesicle, coefficients [n_coefficients x 3]
   std::string note;               ///< as above
 };

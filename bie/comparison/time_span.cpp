@@ -80,13 +80,14 @@ double largest_displacement(const Matrix& a, const Matrix& b) {
   return bound;
 }
 
-void take_shapes(const RunReader& run, std::size_t first, std::size_t last, TimeSpan& span) {
+/// @param mobile  whether the membrane of the run moves
+void take_shapes(const RunReader& run, std::size_t first, std::size_t last, bool mobile, TimeSpan& span) {
   int order = 0;
   for (std::size_t i = first; i <= last; ++i) {
     run.require_sealed(i);
     span.shape_times.push_back(run.times()[i]);
     span.positions.push_back(resize_order(run.coefficients(i, "x", 3), run.degree(i)));
-    if (run.has_field(i, "velocity")) span.velocities.push_back(run.coefficients(i, "velocity", 3));
+    if (mobile) span.velocities.push_back(run.coefficients(i, "velocity", 3));
     order = std::max(order, order_of(span.positions.back().rows()));
   }
   for (std::vector<Matrix>* fields : {&span.positions, &span.velocities}) {
@@ -139,7 +140,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   }
   span.potential = resize_order(run.coefficients(choice.snapshot, "Vm", 1), run.degree(choice.snapshot));
   span.control = step_control_of(parse_scene(run.scene(), file.string() + " (scene)", file.parent_path()));
-  take_shapes(run, choice.snapshot, run.nearest(span.end), span);
+  take_shapes(run, choice.snapshot, run.nearest(span.end), end.model.mobile, span);
   take_field(end, file.string(), span);
   return span;
 }

@@ -2,19 +2,18 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "bie/comparison/fem_program.hpp"
-#include "bie/support/types.hpp"
+#include "bie/comparison/frozen_state.hpp"
 
 namespace vehd {
 
 /// Which mesh is made, and where it goes.
 struct MeshTask {
-  const std::vector<Matrix>& positions;  ///< of each vesicle, coefficients [n_coefficients x 3]
-  std::filesystem::path output;          ///< MSH 4.1; untouched where the mesh cannot be made
-  std::string family = "hex";            ///< "hex": curved blocks; "tet": unstructured tetrahedra
-  int refine = 0;                        ///< how often the element size is divided by 1.5
+  const FrozenShape& shape;
+  std::filesystem::path output;  ///< MSH 4.1; untouched where the mesh cannot be made
+  std::string family = "hex";    ///< "hex": curved blocks; "tet": unstructured tetrahedra
+  int refine = 0;                ///< how often the element size is divided by 1.5
 };
 
 /// Has the finite-element side mesh the inside and the outside of one shape, or of two.

@@ -146,6 +146,10 @@ Matrix RunReader::read(std::size_t snapshot, const std::string& name, std::size_
 
 Matrix RunReader::coefficients(std::size_t snapshot, const std::string& name, Index components,
                                std::size_t vesicle) const {
+  if (!file_.has(path_of(snapshot, name, vesicle))) {
+    file_.refuse(fmt::format("dataset {} is missing; expected: coefficients with {} component{}",
+                             path_of(snapshot, name, vesicle), components, components == 1 ? "" : "s"));
+  }
   Matrix values = read(snapshot, name, vesicle);
   const Index rows = name == "x" ? values.rows() : file_.matrix(path_of(snapshot, "x", vesicle)).rows();
   if (values.cols() != components || values.rows() != rows) {

@@ -21,6 +21,9 @@ std::string text_of(SolveEnd end) {
 }
 
 void require_converged(const SolveReport& report, const std::string& what) {
+  if (report.end == SolveEnd::not_finite) {
+    throw ConvergenceError(fmt::format("{}: the equations hold numbers that are not finite", what));
+  }
   if (!report.converged()) {
     throw ConvergenceError(
         fmt::format("{}: the solve did not converge ({}), relative residual {:.2e} after {} iterations", what,

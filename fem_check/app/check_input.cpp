@@ -250,6 +250,11 @@ std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path) {
   return inputs;
 }
 
+std::string source_of(const std::filesystem::path& path) {
+  const Hdf5Input file(path);
+  return file.has_attribute("/", "source") ? file.text("/", "source") : path.string();
+}
+
 std::vector<Eigen::MatrixXd> read_positions(const std::filesystem::path& path) {
   const Hdf5Input file(path);
   require_schema(file);

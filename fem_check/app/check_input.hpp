@@ -104,6 +104,9 @@ struct CheckInput {
 /// @throws InputError if the file cannot be used or lacks a field that is compared
 std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path);
 
+/// The scene or run that a file was made from; its own name where it does not say. @throws InputError
+std::string source_of(const std::filesystem::path& path);
+
 /// Coefficients of x alone, of each vesicle. @throws InputError
 std::vector<Eigen::MatrixXd> read_positions(const std::filesystem::path& path);
 

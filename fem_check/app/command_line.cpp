@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "fem_check/app/check.hpp"
+#include "fem_check/app/check_input.hpp"
 #include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/mesh.hpp"
 #include "fem_check/app/point_sources.hpp"
@@ -135,7 +136,10 @@ int run_program(int argc, char** argv) {
   } catch (const InputError& error) {
     return fail(refused, error.what());
   } catch (const meshes::MeshError& error) {
-    return fail(refused, fmt::format("mesh: {}", error.what()));
+    const std::filesystem::path& input = mesh_command->parsed()    ? mesh_task.input
+                                         : check_command->parsed() ? check_task.input
+                                                                   : level_task.input;
+    return fail(refused, fmt::format("{}: mesh: {}", source_of(input), error.what()));
   } catch (const std::exception& error) {
     return fail(internal_error, fmt::format("internal error: {}", error.what()));
   }

@@ -77,6 +77,10 @@ Eigen::MatrixXd Hdf5Input::matrix_or_empty(const std::string& dataset) const {
   return has(dataset) ? matrix(dataset) : Eigen::MatrixXd();
 }
 
+bool Hdf5Input::has_attribute(const std::string& object, const std::string& attribute) const {
+  return H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
+}
+
 double Hdf5Input::number(const std::string& object, const std::string& attribute) const {
   const Handle handle(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   double value = 0.0;

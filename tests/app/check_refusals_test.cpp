@@ -1,13 +1,12 @@
-#include <hdf5.h>
-
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
 #include "bie/comparison/check_input.hpp"
-#include "bie/files/hdf5_handle.hpp"
-#include "bie/files/run_reader.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
+#include "tests/support/run_damage.hpp"
+
+using namespace vehd::testing;
 
 BOOST_AUTO_TEST_SUITE(check_refusals, *boost::unit_test::precondition(finite_elements_are_built) *
                                           boost::unit_test::label("slow") * boost::unit_test::label("once"))
@@ -16,37 +15,15 @@ namespace {
 
 const std::filesystem::path elements = finite_element_program();
 
-vehd::Hdf5Handle open_for_damage(const std::string& path) {
-  return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
-}
-
-/// Every number of a dataset times a factor.
-void scale_dataset(hid_t file, const std::string& dataset, double factor) {
-  const vehd::Hdf5Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  const vehd::Hdf5Handle space(H5Dget_space(data.id()), H5Sclose);
-  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id())));
-  BOOST_TEST_REQUIRE(H5Dread(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
-  for (double& value : values) value *= factor;
-  BOOST_TEST_REQUIRE(H5Dwrite(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
-}
-
 /// As a program would have written it that computes the field wrongly.
 void scale_field_of_run(const std::string& path, const std::string& group, const std::string& field, double factor) {
   {
     const vehd::Hdf5Handle file = open_for_damage(path);
     for (const std::string_view part : vehd::snapshot_parts) {
-      scale_dataset(file.id(), group + "/" + std::string(part) + field, factor);
+      change_dataset(file.id(), group + "/" + std::string(part) + field, [=](double value) { return factor * value; });
     }
   }
-  const std::int64_t checksum = vehd::snapshot_checksum(vehd::Hdf5Reader(path), group);
-  const vehd::Hdf5Handle file = open_for_damage(path);
-  // HDF5 1.10 does not write an attribute of a group of these files a second time.
-  BOOST_TEST_REQUIRE(H5Adelete_by_name(file.id(), group.c_str(), "checksum", H5P_DEFAULT) >= 0);
-  const vehd::Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const vehd::Hdf5Handle attribute(H5Acreate_by_name(file.id(), group.c_str(), "checksum", H5T_NATIVE_INT64, space.id(),
-                                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                                   H5Aclose);
-  BOOST_TEST_REQUIRE(H5Awrite(attribute.id(), H5T_NATIVE_INT64, &checksum) >= 0);
+  reseal(path, group);
 }
 
 const std::string moving_scene =

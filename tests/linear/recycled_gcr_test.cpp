@@ -6,6 +6,7 @@
 #include <limits>
 #include <unsupported/Eigen/IterativeSolvers>
 
+#include "bie/support/errors.hpp"
 #include "tests/linear/maps.hpp"
 
 using namespace vehd;
@@ -211,6 +212,18 @@ BOOST_AUTO_TEST_CASE(zero_right_hand_side_costs_nothing) {
       RecycledGcr(map_of(matrix), identity, 5).solve(Vector::Zero(5), Vector::Ones(5), {1e-10, 10});
   BOOST_TEST(solution.report.converged());
   BOOST_TEST(solution.x.isZero(0.0));
+}
+
+// "relative residual -nan" said nothing of what is wrong.
+BOOST_AUTO_TEST_CASE(numbers_that_are_not_finite_are_said_to_be_so) {
+  const Matrix matrix = test_matrix(5);
+  for (const double number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const RecycledGcr::Solution solution =
+        RecycledGcr(map_of(matrix), identity, 5).solve(Vector::Constant(5, number), {}, {1e-10, 10});
+    BOOST_CHECK_EXCEPTION(require_converged(solution.report, "tension"), ConvergenceError, [](const auto& error) {
+      return std::string(error.what()) == "tension: the equations hold numbers that are not finite";
+    });
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
