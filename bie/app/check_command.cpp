@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <memory>
-#include <thread>
 #include <utility>
 
 #include "bie/app/commands.hpp"
@@ -14,11 +12,6 @@
 namespace vehd {
 namespace {
 
-/// The coarse mesh has a few hundred cells: more processes would have too few each.
-constexpr int most_default_ranks = 8;
-
-int default_ranks() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_default_ranks); }
-
 struct CheckOptions {
   SceneChoice scene;  ///< or a run.h5
   std::optional<std::string> time, from;
@@ -26,7 +19,7 @@ struct CheckOptions {
   bool quick = false;
   std::optional<double> required;
   bool no_plot = false;
-  int ranks = default_ranks();
+  std::optional<int> ranks;
   CommonOptions common;
 };
 
@@ -94,9 +87,12 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
           "Largest error of either method, as a share of each field, with which they may agree; 0.02 if left out, 0.05 "
           "with --quick")
       ->check(CLI::Range(1e-9, 1.0));
-  command->add_option("--ranks", options->ranks, "MPI processes of the finite elements")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  command
+      ->add_option(
+          "--ranks", options->ranks,
+          "MPI processes of the finite elements; as many as other programs leave processors, eight at most, if "
+          "left out")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--no-plot", options->no_plot, "Draw no picture");
   add_threads_option(*command);
   add_common_options(*command, options->common);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
+#include "bie/support/processor_times.hpp"
 
 namespace vehd {
 namespace {
@@ -68,12 +70,22 @@ auto solved_or_named(const FrozenState& frozen, int order, const Solve& solve) {
   }
 }
 
+/// Each rank that has no processor of its own slows all others down, as they wait for it at every step of a solve.
+/// @param begin  of the boundary integrals, whose time shows what other programs leave
+int n_ranks(const CheckTask& task, const ProcessorTimes& begin) {
+  // The coarse mesh has a few hundred cells: more processes would have too few each.
+  constexpr int most = 8;
+  const int usable = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most);
+  return task.n_ranks ? *task.n_ranks : processors_left(begin, processor_times(), usable);
+}
+
 /// Lets the finite elements solve what the file has, and compare.
-FemProgram::Result run_elements(const FemProgram& fem, const CheckTask& task, const std::filesystem::path& input) {
+FemProgram::Result run_elements(const FemProgram& fem, const CheckTask& task, const std::filesystem::path& input,
+                                int ranks) {
   std::vector<std::string> arguments{"check", input.string(), "-o", task.directory.string()};
   if (task.quick) arguments.emplace_back("--quick");
   if (task.required) arguments.insert(arguments.end(), {"--require", fmt::format("{}", *task.required)});
-  return fem.run(arguments, task.n_ranks);
+  return fem.run(arguments, ranks);
 }
 
 void compare_one(const CheckTask& task, const std::filesystem::path& input) {
@@ -130,12 +142,13 @@ void compare_several(const CheckTask& task, const std::filesystem::path& input) 
 
 FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task) {
   const std::filesystem::path input = task.directory / "check_input.h5";
+  const ProcessorTimes begin = processor_times();
   if (task.frozen.state.vesicles.size() == 1) {
     compare_one(task, input);
   } else {
     compare_several(task, input);
   }
-  return run_elements(fem, task, input);
+  return run_elements(fem, task, input, n_ranks(task, begin));
 }
 
 }  // namespace vehd

@@ -18,7 +18,8 @@ struct CheckTask {
   std::optional<TimeSpan> span{};    ///< on which V_m is advanced to the frozen time
   bool quick = false;                ///< coarse elements, and boundary integrals that are not finer than they need
   std::optional<double> required{};  ///< share of a field that errors may reach; absent: the finite elements' own
-  int n_ranks = 1;                   ///< processes of the finite elements
+  /// Processes of the finite elements; absent: as many as other programs leave processors meanwhile, eight at most.
+  std::optional<int> n_ranks{};
   /// Told when the boundary integrals are solved in the degree of the state, and then in that of estimate_order();
   /// may be empty.
   std::function<void(const CheckFields&)> tell{};
