@@ -80,8 +80,10 @@ Matrix3 RelaxedMap::derivative(const Block& block, const Point& reference) const
   }
   const CubePoint point = cube_point(block, reference);
   const CubeSlopes slopes = cube_slopes(block, point);
-  const auto [place, slope] = place_of(block, point);
-  const double t = place.at.z();
+  // By name: clang 14 captures no structured binding.
+  const Place sloped = place_of(block, point);
+  const BlockPlace& place = sloped.place;
+  const double slope = sloped.slope, t = place.at.z();
   const Point unit = point.g.normalized();
   if (t > 1.0 && block.layer == Block::Layer::shell) {
     const double radius = blocks_->end_radius() + (t - 1.0) * blocks_->thickness();

@@ -75,8 +75,10 @@ SphereTriangulation triangulate_sphere(const std::function<double(const Point& d
     gmsh::option::setNumber("Mesh.Algorithm", kFrontalDelaunay);
     gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
     gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
-    gmsh::model::mesh::setSizeCallback(
-        [&](int, int, double x, double y, double z) { return edge_length(Point(x, y, z).normalized()); });
+    // Recent versions of gmsh also pass the size that they would take themselves.
+    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z, auto... /*size*/) {
+      return edge_length(Point(x, y, z).normalized());
+    });
     gmsh::model::mesh::generate(2);
     gmsh::model::mesh::removeSizeCallback();
     gmsh::model::mesh::getElementsByType(kTriangle, tags, nodes);

@@ -80,8 +80,9 @@ FilledVolumes fill(const ClosedSurface& inner, const ClosedSurface& outer,
   const int inside = gmsh::model::geo::addVolume({inner_loop});
   const int shell = gmsh::model::geo::addVolume({outer_loop, inner_loop});
   gmsh::model::geo::synchronize();
+  // Recent versions of gmsh also pass the size that they would take themselves.
   gmsh::model::mesh::setSizeCallback(
-      [&](int, int, double x, double y, double z) { return edge_length(Point(x, y, z)); });
+      [&](int, int, double x, double y, double z, auto... /*size*/) { return edge_length(Point(x, y, z)); });
   gmsh::model::mesh::generate(3);
   gmsh::model::mesh::removeSizeCallback();
   FilledVolumes result;
