@@ -80,7 +80,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
       ->add_option("-o,--output", options->directory,
                    "Directory for the results; \"check\" beside a run.h5, out/NAME_check for NAME.toml")
       ->type_name("DIR");
-  command->add_flag("--quick", options->quick, "Coarse finite elements: about six seconds");
+  command->add_flag("--quick", options->quick, "Coarse finite elements: 5 to 20 s of processor time for smooth shapes");
   command
       ->add_option(
           "--require", options->required,
