@@ -48,6 +48,9 @@ Waveform Waveform::table(std::vector<double> times, std::vector<double> values) 
   w.kind_ = Kind::table;
   w.times_ = std::move(times);
   w.values_ = std::move(values);
+  // The largest factor.
+  w.amplitude_ = 0.0;
+  for (const double value : w.values_) w.amplitude_ = std::max(w.amplitude_, std::abs(value));
   return w;
 }
 
@@ -106,9 +109,7 @@ std::optional<double> Waveform::next_discontinuity(double time) const {
 }
 
 bool Waveform::jumps_at(double time) const {
-  double size = kind_ == Kind::table ? 0.0 : std::abs(amplitude_);
-  for (const double value : values_) size = std::max(size, std::abs(value));
-  return std::abs(at(time, Limit::after) - at(time, Limit::before)) > kSameFactor * size;
+  return std::abs(at(time, Limit::after) - at(time, Limit::before)) > kSameFactor * std::abs(amplitude_);
 }
 
 bool Waveform::is_quiet(double time) const {

@@ -42,6 +42,8 @@ Vector sum_of_modes(const PlaceScene& places, int order) {
   Vector factor = Vector::Zero(n_coefficients(order));
   factor[0] = places.base * std::sqrt(4.0 * std::numbers::pi);
   for (const HarmonicMode& mode : places.modes) {
+    // Trial runs may have a lower degree than the modes.
+    if (mode.n > order) continue;
     // Re and Im of the complex harmonic are 1/√2 of the real ones.
     factor[coefficient_index(mode.n, mode.m)] += mode.m == 0 ? mode.a : mode.a / std::numbers::sqrt2;
   }

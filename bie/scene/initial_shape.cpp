@@ -26,8 +26,12 @@ Matrix ellipsoid_position(const Triple& axes, int order) {
   return position;
 }
 
-Vector radius_on(const SphereTransform& transform, const ShapeScene& shape) {
-  Matrix coefficients = Matrix::Zero(n_coefficients(transform.order()), 1);
+Vector radius_on(const SphereTransform& of_shape, const ShapeScene& shape) {
+  // Of a trial run with a lower degree than that of the modes as well.
+  int degree = of_shape.order();
+  for (const HarmonicMode& mode : shape.modes) degree = std::max(degree, mode.n);
+  const SphereTransform transform(degree, of_shape.grid());
+  Matrix coefficients = Matrix::Zero(n_coefficients(degree), 1);
   for (const HarmonicMode& mode : shape.modes) {
     // Re and Im of the complex harmonic are 1/√2 of the real ones.
     coefficients(coefficient_index(mode.n, mode.m), 0) += mode.m == 0 ? mode.a : mode.a / std::numbers::sqrt2;
@@ -103,13 +107,14 @@ InitialMembrane initial_membrane(const Scene& scene) {
 
 Matrix initial_position(const Scene& scene) { return initial_membrane(scene).position; }
 
-double smallest_radius(const Scene& scene) {
+Extremes radius_extremes(const Scene& scene) {
   const Vector radius = radius_on(shape_transform(scene.numerics.order), scene.shape);
   // -fno-trapping-math still allows isfinite; minCoeff alone would skip a NaN.
   for (const double value : radius) {
-    if (!std::isfinite(value)) return std::numeric_limits<double>::quiet_NaN();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(value)) return {none, none};
   }
-  return radius.minCoeff();
+  return {radius.minCoeff(), radius.maxCoeff()};
 }
 
 }  // namespace vehd

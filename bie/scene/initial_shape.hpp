@@ -18,7 +18,12 @@ InitialMembrane initial_membrane(const Scene& scene);
 /// Its position alone.
 Matrix initial_position(const Scene& scene);
 
-/// Smallest radius of a radial shape over a fine grid; NaN if some radius is not finite.
-double smallest_radius(const Scene& scene);
+/// Smallest and largest value.
+struct Extremes {
+  double least = 0.0, most = 0.0;
+};
+
+/// Of the radius of a radial shape over a fine grid; NaN if some radius is not finite.
+Extremes radius_extremes(const Scene& scene);
 
 }  // namespace vehd

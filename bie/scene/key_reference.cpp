@@ -48,12 +48,9 @@ std::string range_text(const KeyDescription& key) {
 
 std::string default_text(const KeyDescription& key) {
   if (key.required) return "required";
-  Scene scene;
-  for (const TableDescription& table : scene_tables()) {
-    if (table.name == key.table) table.create(scene);
-  }
-  const auto value = key.get(scene);
-  return value ? to_toml(key, *value) : "absent";
+  const auto value = default_value(key);
+  if (!value) return "absent";
+  return to_toml(key, *value) + (has_default_in_units(key) ? "; required with [units]" : "");
 }
 
 std::string or_dash(std::string_view text) { return text.empty() ? "–" : std::string(text); }

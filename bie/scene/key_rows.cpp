@@ -11,8 +11,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Range any_number{};
 constexpr Range positive{0.0, infinity, true};
 constexpr Range not_negative{0.0, infinity, false};
-/// Sizes in any unit of length, whose cubes and their products are far from the limits of a double.
-constexpr Range size_range{1e-30, 1e30, false};
 
 const auto units = [](auto& scene) -> auto& { return *scene.units; };
 const auto shape = [](auto& scene) -> auto& { return scene.shape; };
@@ -75,7 +73,10 @@ void add_shape_keys(KeyTable& table) {
            &ShapeScene::reduced_volume)
       .required = true;
   table.begin("shape", {"radial"});
-  table.add("base", any_number, {"", "length", "constant part of the radius"}, shape, &ShapeScene::base);
+  table
+      .add("base", any_number, {"", "length", "constant part of the radius; may be left out with area"}, shape,
+           &ShapeScene::base)
+      .default_has_effect = [](const Scene& scene) { return !scene.shape.area; };
   table.add("amplitude", any_number, {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"},
             shape, &ShapeScene::amplitude);
   table.add("exponent", any_number, {"", "1", "factor of s in the exponential"}, shape, &ShapeScene::exponent);
@@ -116,8 +117,10 @@ void add_membrane_keys(KeyTable& table) {
             membrane, &MembraneScene::spontaneous_curvature);
   table.add("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"}, membrane,
             &MembraneScene::inextensible);
-  table.add("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"}, membrane,
-            &MembraneScene::capacitance);
+  table
+      .add("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"}, membrane,
+           &MembraneScene::capacitance)
+      .default_has_effect = [](const Scene& scene) { return scene.electric.has_value(); };
   table.add("conductance", not_negative, {"G_m", "conductance/area", "used with [electric] only"}, membrane,
             &MembraneScene::conductance);
   table.add("mobile", any_number, {"", "", "false: the shape is frozen and only the membrane charges"}, membrane,
@@ -215,8 +218,7 @@ void add_electric_keys(KeyTable& table) {
       .add("conductivity_out", not_negative, {"σ_e", "conductivity", "of the fluid outside"}, electric,
            &ElectricScene::conductivity_out)
       .required = true;
-  table.add("permittivity", positive,
-            {"ε", "permittivity", "of the fluid outside; required where the field has a unit"}, electric,
+  table.add("permittivity", positive, {"ε", "permittivity", "of the fluid outside"}, electric,
             &ElectricScene::permittivity);
   table.add("permittivity_ratio", positive, {"ε_i/ε_e", "1", "inside over outside"}, electric,
             &ElectricScene::permittivity_ratio);
@@ -240,7 +242,7 @@ void add_electric_keys(KeyTable& table) {
 
 void add_numerics_keys(KeyTable& table) {
   table.begin("numerics");
-  table.add("tolerance", {1e-9, 0.1},
+  table.add("tolerance", {tightest_tolerance, 0.1},
             {"", "1",
              "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they are "
              "fixed"},

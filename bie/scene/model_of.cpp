@@ -9,26 +9,16 @@
 #include "bie/physics/pore_density.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/scene/vesicles.hpp"
+#include "bie/scene/waveforms.hpp"
 
 namespace vehd {
 namespace {
 
-Waveform waveform_of(const std::optional<WaveformScene>& waveform) {
-  if (!waveform) return {};
-  const WaveformScene& w = *waveform;
-  switch (w.kind) {
-    case WaveformKind::dc:
-      break;
-    case WaveformKind::ac:
-      return Waveform::alternating(1.0, w.frequency, w.phase);
-    case WaveformKind::pulse:
-      return Waveform::pulse(1.0, w.start, w.duration);
-    case WaveformKind::pulse_train:
-      return Waveform::pulse_train(1.0, w.start, w.duration, w.period);
-    case WaveformKind::table:
-      return Waveform::table(w.times, w.values);
-  }
-  return {};
+/// 1 at all times where the table is absent.
+Waveform waveform_in(const Scene& scene, std::string_view table) {
+  const std::vector<ActingWaveform> acting = acting_waveforms(scene);
+  const auto found = std::ranges::find(acting, table, &ActingWaveform::table);
+  return found == acting.end() ? Waveform() : waveform_of(*found->waveform);
 }
 
 Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
@@ -52,14 +42,16 @@ BackgroundFlow background_flow_of(const FlowScene& flow) {
   return result;
 }
 
-void add_flow(const FlowScene& flow, Model& model) {
+void add_flow(const Scene& scene, Model& model) {
+  const FlowScene& flow = *scene.flow;
+  const Waveform waveform = waveform_in(scene, "flow.waveform");
   if (flow.kind == FlowKind::poiseuille) {
-    const PoiseuilleParameters poiseuille{flow.centre_velocity, flow.radius, waveform_of(flow.waveform)};
+    const PoiseuilleParameters poiseuille{flow.centre_velocity, flow.radius, waveform};
     model.effects.push_back(std::make_shared<PoiseuilleFlowEffect>(poiseuille));
     return;
   }
   model.flow = background_flow_of(flow);
-  model.flow->waveform = waveform_of(flow.waveform);
+  model.flow->waveform = waveform;
 }
 
 }  // namespace
@@ -109,7 +101,7 @@ VesicleModel vesicle_of(const Scene& scene) {
   if (scene.electric) {
     vesicle.inside = {scene.electric->conductivity_in, scene.electric->permittivity_ratio};
     vesicle.charging = {scene.membrane.capacitance, scene.membrane.conductance};
-    if (scene.membrane.pump) vesicle.pump = waveform_of(scene.membrane.pump->waveform);
+    if (scene.membrane.pump) vesicle.pump = waveform_in(scene, "membrane.pump.waveform");
   }
   const MembraneScene& m = scene.membrane;
   vesicle.by_place = m.capacitance_by_place || m.conductance_by_place || m.bending_by_place || m.curvature_by_place;
@@ -125,33 +117,30 @@ Model model_of(const Scene& scene) {
   model.mobile = scene.membrane.mobile;
   model.vesicles.clear();
   for (const Scene& one : each_alone(scene)) model.vesicles.push_back(vesicle_of(one));
-  if (scene.flow) add_flow(*scene.flow, model);
+  if (scene.flow) add_flow(scene, model);
   if (scene.contact) model.contact = ContactParameters{scene.contact->energy, scene.contact->range};
   if (scene.electric) {
-    model.electric =
-        AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out, scene.electric->permittivity,
-                     waveform_of(scene.electric->waveform), scene.electric->displacement_current};
-    if (has_averaged_field(scene)) {
-      model.electric->waveform = {};
-      model.electric->averaged_frequency = scene.electric->waveform->frequency;
-    }
+    // Without a field, and until there is a V_m, the electric part of a step is inactive.
+    const bool is_zero = scene.electric->field == Triple{};
+    const Waveform waveform = is_zero ? Waveform::alternating(0.0, 1.0, 0.0) : waveform_in(scene, "electric.waveform");
+    model.electric = AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out,
+                                  scene.electric->permittivity, waveform, scene.electric->displacement_current};
+    if (has_averaged_field(scene)) model.electric->averaged_frequency = scene.electric->waveform->frequency;
   }
   return model;
 }
 
 namespace {
 
-/// Of whatever alternates: steps near a whole period would see nothing change.
-double eighth_of_period(const Scene& scene) {
+/// Of whatever alternates.
+double longest_of_period(const Scene& scene) {
   double result = std::numeric_limits<double>::infinity();
-  const auto add = [&](const std::optional<WaveformScene>& waveform) {
-    if (waveform && waveform->kind == WaveformKind::ac) result = std::min(result, 1.0 / (8.0 * waveform->frequency));
-  };
-  if (scene.flow) add(scene.flow->waveform);
   for (const Scene& one : each_alone(scene)) {
-    if (one.membrane.pump) add(one.membrane.pump->waveform);
+    for (const ActingWaveform& acting : acting_waveforms(one)) {
+      if (acting.waveform->kind != WaveformKind::ac) continue;
+      result = std::min(result, 1.0 / (fewest_steps_a_period * acting.waveform->frequency));
+    }
   }
-  if (scene.electric && !has_averaged_field(scene)) add(scene.electric->waveform);
   return result;
 }
 
@@ -164,7 +153,7 @@ StepControl step_control_of(const Scene& scene) {
   // hours.
   constexpr double kSmallestFraction = 1e-15;
   const double longest = std::max(numerics.end_time, std::numeric_limits<double>::min());
-  return {std::min({numerics.dt.value_or(longest), longest, eighth_of_period(scene)}), kSmallestFraction * longest,
+  return {std::min({numerics.dt.value_or(longest), longest, longest_of_period(scene)}), kSmallestFraction * longest,
           *numerics.tolerance};
 }
 

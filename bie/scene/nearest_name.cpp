@@ -31,13 +31,19 @@ int edit_distance(std::string_view a, std::string_view b) {
   return distance[a.size()][b.size()];
 }
 
+std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& candidates) {
+  const auto distance = [word = name.substr(0, longest_word)](std::string_view other) {
+    return edit_distance(word, other);
+  };
+  const auto nearest = std::ranges::min_element(candidates, {}, distance);
+  return nearest == candidates.end() ? std::string_view() : *nearest;
+}
+
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
-  const std::string_view word = name.substr(0, longest_word);
-  const auto nearest = std::min_element(
-      candidates.begin(), candidates.end(),
-      [&](std::string_view a, std::string_view b) { return edit_distance(word, a) < edit_distance(word, b); });
-  if (nearest != candidates.end() && edit_distance(word, *nearest) <= std::max<int>(2, int(nearest->size()) / 2)) {
-    return fmt::format("did you mean \"{}\"?", *nearest);
+  const std::string_view nearest = nearest_name(name, candidates);
+  const int distance = edit_distance(name.substr(0, longest_word), nearest);
+  if (!nearest.empty() && distance <= std::max<int>(2, int(nearest.size()) / 2)) {
+    return fmt::format("did you mean \"{}\"?", nearest);
   }
   return fmt::format("accepted: {}", fmt::join(candidates, ", "));
 }

@@ -9,6 +9,9 @@ namespace vehd {
 /// Edits (insert, delete, replace, swap of neighbours) that turn one word into the other.
 int edit_distance(std::string_view a, std::string_view b);
 
+/// The candidate that the fewest edits make of `name`; empty if there is none.
+std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& candidates);
+
 /// What to tell someone who wrote `name`: `did you mean "x"?` when a candidate is close, the whole list otherwise.
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
 

@@ -66,7 +66,10 @@ std::vector<TableDescription> place_tables() {
                   &MembraneScene::pump),
       {"membrane.pump.waveform", "factor of the pump current in time; absent: 1", false,
        [](const Scene& scene) { return scene.membrane.pump && scene.membrane.pump->waveform; },
-       [](Scene& scene) { scene.membrane.pump->waveform.emplace(); }},
+       [](Scene& scene) {
+         if (!scene.membrane.pump) scene.membrane.pump.emplace();
+         scene.membrane.pump->waveform.emplace();
+       }},
   };
 }
 

@@ -19,6 +19,7 @@
 #include "bie/scene/suspension.hpp"
 #include "bie/scene/toml_file.hpp"
 #include "bie/scene/toml_values.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/scene/vesicle_checks.hpp"
 #include "bie/scene/vesicle_reader.hpp"
 #include "bie/scene/vesicles.hpp"
@@ -143,11 +144,26 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
     require_one_name(*key, table, file);
     read_key(scene, *key, name.str(), node, file);
   }
+}
+
+/// "its default of 1 would be 1.2e-04 F/m^2", as it is in these units.
+std::string default_text(const KeyDescription& key, const std::optional<UnitsScene>& units) {
+  const double value = std::get<double>(*default_value(key));
+  const double si = value * si_scale(units, key.unit);
+  return fmt::format("its default of {:g} {}", value,
+                     std::isnan(si) ? "depends on [units]"
+                                    : fmt::format("would be {:.2g} {}", si, find_dimension(key.unit)->si_unit()));
+}
+
+/// Every key that the scene needs is in the file.
+void require_keys(const Scene& scene, const toml::table& file, const std::string& name) {
   for (const KeyDescription& key : scene_keys()) {
-    if (key.table != description.name || !key.required || has_key(table, key)) continue;
-    if (!key.is_for(kind)) continue;
-    throw InputError(fmt::format("{}: missing key \"{}\" in [{}] ({}); accepted: {}", place(table, file), key.name,
-                                 key.table, key.description, accepted_text(key)));
+    const toml::table* table = find_table(file, key.table);
+    if (!applies(key, scene) || !needs_value(key, scene) || (table != nullptr && has_key(*table, key))) continue;
+    const toml::table& owner = table != nullptr ? *table : *find_table(file, "units");
+    const std::string why = key.required ? "" : "; " + default_text(key, scene.units);
+    throw InputError(fmt::format("{}: missing key \"{}\" in [{}] ({}){}; accepted: {}", place(owner, name), key.name,
+                                 key.table, key.description, why, accepted_text(key)));
   }
 }
 
@@ -188,12 +204,13 @@ Scene scene_of(const toml::table& file, const std::string& name, const std::file
       if (units) {
         scene.units = *units;
       } else {
-        derive_reference_scales(*scene.units, file);
+        derive_reference_scales(*scene.units, file, name);
       }
     } else if (description.required) {
       throw InputError(fmt::format("{}:1: missing table [{}] ({})", name, description.name, description.description));
     }
   }
+  require_keys(scene, file, name);
   MembraneScene& membrane = scene.membrane;
   for (auto* places : {&membrane.capacitance_by_place, &membrane.conductance_by_place, &membrane.bending_by_place,
                        &membrane.curvature_by_place}) {

@@ -7,11 +7,13 @@
 
 #include "bie/scene/reference_time.hpp"
 #include "bie/scene/si_values.hpp"
+#include "bie/scene/units.hpp"
 
 namespace vehd {
 
-void derive_reference_scales(UnitsScene& units, const toml::table& file) {
-  const SiValues si(file, units.temperature);
+void derive_reference_scales(UnitsScene& units, const toml::table& file, const std::string& name) {
+  const UnitsScene given = units;
+  const SiValues si(file, name, given);
   if (const auto area = si.size("shape", "area"); area && !units.length) {
     units.length = std::sqrt(*area / (4.0 * std::numbers::pi));
   }
@@ -19,7 +21,8 @@ void derive_reference_scales(UnitsScene& units, const toml::table& file) {
   if (!units.time) units.time = shortest_time(si, units);
   if (!units.length || !units.viscosity || !units.time) return;
   if (const auto capacitance = si.size("membrane", "capacitance"); capacitance && !units.potential) {
-    units.potential = std::sqrt(*units.viscosity * *units.length / (*units.time * *capacitance));
+    const double potential = std::sqrt(*units.viscosity * *units.length / (*units.time * *capacitance));
+    if (has_magnitude_in_range(potential)) units.potential = potential;
   }
 }
 

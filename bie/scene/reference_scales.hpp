@@ -12,7 +12,9 @@ namespace vehd {
 /// radius √(area/4π), the viscosity, the shortest time (reference_time.hpp) and the membrane capacitance are 1, each
 /// where it is the one to fix a scale. A scale without such a value stays absent.
 /// @param file  the whole scene file
-void derive_reference_scales(UnitsScene& units, const toml::table& file);
+/// @param name  of the file
+/// @throws InputError if such a value cannot be read
+void derive_reference_scales(UnitsScene& units, const toml::table& file, const std::string& name);
 
 /// What could have a unit to give a scale of [units], as it stands in messages: "area" in [shape].
 std::string source_of_scale(std::string_view scale);

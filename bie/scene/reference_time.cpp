@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+
+#include "bie/scene/units.hpp"
 
 namespace vehd {
 namespace {
@@ -11,7 +12,7 @@ class Shortest {
  public:
   /// A product or quotient of values, some of which may be absent or out of range, is no time then.
   void add(std::optional<double> time) {
-    if (time && std::isnormal(*time)) shortest_ = std::min(shortest_.value_or(*time), *time);
+    if (time && *time > 0.0 && has_magnitude_in_range(*time)) shortest_ = std::min(shortest_.value_or(*time), *time);
   }
   [[nodiscard]] std::optional<double> value() const { return shortest_; }
 

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/scene/si_values.hpp"
+#include "bie/scene/schema.hpp"
 #include "bie/scene/toml_values.hpp"
-#include "bie/scene/units.hpp"
+#include "bie/scene/waveforms.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -21,7 +23,7 @@ constexpr double most_steps = 1e9;
 /// Largest trace of a velocity gradient, relative to its entries: what decimal input rounds to.
 constexpr double trace_tolerance = 1e-12;
 /// A step as long as the period would see an alternating field as constant.
-constexpr double fewest_steps_a_period = 4.0;
+constexpr double fewest_fixed_steps_a_period = 4.0;
 
 class Checks {
  public:
@@ -34,18 +36,18 @@ class Checks {
     if (scene_.shape.kind == ShapeKind::radial) check_radial_shape();
     if (scene_.flow && scene_.flow->kind == FlowKind::gradient) check_gradient();
     if (scene_.electric) check_conductivities();
-    if (scene_.electric) check_permittivity();
     if (scene_.electric) check_displacement_current();
     if (scene_.electric && has_averaged_field(scene_)) check_average();
     if (scene_.electric && has_relaxing_charge(scene_)) check_relaxing_charge();
     check_effects();
-    if (scene_.flow && scene_.flow->waveform) check_waveform("flow", *scene_.flow->waveform, flow_is_zero());
+    if (scene_.flow && scene_.flow->waveform) check_waveform("flow.waveform", *scene_.flow->waveform);
     if (scene_.electric && scene_.electric->waveform) {
-      check_waveform("electric", *scene_.electric->waveform, scene_.electric->field == Triple{});
+      check_waveform("electric.waveform", *scene_.electric->waveform);
     }
     if (const auto& pump = scene_.membrane.pump; pump && pump->waveform) {
-      check_waveform("membrane.pump", *pump->waveform, pump->current == 0.0);
+      check_waveform("membrane.pump.waveform", *pump->waveform);
     }
+    check_periods();
     check_windows();
     check_counts();
     check_output();
@@ -75,18 +77,6 @@ class Checks {
     if (!scene_.membrane.mobile && !scene_.electric) {
       refuse("membrane", "mobile", "\"mobile\" in [membrane] is false without [electric]: nothing would ever change");
     }
-  }
-
-  /// Beside a field in SI units the default, 1 of the scene, is the permittivity of nothing.
-  void check_permittivity() const {
-    if (table_["electric"]["permittivity"] || !SiValues(table_).size("electric", "field")) return;
-    const double of_one = si_scale(scene_.units, "permittivity");
-    if (std::isnan(of_one)) return;
-    refuse("electric", "permittivity",
-           fmt::format("missing key \"permittivity\" in [electric]: beside a field with a unit its default of 1 would "
-                       "be {:.3g} F/m; "
-                       "accepted: as \"80 eps0\" for water, or a number",
-                       of_one));
   }
 
   void check_displacement_current() const {
@@ -125,29 +115,12 @@ class Checks {
     }
   }
 
-  [[nodiscard]] bool flow_is_zero() const {
-    const FlowScene& flow = *scene_.flow;
-    if (flow.kind == FlowKind::gradient) return flow.gradient == TripleOfTriples{};
-    return (flow.kind == FlowKind::poiseuille ? flow.centre_velocity : flow.rate) == 0.0;
-  }
-
-  void check_waveform(const std::string& owner, const WaveformScene& waveform, bool acts_on_nothing) const {
-    const std::string table = owner + ".waveform";
-    if (acts_on_nothing) {
-      refuse(table, "kind", fmt::format("[{}] acts on nothing: what it multiplies in [{}] is 0", table, owner));
-    }
+  void check_waveform(const std::string& table, const WaveformScene& waveform) const {
     switch (waveform.kind) {
       case WaveformKind::dc:
+      case WaveformKind::ac:
       case WaveformKind::pulse:
         break;
-      case WaveformKind::ac: {
-        if (!scene_.numerics.dt || waveform.average) break;
-        const double steps = 1.0 / (waveform.frequency * *scene_.numerics.dt);
-        if (steps >= fewest_steps_a_period) break;
-        refuse(table, "frequency",
-               fmt::format("\"dt\" in [numerics] takes {:.3g} steps a period of [{}]; accepted: at least {:g}", steps,
-                           table, fewest_steps_a_period));
-      }
       case WaveformKind::pulse_train:
         if (waveform.period > waveform.duration) break;
         refuse(table, "period",
@@ -155,6 +128,19 @@ class Checks {
                            waveform.duration));
       case WaveformKind::table:
         check_waveform_table(table, waveform);
+    }
+  }
+
+  /// Of fixed steps.
+  void check_periods() const {
+    if (!scene_.numerics.dt) return;
+    for (const ActingWaveform& acting : acting_waveforms(scene_)) {
+      if (acting.waveform->kind != WaveformKind::ac) continue;
+      const double steps = 1.0 / (acting.waveform->frequency * *scene_.numerics.dt);
+      if (steps >= fewest_fixed_steps_a_period) continue;
+      refuse(acting.table, "frequency",
+             fmt::format("\"dt\" in [numerics] takes {:.3g} steps a period of [{}]; accepted: at least {:g}", steps,
+                         acting.table, fewest_fixed_steps_a_period));
     }
   }
 
@@ -200,10 +186,16 @@ class Checks {
           fmt::format("{}: \"modes\" in [shape] has the degree n = {}; accepted: at most the degree {} of [numerics]",
                       place(entry, file_), shape.modes[i].n, scene_.numerics.order));
     }
-    const double smallest = smallest_radius(scene_);
-    if (!(smallest > 0.0)) {
+    const Extremes radius = radius_extremes(scene_);
+    if (!(radius.least > 0.0)) {
+      refuse(
+          "shape", "modes",
+          fmt::format("the radius in [shape] falls to {}; accepted: > 0 and finite in every direction", radius.least));
+    }
+    if (!size_range.contains(radius.least) || !size_range.contains(radius.most)) {
       refuse("shape", "modes",
-             fmt::format("the radius in [shape] falls to {}; accepted: > 0 and finite in every direction", smallest));
+             fmt::format("the radius in [shape] is {:.3g} to {:.3g}; accepted: {}", radius.least, radius.most,
+                         size_range.text()));
     }
   }
 
@@ -239,13 +231,37 @@ class Checks {
     }
   }
 
+  /// Blames the key that asks for most of them.
+  void require_few_steps() const {
+    const NumericsScene& numerics = scene_.numerics;
+    struct Demand {
+      std::string_view table, key;
+      double steps;
+    };
+    std::vector<Demand> demands;
+    if (numerics.dt) demands.push_back({"numerics", "dt", numerics.end_time / *numerics.dt});
+    for (const ActingWaveform& acting : acting_waveforms(scene_)) {
+      demands.push_back(
+          {acting.table, steps_key(acting.waveform->kind), fewest_steps(*acting.waveform, numerics.end_time)});
+    }
+    double steps = 0.0;
+    for (const Demand& demand : demands) steps += demand.steps;
+    if (steps <= most_steps) return;
+    const Demand& largest = *std::ranges::max_element(demands, {}, &Demand::steps);
+    refuse(largest.table, largest.key,
+           fmt::format("\"{}\" in [{}] asks for {:.3g} steps; accepted: at most {:g}", largest.key, largest.table,
+                       largest.steps, most_steps));
+  }
+
+  /// The key of a waveform on which its steps depend.
+  static std::string_view steps_key(WaveformKind kind) {
+    if (kind == WaveformKind::ac) return "frequency";
+    return kind == WaveformKind::pulse_train ? "period" : "kind";
+  }
+
   void check_counts() const {
     const NumericsScene& numerics = scene_.numerics;
-    if (numerics.dt && numerics.end_time / *numerics.dt > most_steps) {
-      refuse("numerics", "dt",
-             fmt::format("end_time / dt in [numerics] asks for {:.3g} steps; accepted: at most {:g}",
-                         numerics.end_time / *numerics.dt, most_steps));
-    }
+    require_few_steps();
     const OutputScene& output = scene_.output;
     double count = output.every ? numerics.end_time / *output.every : 0.0;
     const auto require_few = [&](std::string_view key) {

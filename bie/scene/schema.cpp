@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bie/scene/key_rows.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/scene/vesicles.hpp"
 
 namespace vehd {
@@ -22,6 +23,11 @@ std::string Range::text() const {
 
 bool KeyDescription::is_called(std::string_view word) const {
   return !word.empty() && (word == name || word == other_name);
+}
+
+bool KeyDescription::takes(double value) const {
+  const double magnitude = unit == "time" ? std::min(std::abs(value), 1.0) : value;
+  return range.contains(value) && has_magnitude_in_range(magnitude);
 }
 
 bool KeyDescription::is_for(std::string_view kind) const {
@@ -66,6 +72,26 @@ bool applies(const KeyDescription& key, const Scene& scene) {
   const auto table = std::find_if(scene_tables().begin(), scene_tables().end(),
                                   [&](const TableDescription& candidate) { return candidate.name == key.table; });
   return table->present(scene) && key.is_for(kind_of(scene, key.table));
+}
+
+std::optional<Value> default_value(const KeyDescription& key) {
+  Scene scene;
+  for (const TableDescription& table : scene_tables()) {
+    if (table.name == key.table) table.create(scene);
+  }
+  return key.get(scene);
+}
+
+bool has_default_in_units(const KeyDescription& key) {
+  if (key.required || find_dimension(key.unit) == nullptr) return false;
+  const auto value = default_value(key);
+  const double* number = value ? std::get_if<double>(&*value) : nullptr;
+  return number != nullptr && *number != 0.0;
+}
+
+bool needs_value(const KeyDescription& key, const Scene& scene) {
+  if (key.required) return true;
+  return scene.units && has_default_in_units(key) && (!key.default_has_effect || key.default_has_effect(scene));
 }
 
 namespace {

@@ -46,6 +46,11 @@ struct Range {
   [[nodiscard]] std::string text() const;
 };
 
+/// The smallest value of "tolerance".
+constexpr double tightest_tolerance = 1e-9;
+/// Sizes in any unit of length, whose cubes and their products are far from the limits of a double.
+constexpr Range size_range{1e-30, 1e30, false};
+
 /// One key of a scene: what it is called, what it accepts, where its value is.
 struct KeyDescription {
   std::string_view table;
@@ -57,13 +62,17 @@ struct KeyDescription {
   Range range;
   std::vector<std::string_view> words;  ///< accepted values of a word
   std::vector<std::string_view> kinds;  ///< the key belongs to these kinds of its table only; empty: to all
-  bool required = false;
+  bool required = false;                ///< see needs_value as well
+  std::function<bool(const Scene&)> default_has_effect;  ///< empty: in every scene that has the key
   std::string_view description;
   std::function<std::optional<Value>(const Scene&)> get;  ///< nullopt: the optional value is absent
   std::function<void(Scene&, const Value&)> set;
 
   /// Is this its name, or the other one?
   [[nodiscard]] bool is_called(std::string_view word) const;
+  /// Is the number in the range, and 0 or of a magnitude whose products with others a double holds (units.hpp)? Times
+  /// are compared and not multiplied with each other, so that they may be as long as a double holds.
+  [[nodiscard]] bool takes(double value) const;
   /// Does the key belong to this kind of its table?
   [[nodiscard]] bool is_for(std::string_view kind) const;
 };
@@ -96,6 +105,17 @@ std::string kind_of(const Scene& scene, std::string_view table);
 
 /// Whether the key counts for this scene: its table is present and of the key's kind.
 bool applies(const KeyDescription& key, const Scene& scene);
+
+/// The value where the table is there and the key is left out; nullopt: absent.
+std::optional<Value> default_value(const KeyDescription& key);
+
+/// Is the default one reference unit or more of them, and thus another quantity with other [units]? It is so of every
+/// key with a dimension whose default is neither 0 nor absent.
+bool has_default_in_units(const KeyDescription& key);
+
+/// Whether the scene, which has the key, may not leave it out: a required one and, beside [units], one with a default
+/// in units that has an effect.
+bool needs_value(const KeyDescription& key, const Scene& scene);
 
 /// "table.key" of every value in which the scenes differ, "vesicle[0].table.key" of those of one of several vesicles;
 /// "vesicle.name" alone where they have other vesicles.

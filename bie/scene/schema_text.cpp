@@ -29,7 +29,8 @@ Values are dimensionless: any consistent scales will do. `build/vehd help groups
 not depend on them. With a table `[units]`, even an empty one, any number that has a dimension may instead be a text
 with an SI unit, `"10 um"`, and so may each component of a vector, `[0, 0, "1 kV/cm"]`; it is divided by the reference
 scale of its dimension (section Units). A plain number stays what it is, in units of the reference scale; an integer of
-any size is the double nearest to it, as if it were written with a point. Results are then shown in SI units as well
+any size is the double nearest to it, as if it were written with a point. A key whose default is a number with a
+dimension, other than 0, is then required: as one reference unit it would be another quantity with other `[units]`. Results are then shown in SI units as well
 ([files of a run](run_files.md#units)). Energies may be in `kBT` where `[units]` has a `temperature`.
 )";
 

@@ -32,6 +32,16 @@ struct Context {
   }
 };
 
+/// @param value  as read; what is in the range of the key has the wrong magnitude
+[[noreturn]] void refuse_value(const Context& context, const toml::node& node, double value) {
+  const std::string problem = fmt::format("is {}", shown(node));
+  if (!context.key.range.contains(value)) context.refuse(node, problem);
+  const std::string most = context.key.unit == "time" ? "" : fmt::format("{:g}", largest_magnitude);
+  context.refuse(
+      node, problem,
+      fmt::format("{}; its magnitude 0 or {:g} ... {}", accepted_text(context.key), smallest_magnitude, most));
+}
+
 /// SI value of a text such as "1 kV/cm".
 double si_value(const Context& context, const Dimension& dimension, const toml::value<std::string>& node) {
   const auto quantity = parse_quantity(node.get());
@@ -41,8 +51,11 @@ double si_value(const Context& context, const Dimension& dimension, const toml::
   }
   const Unit* unit = dimension.find(quantity->unit);
   if (unit == nullptr) {
-    context.refuse(node, fmt::format("is {}, whose unit is none of {}", shown(node), dimension.name),
-                   dimension.accepted());
+    context.refuse(
+        node,
+        fmt::format("is {}, whose unit \"{}\" is none of {} (nearest: \"{}\")", shown(node),
+                    shortened(quantity->written), dimension.name, nearest_name(quantity->unit, dimension.symbols())),
+        dimension.accepted());
   }
   const std::optional<double> temperature = context.units ? context.units->temperature : std::nullopt;
   if (unit->per_kelvin && !temperature) {
@@ -63,20 +76,35 @@ double value_with_unit(const Context& context, const toml::value<std::string>& n
   }
   const double value = si_value(context, *dimension, node);
   const auto scale = reference_scale(*context.units, *dimension);
+  if (scale && !std::isnormal(*scale)) {
+    context.refuse(node, fmt::format("is {}, but 1 of the scene is {} {}", shown(node), *scale, dimension->si_unit()),
+                   "scales in [units] whose powers a number can hold");
+  }
   if (!scale) {
     const std::string_view missing = missing_scale(*context.units, *dimension);
     context.refuse(node, fmt::format("is {}, but the scene has no reference {}", shown(node), missing),
                    fmt::format("\"{}\" in [units], or a unit for {}", missing, source_of_scale(missing)));
   }
-  return value / *scale;
+  const double result = value / *scale;
+  // What is too small for a number would be 0, which is another statement.
+  if (value != 0.0 && result == 0.0) refuse_value(context, node, value);
+  return result;
+}
+
+/// See si_number.
+std::optional<double> number_in_si(const Context& context, const toml::node& node) {
+  const toml::value<std::string>* text = node.as_string();
+  if (text == nullptr && number_of(node)) return std::nullopt;
+  if (text == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
+  const double value = si_value(context, *find_dimension(context.key.unit), *text);
+  if (!context.key.takes(value)) refuse_value(context, node, value);
+  return value;
 }
 
 double quantity(const Context& context, const toml::node& node) {
-  const toml::value<std::string>* text = node.as_string();
-  if (text == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  const double value = si_value(context, *find_dimension(context.key.unit), *text);
-  if (!context.key.range.contains(value)) context.refuse(node, fmt::format("is {}", shown(node)));
-  return value;
+  const auto value = number_in_si(context, node);
+  if (!value) context.refuse(node, fmt::format("is {}", shown(node)));
+  return *value;
 }
 
 double number(const Context& context, const toml::node& node) {
@@ -84,8 +112,9 @@ double number(const Context& context, const toml::node& node) {
   const std::optional<double> value = text != nullptr ? value_with_unit(context, *text) : number_of(node);
   if (!value) context.refuse(node, fmt::format("is {}", shown(node)));
   if (!std::isfinite(*value)) context.refuse(node, fmt::format("is {}, not a finite number", *value));
-  if (!context.key.range.contains(*value)) context.refuse(node, fmt::format("is {}", shown(node)));
-  return *value;
+  if (!context.key.takes(*value)) refuse_value(context, node, *value);
+  // A negative zero is none: 1/0 has a sign.
+  return *value + 0.0;
 }
 
 std::int64_t integer(const Context& context, const toml::node& node) {
@@ -265,6 +294,11 @@ std::string accepted_text(const KeyDescription& key) {
       return fmt::format("a positive number with its unit in quotes, {}", find_dimension(key.unit)->accepted());
   }
   return {};
+}
+
+std::optional<double> si_number(const KeyDescription& key, const toml::node& node, const std::string& file,
+                                const std::optional<UnitsScene>& units) {
+  return number_in_si({key, file, units}, node);
 }
 
 Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file,

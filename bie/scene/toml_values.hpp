@@ -29,6 +29,12 @@ std::string shown(const toml::node& node);
 /// What a key accepts, in words.
 std::string accepted_text(const KeyDescription& key);
 
+/// SI value of a number with a unit, within the range of its key.
+/// @return nullopt of a plain number
+/// @throws InputError as checked_value does of anything else
+std::optional<double> si_number(const KeyDescription& key, const toml::node& node, const std::string& file,
+                                const std::optional<UnitsScene>& units);
+
 /// Value of the key's type within its range, dimensionless unless it is a quantity.
 /// @param units  reference scales, with which a number may also be a text with an SI unit
 /// @throws InputError naming place, value and what is accepted

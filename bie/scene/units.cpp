@@ -29,7 +29,7 @@ std::vector<Dimension> make_dimensions() {
       {"velocity", {1, -1, 0, 0}, {{"m/s"}, {"mm/s", 1, 1e3}, {"um/s", 1, 1e6}}},
       {"acceleration", {1, -2, 0, 0}, {{"m/s^2"}}},
       {"density", {-2, 1, 1, 0}, {{"kg/m^3"}, {"g/cm^3", 1e3}}},
-      {"viscosity", {0, 0, 1, 0}, {{"Pa s"}, {"mPa s", 1, 1e3}}},
+      {"viscosity", {0, 0, 1, 0}, {{"Pa s"}, {"mPa s", 1, 1e3}, {"cP", 1, 1e3}}},
       {"energy", {3, -1, 1, 0}, {{"J"}, {"aJ", 1, 1e18}, {"zJ", 1, 1e21}, {"kBT", boltzmann_constant, 1, true}}},
       {"potential", {0, 0, 0, 1}, {{"V"}, {"mV", 1, 1e3}}},
       {"field", {-1, 0, 0, 1}, {{"V/m"}, {"kV/m", 1e3}, {"V/cm", 1e2}, {"kV/cm", 1e5}}},
@@ -60,10 +60,15 @@ std::array<std::optional<double>, 4> scales(const UnitsScene& units) {
   return {units.length, units.time, units.viscosity, units.potential};
 }
 
+std::string without_outer_spaces(std::string_view text) {
+  const std::size_t start = text.find_first_not_of(' ');
+  return start == std::string_view::npos ? "" : std::string(text.substr(start, text.find_last_not_of(' ') + 1 - start));
+}
+
 /// Other ways of writing the same unit.
 std::string plain_unit(std::string_view text) {
-  constexpr std::array<std::array<std::string_view, 2>, 7> spellings = {
-      {{"µ", "u"}, {"μ", "u"}, {"²", "^2"}, {"³", "^3"}, {"·", " "}, {"*", " "}, {"\t", " "}}};
+  constexpr std::array<std::array<std::string_view, 2>, 9> spellings = {
+      {{"µ", "u"}, {"μ", "u"}, {"²", "^2"}, {"³", "^3"}, {"·", " "}, {"⋅", " "}, {".", " "}, {"*", " "}, {"\t", " "}}};
   std::string unit(text);
   for (const auto& [written, plain] : spellings) {
     for (std::size_t at = unit.find(written); at != std::string::npos; at = unit.find(written, at + plain.size())) {
@@ -72,23 +77,30 @@ std::string plain_unit(std::string_view text) {
   }
   const auto both_spaces = [](char a, char b) { return a == ' ' && b == ' '; };
   unit.erase(std::unique(unit.begin(), unit.end(), both_spaces), unit.end());
-  if (unit.starts_with(' ')) unit.erase(0, 1);
-  if (unit.ends_with(' ')) unit.pop_back();
-  return unit;
+  return without_outer_spaces(unit);
+}
+
+std::string without_spaces(std::string_view text) {
+  std::string result(text);
+  std::erase(result, ' ');
+  return result;
 }
 
 }  // namespace
 
 const Unit* Dimension::find(std::string_view symbol) const {
-  const auto found = std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return unit.symbol == symbol; });
+  const std::string wanted = without_spaces(symbol);
+  const auto found = std::ranges::find(units, wanted, [](const Unit& unit) { return without_spaces(unit.symbol); });
   return found == units.end() ? nullptr : &*found;
 }
 
-std::string Dimension::accepted() const {
-  std::vector<std::string_view> symbols;
-  for (const Unit& unit : units) symbols.push_back(unit.symbol);
-  return fmt::format("{}", fmt::join(symbols, ", "));
+std::vector<std::string_view> Dimension::symbols() const {
+  std::vector<std::string_view> result;
+  for (const Unit& unit : units) result.push_back(unit.symbol);
+  return result;
 }
+
+std::string Dimension::accepted() const { return fmt::format("{}", fmt::join(symbols(), ", ")); }
 
 std::string Dimension::scale_text() const {
   std::vector<std::string> factors;
@@ -119,7 +131,8 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   Quantity quantity;
   const auto [rest, error] = std::from_chars(text.data() + start, end, quantity.number);
   if (error != std::errc() || !std::isfinite(quantity.number)) return std::nullopt;
-  quantity.unit = plain_unit(std::string_view(rest, static_cast<std::size_t>(end - rest)));
+  quantity.written = without_outer_spaces(std::string_view(rest, static_cast<std::size_t>(end - rest)));
+  quantity.unit = plain_unit(quantity.written);
   return quantity;
 }
 

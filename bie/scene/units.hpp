@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,14 @@
 /// scales (length, time, viscosity, potential) fix all others, electric ones too, because the potential times a charge
 /// is an energy.
 namespace vehd {
+
+/// Magnitudes of values: products of a few of them are far from the limits of a double.
+constexpr double smallest_magnitude = 1e-50, largest_magnitude = 1e50;
+
+/// Is it 0 or of such a magnitude?
+inline bool has_magnitude_in_range(double value) {
+  return value == 0.0 || (std::abs(value) >= smallest_magnitude && std::abs(value) <= largest_magnitude);
+}
 
 /// A unit as a ratio of two numbers, each exact, so that "10 um" is the number nearest to 1e-5.
 struct Unit {
@@ -29,8 +38,10 @@ struct Dimension {
   std::vector<Unit> units;    ///< the first is the SI unit
 
   [[nodiscard]] std::string_view si_unit() const { return units.front().symbol; }
-  /// nullptr if there is no such unit.
+  /// A product may lack its space, as in "mPas". @return nullptr if there is no such unit
   [[nodiscard]] const Unit* find(std::string_view symbol) const;
+  /// Of its units.
+  [[nodiscard]] std::vector<std::string_view> symbols() const;
   /// "m, mm, um, nm"
   [[nodiscard]] std::string accepted() const;
   /// "M L^3 T^-1", the reference scale of this dimension
@@ -46,7 +57,8 @@ const Dimension* find_dimension(std::string_view name);
 /// A number and what follows it, "1 kV/cm".
 struct Quantity {
   double number = 0.0;
-  std::string unit;  ///< in ASCII: u for micro, ^2 for a square, one space for a product
+  std::string unit;       ///< in ASCII: u for micro, ^2 for a square, one space for a product
+  std::string written{};  ///< the unit as it is in the text
 
   /// The number in SI base units.
   /// @param temperature  in K, of a unit that needs it; without one the result is not a number

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "bie/potentials/nearest_points.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/placement.hpp"
+#include "bie/scene/schema.hpp"
 #include "bie/scene/toml_values.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -37,17 +39,32 @@ class VesicleChecks {
 
   void run() const {
     if (scene_.contact) check_contact();
-    if (scene_.vesicles.empty()) return;
+    if (scene_.vesicles.empty()) {
+      const bool is_placed = scene_.shape.centre != Triple{} || scene_.shape.kind == ShapeKind::file;
+      if (is_placed) check_distance(0, initial_position(scene_));
+      return;
+    }
     if (scene_.electric) check_electric();
     check_places();
   }
 
  private:
   [[noreturn]] void refuse(std::size_t vesicle, const std::string& problem) const {
-    // Those of a suspension stand nowhere.
-    const toml::node& node =
-        file_.contains("vesicle") ? (*file_["vesicle"].as_array())[vesicle] : *file_.get("suspension");
-    throw InputError(fmt::format("{}: {}", place(node, name_), problem));
+    throw InputError(fmt::format("{}: {}", place(node_of(vesicle), name_), problem));
+  }
+
+  /// Those of a suspension stand nowhere.
+  [[nodiscard]] const toml::node& node_of(std::size_t vesicle) const {
+    if (const toml::node* all = file_.get("vesicle")) return (*all->as_array())[vesicle];
+    const toml::node* suspension = file_.get("suspension");
+    return suspension != nullptr ? *suspension : *file_.get("shape");
+  }
+
+  /// Where the file says it, otherwise what it belongs to.
+  [[nodiscard]] const toml::node& centre_of(std::size_t vesicle) const {
+    const toml::node& owner = node_of(vesicle);
+    const auto centre = owner.as_table()->at_path(file_.contains("vesicle") ? "shape.centre" : "centre");
+    return centre ? *centre.node() : owner;
   }
 
   void check_contact() const {
@@ -88,11 +105,26 @@ class VesicleChecks {
 
   void check_places() const {
     std::vector<Matrix> positions;
-    for (const Scene& one : each_alone(scene_)) positions.push_back(initial_position(one));
+    for (const Scene& one : each_alone(scene_)) {
+      positions.push_back(initial_position(one));
+      check_distance(positions.size() - 1, positions.back());
+    }
     if (scene_.contact) check_range(positions);
     for (std::size_t b = 0; b < positions.size(); ++b) {
       for (std::size_t a = 0; a < b; ++a) check_pair(a, b, positions);
     }
+  }
+
+  /// Coordinates are rounded, and their differences have to hold the tightest tolerance.
+  void check_distance(std::size_t vesicle, const Matrix& position) const {
+    constexpr double farthest = tightest_tolerance / std::numeric_limits<double>::epsilon();
+    const double distance = position.row(0).norm();
+    const double size = position.bottomRows(position.rows() - 1).norm();
+    if (distance <= farthest * size) return;
+    const std::string who = scene_.vesicles.empty() ? "the vesicle" : called(vesicle);
+    throw InputError(
+        fmt::format("{}: \"centre\" in [shape] places {} {:.3g} radii from the origin; accepted: at most {:.2g}",
+                    place(centre_of(vesicle), name_), who, distance / size, farthest));
   }
 
   void check_range(const std::vector<Matrix>& positions) const {

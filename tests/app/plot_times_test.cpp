@@ -35,7 +35,7 @@ struct ShortSiRun : FinishedRun {
       : FinishedRun(
             "[units]\nlength = \"10 um\"\ntime = \"10 us\"\n"
             "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n[membrane]\nbending_modulus = 1e-4\n"
-            "[numerics]\norder = 6\ndt = 2.5\nend_time = 12.5\n[output]\nevery = 5.0\n") {}
+            "[fluid]\nviscosity = 1\n[numerics]\norder = 6\ndt = 2.5\nend_time = 12.5\n[output]\nevery = 5.0\n") {}
   [[nodiscard]] ProgramResult plot(const std::string& times) const {
     return run_vehd(
         {"plot", output, "--times", times, "-o", directory / "shapes.svg", "--json", directory / "plot.json"});
@@ -126,7 +126,7 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortS
 
 // Where a run shows numbers of the scene, a number is one of the scene.
 BOOST_AUTO_TEST_CASE(times_of_a_run_that_shows_numbers_of_the_scene_are_such) {
-  const FinishedRun run("[units]\ntime = \"10 us\"\n" + quick_scene("0.5") + "units = \"dimensionless\"\n");
+  const FinishedRun run(quick_scene_with_units("time = \"10 us\"\n", "0.5") + "units = \"dimensionless\"\n");
   const std::string file = run.output + "/run.h5";
   BOOST_TEST(vehd::read_frozen_shape(file, "0.5").note == "");
   BOOST_TEST(vehd::read_frozen_shape(file, "5 us").note == "");

@@ -14,7 +14,7 @@ namespace {
 
 const std::string every_table = with_appended(
     "[membrane]\nbending_modulus = 0.30000000000000004\nconductance = 5\n"
-    "[flow]\nkind = 'gradient'\ngradient = [[0, 0, 1e-300], [0, 0, 0], [0, 0, 0]]\n"
+    "[flow]\nkind = 'gradient'\ngradient = [[0, 0, 1e-50], [0, 0, 0], [0, 0, 0]]\n"
     "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1e-8\nconductivity_out = 2\ninitial_Vm = 'steady'\n"
     "[output]\nevery = 0.1\n");
 

@@ -118,12 +118,24 @@ BOOST_AUTO_TEST_CASE(waveform_needs_something_to_act_on) {
   const std::string ac = "[electric.waveform]\nkind = 'ac'\nfrequency = 1\n";
   BOOST_TEST(message_with(ac) ==
              "scene.toml:8: [electric.waveform] without [electric]: there is nothing that it could act on");
-  BOOST_TEST(message_of(electric(ac, "0, 0, 0")) ==
-             "scene.toml:13: [electric.waveform] acts on nothing: what it multiplies in [electric] is 0");
-  BOOST_TEST(message_with("[flow]\nkind = 'shear'\nrate = 0\n[flow.waveform]\nkind = 'dc'\n") ==
-             "scene.toml:12: [flow.waveform] acts on nothing: what it multiplies in [flow] is 0");
   BOOST_TEST(message_of(electric("waveform = 'ac'\n")) ==
              "scene.toml:12: \"waveform\" in [electric] is the text 'ac'; accepted: a table [electric.waveform]");
+}
+
+// A sweep of a field or flow has its control row.
+BOOST_AUTO_TEST_CASE(a_waveform_of_zero_asks_for_no_step) {
+  const std::string train = "kind = 'pulse_train'\nduration = 1e-12\nperiod = 2e-12\n";
+  const std::string ac = "kind = 'ac'\nfrequency = 1e12\n";
+  for (const std::string& waveform : {train, ac}) {
+    const vehd::Scene still = parsed(electric("[electric.waveform]\n" + waveform, "0, -0.0, 0"));
+    const vehd::Model model = vehd::model_of(still);
+    BOOST_TEST(model.electric->waveform.is_quiet(0.0));
+    BOOST_TEST(!vehd::next_discontinuity(model, 0.0));
+    const vehd::Scene at_rest = parsed(with_appended("[flow]\nkind = 'shear'\nrate = 0\n[flow.waveform]\n" + waveform));
+    BOOST_TEST(!vehd::next_discontinuity(vehd::model_of(at_rest), 0.0));
+  }
+  BOOST_TEST(message_of(electric("[electric.waveform]\nkind = 'pulse_train'\nduration = 2\nperiod = 1\n", "0, 0, 0"))
+                 .find("\"period\" in [electric.waveform] is 1; accepted: ") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(waveform_that_makes_no_sense_is_refused) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "bie/scene/schema.hpp"
 #include "tests/scene/key_values.hpp"
@@ -10,32 +11,6 @@
 BOOST_AUTO_TEST_SUITE(hostile_scene)
 
 namespace {
-
-/// A scene that is in order but for `key`, which has this value; the table of the key holds nothing else that is read
-/// before.
-std::string scene_with(const vehd::KeyDescription& key, const std::string& value) {
-  const std::string table(key.table);
-  std::string text;
-  const auto add_unless_own = [&](const std::string& name, const std::string& content) {
-    if (table != name) text += "[" + name + "]\n" + content;
-  };
-  add_unless_own("shape", "kind = 'ellipsoid'\naxes = [1, 1, 2]\n");
-  add_unless_own("numerics", "dt = 1\nend_time = 1\n");
-  if (table == "flow.waveform") add_unless_own("flow", "kind = 'shear'\nrate = 1\n");
-  if (table == "membrane.pump.waveform") add_unless_own("membrane.pump", "kind = 'harmonics'\ncurrent = 1\n");
-  if (table == "electric.waveform") {
-    add_unless_own("electric", "field = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 1\n");
-  }
-  text += "[" + table + "]\n";
-  if (!key.kinds.empty()) {
-    text += std::string(vehd::kind_key(table)->name) + " = '" + std::string(key.kinds.front()) + "'\n";
-  } else if (table == "shape") {
-    text += "kind = 'ellipsoid'\naxes = [1, 1, 2]\n";
-  } else if (table == "suspension") {
-    text += "kind = 'ball'\nradius = 9\n";
-  }
-  return text + std::string(key.name) + " = " + value + "\n";
-}
 
 std::string numerics(const std::string& text) {
   return "[shape]\nkind = 'ellipsoid'\naxes = [1, 1, 2]\n[numerics]\n" + text;
@@ -72,11 +47,86 @@ BOOST_AUTO_TEST_CASE(numbers_beyond_the_largest_are_refused) {
   BOOST_TEST(message_of(numerics("dt = '1e999 s'\nend_time = 1\n")).starts_with("scene.toml:5: \"dt\" in [numerics]"));
 }
 
+// Squares and products of such numbers are zero or infinite.
+BOOST_AUTO_TEST_CASE(numbers_whose_powers_no_number_holds_are_refused) {
+  int count = 0;
+  for (const vehd::KeyDescription& key : vehd::scene_keys()) {
+    if (key.type == vehd::ValueType::integer) continue;
+    for (const char* number : {"1e308", "1e200", "1e-200", "1e-308", "5e-324"}) {
+      const std::string value = value_with_number(key, number);
+      const bool is_long_time = key.unit == "time" && std::string(number).find('-') == std::string::npos;
+      if (value.empty() || is_long_time) continue;
+      const std::string message = message_of(scene_with(key, value));
+      const std::string name = fmt::format("\"{}\" in [{}]", key.name, key.table);
+      BOOST_TEST_CONTEXT(key.table << "." << key.name << " = " << value << ": " << message) {
+        BOOST_TEST(message.starts_with("scene.toml:"));
+        BOOST_TEST(message.find(name) != std::string::npos);
+        BOOST_TEST(message.find("; accepted: ") != std::string::npos);
+      }
+      ++count;
+    }
+  }
+  BOOST_TEST(count > 200);
+  BOOST_TEST(message_of(numerics("dt = 1\nend_time = 1\n[flow]\nkind = 'shear'\nrate = 1e200\n")) ==
+             "scene.toml:9: \"rate\" in [flow] is 1e+200; accepted: any finite number; its magnitude 0 or 1e-50 ... "
+             "1e+50");
+  BOOST_TEST(message_of(numerics("dt = 1e-200\nend_time = 1\n")) ==
+             "scene.toml:5: \"dt\" in [numerics] is 1e-200; accepted: a number > 0; its magnitude 0 or 1e-50 ... ");
+}
+
+// With units as well: of the value, of a scale and of what both make.
+BOOST_AUTO_TEST_CASE(quantities_whose_powers_no_number_holds_are_refused) {
+  const auto message = [](const std::string& scales, const std::string& rest) {
+    return message_of("[units]\n" + scales + numerics("dt = 1\nend_time = 1\n[fluid]\nviscosity = 1\n" + rest));
+  };
+  BOOST_TEST(message("length = '1e-200 m'\n", "").starts_with("scene.toml:2: \"length\" in [units] is "));
+  BOOST_TEST(message("time = '1 s'\n", "[flow]\nkind = 'shear'\nrate = '1e200 1/s'\n")
+                 .starts_with("scene.toml:13: \"rate\" in [flow] is "));
+  BOOST_TEST(message("time = '1e-40 s'\n", "[flow]\nkind = 'shear'\nrate = '1e-40 1/s'\n")
+                 .starts_with("scene.toml:13: \"rate\" in [flow] is "));
+  const std::string electric = "[membrane]\ncapacitance = 1\n[electric]\nfield = [0, 0, 1]\npermittivity = 1\n";
+  BOOST_TEST(
+      message("length = '1e50 m'\ntime = '1e-50 s'\nviscosity = '1e50 Pa s'\npotential = '1e-50 V'\n",
+              electric + "conductivity_in = '1 S/m'\nconductivity_out = 1\n")
+          .starts_with("scene.toml:19: \"conductivity_in\" in [electric] is the text '1 S/m', but 1 of the scene "
+                       "is inf S/m"));
+}
+
+BOOST_AUTO_TEST_CASE(a_negative_zero_is_zero) {
+  const vehd::Scene scene =
+      parsed(numerics("dt = 1\nend_time = -0.0\n[electric]\nfield = [0, -0.0, 1]\n"
+                      "conductivity_in = -0.0\nconductivity_out = 1\n"));
+  for (const double value : {scene.numerics.end_time, scene.electric->field[1], scene.electric->conductivity_in}) {
+    BOOST_TEST(value == 0.0);
+    BOOST_TEST(!std::signbit(value));
+  }
+}
+
+// Whatever asks for them, by one rule.
+BOOST_AUTO_TEST_CASE(steps_that_no_run_takes_are_refused) {
+  const std::string field = "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n";
+  const auto message = [&](const std::string& keys, const std::string& waveform) {
+    return message_of(numerics(keys + "end_time = 1\n" + field + "[electric.waveform]\n" + waveform));
+  };
+  const std::string train = "kind = 'pulse_train'\nduration = 1e-12\nperiod = 2e-12\n",
+                    ac = "kind = 'ac'\nfrequency = ";
+  for (const char* keys : {"tolerance = 1e-3\n", "dt = 0.1\n"}) {
+    BOOST_TEST(message(keys, train) ==
+               "scene.toml:14: \"period\" in [electric.waveform] asks for 1e+12 steps; accepted: at most 1e+09");
+  }
+  BOOST_TEST(message("tolerance = 1e-3\n", ac + "1e12\n") ==
+             "scene.toml:13: \"frequency\" in [electric.waveform] asks for 8e+12 steps; accepted: at most 1e+09");
+  BOOST_TEST(message("tolerance = 1e-3\ndt = 1e-12\n", "kind = 'dc'\n") ==
+             "scene.toml:6: \"dt\" in [numerics] asks for 1e+12 steps; accepted: at most 1e+09");
+  BOOST_TEST(message("tolerance = 1e-3\n", ac + "1e8\n") == "");
+  BOOST_TEST(message("tolerance = 1e-3\n", ac + "1e12\naverage = true\n") == "");
+}
+
 BOOST_AUTO_TEST_CASE(sizes_that_no_machine_has_are_refused) {
   BOOST_TEST(message_of(numerics("dt = 1\nend_time = 1e12\n")) ==
-             "scene.toml:5: end_time / dt in [numerics] asks for 1e+12 steps; accepted: at most 1e+09");
-  BOOST_TEST(message_of(numerics("dt = 1e-300\nend_time = 1e300\n")) ==
-             "scene.toml:5: end_time / dt in [numerics] asks for inf steps; accepted: at most 1e+09");
+             "scene.toml:5: \"dt\" in [numerics] asks for 1e+12 steps; accepted: at most 1e+09");
+  BOOST_TEST(message_of(numerics("dt = 1e-50\nend_time = 1e300\n")) ==
+             "scene.toml:5: \"dt\" in [numerics] asks for inf steps; accepted: at most 1e+09");
   BOOST_TEST(message_of(numerics("dt = 1e-3\nend_time = 1\n[output]\nevery = 1e-12\n")) ==
              "scene.toml:8: \"every\" in [output] asks for 1e+12 snapshots; accepted: at most 999999");
   BOOST_TEST(message_of(numerics("tolerance = 1e-3\nend_time = 1e300\n[output]\nevery = 1\n")) ==

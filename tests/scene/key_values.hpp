@@ -32,3 +32,29 @@ inline std::string value_with_number(const vehd::KeyDescription& key, const std:
       return "";
   }
 }
+
+/// A scene that is in order but for `key`, which has this value; the table of the key holds nothing else that is read
+/// before.
+inline std::string scene_with(const vehd::KeyDescription& key, const std::string& value) {
+  const std::string table(key.table);
+  std::string text;
+  const auto add_unless_own = [&](const std::string& name, const std::string& content) {
+    if (table != name) text += "[" + name + "]\n" + content;
+  };
+  add_unless_own("shape", "kind = 'ellipsoid'\naxes = [1, 1, 2]\n");
+  add_unless_own("numerics", "dt = 1\nend_time = 1\norder = 6\n");
+  if (table == "flow.waveform") add_unless_own("flow", "kind = 'shear'\nrate = 1\n");
+  if (table == "membrane.pump.waveform") add_unless_own("membrane.pump", "kind = 'harmonics'\ncurrent = 1\n");
+  if (table == "electric.waveform") {
+    add_unless_own("electric", "field = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 1\n");
+  }
+  text += "[" + table + "]\n";
+  if (!key.kinds.empty()) {
+    text += std::string(vehd::kind_key(table)->name) + " = '" + std::string(key.kinds.front()) + "'\n";
+  } else if (table == "shape") {
+    text += "kind = 'ellipsoid'\naxes = [1, 1, 2]\n";
+  } else if (table == "suspension") {
+    text += "kind = 'ball'\nradius = 9\n";
+  }
+  return text + std::string(key.name) + " = " + value + "\n";
+}

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(default_is_si_where_the_scene_has_units) {
 }
 
 BOOST_AUTO_TEST_CASE(what_has_no_scale_stays_dimensionless) {
-  const vehd::OutputUnits units = units_of(with_appended("[units]\nlength = \"1 um\"\n"));
+  const vehd::OutputUnits units = units_of(with_appended("[units]\nlength = \"1 um\"\n[fluid]\nviscosity = 1\n"));
   BOOST_TEST(units.of("length").symbol == "um");
   BOOST_TEST(!units.of("time").is_si());
   BOOST_TEST(!units.of("velocity").is_si());

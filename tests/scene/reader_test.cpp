@@ -96,7 +96,8 @@ BOOST_AUTO_TEST_CASE(time_step_and_counts) {
   const std::string start = "[shape]\nkind='ellipsoid'\naxes=[1,1,1]\n[numerics]\n";
   BOOST_TEST(message_of(start + "dt=0\nend_time=1\n") ==
              "scene.toml:5: \"dt\" in [numerics] is 0; accepted: a number > 0");
-  BOOST_TEST(message_of(start + "dt=1\nend_time=1e12\n").find("scene.toml:5: end_time / dt") == 0);
+  BOOST_TEST(
+      message_of(start + "dt=1\nend_time=1e12\n").find("scene.toml:5: \"dt\" in [numerics] asks for 1e+12 steps") == 0);
   BOOST_TEST(message_of(start + "dt=1\nend_time=100\n[output]\nevery=1e-5\n").find("scene.toml:8: \"every\"") == 0);
 }
 
@@ -191,7 +192,7 @@ BOOST_AUTO_TEST_CASE(radial_modes) {
 }
 
 BOOST_AUTO_TEST_CASE(overflowing_radius_is_refused) {
-  BOOST_TEST(message_of("[shape]\nkind='radial'\namplitude=1\nexponent=1e300\nmodes=[{n=2,m=0,a=1}]\n"
+  BOOST_TEST(message_of("[shape]\nkind='radial'\namplitude=1\nexponent=1e30\nmodes=[{n=2,m=0,a=1}]\n"
                         "[numerics]\ndt=1\nend_time=1\n")
                  .find("the radius in [shape] falls to nan") != std::string::npos);
 }

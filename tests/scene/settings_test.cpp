@@ -80,7 +80,8 @@ BOOST_AUTO_TEST_CASE(messages_name_the_option) {
       problem_of({"shape.axes=[1, 1, -1]"}).starts_with("--set shape.axes=[1, 1, -1]: \"axes\" in [shape] is -1"));
   BOOST_TEST(problem_of({"electric.conductivity_in=1"})
                  .starts_with("--set electric.conductivity_in=1: missing key \"field\" in [electric]"));
-  BOOST_TEST(problem_of({"flow.rate=0", "flow.waveform.kind=dc"}).starts_with("--set flow.waveform.kind=dc: "));
+  BOOST_TEST(problem_of({"flow.rate=1", "flow.waveform.kind=ac", "flow.waveform.frequency=9"})
+                 .starts_with("--set flow.waveform.frequency=9: "));
   BOOST_TEST(problem_of({"numerics.dt=1e-12", "numerics.end_time=1"}).starts_with("--set numerics.dt=1e-12: "));
   // What stands in the file is still found there.
   BOOST_TEST(problem_of({"flow.rate=1"}, with_appended("[flow]\nkind = \"shear\"\nrtae = 1\n")) ==

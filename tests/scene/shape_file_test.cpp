@@ -26,8 +26,10 @@ using vehd::Vector;
 constexpr int stored_order = 6;
 
 const std::string ellipsoid = "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.5, 2.0]\n";
-const std::string electric = "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n";
-const std::string numerics = "[numerics]\norder = 6\ndt = 1\nend_time = 1\n";
+const std::string electric =
+    "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\npermittivity = 1\n";
+const std::string numerics =
+    "[numerics]\norder = 6\ndt = 1\nend_time = 1\n[membrane]\ncapacitance = 1\n[fluid]\nviscosity = 1\n";
 
 std::string units_text(const vehd::UnitsScene& units) {
   std::string text = "[units]\n";
@@ -221,9 +223,9 @@ BOOST_AUTO_TEST_CASE(a_potential_that_no_file_has_is_refused) {
   const StoredRun plain(ellipsoid + numerics);
   const std::string from_file = electric + "initial_Vm = \"file\"\n";
   BOOST_TEST(plain.message(plain.scene("", "", from_file)) ==
-             "scene.toml:8: \"initial_Vm\" in [electric] is file, but FILE has no V_m; accepted: zero, steady");
+             "scene.toml:9: \"initial_Vm\" in [electric] is file, but FILE has no V_m; accepted: zero, steady");
   BOOST_TEST(plain.message(ellipsoid + from_file + numerics) ==
-             "scene.toml:8: \"initial_Vm\" in [electric] is file, but the shape is from none; accepted: zero, steady");
+             "scene.toml:9: \"initial_Vm\" in [electric] is file, but the shape is from none; accepted: zero, steady");
 }
 
 BOOST_AUTO_TEST_CASE(every_dataset_says_what_its_numbers_are_in_si) {

@@ -82,7 +82,7 @@ BOOST_FIXTURE_TEST_CASE(ranges_have_both_their_ends_and_even_steps_or_factors, S
 
 BOOST_FIXTURE_TEST_CASE(values_and_ranges_may_have_units, SweepFolder) {
   write_text(directory / "base.toml",
-             "[units]\nlength = \"10 um\"\ntime = \"1 ms\"\nviscosity = \"1 mPa s\"\n" + quick_scene());
+             quick_scene_with_units("length = \"10 um\"\ntime = \"1 ms\"\nviscosity = \"1 mPa s\"\n"));
   const auto sweep =
       read("scene = \"base.toml\"\n[vary]\n\"numerics.end_time\" = {from = \"1 ms\", to = \"3 ms\", count = 3}\n");
   BOOST_TEST(shown_values(sweep.keys[0]) == (Texts{"1.0 ms", "2.0 ms", "3.0 ms"}), boost::test_tools::per_element());

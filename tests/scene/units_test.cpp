@@ -3,8 +3,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "bie/scene/dimensionless_groups.hpp"
+#include "bie/scene/schema.hpp"
 #include "tests/scene/scene_text.hpp"
 
 BOOST_AUTO_TEST_SUITE(units)
@@ -35,6 +37,8 @@ BOOST_AUTO_TEST_CASE(quantities_are_parsed_however_they_are_spelled) {
   BOOST_TEST(unit_of("10 μm") == "um");
   BOOST_TEST(unit_of("1 mPa·s") == "mPa s");
   BOOST_TEST(unit_of("1 mPa * s") == "mPa s");
+  BOOST_TEST(unit_of("1 mPa.s") == "mPa s");
+  BOOST_TEST(unit_of("1 mPa⋅s") == "mPa s");
   BOOST_TEST(vehd::parse_quantity("-2e-20 J")->number == -2e-20);
   BOOST_TEST(!vehd::parse_quantity("high"));
   BOOST_TEST(!vehd::parse_quantity(""));
@@ -55,7 +59,9 @@ BOOST_AUTO_TEST_CASE(decimal_values_become_the_nearest_number_in_si) {
   BOOST_TEST(si("conductance/area", "1 mS/cm^2") == 10.0);
   BOOST_TEST(si("energy", "20 zJ") == 2e-20);
   BOOST_TEST(si("1/time", "1 kHz") == 1e3);
-  BOOST_TEST(si("viscosity", "1 mPa s") == 1e-3);
+  for (const char* text : {"1 mPa s", "1 mPas", "1mPa.s", "1 mPa·s", "1 cP"}) BOOST_TEST(si("viscosity", text) == 1e-3);
+  BOOST_TEST(si("1/(area time)", "1 1/(m^2·s)") == 1.0);
+  BOOST_TEST(si("1/(area time)", "1 1/(m²s)") == 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(electric_scales_turn_charge_times_potential_into_energy) {
@@ -111,7 +117,8 @@ BOOST_AUTO_TEST_CASE(absent_scales_make_radius_viscosity_shortest_time_and_capac
 BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
   const auto tolerance = boost::test_tools::tolerance(1e-14);
   const auto time = [](const std::string& text) { return parsed(text).units->time.value_or(0.0); };
-  const std::string start = "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\npotential = '1 V'\n" + with_appended("");
+  const std::string start = "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\npotential = '1 V'\n" +
+                            with_appended("[fluid]\nviscosity = 1\n");
   const auto electric = [](const std::string& conductivities, const std::string& more) {
     // A number without a unit says nothing of the time.
     const std::string number = more.find("permittivity") == std::string::npos ? "permittivity = 1\n" : "";
@@ -145,8 +152,8 @@ BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
   const std::string pulse = "[electric.waveform]\nkind = 'pulse'\nduration = '1 us'\n";
   BOOST_TEST(time(start + electric(conducting, "permittivity = '80 eps0'\n" + pulse)) == 1e-6, tolerance);
   // What has no unit, or is zero, says nothing.
-  BOOST_TEST(time(start + "[electric]\nfield = [0, 0, '1 kV/m']\npermittivity = 1\n" + plain +
-                  "[electric.waveform]\nkind = 'pulse'\nduration = 1\n") == 0.0);
+  BOOST_TEST(time(start + "[membrane]\ncapacitance = 1\n[electric]\nfield = [0, 0, '1 kV/m']\npermittivity = 1\n" +
+                  plain + "[electric.waveform]\nkind = 'pulse'\nduration = 1\n") == 0.0);
   BOOST_TEST(time(start + "[flow]\nkind = 'shear'\nrate = '0 1/s'\n[membrane]\nbending_modulus = '1e-18 J'\n") == 1.0,
              tolerance);
   BOOST_TEST(time(start + "[membrane]\ncapacitance = 3\n") == 0.0);
@@ -155,7 +162,7 @@ BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
 }
 
 BOOST_AUTO_TEST_CASE(an_absent_scale_that_no_value_needs_is_no_error) {
-  const std::string text = with_appended("[units]\nlength = '1 um'\n");
+  const std::string text = with_appended("[units]\nlength = '1 um'\n[fluid]\nviscosity = 1\n");
   BOOST_TEST(message_of(text) == "");
   BOOST_TEST(!parsed(text).units->time.has_value());
   BOOST_TEST(message_of(replaced(text, "[1.0, 1.0, 2.0]", "['1 um', '1 um', '2000 nm']")) == "");
@@ -189,77 +196,42 @@ BOOST_AUTO_TEST_CASE(numbers_convert_by_the_ratio_of_their_scales) {
 
 // Written out once more, by hand: what a prefix or a composed unit is in SI base units.
 BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
-  const std::map<std::string, double> sizes = {{"m", 1},
-                                               {"mm", 1e-3},
-                                               {"um", 1e-6},
-                                               {"nm", 1e-9},
-                                               {"m^2", 1},
-                                               {"mm^2", 1e-6},
-                                               {"um^2", 1e-12},
-                                               {"1/m", 1},
-                                               {"1/mm", 1e3},
-                                               {"1/um", 1e6},
-                                               {"s", 1},
-                                               {"ms", 1e-3},
-                                               {"us", 1e-6},
-                                               {"ns", 1e-9},
-                                               {"1/s", 1},
-                                               {"1/ms", 1e3},
-                                               {"Hz", 1},
-                                               {"kHz", 1e3},
-                                               {"MHz", 1e6},
-                                               {"m/s", 1},
-                                               {"mm/s", 1e-3},
-                                               {"um/s", 1e-6},
-                                               {"m/s^2", 1},
-                                               {"kg/m^3", 1},
-                                               {"g/cm^3", 1e3},
-                                               {"Pa s", 1},
-                                               {"mPa s", 1e-3},
-                                               {"J", 1},
-                                               {"aJ", 1e-18},
-                                               {"zJ", 1e-21},
-                                               {"V", 1},
-                                               {"mV", 1e-3},
-                                               {"V/m", 1},
-                                               {"kV/m", 1e3},
-                                               {"V/cm", 1e2},
-                                               {"kV/cm", 1e5},
-                                               {"S/m", 1},
-                                               {"mS/m", 1e-3},
-                                               {"mS/cm", 1e-1},
-                                               {"uS/cm", 1e-4},
-                                               {"F/m", 1},
-                                               {"pF/m", 1e-12},
-                                               {"eps0", 8.8541878188e-12},
-                                               {"F/m^2", 1},
-                                               {"mF/m^2", 1e-3},
-                                               {"uF/cm^2", 1e-2},
-                                               {"S/m^2", 1},
-                                               {"S/cm^2", 1e4},
-                                               {"mS/cm^2", 1e1},
-                                               {"K", 1},
-                                               {"kBT", 1.380649e-23 * 300.0},
-                                               {"m^3", 1},
-                                               {"Pa", 1},
-                                               {"N/m", 1},
-                                               {"mN/m", 1e-3},
-                                               {"J/m^2", 1},
-                                               {"mJ/m^2", 1e-3},
-                                               {"uJ/m^2", 1e-6},
-                                               {"C m", 1},
-                                               {"C/m^2", 1},
-                                               {"W", 1},
-                                               {"1/m^2", 1},
-                                               {"1/um^2", 1e12},
-                                               {"1/(m^2 s)", 1},
-                                               {"1/(um^2 us)", 1e18},
-                                               {"A/m^2", 1},
-                                               {"mA/m^2", 1e-3},
-                                               {"mA/cm^2", 1e1},
-                                               {"uA/cm^2", 1e-2},
-                                               {"nA/cm^2", 1e-5},
-                                               {"N", 1}};
+  const std::map<std::string, double> sizes = {{"m", 1},          {"mm", 1e-3},
+                                               {"um", 1e-6},      {"nm", 1e-9},
+                                               {"m^2", 1},        {"mm^2", 1e-6},
+                                               {"um^2", 1e-12},   {"1/m", 1},
+                                               {"1/mm", 1e3},     {"1/um", 1e6},
+                                               {"s", 1},          {"ms", 1e-3},
+                                               {"us", 1e-6},      {"ns", 1e-9},
+                                               {"1/s", 1},        {"1/ms", 1e3},
+                                               {"Hz", 1},         {"kHz", 1e3},
+                                               {"MHz", 1e6},      {"m/s", 1},
+                                               {"mm/s", 1e-3},    {"um/s", 1e-6},
+                                               {"m/s^2", 1},      {"kg/m^3", 1},
+                                               {"g/cm^3", 1e3},   {"Pa s", 1},
+                                               {"mPa s", 1e-3},   {"cP", 1e-3},
+                                               {"J", 1},          {"aJ", 1e-18},
+                                               {"zJ", 1e-21},     {"V", 1},
+                                               {"mV", 1e-3},      {"V/m", 1},
+                                               {"kV/m", 1e3},     {"V/cm", 1e2},
+                                               {"kV/cm", 1e5},    {"S/m", 1},
+                                               {"mS/m", 1e-3},    {"mS/cm", 1e-1},
+                                               {"uS/cm", 1e-4},   {"F/m", 1},
+                                               {"pF/m", 1e-12},   {"eps0", 8.8541878188e-12},
+                                               {"F/m^2", 1},      {"mF/m^2", 1e-3},
+                                               {"uF/cm^2", 1e-2}, {"S/m^2", 1},
+                                               {"S/cm^2", 1e4},   {"mS/cm^2", 1e1},
+                                               {"K", 1},          {"kBT", 1.380649e-23 * 300.0},
+                                               {"m^3", 1},        {"Pa", 1},
+                                               {"N/m", 1},        {"mN/m", 1e-3},
+                                               {"J/m^2", 1},      {"mJ/m^2", 1e-3},
+                                               {"uJ/m^2", 1e-6},  {"C m", 1},
+                                               {"C/m^2", 1},      {"W", 1},
+                                               {"1/m^2", 1},      {"1/um^2", 1e12},
+                                               {"1/(m^2 s)", 1},  {"1/(um^2 us)", 1e18},
+                                               {"A/m^2", 1},      {"mA/m^2", 1e-3},
+                                               {"mA/cm^2", 1e1},  {"uA/cm^2", 1e-2},
+                                               {"nA/cm^2", 1e-5}, {"N", 1}};
   for (const vehd::Dimension& dimension : vehd::dimensions()) {
     for (const vehd::Unit& unit : dimension.units) {
       const auto size = sizes.find(std::string(unit.symbol));
@@ -279,27 +251,73 @@ BOOST_AUTO_TEST_CASE(a_thermal_energy_is_that_of_the_temperature_of_the_scene) {
              "scene.toml:11: \"bending_modulus\" in [membrane] is the text '20 kBT', but the scene has no temperature; "
              "accepted: \"temperature\" in [units] with the unit K");
   // The bending time can be what gives the reference time.
-  const std::string start = "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\n" + with_appended("");
+  const std::string start =
+      "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\n" + with_appended("[fluid]\nviscosity = 1\n");
   const std::string bending = "[membrane]\nbending_modulus = '20 kBT'\n";
   const std::string at = replaced(start, "[units]\n", "[units]\ntemperature = '300 K'\n");
   BOOST_TEST(*parsed(at + bending).units->time == 1e-3 * 1e-15 / energy, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(message_with("\"10 um\"", "'10 kBT'") ==
-             "scene.toml:2: \"length\" in [units] is the text '10 kBT', whose unit is none of length; accepted: m, mm, "
-             "um, nm");
+             "scene.toml:2: \"length\" in [units] is the text '10 kBT', whose unit \"kBT\" is none of length (nearest: "
+             "\"m\"); accepted: m, mm, um, nm");
 }
 
-// 1 of the scene would be 5e-11 F/m here, and something else with another reference time.
-BOOST_AUTO_TEST_CASE(a_field_in_si_needs_a_permittivity) {
-  const std::string without = without_line(si_scene(), "permittivity = ");
-  const std::string message = message_of(without);
+// One of the scene would be 5e-11 F/m here, and something else with another reference time.
+BOOST_AUTO_TEST_CASE(a_default_in_units_is_required_beside_units) {
+  const std::map<std::string, std::string> lines = {{"membrane.capacitance", "capacitance = "},
+                                                    {"fluid.viscosity", "viscosity = \"1 mPa s\"\n[flow]"},
+                                                    {"electric.permittivity", "permittivity = "}};
+  const std::string radial = replaced(without_line(without_line(si_scene(), "area = "), "reduced_volume = "),
+                                      "kind = \"prolate\"\n", "kind = 'radial'\nmodes = []\n");
+  int count = 0;
+  for (const vehd::KeyDescription& key : vehd::scene_keys()) {
+    if (!vehd::has_default_in_units(key)) continue;
+    const auto line = lines.find(std::string(key.table) + "." + std::string(key.name));
+    const std::string message = message_of(line == lines.end() ? radial : without_line(si_scene(), line->second));
+    BOOST_TEST_CONTEXT(key.table << "." << key.name << ": " << message) {
+      BOOST_TEST(message.find(std::string("missing key \"") + std::string(key.name) + "\" in [" +
+                              std::string(key.table) + "]") != std::string::npos);
+      BOOST_TEST(message.find("; its default of 1 would be ") != std::string::npos);
+      BOOST_TEST(message.find("; accepted: ") != std::string::npos);
+    }
+    ++count;
+  }
+  BOOST_TEST(count == 4);
+  const std::string message = message_of(without_line(si_scene(), "permittivity = "));
   BOOST_TEST(
-      message.starts_with("scene.toml:19: missing key \"permittivity\" in [electric]: beside a field with a unit its "
-                          "default of 1 would be "),
+      message.starts_with("scene.toml:19: missing key \"permittivity\" in [electric] (of the fluid outside); its "
+                          "default of 1 would be 2e-07 F/m; accepted: "),
       message);
-  BOOST_TEST(message.ends_with(" F/m; accepted: as \"80 eps0\" for water, or a number"), message);
-  // A field that is a number has the default that is one.
-  BOOST_TEST(message_of(replaced(without, "\"0.1 kV/cm\"", "0.3")) == "");
+  // A number is a statement, and what has no effect needs none.
   BOOST_TEST(parsed(replaced(si_scene(), "\"80 eps0\"", "2.5")).electric->permittivity == 2.5);
+  BOOST_TEST(message_of(replaced(radial, "modes", "base = 1\nmodes")) == "");
+  BOOST_TEST(message_of(with_appended("[units]\nlength = '1 um'\n[fluid]\nviscosity = 2\n")) == "");
+}
+
+// Whatever is left out, a scene in SI units is refused or the same in all reference units.
+BOOST_AUTO_TEST_CASE(no_key_that_is_left_out_depends_on_the_reference_scales) {
+  std::istringstream lines(si_scene());
+  std::vector<std::string> keys;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('[')) keys.push_back(line);
+  }
+  int accepted = 0;
+  for (const std::string& line : keys) {
+    const std::string text = without_line(si_scene(), line);
+    if (text.find("[units]\nlength") == std::string::npos || !message_of(text).empty()) continue;
+    const vehd::Scene one = parsed(text), other = parsed(replaced(text, "length = \"10 um\"", "length = \"3 um\""));
+    for (const vehd::KeyDescription& key : vehd::scene_keys()) {
+      if (!vehd::applies(key, one) || key.type != vehd::ValueType::number) continue;
+      const auto si = [&](const vehd::Scene& scene) {
+        const auto value = key.get(scene);
+        return value ? std::get<double>(*value) * vehd::si_scale(scene.units, key.unit) : 0.0;
+      };
+      BOOST_TEST_CONTEXT("without " << line << ": " << key.table << "." << key.name) {
+        BOOST_TEST(si(one) == si(other), boost::test_tools::tolerance(1e-13));
+      }
+    }
+    ++accepted;
+  }
+  BOOST_TEST(accepted >= 4);
 }
 
 BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {
@@ -309,12 +327,13 @@ BOOST_AUTO_TEST_CASE(unit_in_a_scene_without_units) {
 }
 
 BOOST_AUTO_TEST_CASE(wrong_units_name_the_accepted_ones) {
-  BOOST_TEST(message_with("\"2e-20 J\"", "'2e-20 N'") ==
-             "scene.toml:11: \"bending_modulus\" in [membrane] is the text '2e-20 N', whose unit is none of energy; "
-             "accepted: J, aJ, zJ, kBT");
+  BOOST_TEST(
+      message_with("\"2e-20 J\"", "'2e-20 N'") ==
+      "scene.toml:11: \"bending_modulus\" in [membrane] is the text '2e-20 N', whose unit \"N\" is none of energy "
+      "(nearest: \"J\"); accepted: J, aJ, zJ, kBT");
   BOOST_TEST(message_with("\"0.1 kV/cm\"", "'0.1 kV'") ==
-             "scene.toml:20: \"field\" in [electric] is the text '0.1 kV', whose unit is none of field; accepted: V/m, "
-             "kV/m, V/cm, kV/cm");
+             "scene.toml:20: \"field\" in [electric] is the text '0.1 kV', whose unit \"kV\" is none of field "
+             "(nearest: \"kV/m\"); accepted: V/m, kV/m, V/cm, kV/cm");
   BOOST_TEST(message_with("\"10 ms\"", "'10'") ==
              "scene.toml:25: \"dt\" in [numerics] is the text '10', without a unit; accepted: s, ms, us, ns");
   BOOST_TEST(message_with("\"10 ms\"", "'soon'") ==
@@ -331,8 +350,24 @@ BOOST_AUTO_TEST_CASE(reference_scales_need_a_unit_and_a_positive_number) {
   BOOST_TEST(message_with("\"10 um\"", "'0 um'") ==
              "scene.toml:2: \"length\" in [units] is the text '0 um'" + accepted);
   BOOST_TEST(message_with("\"10 um\"", "'10 us'") ==
-             "scene.toml:2: \"length\" in [units] is the text '10 us', whose unit is none of length; accepted: m, mm, "
-             "um, nm");
+             "scene.toml:2: \"length\" in [units] is the text '10 us', whose unit \"us\" is none of length (nearest: "
+             "\"um\"); accepted: m, mm, um, nm");
+}
+
+// Values that cannot be read give no reference scale, which is not the fault of the keys before them that need one.
+BOOST_AUTO_TEST_CASE(a_value_that_should_give_a_scale_is_to_blame_if_it_cannot_be_read) {
+  const std::string text = without_line(without_line(si_scene(), "viscosity = \"1 mPa s\"\npot"), "viscosity = ");
+  const auto message = [&](const std::string& viscosity) {
+    return message_of(replaced(text, "[fluid]\n", "[fluid]\nviscosity = " + viscosity + "\n"));
+  };
+  BOOST_TEST(message("'1 mPa s'") == "");
+  BOOST_TEST(message("'1 cp'") ==
+             "scene.toml:14: \"viscosity\" in [fluid] is the text '1 cp', whose unit \"cp\" is none of viscosity "
+             "(nearest: \"cP\"); accepted: Pa s, mPa s, cP");
+  for (const char* value : {"'1 µPa s'", "'0 Pa s'", "'-1 Pa s'", "'thin'", "'1'", "true", "[]"}) {
+    BOOST_TEST(message(value).starts_with("scene.toml:14: \"viscosity\" in [fluid] is "), message(value));
+  }
+  BOOST_TEST(message("'1 µPa s'").find("unit \"µPa s\"") != std::string::npos, message("'1 µPa s'"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -146,12 +146,27 @@ BOOST_AUTO_TEST_CASE(may_attract_or_repel_each_other) {
 BOOST_AUTO_TEST_CASE(have_one_scale_of_length) {
   const std::string scene =
       "[units]\ntime = \"1 s\"\n[shape]\nkind = \"prolate\"\nreduced_volume = 0.9\n[numerics]\ndt = 0.1\nend_time = 1\n"
-      "[[vesicle]]\nshape.area = \"400 um^2\"\n[[vesicle]]\nshape = {area = \"100 um^2\", centre = [\"40 um\", 0, "
+      "[fluid]\nviscosity = 1\n[[vesicle]]\nshape.area = \"400 um^2\"\n[[vesicle]]\nshape = {area = \"100 um^2\", "
+      "centre = [\"40 um\", 0, "
       "0]}\n";
   const vehd::Scene read = parsed(scene);
   const double length = std::sqrt(400e-12 / (4.0 * std::numbers::pi));
   BOOST_TEST(*read.units->length == length, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(*vehd::alone(read, 1).shape.area == 100e-12 / (length * length), boost::test_tools::tolerance(1e-12));
+}
+
+// Distances so large have no square, and coordinates no digits left for the shape.
+BOOST_AUTO_TEST_CASE(vesicles_beyond_the_digits_of_their_coordinates_are_refused) {
+  for (const char* far : {"1e308", "-1e200", "1e40", "1e7"}) {
+    const std::string centre = std::string("[0, ") + far + ", 0]";
+    const std::string pair = message_of(kForAll + at("[0, 0, 0]") + at(centre));
+    BOOST_TEST(pair.starts_with("scene.toml:11: \"centre\" in [shape] "), pair);
+    BOOST_TEST(pair.find("; accepted: ") != std::string::npos, pair);
+    std::string one = kForAll;
+    one.insert(one.find("[numerics]"), "centre = " + centre + "\n");
+    BOOST_TEST(message_of(one).starts_with("scene.toml:4: \"centre\" in [shape] "), message_of(one));
+  }
+  BOOST_TEST(message_of(kForAll + at("[0, 0, 0]") + at("[0, 1e6, 0]")) == "");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,74 @@
+#include "bie/scene/waveforms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace vehd {
+
+namespace {
+
+bool is_zero(const FlowScene& flow) {
+  if (flow.kind == FlowKind::gradient) return flow.gradient == TripleOfTriples{};
+  return (flow.kind == FlowKind::poiseuille ? flow.centre_velocity : flow.rate) == 0.0;
+}
+
+}  // namespace
+
+Waveform waveform_of(const WaveformScene& waveform) {
+  const WaveformScene& w = waveform;
+  switch (w.kind) {
+    case WaveformKind::dc:
+      break;
+    case WaveformKind::ac:
+      return Waveform::alternating(1.0, w.frequency, w.phase);
+    case WaveformKind::pulse:
+      return Waveform::pulse(1.0, w.start, w.duration);
+    case WaveformKind::pulse_train:
+      return Waveform::pulse_train(1.0, w.start, w.duration, w.period);
+    case WaveformKind::table:
+      return Waveform::table(w.times, w.values);
+  }
+  return {};
+}
+
+std::vector<ActingWaveform> acting_waveforms(const Scene& scene) {
+  std::vector<ActingWaveform> result;
+  const auto add = [&](std::string_view table, const std::optional<WaveformScene>& waveform) {
+    if (waveform) result.push_back({table, &*waveform});
+  };
+  if (scene.flow && !is_zero(*scene.flow)) add("flow.waveform", scene.flow->waveform);
+  if (scene.electric && scene.electric->field != Triple{} && !has_averaged_field(scene)) {
+    add("electric.waveform", scene.electric->waveform);
+  }
+  if (const auto& pump = scene.membrane.pump; pump && pump->current != 0.0) {
+    add("membrane.pump.waveform", pump->waveform);
+  }
+  return result;
+}
+
+double fewest_steps(const WaveformScene& waveform, double end) {
+  const auto after_zero = [end](const auto& n_until) { return n_until(end) - n_until(0.0); };
+  const auto pulses_at = [&](double first) {
+    return
+        [=, period = waveform.period](double time) { return std::max(0.0, std::floor((time - first) / period) + 1.0); };
+  };
+  const double start = waveform.start, stop = waveform.start + waveform.duration;
+  switch (waveform.kind) {
+    case WaveformKind::dc:
+      return 0.0;
+    case WaveformKind::ac:
+      return fewest_steps_a_period * waveform.frequency * end;
+    case WaveformKind::pulse:
+      return after_zero([=](double time) { return double(start <= time) + double(stop <= time); });
+    case WaveformKind::pulse_train:
+      return after_zero(pulses_at(start)) + after_zero(pulses_at(stop));
+    case WaveformKind::table:
+      break;
+  }
+  return after_zero([&](double time) {
+    return static_cast<double>(std::ranges::upper_bound(waveform.times, time) - waveform.times.begin());
+  });
+}
+
+}  // namespace vehd
