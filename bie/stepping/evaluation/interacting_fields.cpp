@@ -137,13 +137,7 @@ void solve_interacting(const std::vector<VesicleTask>& tasks, double time, Limit
     forcing.push_back({Matrix::Zero(task.membrane.surface.n_points(), 3), Matrix::Zero(task.state.position.rows(), 3)});
   }
   if (tasks.front().model.electric && solved.electric_inactive) {
-    for (const VesicleTask& task : tasks) {
-      const Index n = task.state.position.rows();
-      task.fields.charge = Vector::Zero(n);
-      task.solution.potential_rate = Vector::Zero(n);
-      task.fields.force_electric = Matrix::Zero(n, 3);
-      if (relaxes_charge(task.model)) without_charges(task);
-    }
+    for (const VesicleTask& task : tasks) without_charges(task);
   } else if (tasks.front().model.electric) {
     const auto timer = instruments.time("electric");
     const Model& model = tasks.front().model;

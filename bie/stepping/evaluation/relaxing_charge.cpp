@@ -65,10 +65,19 @@ std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, dou
 }
 
 void without_charges(const VesicleTask& task) {
-  const Vector none = Vector::Zero(task.state.position.rows());
+  const Index n = task.state.position.rows();
+  task.fields.charge = Vector::Zero(n);
+  task.fields.force_electric = Matrix::Zero(n, 3);
+  if (is_averaged(task.model)) {
+    // V_m is no unknown there and has no rate.
+    task.fields.potential_amplitude = task.fields.charge_amplitude = Matrix::Zero(n, 2);
+    return;
+  }
+  task.solution.potential_rate = Vector::Zero(n);
+  if (!relaxes_charge(task.model)) return;
   take_charges(task);
-  task.fields.potential = none;
-  task.solution.free_charge_rate = none;
+  task.fields.potential = Vector::Zero(n);
+  task.solution.free_charge_rate = Vector::Zero(n);
 }
 
 }  // namespace vehd

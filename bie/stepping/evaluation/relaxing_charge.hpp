@@ -15,7 +15,7 @@ namespace vehd {
 std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, double time, Limit limit,
                                       SolvedFields& solved);
 
-/// The same where there is no charge and no field.
+/// All electric fields and rates, which are zero where there is no charge and no field.
 void without_charges(const VesicleTask& task);
 
 }  // namespace vehd

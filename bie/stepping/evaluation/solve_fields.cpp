@@ -69,10 +69,7 @@ void solve(const VesicleTask& task, double time, Limit limit, Instruments& instr
   const Index n = task.state.position.rows();
   Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(n, 3)};
   if (task.model.electric && solved.electric_inactive) {
-    task.fields.charge = Vector::Zero(n);
-    task.solution.potential_rate = Vector::Zero(n);
-    task.fields.force_electric = Matrix::Zero(n, 3);
-    if (relaxes_charge(task.model)) without_charges(task);
+    without_charges(task);
   } else if (task.model.electric) {
     const auto timer = instruments.time("electric");
     forcing.force -= is_averaged(task.model)      ? averaged_forces({task}, solved).front()

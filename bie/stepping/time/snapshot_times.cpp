@@ -22,8 +22,8 @@ std::optional<double> SnapshotTimes::next(double time, double end) const {
     if (moment < end - tolerance && (!earliest || moment < *earliest)) earliest = moment;
   };
   if (every) consider(index_after(time, *every) * *every, rounding * *every);
-  const auto listed = std::ranges::find_if(times, [&](double moment) {
-    return moment - time > rounding_of_time * std::max(std::abs(moment), std::abs(time));
+  const auto listed = std::ranges::partition_point(times, [&](double moment) {
+    return moment - time <= rounding_of_time * std::max(std::abs(moment), std::abs(time));
   });
   if (listed != times.end()) consider(*listed, rounding_of_time * *listed);
   for (const SnapshotWindow& window : windows) {
