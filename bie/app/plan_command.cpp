@@ -59,12 +59,12 @@ nlohmann::json json_of(const RunPlan& plan) {
   }
   json["unknowns"] = plan.unknowns;
   json["steps"] = plan.n_steps;
-  if (plan.stops.empty()) {
+  if (plan.stops.empty() && plan.unknown.empty()) {
     json["seconds_per_step"] = plan.seconds_per_step;
     json["memory_bytes"] = plan.memory_bytes;
   } else {
     json["seconds_per_step"] = json["memory_bytes"] = nullptr;
-    json["stops"] = plan.stops;
+    json[plan.stops.empty() ? "unknown" : "stops"] = plan.stops.empty() ? plan.unknown : plan.stops;
   }
   return json;
 }
@@ -111,6 +111,10 @@ void print(const RunPlan& plan) {
     fmt::print("cost       none: {}\n", plan.stops);
     return;
   }
+  if (!plan.unknown.empty()) {
+    fmt::print("cost       unknown: {}\n", plan.unknown);
+    return;
+  }
   fmt::print("cost       {} steps of {:.2g} s: {}, {:.0f} MB\n", plan.n_steps, plan.seconds_per_step,
              duration_text(static_cast<double>(plan.n_steps) * plan.seconds_per_step),
              static_cast<double>(plan.memory_bytes) / 1e6);
@@ -127,9 +131,11 @@ ExitCode print_costs(const PlanOptions& options, const Scene& scene, CostCache& 
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:>9} {:>8} {:>7} {:>9} {:>7}\n", "tolerance", "degree", "steps", "time", "MB");
   for (const CostRow& row : rows) {
-    if (!row.stops.empty()) {
-      fmt::print("{:>9.0e} {}\n", row.tolerance, row.stops);
-      json.push_back({{"tolerance", row.tolerance}, {"stops", row.stops}});
+    if (!row.stops.empty() || !row.unknown.empty()) {
+      const char* name = row.stops.empty() ? "unknown" : "stops";
+      const std::string& reason = row.stops.empty() ? row.unknown : row.stops;
+      fmt::print("{:>9.0e} {}: {}\n", row.tolerance, name, reason);
+      json.push_back({{"tolerance", row.tolerance}, {name, reason}});
       continue;
     }
     fmt::print("{:>9.0e} {:>8} {:>7} {:>9} {:>7.0f}{}\n", row.tolerance, row.order, row.steps,
@@ -143,7 +149,7 @@ ExitCode print_costs(const PlanOptions& options, const Scene& scene, CostCache& 
                     {"measured", row.measured}});
   }
   write_json(options.common, json);
-  const bool none = std::ranges::none_of(rows, [](const CostRow& row) { return row.stops.empty(); });
+  const bool none = std::ranges::all_of(rows, [](const CostRow& row) { return !row.stops.empty(); });
   return none ? does_not_hold(options, " at any of these tolerances: " + rows.back().stops) : ExitCode::done;
 }
 
@@ -171,10 +177,10 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(
-      "Seconds and memory come from a few trial steps in a temporary folder; nothing is left of them.\n"
-      "Those of a tolerance come from runs with looser ones, in less than 10 s; what these found is kept in\n"
-      "vehd/costs.json in $XDG_CACHE_HOME (~/.cache) for the next time. Exit code 4 where trial steps cannot be "
-      "taken.");
+      "Seconds and memory come from a few trial steps; nothing is left of them.\n"
+      "Those of a tolerance come from runs with looser ones; what these found is kept in vehd/costs.json in\n"
+      "$XDG_CACHE_HOME (~/.cache) for the next time. All takes less than 10 s, and what there was no time for is\n"
+      "unknown. Exit code 4 where the run could not take its first steps.");
   command->callback([options, &exit_code] { exit_code = plan(*options); });
 }
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
@@ -19,7 +21,7 @@ namespace vehd {
 namespace {
 
 constexpr const char* shape_cost_entry = "seconds per shape";
-constexpr std::array kOrders{8, 12, 16, 24, 32, 48};
+constexpr std::array kOrders{8, 12, 16, 24, 32};
 /// Powers of the degree where nothing was timed. Measured of shapes: 3.5 of sheared ones from 14 to 26, 2.9 of those
 /// with an axis from 48 to 56.
 constexpr double kSecondsGrowth = 3.5, kBytesGrowth = 4.0;
@@ -35,57 +37,44 @@ std::string kind_of(const Problem& problem) {
 }
 
 /// A first step of the scene that suits any accuracy.
-double step_size(const Scene& scene) {
+double step_size(const Scene& scene, Deadline& deadline) {
   constexpr double kTolerance = 1e-3;
   const Problem problem = problem_of(at_tolerance(scene, kTolerance));
-  Instruments instruments;
+  Instruments instruments(&deadline);
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
-  const double longest = scene.output.every.value_or(std::max(scene.numerics.end_time, kTolerance));
-  return std::min(evolution.state().dt_next, longest);
+  return std::min(evolution.state().dt_next, scene.output.every.value_or(scene.numerics.end_time));
 }
 
-CostModel::Point timed(Scene scene, int order, double dt) {
+/// The scene with a few fixed steps of that size, whatever happens meanwhile.
+Scene with_few_steps(Scene scene, double dt) {
   constexpr int kTimeOrder = 2;
   scene.numerics.tolerance.reset();
   scene.numerics.dt = dt;
-  scene.numerics.order = order;
   scene.numerics.time_order = kTimeOrder;
-  const Problem problem = problem_of(scene);
-  Instruments instruments;
-  Evolution evolution(setup_of(problem), problem.start, instruments);
-  evolution.evaluate_start();
-  evolution.step({{}, 10.0 * dt});
-  const auto start = std::chrono::steady_clock::now();
-  evolution.step({{}, 10.0 * dt});
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {order, seconds / evaluations_per_step(kTimeOrder), static_cast<double>(peak_memory_bytes())};
+  scene.numerics.end_time = 10.0 * dt;
+  scene.output = {};
+  return scene;
 }
 
-std::vector<CostModel::Point> measure(const Scene& scene, double budget) {
+std::vector<CostModel::Point> measure(const Scene& scene, double budget, Deadline& deadline) {
+  constexpr int kSteps = 3, kHighest = 48;
   const auto start = std::chrono::steady_clock::now();
-  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const double dt = step_size(scene);
+  const auto left = [&] {
+    return budget - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  Scene timed = with_few_steps(scene, step_size(scene, deadline));
   std::vector<CostModel::Point> points;
-  double last_level = 0.0;
   std::string reason;
-  for (const int order : kOrders) {
-    if (!points.empty()) {
-      const double next = last_level * std::pow(double(order) / points.back().order, kMostGrowth);
-      if (spent() + next > budget) break;
-    }
-    const double before = spent();
-    try {
-      points.push_back(timed(scene, order, dt));
-    } catch (const ConvergenceError& error) {
-      // What a degree cannot resolve a higher one may.
-      reason = error.what();
-      continue;
-    }
-    last_level = spent() - before;
-  }
-  if (points.empty()) throw ConvergenceError(reason);
-  return points;
+  time_rising_degrees(kHighest, left(), [&](int order) {
+    timed.numerics.order = order;
+    const TimedSteps steps = timed_steps(timed, kSteps, std::numeric_limits<double>::infinity(), deadline);
+    if (steps.point) points.push_back(*steps.point);
+    if (!steps.point && !steps.stops.empty()) reason = steps.stops;
+  });
+  if (!points.empty()) return points;
+  if (reason.empty()) throw OutOfTime("the first steps");
+  throw ConvergenceError(reason);
 }
 
 /// Empty where the entry is not what is expected.
@@ -118,12 +107,62 @@ double CostModel::at(int order, double Point::*value, double growth) const {
 double CostModel::seconds_per_shape(int order) const { return at(order, &Point::seconds, kSecondsGrowth); }
 double CostModel::bytes(int order) const { return at(order, &Point::bytes, kBytesGrowth); }
 
-CostModel cost_model_of(const Scene& scene, double seconds, CostCache& cache) {
+TimedSteps timed_steps(const Scene& scene, int most_steps, double seconds, Deadline& deadline) {
+  constexpr std::size_t kWarmUp = 2;
+  using Clock = std::chrono::steady_clock;
+  TimedSteps result;
+  std::vector<Clock::time_point> ends;
+  const auto took = [](Clock::duration duration) { return std::chrono::duration<double>(duration).count(); };
+  try {
+    const Problem problem = problem_of(scene);
+    Instruments instruments(&deadline);
+    Evolution evolution(setup_of(problem), problem.start, instruments);
+    evolution.evaluate_start();
+    const EventTimes events = events_of(scene);
+    ends.push_back(Clock::now());
+    while (evolution.state().time < events.end_time && std::ssize(ends) <= most_steps &&
+           (ends.size() < 2 || took(Clock::now() - ends.front()) < seconds)) {
+      evolution.step(events);
+      ends.push_back(Clock::now());
+    }
+  } catch (const ConvergenceError& error) {
+    result.stops = error.what();
+  } catch (const OutOfTime&) {
+    // The steps before it count.
+  }
+  if (ends.size() < 2) return result;
+  const std::size_t first = ends.size() > kWarmUp + 1 ? kWarmUp : 0;
+  const double per_step = took(ends.back() - ends[first]) / static_cast<double>(ends.size() - 1 - first);
+  result.point = {scene.numerics.order, per_step / evaluations_per_step(scene.numerics.time_order),
+                  static_cast<double>(peak_memory_bytes())};
+  return result;
+}
+
+int time_rising_degrees(int highest, double seconds, const std::function<void(int order)>& time_at) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  int last = 0;
+  double of_last = 0.0;
+  std::vector<int> orders;
+  std::ranges::copy_if(kOrders, std::back_inserter(orders), [=](int order) { return order < highest; });
+  orders.push_back(highest);
+  for (const int order : orders) {
+    const double next = last == 0 ? 0.0 : of_last * std::pow(double(order) / last, kMostGrowth);
+    if (last != 0 && spent() + next > seconds) break;
+    const double before = spent();
+    time_at(order);
+    of_last = spent() - before;
+    last = order;
+  }
+  return last;
+}
+
+CostModel cost_model_of(const Scene& scene, double seconds, CostCache& cache, Deadline& deadline) {
   const std::string kind = kind_of(problem_of(at_tolerance(scene, 1e-1)));
   if (const auto entry = cache.find(shape_cost_entry, kind)) {
     if (std::vector<CostModel::Point> points = points_of(*entry); !points.empty()) return CostModel(std::move(points));
   }
-  std::vector<CostModel::Point> points = measure(scene, seconds);
+  std::vector<CostModel::Point> points = measure(scene, seconds, deadline);
   nlohmann::json entry = nlohmann::json::array();
   for (const CostModel::Point& point : points) entry.push_back({point.order, point.seconds, point.bytes});
   cache.keep(shape_cost_entry, kind, entry);

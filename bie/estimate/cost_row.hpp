@@ -14,9 +14,10 @@ struct CostRow {
   double file_seconds = 0.0;  ///< of these, what its files take
   std::int64_t memory_bytes = 0;
   bool measured = false;  ///< degree and steps are those of a whole run
-  /// Why a run with this tolerance, or where there was no time for it with the last one that was tried, cannot take its
-  /// steps; empty if it can. Nothing else is known then.
-  std::string stops;
+  /// Why a run with this tolerance cannot take its steps: it was tried. Empty if it can; nothing else is known then.
+  std::string stops{};
+  /// Why nothing is known: there was no time to run it, and no looser one says what it costs. Empty otherwise.
+  std::string unknown{};
 };
 
 }  // namespace vehd

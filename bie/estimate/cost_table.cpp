@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "bie/estimate/cost_model.hpp"
+#include "bie/estimate/file_cost.hpp"
 #include "bie/estimate/prediction.hpp"
 #include "bie/estimate/stretch.hpp"
 #include "bie/estimate/trial_run.hpp"
@@ -16,8 +17,10 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/time/time_rule.hpp"
+#include "bie/support/deadline.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
+#include "bie/support/memory.hpp"
 
 namespace vehd {
 namespace {
@@ -58,34 +61,23 @@ std::vector<CostRow> rows_of(const nlohmann::json& entry, std::size_t count) {
   return rows.size() == count ? rows : std::vector<CostRow>();
 }
 
-/// Files of a run beside its steps: each snapshot is written in the highest degree. Measured once, 2.5 ms a snapshot at
-/// p = 16 and 6.5 ms at p = 40: a small share of any run.
-double file_seconds(const Scene& scene, const CostRow& row) {
-  constexpr double kPerRow = 2e-4, kPerSnapshot = 2e-3, kPerPoint = 1.4e-6;
-  const double snapshots = 2.0 + events_of(scene).snapshots.count(scene.numerics.end_time);
-  const double order = accuracy_defaults(row.tolerance).order;
-  return kPerRow * static_cast<double>(row.steps) + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
-}
-
-/// Rows without any cost.
-std::vector<CostRow> stopping_rows(const std::vector<double>& tolerances, const std::string& reason) {
-  std::vector<CostRow> rows;
-  for (const double tolerance : tolerances) rows.push_back({.tolerance = tolerance, .stops = reason});
-  return rows;
-}
-
 /// What is left of a budget.
 class BudgetLeft {
  public:
-  explicit BudgetLeft(const CostBudget& budget) : budget_(budget) {}
+  /// Where steps are counted there is no deadline.
+  explicit BudgetLeft(const CostBudget& budget)
+      : budget_(budget), deadline_(budget.steps ? std::numeric_limits<double>::infinity() : budget.seconds) {}
 
-  [[nodiscard]] TrialBudget of_first_trial() const {
+  [[nodiscard]] Deadline& deadline() { return deadline_; }
+  /// The cost model comes after it.
+  [[nodiscard]] TrialBudget of_first_trial() {
     if (budget_.steps) return of_trial();
-    return {.seconds = std::max(seconds_of_trials(), budget_.first_trial)};
+    return {.seconds = std::max(seconds_of_trials() - budget_.model_seconds, budget_.first_trial),
+            .deadline = &deadline_};
   }
-  [[nodiscard]] TrialBudget of_trial() const {
+  [[nodiscard]] TrialBudget of_trial() {
     if (budget_.steps) return {.steps = steps_of_trials()};
-    return {.seconds = seconds_of_trials()};
+    return {.seconds = seconds_of_trials(), .deadline = &deadline_};
   }
   [[nodiscard]] bool any_for_trials() const {
     return budget_.steps ? steps_of_trials() > 0 : seconds_of_trials() > 0.0;
@@ -116,17 +108,15 @@ class BudgetLeft {
 
  private:
   [[nodiscard]] std::int64_t steps() const { return *budget_.steps - taken_; }
-  [[nodiscard]] double seconds() const {
-    return budget_.seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  [[nodiscard]] double seconds() const { return deadline_.seconds_left(); }
   [[nodiscard]] std::int64_t steps_of_trials() const {
     return steps() - std::llround(budget_.stretch_share * static_cast<double>(*budget_.steps));
   }
   [[nodiscard]] double seconds_of_trials() const { return seconds() - budget_.stretch_share * budget_.seconds; }
 
   CostBudget budget_;
+  Deadline deadline_;
   std::int64_t taken_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 int time_order_of(double tolerance) { return accuracy_defaults(tolerance).time_order; }
@@ -153,10 +143,12 @@ void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft&
   known.expect_start(tolerance);
   if (left.has_for_start(start_seconds(known, index))) {
     try {
-      known.learn_start(tolerance, starting_order(scene, tolerance));
+      known.learn_start(tolerance, starting_order(scene, tolerance, &left.deadline()));
       left.take(1);
     } catch (const ConvergenceError&) {
       // Then looser tolerances have to tell.
+    } catch (const OutOfTime&) {
+      // Likewise.
     }
   }
   if (!known.stretches.empty() && time_order_of(known.sampled) == highest_time_order) return;
@@ -168,77 +160,114 @@ void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft&
     return any;
   };
   std::vector<Stretch> stretches =
-      take_stretches(scene, known.trial, tolerance, count, predicted_orders(known, index), begins);
+      take_stretches(scene, known.trial, tolerance, count, predicted_orders(known, index), begins, &left.deadline());
   if (stretches.size() > 1) known.learn(tolerance, std::move(stretches));
 }
 
-std::vector<CostRow> measured_table(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
-                                    const CostBudget& budget) {
-  BudgetLeft left(budget);
-  Knowledge known{scene, tolerances, cost_model_of(scene, budget.model_seconds, cache)};
-  TrialRun& trial = known.trial;
-  std::vector<CostRow> rows;
-  bool running = true;
-  for (std::size_t i = 0; i < tolerances.size(); ++i) {
-    // What stops at one tolerance may well go on at the next, and says nothing of its cost.
-    const bool predicts = trial.stops.empty() && !trial.steps.empty();
-    if (running && predicts) {
-      running = left.may_do(predicted_row(known, i));
-    } else if (running && i > 0) {
-      running = left.any_for_trials();
+/// Rows from the loosest tolerance to the tightest: of runs as long as the budget allows, then predicted.
+class CostTable {
+ public:
+  CostTable(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache, const CostBudget& budget)
+      : scene_(scene), tolerances_(tolerances), cache_(cache), budget_(budget), left_(budget) {}
+
+  std::vector<CostRow> rows() {
+    bool running = true;
+    for (std::size_t i = 0; i < tolerances_.size(); ++i) {
+      if (running && i > 0) running = known_ ? left_.may_do(predicted_row(*known_, i)) : left_.any_for_trials();
+      CostRow row{.tolerance = tolerances_[i]};
+      if (running) running = run(i, row);
+      if (!running) predict(i, row);
+      rows_.push_back(std::move(row));
     }
-    if (running) {
-      TrialRun next = run_trial(scene, tolerances[i], tolerances, i > 0 ? left.of_trial() : left.of_first_trial());
-      left.take(next.steps.size());
-      running = next.completed || !next.stops.empty();
-      if (predicts && next.completed) {
-        const auto first = std::ranges::find_if(rows, [](const CostRow& row) { return row.stops.empty(); });
-        known.trend = trend_of(*first, trial, next);
-      }
-      if (!predicts || next.completed || !next.stops.empty()) known.learn(std::move(next));
+    for (CostRow& row : rows_) {
+      if (!row.stops.empty() || !row.unknown.empty()) continue;
+      row.file_seconds = file_seconds(scene_, row.steps, accuracy_defaults(row.tolerance).order);
+      row.seconds += row.file_seconds;
     }
-    CostRow row;
-    row.tolerance = tolerances[i];
-    row.stops = trial.stops;
-    if (!row.stops.empty()) {
-      rows.push_back(row);
-      continue;
+    return std::move(rows_);
+  }
+
+ private:
+  /// @return whether the run has ended by itself
+  bool run(std::size_t i, CostRow& row) {
+    TrialRun trial = run_trial(scene_, row.tolerance, tolerances_, i > 0 ? left_.of_trial() : left_.of_first_trial());
+    left_.take(trial.steps.size());
+    if (!trial.stops.empty()) {
+      // What stops at one tolerance may well go on at the next, and says nothing of its cost.
+      row.stops = trial.stops;
+      known_.reset();
+      reason_ = fmt::format("a run with the tolerance {:g} stops: {}", row.tolerance, trial.stops);
+      return true;
     }
-    if (running) {
+    if (trial.completed) {
       row.measured = true;
       row.seconds = trial.seconds;
       row.steps = static_cast<std::int64_t>(trial.steps.size());
       row.order = trial.highest_order;
-    } else {
-      sample(scene, i, known, left);
-      row = predicted_row(known, i);
-      // A tighter tolerance is never cheaper.
-      if (i > 0) {
-        row.order = std::max(row.order, rows.back().order);
-        row.steps = std::max(row.steps, rows.back().steps);
-        row.seconds = std::max(row.seconds, rows.back().seconds);
-      }
+      row.memory_bytes = peak_memory_bytes();
     }
-    row.memory_bytes = static_cast<std::int64_t>(known.model.bytes(row.order));
-    rows.push_back(row);
+    const bool completed = trial.completed;
+    if (i + 1 < tolerances_.size() || !completed) learn(std::move(trial));
+    return completed;
   }
-  for (CostRow& row : rows) {
-    if (!row.stops.empty()) continue;
-    row.file_seconds = file_seconds(scene, row);
-    row.seconds += row.file_seconds;
-  }
-  return rows;
-}
 
-/// The same, or rows that say why no step could be timed.
-std::vector<CostRow> table_or_reason(const Scene& scene, const std::vector<double>& tolerances, CostCache& cache,
-                                     const CostBudget& budget) {
-  try {
-    return measured_table(scene, tolerances, cache, budget);
-  } catch (const ConvergenceError& error) {
-    return stopping_rows(tolerances, error.what());
+  void learn(TrialRun trial) {
+    if (trial.steps.empty()) {
+      if (!trial.completed) reason_ = "the time was over before a first step ended";
+      return;
+    }
+    if (known_) {
+      if (!trial.completed) return;
+      const auto first = std::ranges::find_if(rows_, [](const CostRow& row) { return row.stops.empty(); });
+      known_->trend = trend_of(*first, known_->trial, trial);
+    } else if (!make_model()) {
+      return;
+    }
+    known_->learn(std::move(trial));
   }
-}
+
+  /// @return whether steps can be predicted
+  bool make_model() {
+    if (has_no_model_) return false;
+    try {
+      known_.emplace(
+          Knowledge{scene_, tolerances_, cost_model_of(scene_, budget_.model_seconds, cache_, left_.deadline())});
+    } catch (const ConvergenceError& error) {
+      reason_ = error.what();
+    } catch (const OutOfTime& error) {
+      reason_ = error.what();
+    }
+    has_no_model_ = !known_;
+    return !has_no_model_;
+  }
+
+  void predict(std::size_t i, CostRow& row) {
+    if (!known_) {
+      row.unknown = reason_;
+      return;
+    }
+    sample(scene_, i, *known_, left_);
+    row = predicted_row(*known_, i);
+    row.memory_bytes = static_cast<std::int64_t>(known_->model.bytes(row.order));
+    if (i == 0) return;
+    // A tighter tolerance is never cheaper.
+    const CostRow& looser = rows_.back();
+    row.order = std::max(row.order, looser.order);
+    row.steps = std::max(row.steps, looser.steps);
+    row.seconds = std::max(row.seconds, looser.seconds);
+    row.memory_bytes = std::max(row.memory_bytes, looser.memory_bytes);
+  }
+
+  const Scene& scene_;
+  const std::vector<double>& tolerances_;
+  CostCache& cache_;
+  CostBudget budget_;
+  BudgetLeft left_;
+  std::optional<Knowledge> known_;  ///< of the last run that took steps
+  bool has_no_model_ = false;
+  std::string reason_ = "there was no time for a run";  ///< why nothing is known
+  std::vector<CostRow> rows_;
+};
 
 }  // namespace
 
@@ -248,8 +277,9 @@ std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>
   if (const auto entry = cache.find(cost_table_entry, identity)) {
     if (std::vector<CostRow> rows = rows_of(*entry, tolerances.size()); !rows.empty()) return rows;
   }
-  std::vector<CostRow> rows = table_or_reason(scene, tolerances, cache, budget);
-  cache.keep(cost_table_entry, identity, json_of(rows));
+  std::vector<CostRow> rows = CostTable(scene, tolerances, cache, budget).rows();
+  const bool is_known = std::ranges::all_of(rows, [](const CostRow& row) { return row.unknown.empty(); });
+  if (is_known) cache.keep(cost_table_entry, identity, json_of(rows));
   return rows;
 }
 

@@ -11,6 +11,7 @@
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/vesicles.hpp"
+#include "bie/scene/waveforms.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/interacting_fields.hpp"
 #include "bie/stepping/space/discretisation.hpp"
@@ -63,6 +64,16 @@ std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
   if (symmetry.axisymmetric) return order + 1;
   const std::int64_t all = std::int64_t{order + 1} * (order + 1);
   return (all + symmetry.group_order() - 1) / symmetry.group_order();
+}
+
+/// The model without its electric part where nothing ever charges a membrane: a run assembles and solves nothing of it.
+Model without_idle_field(const Model& model, const Problem& problem) {
+  Model result = model;
+  const bool pumps = std::ranges::any_of(result.vesicles, [](const VesicleModel& v) { return v.pump.has_value(); });
+  const bool charged = std::ranges::any_of(
+      problem.start, [](const StartMembrane& membrane) { return !membrane.potential.given.isZero(0.0); });
+  if (result.electric && result.electric->field.isZero(0.0) && !pumps && !charged) result.electric.reset();
+  return result;
 }
 
 /// How many vesicles need an operator; images of others need none.
@@ -119,12 +130,56 @@ std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, con
   return instruments.pair_targets();
 }
 
-std::int64_t jumps_until(const Model& model, double end_time) {
-  std::int64_t count = 0;
-  for (auto time = next_discontinuity(model, 0.0); time && *time <= end_time; time = next_discontinuity(model, *time)) {
-    if (jumps_at(model, *time)) ++count;
+/// Of all vesicles, each once.
+std::vector<Waveform> waveforms_of(const Scene& scene) {
+  std::vector<Waveform> result;
+  for (const Scene& one : each_alone(scene)) {
+    for (const ActingWaveform& acting : acting_waveforms(one)) {
+      const Waveform waveform = waveform_of(*acting.waveform);
+      if (std::ranges::find(result, waveform) == result.end()) result.push_back(waveform);
+    }
+  }
+  return result;
+}
+
+/// The same of all acting waveforms, and of snapshots where steps have to end there.
+double fewest_events(const Scene& scene) {
+  const double end = scene.numerics.end_time;
+  double count = scene.numerics.tolerance ? 0.0 : events_of(scene).snapshots.count(end);
+  for (const Scene& one : each_alone(scene)) {
+    for (const ActingWaveform& acting : acting_waveforms(one)) {
+      if (acting.waveform->kind != WaveformKind::ac) count += fewest_steps(*acting.waveform, end);
+    }
   }
   return count;
+}
+
+/// Counts steps, if they are fixed, and jumps.
+void count_steps(const Scene& scene, RunPlan& plan) {
+  // Beyond that events are not walked through, which takes too long: each is then a jump and takes a step of its own.
+  constexpr double kMostEvents = 1e6;
+  const double end = scene.numerics.end_time;
+  const bool fixed = !scene.numerics.tolerance;
+  if (const double events = fewest_events(scene); events > kMostEvents) {
+    plan.n_jumps = std::llround(events);
+    if (fixed) plan.n_steps = std::llround(events + end / *scene.numerics.dt);
+    return;
+  }
+  const std::vector<Waveform> waveforms = waveforms_of(scene);
+  EventTimes events = fixed ? events_of(scene) : EventTimes{{}, end};
+  for (double time = 0.0; time < end;) {
+    events.discontinuity.reset();
+    for (const Waveform& waveform : waveforms) {
+      const auto next = waveform.next_discontinuity(time);
+      if (next) events.discontinuity = std::min(*next, events.discontinuity.value_or(*next));
+    }
+    const StepPlan step = plan_step(time, fixed ? *scene.numerics.dt : end, events);
+    if (fixed) plan.n_steps += std::llround((step.event_time - time) / step.dt_limit);
+    time = step.event_time;
+    if (std::ranges::any_of(waveforms, [=](const Waveform& waveform) { return waveform.jumps_at(time); })) {
+      ++plan.n_jumps;
+    }
+  }
 }
 
 }  // namespace
@@ -132,6 +187,7 @@ std::int64_t jumps_until(const Model& model, double end_time) {
 RunPlan plan_of(const Scene& scene) {
   const Model model = model_of(scene);
   const Problem problem = problem_of(scene, model);
+  const Model acting = without_idle_field(model, problem);
   const Symmetry& symmetry = problem.symmetry;
   const std::vector<EffectDescription> effects = effects_of(model);
   RunPlan plan;
@@ -141,16 +197,19 @@ RunPlan plan_of(const Scene& scene) {
   for (const DimensionlessGroup& group : plan.groups) plan.si_of_groups.push_back(si_text(scene, group));
   plan.symmetry = text_of(problem);
   plan.vesicles = vesicle_names(scene);
+  const std::vector<EffectDescription> acting_effects = effects_of(acting);
   for (const EffectDescription& effect : effects) {
-    plan.effects.push_back({effect.name, effect.adds,
-                            difference_text(scene, model, without(model, effect.name), plan, effect.unknowns.size())});
+    const bool acts = std::ranges::count(acting_effects, effect.name, &EffectDescription::name) > 0;
+    plan.effects.push_back(
+        {effect.name, effect.adds,
+         difference_text(scene, acting, without(acting, effect.name), plan, acts ? effect.unknowns.size() : 0)});
   }
   for (const char* name : kKnownEffects) {
     const auto present = [&](const EffectDescription& effect) { return effect.name == name; };
     if (std::none_of(effects.begin(), effects.end(), present)) plan.absent.emplace_back(name);
   }
   for (const OperatorFlag& op : kOperators) {
-    const std::size_t n_vesicles = vesicles_with(op, model, symmetry.exchange);
+    const std::size_t n_vesicles = vesicles_with(op, acting, symmetry.exchange);
     if (n_vesicles == 0) continue;
     std::vector<std::string> reasons;
     for (const EffectDescription& effect : effects) {
@@ -165,17 +224,9 @@ RunPlan plan_of(const Scene& scene) {
       evaluations_per_assembly(space.quadrature(), space.targets(), symmetry.reflections, space.fold());
   plan.pair_targets = pair_targets_of(problem, space);
   plan.shapes_per_step = evaluations_per_step(scene.numerics.time_order);
-  plan.n_jumps = jumps_until(model, scene.numerics.end_time);
-  plan.unknowns = static_cast<std::int64_t>(count_unknown_fields(model, symmetry.exchange)) *
+  count_steps(scene, plan);
+  plan.unknowns = static_cast<std::int64_t>(count_unknown_fields(acting, symmetry.exchange)) *
                   independent_coefficients(symmetry, scene.numerics.order);
-  double time = 0.0;
-  EventTimes events = events_of(scene);
-  while (!scene.numerics.tolerance && time < scene.numerics.end_time) {
-    events.discontinuity = next_discontinuity(model, time);
-    const StepPlan step = plan_step(time, *scene.numerics.dt, events);
-    plan.n_steps += std::lround((step.event_time - time) / step.dt_limit);
-    time = step.event_time;
-  }
   return plan;
 }
 

@@ -42,7 +42,8 @@ struct RunPlan {
   std::int64_t n_steps = 0;   ///< if none is rejected; with a tolerance known after predict_cost
   double seconds_per_step = 0.0;
   std::int64_t memory_bytes = 0;
-  std::string stops;  ///< why the steps of a trial could not be taken, and when; nothing is predicted then
+  std::string stops;    ///< why the steps of the run cannot be taken, and when; nothing is predicted then
+  std::string unknown;  ///< why no cost is predicted although nothing stops; empty otherwise
 };
 
 /// Everything that follows from the scene alone; costs are left at zero.

@@ -1,44 +1,15 @@
 #include "bie/estimate/plan_cost.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <utility>
 
-#include "bie/runs/run_loop.hpp"
-#include "bie/support/errors.hpp"
+#include "bie/estimate/cost_model.hpp"
+#include "bie/estimate/file_cost.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
+#include "bie/support/deadline.hpp"
 #include "bie/support/memory.hpp"
-#include "bie/support/output_error.hpp"
-#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {
-
-struct TimedSteps {
-  double seconds_per_step = 0.0;  ///< of all steps but the first two
-  std::string stops;              ///< why it did not come to its end; empty if it did
-};
-
-/// A real run of so many steps and two before them, files and all, in a folder that is gone afterwards.
-TimedSteps timed_steps(Scene scene, int n_timed) {
-  constexpr std::size_t kWarmUp = 2;
-  scene.numerics.end_time = static_cast<double>(kWarmUp + n_timed) * *scene.numerics.dt;
-  const TemporaryFolder folder("vehd-plan");
-  const RunPaths paths{folder.path()};
-  Interruption interruption;
-  std::vector<std::chrono::steady_clock::time_point> ends;
-  const auto note_end = [&ends] { ends.push_back(std::chrono::steady_clock::now()); };
-  RunOutcome outcome;
-  try {
-    outcome = simulate({scene, paths, std::nullopt, {}, note_end, {}, longest_lag_of_files}, interruption);
-  } catch (const ConvergenceError& error) {
-    outcome = {.completed = false, .reason = error.what(), .cannot_step = true};
-  }
-  if (interruption.requested()) throw Interrupted("stopped by a signal");
-  if (!outcome.completed && !outcome.cannot_step) throw OutputError(outcome.reason);
-  if (outcome.cannot_step || ends.size() <= kWarmUp) return {0.0, outcome.reason};
-  const std::chrono::duration<double> timed = ends.back() - ends[kWarmUp - 1];
-  return {timed.count() / static_cast<double>(ends.size() - kWarmUp), {}};
-}
 
 /// A tolerance finds its own steps and degrees, so runs with looser ones have to tell.
 void predict_from_looser_runs(const Scene& scene, RunPlan& plan, CostCache& cache, const CostBudget& budget) {
@@ -50,28 +21,50 @@ void predict_from_looser_runs(const Scene& scene, RunPlan& plan, CostCache& cach
   tolerances.push_back(*scene.numerics.tolerance);
   const CostRow row = cost_table_of(scene, tolerances, cache, budget).back();
   plan.stops = row.stops;
-  if (!plan.stops.empty()) return;
+  plan.unknown = row.unknown;
+  if (!plan.stops.empty() || !plan.unknown.empty()) return;
   plan.n_steps = row.steps;
   plan.seconds_per_step = row.steps > 0 ? row.seconds / static_cast<double>(row.steps) : 0.0;
   plan.memory_bytes = row.memory_bytes;
+}
+
+/// Lower degrees first: they tell whether there is time for that of the scene.
+void predict_from_own_steps(const Scene& scene, RunPlan& plan, const CostBudget& budget) {
+  constexpr int kMostSteps = 18;
+  constexpr double kShare = 0.3;  // of the budget, for steps of the scene's own degree
+  Deadline deadline(budget.seconds);
+  std::vector<CostModel::Point> points;
+  TimedSteps last;
+  const int last_order = time_rising_degrees(scene.numerics.order, budget.seconds, [&](int order) {
+    const bool is_own = order == scene.numerics.order;
+    Scene timed = scene;
+    timed.numerics.order = order;
+    last = timed_steps(timed, is_own ? kMostSteps : 1, kShare * budget.seconds, deadline);
+    if (last.point) points.push_back(*last.point);
+  });
+  const bool is_own = last_order == scene.numerics.order;
+  if (is_own && !last.stops.empty()) {
+    plan.stops = last.stops;
+    return;
+  }
+  plan.memory_bytes = peak_memory_bytes();
+  if (plan.n_steps == 0) return;
+  if (points.empty()) {
+    plan.unknown = "the time was over before a first step ended";
+    return;
+  }
+  const CostModel model(std::move(points));
+  const double files = file_seconds(scene, plan.n_steps, scene.numerics.order) / static_cast<double>(plan.n_steps);
+  plan.seconds_per_step =
+      files + evaluations_per_step(scene.numerics.time_order) * model.seconds_per_shape(scene.numerics.order);
+  if (!is_own) plan.memory_bytes = static_cast<std::int64_t>(model.bytes(scene.numerics.order));
 }
 
 }  // namespace
 
 void predict_cost(const Scene& scene, RunPlan& plan, CostCache& cache, const CostBudget& budget) {
   if (scene.numerics.tolerance) return predict_from_looser_runs(scene, plan, cache, budget);
-  constexpr int kLargestTimed = 32;
-  constexpr int kFewSteps = 3, kManySteps = 16;
-  constexpr double kSlowStep = 0.3;
-  Scene timed = scene;
-  timed.numerics.order = std::min(scene.numerics.order, kLargestTimed);
-  TimedSteps trial = timed_steps(timed, kFewSteps);
-  if (trial.stops.empty() && trial.seconds_per_step < kSlowStep) trial = timed_steps(timed, kManySteps);
-  plan.stops = trial.stops;
-  if (!plan.stops.empty()) return;
-  const double ratio = double(scene.numerics.order) / timed.numerics.order;
-  plan.seconds_per_step = trial.seconds_per_step * std::pow(ratio, 5);
-  plan.memory_bytes = static_cast<std::int64_t>(static_cast<double>(peak_memory_bytes()) * std::pow(ratio, 4));
+  predict_from_own_steps(scene, plan, budget);
 }
 
 }  // namespace vehd

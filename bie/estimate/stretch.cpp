@@ -29,13 +29,15 @@ struct TwoTolerances {
   Scene loose_scene, tight_scene;
   Problem loose, tight;
   EventTimes events;
+  Deadline* deadline;
 
-  TwoTolerances(const Scene& scene, double loose_tolerance, double tight_tolerance)
+  TwoTolerances(const Scene& scene, double loose_tolerance, double tight_tolerance, Deadline* of_all)
       : loose_scene(at_tolerance(scene, loose_tolerance)),
         tight_scene(at_tolerance(scene, tight_tolerance)),
         loose(problem_of(loose_scene)),
         tight(problem_of(tight_scene)),
-        events(events_of(tight_scene)) {}
+        events(events_of(tight_scene)),
+        deadline(of_all) {}
 
   [[nodiscard]] bool is_over(const State& state) const { return state.time >= events.end_time; }
   /// By which a step with the tight tolerance is shorter, if its order is all that it depends on.
@@ -49,7 +51,7 @@ State filled(const TwoTolerances& two, State state, int order) {
   raise_to(order, state);
   EvolutionSetup setup = setup_of(two.loose);
   setup.settings.order = two.tight.settings.order;
-  Instruments instruments;
+  Instruments instruments(two.deadline);
   Evolution evolution(setup, std::move(state), instruments);
   evolution.evaluate_start();
   evolution.step(two.events);
@@ -171,14 +173,14 @@ std::optional<Stretch> stretch_at(std::size_t step, Evolution& evolution, const 
 
 /// The start of a scene has nothing that is to be filled.
 std::optional<Stretch> stretch_at_start(const TwoTolerances& two, const TrialRun& trial, int order) {
-  Instruments instruments;
+  Instruments instruments(two.deadline);
   Evolution evolution(setup_of(two.tight), two.tight.start, instruments);
   return stretch_at(0, evolution, two, trial, order);
 }
 
 std::optional<Stretch> stretch_from(const TrialState& from, const TwoTolerances& two, const TrialRun& trial,
                                     int order) {
-  Instruments instruments;
+  Instruments instruments(two.deadline);
   Evolution evolution(setup_of(two.tight), filled(two, from.state, order), instruments);
   return stretch_at(from.step + 1, evolution, two, trial, order);
 }
@@ -186,8 +188,9 @@ std::optional<Stretch> stretch_from(const TrialState& from, const TwoTolerances&
 }  // namespace
 
 std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, double tolerance, std::size_t count,
-                                    const std::vector<int>& orders, const std::function<bool()>& begins) {
-  const TwoTolerances two(scene, trial.tolerance, tolerance);
+                                    const std::vector<int>& orders, const std::function<bool()>& begins,
+                                    Deadline* deadline) {
+  const TwoTolerances two(scene, trial.tolerance, tolerance, deadline);
   std::vector<Stretch> stretches;
   const auto add = [&](const auto& taken) {
     if (!begins()) return;
@@ -195,6 +198,8 @@ std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, d
       if (std::optional<Stretch> stretch = taken()) stretches.push_back(std::move(*stretch));
     } catch (const ConvergenceError&) {
       // A step that fails says nothing of others.
+    } catch (const OutOfTime&) {
+      // Those before it tell.
     }
   };
   count = std::min(count, trial.states.size());

@@ -40,6 +40,7 @@ constexpr int steps_of_stretch = 6;
 /// @returns       those that could be taken, by their step
 /// Accuracy: ten of them tell steps and work of a whole run within a factor of 1.5 (tests/estimate/prediction_test.cpp)
 std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, double tolerance, std::size_t count,
-                                    const std::vector<int>& orders, const std::function<bool()>& begins);
+                                    const std::vector<int>& orders, const std::function<bool()>& begins,
+                                    Deadline* deadline = nullptr);
 
 }  // namespace vehd

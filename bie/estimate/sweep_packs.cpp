@@ -29,7 +29,7 @@ struct MeasuredCost {
 
 MeasuredCost measured(const Scene& scene, RunPlan plan, CostCache& cache) {
   predict_cost(scene, plan, cache);
-  if (!plan.stops.empty()) return {};
+  if (!plan.stops.empty() || !plan.unknown.empty()) return {};
   return {plan.seconds_per_step, static_cast<double>(plan.n_steps) / scene.numerics.end_time, true};
 }
 

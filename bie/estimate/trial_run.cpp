@@ -71,9 +71,10 @@ void add_seconds(double& seconds, const Work& work) {
 /// Takes steps to the end of the scene or as long as the budget lasts, one at least.
 /// @throws ConvergenceError where none is acceptable; the trial run has those before it
 template <typename InBudget>
-void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget, TrialRun& trial) {
+void take_steps(const Scene& scene, const std::vector<double>& tolerances, const InBudget& in_budget,
+                Deadline* deadline, TrialRun& trial) {
   const Problem problem = problem_of(scene);
-  Instruments instruments;
+  Instruments instruments(deadline);
   std::optional<Evolution> begun;
   add_seconds(trial.seconds, [&] {
     begun.emplace(setup_of(problem), problem.start, instruments);
@@ -121,17 +122,19 @@ TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<doubl
   trial.time_order = asked.numerics.time_order;
   const auto in_budget = [&] { return std::ssize(trial.steps) < budget.steps && spent() < budget.seconds; };
   try {
-    take_steps(asked, tolerances, in_budget, trial);
+    take_steps(asked, tolerances, in_budget, budget.deadline, trial);
   } catch (const ConvergenceError& error) {
     trial.stops = error.what();
+  } catch (const OutOfTime&) {
+    // The steps before it count.
   }
   return trial;
 }
 
-int starting_order(const Scene& scene, double tolerance) {
+int starting_order(const Scene& scene, double tolerance, Deadline* deadline) {
   const Scene asked = at_tolerance(scene, tolerance);
   const Problem problem = problem_of(asked);
-  Instruments instruments;
+  Instruments instruments(deadline);
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
   evolution.step(events_of(asked));

@@ -7,6 +7,7 @@
 
 #include "bie/scene/scene.hpp"
 #include "bie/stepping/state/state.hpp"
+#include "bie/support/deadline.hpp"
 
 namespace vehd {
 
@@ -42,11 +43,12 @@ struct TrialRun {
   std::vector<TrialState> states;  ///< its start and others, as many steps apart, before each of which it took a step
 };
 
-/// Where a trial run stops before the end of its scene: at whichever comes first, after one step at the earliest. Steps
-/// are the same on every machine.
+/// Where a trial run stops before the end of its scene: at whichever comes first, after one step at the earliest unless
+/// that is given up. Steps are the same on every machine.
 struct TrialBudget {
   double seconds = std::numeric_limits<double>::infinity();
   std::int64_t steps = std::numeric_limits<std::int64_t>::max();  ///< accepted ones
+  Deadline* deadline = nullptr;                                   ///< gives up a step that has begun; null: none
 };
 
 /// @param tolerances  for which degrees are predicted from the spectrum of each state
@@ -56,7 +58,7 @@ TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<doubl
                    const TrialBudget& budget);
 
 /// Degree of a run of a scene with this tolerance after its first step, of the vesicle that has the highest.
-/// @throws ConvergenceError, InputError if the shape file of the scene cannot be used
-int starting_order(const Scene& scene, double tolerance);
+/// @throws ConvergenceError, OutOfTime, InputError if the shape file of the scene cannot be used
+int starting_order(const Scene& scene, double tolerance, Deadline* deadline = nullptr);
 
 }  // namespace vehd

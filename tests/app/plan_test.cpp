@@ -1,7 +1,9 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "bie/estimate/plan_cost.hpp"
+#include "bie/runs/history.hpp"
 #include "bie/scene/reader.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/stopping_scenes.hpp"
@@ -158,6 +160,37 @@ BOOST_AUTO_TEST_CASE(scene_that_cannot_be_stepped_is_a_finding) {
   BOOST_TEST(bench.exit_code == 1);
   BOOST_TEST(bench.errors.find("vehd bench: what the input asks for cannot be computed: ") != std::string::npos,
              bench.errors);
+}
+
+// A plan takes no step that the run would not take: none at all, or one to the end that is longer than it.
+BOOST_AUTO_TEST_CASE(what_can_be_run_can_be_planned) {
+  const std::string pair =
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1]\n[membrane]\nbending_modulus = 0.1\n[electric]\nfield = [0, 0, "
+      "10]\nconductivity_in = 1\nconductivity_out = 2\ninitial_Vm = \"steady\"\n[numerics]\n";
+  const std::string vesicles = "[[vesicle]]\nshape.centre = [0, 0, -2]\n[[vesicle]]\nshape.centre = [0, 0, 2]\n";
+  for (const std::string& text :
+       {pair + "tolerance = 1e-2\nend_time = 0\n" + vesicles, pair + "degree = 6\ndt = 1\nend_time = 0\n" + vesicles,
+        std::regex_replace(quick_scene("0.2"), std::regex("dt = 0.25"), "dt = 1e300")}) {
+    const PlannedRun run(text);
+    BOOST_TEST(run.plan["steps"].get<int>() == run.summary["steps"].get<int>());
+    BOOST_TEST(!run.plan.contains("stops"));
+    BOOST_TEST(run.plan["memory_bytes"].get<double>() > 0.0);
+  }
+}
+
+// The control row of a sweep costs no more than the scene without a field, whatever the field's waveform.
+BOOST_AUTO_TEST_CASE(a_field_of_zero_plans_and_evaluates_no_laplace_kernel) {
+  const std::string still = std::regex_replace(quick_scene("0.5"), std::regex("field = .*"), "field = [0, 0, 0]");
+  const std::string ac = "[electric.waveform]\nkind = \"ac\"\nfrequency = 1e6\n";
+  const std::string displacement = std::regex_replace(still, std::regex("\n\\[numerics\\]"),
+                                                      "\npermittivity = 2\ndisplacement_current = true\n[numerics]");
+  for (const std::string& text : {still + ac, still + ac + "average = true\n", displacement + ac}) {
+    const PlannedRun run(text);
+    plan_is_what_the_run_does(run);
+    BOOST_TEST(run.plan["operators"].size() == 1U);
+    const vehd::HistoryTable history(run.directory / "out/history.csv");
+    for (const double potential : history.column("Vm_max")) BOOST_TEST(potential == 0.0);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
