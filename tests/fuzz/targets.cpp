@@ -3,6 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bie/estimate/plan_cost.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/history.hpp"
@@ -51,6 +52,16 @@ void read_run(vehd::Hdf5Reader file) {
   }
 }
 
+/// What `vehd plan` does, in a tenth of its time.
+void plan(const vehd::Scene& scene) {
+  static const TemporaryDirectory directory;
+  vehd::CostCache costs(directory / "costs.json");
+  costs.forget();
+  vehd::RunPlan plan = vehd::plan_of(scene);
+  vehd::predict_cost(scene, plan, costs, {.seconds = 0.9, .model_seconds = 0.2, .first_trial = 0.2});
+  if (plan.n_jumps < 0 || plan.n_steps < 0) throw std::logic_error("planned a negative number of steps");
+}
+
 }  // namespace
 
 void scene(std::string_view bytes) {
@@ -66,6 +77,7 @@ void scene(std::string_view bytes) {
     } catch (const vehd::InputError& error) {
       throw std::logic_error(std::string("the effective scene is refused: ") + error.what());
     }
+    plan(scene);
   });
 }
 

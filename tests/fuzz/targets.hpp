@@ -9,7 +9,7 @@
 namespace fuzz {
 
 /// A scene file. One that is accepted must hold the numbers that are written in it, and come back unchanged from the
-/// effective scene written of it, which must hold the same numbers.
+/// effective scene written of it, which must hold the same numbers; and `vehd plan` must come to an end.
 void scene(std::string_view bytes);
 
 /// The text files beside a scene: the table of a waveform, and a history.csv.
