@@ -37,4 +37,15 @@ Real laplace_adjoint_kernel(const Real& r_dot_target_normal, const Real& inverse
   return -r_dot_target_normal * inverse_r * inverse_r * inverse_r;
 }
 
+/// ∂²G/∂n(x)∂n(y) without prefactor: n(x)·n(y)/|r|³ − 3 r·n(x) r·n(y)/|r|⁵; of a normal the area vector J n may stand.
+/// @param normals  n(x)·n(y)
+/// Accuracy: rounding
+/// Source: paper Eq. (10), second part
+template <class Real>
+Real laplace_hypersingular_kernel(const Real& normals, const Real& r_dot_target_normal, const Real& r_dot_source_normal,
+                                  const Real& inverse_r) {
+  const Real inverse_square = inverse_r * inverse_r;
+  return (normals - 3.0 * r_dot_target_normal * r_dot_source_normal * inverse_square) * inverse_square * inverse_r;
+}
+
 }  // namespace vehd

@@ -27,6 +27,7 @@ void count_evaluations(const LayerSelection& selection, std::uint64_t evaluation
   if (selection.laplace_single) instruments.count_kernel("laplace_single", evaluations);
   if (selection.laplace_double) instruments.count_kernel("laplace_double", evaluations);
   if (selection.laplace_adjoint) instruments.count_kernel("laplace_adjoint", evaluations);
+  if (selection.laplace_hypersingular) instruments.count_kernel("laplace_hypersingular", evaluations);
   if (selection.stokes_single) instruments.count_kernel("stokes_single", evaluations);
   if (selection.stokes_double) instruments.count_kernel("stokes_double", evaluations);
 }

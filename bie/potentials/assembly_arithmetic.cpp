@@ -47,14 +47,17 @@ double fourier_sums(const RotatedQuadrature& quadrature, double columns, double 
 
 /// Kernel values at one node.
 double kernel_values(const KernelColumns& kernels) {
-  constexpr double kDistance = 10.0, kAreaVector = 14.0;
+  constexpr double kDistance = 10.0, kAreaVector = 14.0, kArea = 7.0;
   constexpr double kSingle = 2.0, kDouble = 5.0, kAdjoint = 10.0, kStokeslet = 26.0, kStresslet = 24.0;
+  constexpr double kHypersingular = 31.0;
   double operations = kDistance;
   if (kernels.single >= 0) operations += kSingle;
   if (kernels.double_layer >= 0) operations += kAreaVector + kDouble;
   if (kernels.adjoint >= 0) operations += kAdjoint;
   if (kernels.stokes >= 0) operations += kStokeslet;
   if (kernels.stokes_double >= 0) operations += kAreaVector + kStresslet;
+  if (kernels.hypersingular >= 0) operations += kAreaVector + kHypersingular;
+  if (kernels.plain) operations += kAreaVector + kArea + kernels.count;
   return operations;
 }
 
@@ -70,7 +73,7 @@ double analysis(const TargetSweep& sweep, const SphereTransform& transform, cons
     const auto n_active = static_cast<double>(sweep.active().count());
     operations = n_latitudes * product(2 * azimuthal_order + 1, grid.n_phi / 4 + 1, kernels.count * n_active);
     // Of the Stokes single layer densities of no higher degree than that of what finds them.
-    const double n_symmetric = kernels.stokes >= 0 ? SymmetricBlocks::kBlocks : 0.0;
+    const double n_symmetric = kernels.has_symmetric_stokes() ? SymmetricBlocks::kBlocks : 0.0;
     double n_up_to = 0.0;
     for (int n = 0; n <= transform.order(); ++n) {
       const double n_orders = 2 * std::min(n, azimuthal_order) + 1;

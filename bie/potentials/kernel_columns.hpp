@@ -7,11 +7,12 @@ namespace vehd {
 /// Which columns of the assembled rows belong to which layer: one for a scalar layer, six for a Stokes layer, −1 for a
 /// layer that is not selected.
 struct KernelColumns {
-  int single = -1, double_layer = -1, adjoint = -1, stokes = -1, stokes_double = -1;
+  int single = -1, double_layer = -1, adjoint = -1, stokes = -1, stokes_double = -1, hypersingular = -1;
   int count = 0;
+  bool plain = false;  ///< see LayerSelection
 
   /// Columns in the order of the selection's members.
-  explicit KernelColumns(const LayerSelection& selection) {
+  explicit KernelColumns(const LayerSelection& selection) : plain(selection.plain) {
     if (selection.laplace_single) single = count++;
     if (selection.laplace_double) double_layer = count++;
     if (selection.laplace_adjoint) adjoint = count++;
@@ -23,10 +24,15 @@ struct KernelColumns {
       stokes_double = count;
       count += 6;
     }
+    if (selection.laplace_hypersingular) hypersingular = count++;
   }
 
-  /// Do the kernels hold the normal at the source?
-  [[nodiscard]] bool need_source_normal() const { return double_layer >= 0 || stokes_double >= 0; }
+  /// Do the kernels hold the normal or the area element at the source?
+  [[nodiscard]] bool need_source_normal() const {
+    return double_layer >= 0 || stokes_double >= 0 || hypersingular >= 0 || plain;
+  }
+  /// Is the operator of the Stokes single layer symmetric?
+  [[nodiscard]] bool has_symmetric_stokes() const { return stokes >= 0 && !plain; }
   /// Block xx, xy, xz, yy, yz, zz of a Stokes layer that a column belongs to, −1 for scalar kernels.
   [[nodiscard]] int stokes_block(int column) const {
     for (const int first : {stokes, stokes_double}) {

@@ -23,6 +23,7 @@ LayerFields make_layer_fields(const Matrix& position, const LayerDensities& dens
     columns.single = columns.count++;
     columns.single_gradient = densities.gradients;
   }
+  columns.plain = densities.plain;
   if (densities.laplace_double.size() > 0) {
     fields.double_layer = append("density of the Laplace double layer", densities.laplace_double);
     columns.double_layer = columns.count++;

@@ -7,11 +7,12 @@ namespace vehd {
 
 /// Densities as spherical-harmonic coefficients of the order of the surface; an empty one costs nothing.
 struct LayerDensities {
-  Vector laplace_single;   ///< J f, [n_coefficients]
+  Vector laplace_single;   ///< J f, or f where `plain`, [n_coefficients]
   Vector laplace_double;   ///< f, [n_coefficients]
-  Matrix stokes_single;    ///< J f, [n_coefficients x 3]
+  Matrix stokes_single;    ///< likewise, [n_coefficients x 3]
   Matrix stokes_double;    ///< v, [n_coefficients x 3]
   bool gradients = false;  ///< of the Laplace layers
+  bool plain = false;      ///< J is multiplied at the nodes, so that nothing of J f is cut to degree p
 };
 
 /// Position and densities side by side: what is rotated and synthesised together, and which node columns follow.

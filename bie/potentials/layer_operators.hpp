@@ -18,7 +18,8 @@ namespace vehd {
 /// on the unit sphere), so that ∫ K f dA = ∫ K (J f) dω. The weighted density of a tangential derivative or of a force
 /// is smoother than the density itself, truncation to degree p keeps its integral exactly, and the kernel rows need no
 /// area element. The densities of D and of the Stokes double layer enter plain, because J n(y) belongs to their
-/// kernels.
+/// kernels. Where a selection says `plain`, J(y) joins the kernels of the others as well, so that nothing of J f is cut
+/// to degree p.
 
 /// Scalar layer operator from coefficients to coefficients of degree p: one matrix for each class of coefficients that
 /// it takes to themselves, all others being zero. Stored transposed, so that applying it runs down contiguous columns.
@@ -101,16 +102,21 @@ struct LayerSelection {
   bool laplace_adjoint = false;
   bool stokes_single = false;
   bool stokes_double = false;
+  bool laplace_hypersingular = false;
+  bool plain = false;  ///< all densities and values are f, not J f
 };
 
-/// Layer operators on the membrane. D, S′ and the Stokes double layer are principal values: the side-dependent ±½
-/// density of Eq. (11) is the caller's, so that the side is written where it is chosen.
+/// Layer operators on the membrane, J f standing for f where they are plain. D, S′ and the Stokes double layer are
+/// principal values: the side-dependent ±½ density of Eq. (11) is the caller's, so that the side is written where it is
+/// chosen. Values are found at the nodes of the grid of order p and projected from there onto degree p.
 struct LayerOperators {
   ScalarOperator laplace_single;   ///< J f ↦ S[f], Eq. (8)
   ScalarOperator laplace_double;   ///< f ↦ D[f], Eq. (8), principal value
   ScalarOperator laplace_adjoint;  ///< J f ↦ J S′[f], Eq. (10), principal value; J n(x) is smooth where n(x) is not
   StokesOperator stokes_single;    ///< J f ↦ Stokes single layer, Eq. (6) at μ = 1
   StokesOperator stokes_double;    ///< v ↦ Stokes double layer, stokes_double_kernel, principal value
+  /// f ↦ J D′[f] = J ∫ ∂²G/∂n(x)∂n(y) (f(y) − f(x)) dA, Eq. (10): its quadrature cuts no product of f to degree p.
+  ScalarOperator laplace_hypersingular;
 };
 
 /// Kernel evaluations of each selected operator in one assembly: independent targets times the nodes each needs, which

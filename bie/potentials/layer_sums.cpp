@@ -23,6 +23,17 @@ inline Separation separation(const Vector3& offset, const double* px, const doub
 
 }  // namespace
 
+void weigh_densities(const NodeColumns& columns, Index n_nodes, Index stride, double* nodes) {
+  if (!columns.plain) return;
+  const auto column = [&](int c) { return nodes + c * stride; };
+  for (Index i = 0; i < n_nodes; ++i) {
+    const auto vector = [&](int c) { return Vector3(column(c)[i], column(c + 1)[i], column(c + 2)[i]); };
+    const double area = vector(columns.tangent_1).cross(vector(columns.tangent_2)).norm();
+    if (columns.single >= 0) column(columns.single)[i] *= area;
+    for (int c = 0; c < 3 && columns.stokes >= 0; ++c) column(columns.stokes + c)[i] *= area;
+  }
+}
+
 void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayerSums& sums) {
   const double* px = nodes.column(columns.position);
   const double* py = nodes.column(columns.position + 1);

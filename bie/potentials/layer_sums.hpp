@@ -14,6 +14,7 @@ struct NodeColumns {
   int stokes = -1, stokes_double = -1;  ///< 3 columns each
   int count = 9;
   bool single_gradient = false;
+  bool plain = false;  ///< densities of the single layers are f until weigh_densities()
 };
 
 /// Integrals over the membrane for one target, without prefactors.
@@ -36,6 +37,10 @@ struct NodeBlock {
 
   [[nodiscard]] const double* column(int c) const { return data + c * stride; }
 };
+
+/// Turns plain densities f of the single layers into J f at the nodes.
+/// @param nodes  columns of the given stride
+void weigh_densities(const NodeColumns& columns, Index n_nodes, Index stride, double* nodes);
 
 /// Adds the block's share for the target at `offset` from the origin of the block's positions.
 /// @param offset  target minus origin of the positions in the block, so that near targets lose no digits

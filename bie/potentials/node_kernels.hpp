@@ -18,14 +18,14 @@ struct Target {
   int latitude = 0;
   int longitude = 0;
   Vector3 position;
-  Vector3 area_vector;  ///< J n
+  Vector3 area_vector;  ///< J n, or n where kernels are plain
   Index row = 0;        ///< where its kernel rows go
 };
 
 /// Values of the selected kernels between the targets of a chunk and one node about each of them.
 class NodeKernels {
  public:
-  static constexpr int kMostKernels = 15;
+  static constexpr int kMostKernels = 16;
   /// x and its derivatives by θ and by φ over sin θ in the frame of each target, the latter only where
   /// need_source_normal().
   template <int kWidth>
@@ -51,10 +51,13 @@ class NodeKernels {
     auto roots = std::bit_cast<std::array<double, kWidth>>(Side(rx * rx + ry * ry + rz * rz));
     invert_roots(roots);
     const auto inverse_r = std::bit_cast<Side>(roots);
-    Side r_dot_area{};
+    Side ax{}, ay{}, az{}, r_dot_area{};
     if (kernels_.need_source_normal()) {
       const auto& [x, y, z, ux, uy, uz, vx, vy, vz] = node;
-      r_dot_area = rx * (uy * vz - uz * vy) + ry * (uz * vx - ux * vz) + rz * (ux * vy - uy * vx);
+      ax = uy * vz - uz * vy;
+      ay = uz * vx - ux * vz;
+      az = ux * vy - uy * vx;
+      r_dot_area = rx * ax + ry * ay + rz * az;
     }
     const double laplace_weight = kLaplacePrefactor * weight;
     if (kernels_.single >= 0) put(kernels_.single, laplace_weight * laplace_single_kernel(inverse_r));
@@ -64,6 +67,12 @@ class NodeKernels {
     if (kernels_.adjoint >= 0) {
       const Side r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
       put(kernels_.adjoint, laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r));
+    }
+    if (kernels_.hypersingular >= 0) {
+      const Side r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
+      const Side normals = ax * target(3) + ay * target(4) + az * target(5);
+      put(kernels_.hypersingular,
+          laplace_weight * laplace_hypersingular_kernel(normals, r_dot_n, r_dot_area, inverse_r));
     }
     const auto put_blocks = [&](int first_kernel, double block_weight, const std::array<Side, 6>& blocks) {
       for (int block = 0; block < 6; ++block) put(first_kernel + block, block_weight * blocks[block]);
@@ -75,12 +84,23 @@ class NodeKernels {
       put_blocks(kernels_.stokes_double, kStokesDoubleLayerPrefactor * weight,
                  stokes_double_kernel(rx, ry, rz, r_dot_area, inverse_r));
     }
+    if (kernels_.plain) {
+      auto inverse_areas = std::bit_cast<std::array<double, kWidth>>(Side(ax * ax + ay * ay + az * az));
+      invert_roots(inverse_areas);
+      const Side area = 1.0 / std::bit_cast<Side>(inverse_areas);
+      const auto weigh = [&](int first_kernel, int count) {
+        for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(first_kernel + i)] *= area;
+      };
+      if (kernels_.single >= 0) weigh(kernels_.single, 1);
+      if (kernels_.adjoint >= 0) weigh(kernels_.adjoint, 1);
+      if (kernels_.stokes >= 0) weigh(kernels_.stokes, 6);
+    }
   }
 
  private:
   const KernelColumns& kernels_;
   Index chunk_;
-  std::vector<double> targets_;  ///< [6 x chunk], position and area vector
+  std::vector<double> targets_;  ///< [6 x chunk], position and area vector or normal
 };
 
 }  // namespace vehd

@@ -93,7 +93,8 @@ struct OffSurfaceLayers::Data {
   [[nodiscard]] FootDensities foot_densities(const FootPoint& foot) const {
     FootDensities result;
     if (fields.single >= 0) {
-      result.single = point_derivatives(densities.laplace_single, {foot.theta, foot.phi}).value[0] / foot.area_element;
+      result.single = point_derivatives(densities.laplace_single, {foot.theta, foot.phi}).value[0];
+      if (!densities.plain) result.single /= foot.area_element;
     }
     if (fields.columns.double_1 >= 0) {
       const PointDerivatives f = point_derivatives(densities.laplace_double, {foot.theta, foot.phi});
@@ -166,7 +167,7 @@ OffSurfaceValues collect(const std::vector<FreeTarget>& targets, const NodeColum
   const Index n = static_cast<Index>(targets.size());
   OffSurfaceValues out;
   const auto prepare = [n](LayerField& field, bool wanted, Index components) {
-    field.values.resize(wanted ? n : 0, components);
+    field.values.resize(wanted ? n : 0, wanted ? components : 0);
     field.error.resize(wanted ? n : 0);
   };
   prepare(out.laplace_single, columns.single >= 0, 1);

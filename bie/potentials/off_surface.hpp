@@ -23,8 +23,8 @@ struct OffSurfaceSettings {
 
 /// One layer at all targets.
 struct LayerField {
-  Matrix values;  ///< [n_targets x components], no rows if not asked for
-  Vector error;   ///< estimate per target, absolute: the last change. Truncation to degree p is not part of it.
+  Matrix values;  ///< [n_targets x components], no columns if not requested
+  Vector error;   ///< estimate per target, absolute: the last change. That of densities as they are given.
 };
 
 /// The layers at every target, all with one row per target.

@@ -51,7 +51,8 @@ DegreeParities degree_parities(const KernelColumns& kernels, const SymmetrySubsp
   const std::vector<Reflection>& all = subspace.symmetry().reflections;
   if (std::find(all.begin(), all.end(), Reflection{-1, -1, -1}) == all.end()) return result;
   result.shape[0] = false;
-  const bool laplace = kernels.single >= 0 || kernels.double_layer >= 0 || kernels.adjoint >= 0;
+  const bool laplace =
+      kernels.single >= 0 || kernels.double_layer >= 0 || kernels.adjoint >= 0 || kernels.hypersingular >= 0;
   result.rows[0] = laplace || turned;
   return result;
 }
@@ -87,7 +88,7 @@ SymmetricLayout symmetric_layout(const KernelColumns& kernels, const SymmetrySub
     }
     if (!of_class.empty()) layout.classes.push_back(std::move(of_class));
   }
-  for (const int kernel : {kernels.single, kernels.double_layer, kernels.adjoint}) {
+  for (const int kernel : {kernels.single, kernels.double_layer, kernels.adjoint, kernels.hypersingular}) {
     if (kernel < 0) continue;
     layout.first_matrix[kernel] = layout.sizes.size();
     for (const std::vector<Index>& of_class : layout.classes) {

@@ -18,7 +18,7 @@ OperatorColumns::OperatorColumns(const KernelColumns& kernels, const ActiveCoeff
       first_columns_(static_cast<std::size_t>(kernels.count)),
       operators_(static_cast<std::size_t>(kernels.count)) {
   std::sort(degrees_.begin(), degrees_.end());
-  if (kernels.stokes >= 0) {
+  if (kernels.has_symmetric_stokes()) {
     symmetric_ = SymmetricBlocks(degrees_);
     symmetric_width_ = SymmetricBlocks::filled(active.count());
   }
@@ -26,7 +26,7 @@ OperatorColumns::OperatorColumns(const KernelColumns& kernels, const ActiveCoeff
   for (int kernel = 0; kernel < kernels.count; ++kernel) {
     const auto c = static_cast<std::size_t>(kernel);
     const int block = kernel - kernels.stokes;
-    const bool is_symmetric = kernels.stokes >= 0 && block >= 0 && block < SymmetricBlocks::kBlocks;
+    const bool is_symmetric = kernels.has_symmetric_stokes() && block >= 0 && block < SymmetricBlocks::kBlocks;
     if (!is_symmetric) {
       first_columns_[c] = next;
       next += active.count();
@@ -98,15 +98,19 @@ LayerOperators OperatorColumns::take(const LayerSelection& selection, Index n_co
   if (selection.laplace_single) result.laplace_single = scalar_operator(kernels_.single);
   if (selection.laplace_double) result.laplace_double = scalar_operator(kernels_.double_layer);
   if (selection.laplace_adjoint) result.laplace_adjoint = scalar_operator(kernels_.adjoint);
-  if (selection.stokes_single) {
+  if (selection.laplace_hypersingular) result.laplace_hypersingular = scalar_operator(kernels_.hypersingular);
+  const auto stokes_operator = [&](int first_kernel) {
+    std::array<Matrix, 6> blocks;
+    for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators_[static_cast<std::size_t>(first_kernel + c)]);
+    return StokesOperator(std::move(blocks), active_.indices);
+  };
+  if (kernels_.has_symmetric_stokes()) {
     symmetric_.symmetrize();
     result.stokes_single = StokesOperator(std::move(symmetric_), active_.indices);
+  } else if (selection.stokes_single) {
+    result.stokes_single = stokes_operator(kernels_.stokes);
   }
-  if (selection.stokes_double) {
-    std::array<Matrix, 6> blocks;
-    for (int c = 0; c < 6; ++c) blocks[c] = std::move(operators_[static_cast<std::size_t>(kernels_.stokes_double + c)]);
-    result.stokes_double = StokesOperator(std::move(blocks), active_.indices);
-  }
+  if (selection.stokes_double) result.stokes_double = stokes_operator(kernels_.stokes_double);
   return result;
 }
 

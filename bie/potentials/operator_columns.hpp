@@ -8,9 +8,9 @@
 namespace vehd {
 
 /// How the columns of kernel rows are arranged where there is no symmetry, and the operators that are made of them. The
-/// columns of the Stokes single layer stand as in the columns of SymmetricBlocks, so that these are pieces of what the
-/// latitudes add up to, and of densities of a high degree nothing is added up for lower ones. Those of other kernels
-/// follow one another, coefficients in the order of coefficient_index.
+/// columns of a symmetric Stokes single layer stand as in the columns of SymmetricBlocks, so that these are pieces of
+/// what the latitudes add up to, and of densities of a high degree nothing is added up for lower ones. Those of other
+/// kernels follow one another, coefficients in the order of coefficient_index.
 class OperatorColumns {
  public:
   /// @param kernels, active  must outlive this

@@ -50,6 +50,7 @@ SmoothGrid make_smooth_grid(const LayerFields& fields, const SphereTransform& tr
   const SphereGrid& grid = transform.grid();
   SmoothGrid smooth;
   put_columns(fields, f, smooth.nodes);
+  weigh_densities(fields.columns, smooth.n_nodes(), smooth.n_nodes(), smooth.nodes.data());
   smooth.spacing = std::numbers::pi / grid.order * largest_stretch(f.d1.leftCols(3), f.d2.leftCols(3));
   smooth.weight.resize(grid.n_points());
   smooth.directions.resize(grid.n_points(), 3);

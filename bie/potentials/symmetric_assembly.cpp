@@ -177,11 +177,14 @@ LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature,
   if (selection.laplace_single) result.laplace_single = scalar_operator(kernels.single);
   if (selection.laplace_double) result.laplace_double = scalar_operator(kernels.double_layer);
   if (selection.laplace_adjoint) result.laplace_adjoint = scalar_operator(kernels.adjoint);
+  if (selection.laplace_hypersingular) result.laplace_hypersingular = scalar_operator(kernels.hypersingular);
   const auto stokes_operator = [&](int kernel) {
     return StokesOperator(n_all, operators.entries, std::move(matrices[operators.first_matrix[kernel]]));
   };
   if (selection.stokes_single) {
-    symmetrize(operators.entries, n_all, matrices[operators.first_matrix[kernels.stokes]]);
+    if (kernels.has_symmetric_stokes()) {
+      symmetrize(operators.entries, n_all, matrices[operators.first_matrix[kernels.stokes]]);
+    }
     result.stokes_single = stokes_operator(kernels.stokes);
   }
   if (selection.stokes_double) result.stokes_double = stokes_operator(kernels.stokes_double);

@@ -99,7 +99,12 @@ RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
   return result;
 }
 
-RowMatrix TargetFrame::nodes(const GradedRule& rule) const { return rule.azimuths.values(amplitudes(rule)); }
+RowMatrix TargetFrame::nodes(const GradedRule& rule) const {
+  RowMatrix values = rule.azimuths.values(amplitudes(rule));
+  const Index n_theta = rule.theta.size();
+  for (Index k = 0; k < rule.n_phi; ++k) weigh_densities(fields_.columns, n_theta, n_theta, values.row(k).data());
+  return values;
+}
 
 RowMatrix TargetFrame::rotated_back(const std::vector<RowMatrix>& rotated) const {
   const Index n_columns = rotated.front().rows() / 2;

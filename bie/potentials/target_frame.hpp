@@ -21,8 +21,8 @@ class TargetFrame {
   [[nodiscard]] const Eigen::RowVectorXd& pole() const { return pole_; }
 
   /// Fields at the nodes of a rule, one row per azimuth: column c of NodeColumns at node i is entry c * n_theta + i.
-  /// Positions are relative to that of the pole, and so are the densities of double layers. Rows are filled up with
-  /// zeros.
+  /// Positions are relative to that of the pole, and so are the densities of double layers; those of single layers are
+  /// J f. Rows are filled up with zeros.
   [[nodiscard]] RowMatrix nodes(const GradedRule& rule) const;
   /// Coefficients of the pole's frame taken back to those of the sphere, by the adjoint of the rotation: a row over the
   /// former that is applied to rotated densities becomes one that is applied to the densities.

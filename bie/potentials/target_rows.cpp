@@ -148,6 +148,7 @@ void TargetRows::run(std::span<const Target> targets, RowMatrix& rows) {
   }
   for (int i = 0; i < n_latitudes_; ++i) evaluate_latitude(i);
   for (const bool sine : {false, true}) legendre_adjoint(sine);
+  if (kernels_.hypersingular >= 0) subtract_pole();
   rotate_back(targets);
   store_rows(targets, rows);
 }

@@ -92,6 +92,7 @@ class TargetRows {
   void evaluate_node(Index quarter_node, Index first, double weight);
   void fourier_adjoint(int i);
   void legendre_adjoint(bool sine);
+  void subtract_pole();
   void rotate_back(std::span<const Target> targets);
   /// Orders of one degree, up to the highest.
   struct Orders {

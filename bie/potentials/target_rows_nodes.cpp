@@ -1,5 +1,7 @@
 // What TargetRows does on the rotated grid: Legendre and Fourier sums, kernels, and the sums of these.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bie/potentials/few_nodes.hpp"
 #include "bie/potentials/target_rows.hpp"
@@ -190,6 +192,18 @@ void TargetRows::fourier_adjoint(int i) {
     small_product(fourier.n_orders(), n_quarter_, columns, fourier.adjoint(), row_parts_[part].data(), columns,
                   row_amplitudes_.of_order(fourier.sine, i, fourier.first_order), columns);
     ++part;
+  }
+}
+
+/// D′ acts on f − f(x). At the pole only harmonics of order 0 differ from zero, that of degree n being √(2n + 1) times
+/// the constant one.
+void TargetRows::subtract_pole() {
+  const Index place =
+      std::ranges::find(kernel_columns_.cosine, kernels_.hypersingular) - kernel_columns_.cosine.begin();
+  const double* of_constant = rotated_rows_.row(false, 0, 0) + place * chunk_;
+  for (int n = order_; n >= 0; --n) {
+    double* row = rotated_rows_.row(false, n, 0) + place * chunk_;
+    for (Index t = 0; t < chunk_; ++t) row[t] -= std::sqrt(2.0 * n + 1.0) * of_constant[t];
   }
 }
 

@@ -39,6 +39,7 @@ TargetSweep::TargetSweep(const RotatedQuadrature& quadrature, const SphereTransf
   area_vectors_.resize(x.value.rows(), 3);
   for (Index i = 0; i < area_vectors_.rows(); ++i) {
     area_vectors_.row(i) = Vector3(x.d1.row(i)).cross(Vector3(x.d2.row(i))).transpose();
+    if (kernels_.plain) area_vectors_.row(i).normalize();
   }
   target_positions_ = std::move(x.value);
 }

@@ -52,7 +52,7 @@ class TargetSweep {
   TargetImages images_;
   int n_latitudes_;
   std::uint64_t n_evaluations_;
-  Matrix target_positions_, area_vectors_;  ///< [n_points x 3], the latter J n
+  Matrix target_positions_, area_vectors_;  ///< [n_points x 3], the latter as in Target
 };
 
 }  // namespace vehd

@@ -47,17 +47,17 @@ const std::vector<Group> kGroups{
     {"six turns and inversion", group_of({{}, kHalfTurn, kZ, kInversion}, 6), 18}};
 
 /// Largest differences between operators on symmetric fields and the full ones; of the Laplace layers on any density.
-void check_against_full(const SphereTransform& transform, const SymmetrySubspace& subspace, int fold) {
+void check_against_full(const SphereTransform& transform, const SymmetrySubspace& subspace, int fold,
+                        const LayerSelection& everything) {
   const RotatedQuadrature quadrature = make_rotated_quadrature(transform.grid(), 1.15);
   const Matrix position = subspace.symmetric_vector(asymmetric_shape(kDegree));
-  const LayerSelection everything{true, true, true, true, true};
   Instruments of_all, of_symmetric;
   const LayerOperators all = assemble_layer_operators(quadrature, transform, position, everything, of_all);
   const LayerOperators symmetric =
       assemble_symmetric_operators(quadrature, transform, position, everything, of_symmetric, subspace, fold);
   const Matrix random = random_coefficients(kDegree, 3, 71);
   const Matrix density = subspace.symmetric_vector(random);
-  for (const auto layer : {&LayerOperators::stokes_single, &LayerOperators::stokes_double}) {
+  for (const auto layer : kVectorLayers) {
     BOOST_TEST(max_difference((symmetric.*layer).apply(density), (all.*layer).apply(density)) < 1e-12);
     const std::vector<Index> entries = subspace.vectors();
     BOOST_TEST(
@@ -73,15 +73,19 @@ void check_against_full(const SphereTransform& transform, const SymmetrySubspace
       }
     }
   }
-  for (const auto layer :
-       {&LayerOperators::laplace_single, &LayerOperators::laplace_double, &LayerOperators::laplace_adjoint}) {
+  for (const auto layer : kScalarLayers) {
     BOOST_TEST(max_difference((symmetric.*layer).apply(scalars), (all.*layer).apply(scalars)) < 1e-12);
   }
   // What only Stokes layers need is less, and another path.
+  const LayerSelection stokes{.stokes_single = true, .stokes_double = true, .plain = everything.plain};
   const LayerOperators alone =
-      assemble_symmetric_operators(quadrature, transform, position, kStokesLayers, of_symmetric, subspace, fold);
+      assemble_symmetric_operators(quadrature, transform, position, stokes, of_symmetric, subspace, fold);
   BOOST_TEST(max_difference(alone.stokes_single.apply(density), all.stokes_single.apply(density)) < 1e-12);
   BOOST_TEST(max_difference(alone.stokes_double.apply(density), all.stokes_double.apply(density)) < 1e-12);
+}
+
+void check_against_full(const SphereTransform& transform, const SymmetrySubspace& subspace, int fold) {
+  for (const LayerSelection& everything : kEveryKernel) check_against_full(transform, subspace, fold, everything);
 }
 
 }  // namespace

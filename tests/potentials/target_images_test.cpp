@@ -14,23 +14,30 @@ constexpr int kOrder = 8;
 
 Matrix star(int fold, double chirality) { return star_shape(kOrder, fold, chirality); }
 
-/// Largest difference between all five operators assembled with and without use of the maps.
+/// Largest difference between all operators assembled with and without use of the maps.
 double difference(const SphereTransform& transform, const Matrix& position, const std::vector<Reflection>& reflections,
-                  int fold) {
+                  int fold, const LayerSelection& everything) {
   const RotatedQuadrature quadrature = make_rotated_quadrature(transform.grid(), 1.15);
-  const LayerSelection everything{true, true, true, true, true};
   Instruments instruments;
   const LayerOperators all = assemble_layer_operators(quadrature, transform, position, everything, instruments);
   const LayerOperators shared =
       assemble_layer_operators(quadrature, transform, position, everything, instruments, reflections, fold);
   const Matrix density = random_coefficients(kOrder, 3, 54);
   double result = 0.0;
-  for (const auto layer :
-       {&LayerOperators::laplace_single, &LayerOperators::laplace_double, &LayerOperators::laplace_adjoint}) {
+  for (const auto layer : kScalarLayers) {
     result = std::max(result, max_difference((shared.*layer).apply(density), (all.*layer).apply(density)));
   }
-  for (const auto layer : {&LayerOperators::stokes_single, &LayerOperators::stokes_double}) {
+  for (const auto layer : kVectorLayers) {
     result = std::max(result, max_difference((shared.*layer).apply(density), (all.*layer).apply(density)));
+  }
+  return result;
+}
+
+double difference(const SphereTransform& transform, const Matrix& position, const std::vector<Reflection>& reflections,
+                  int fold) {
+  double result = 0.0;
+  for (const LayerSelection& everything : kEveryKernel) {
+    result = std::max(result, difference(transform, position, reflections, fold, everything));
   }
   return result;
 }

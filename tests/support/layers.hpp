@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include "bie/geometry/surface.hpp"
@@ -25,6 +26,13 @@ constexpr LayerSelection kLaplaceLayers{true, true, true, false};
 constexpr LayerSelection kStokesLayer{false, false, false, true};
 constexpr LayerSelection kStokesLayers{.stokes_single = true, .stokes_double = true};
 constexpr LayerSelection kAllLayers{true, true, true, true};
+
+/// All kernels that an assembly knows, on weighted and on plain densities.
+inline constexpr std::array kEveryKernel{LayerSelection{true, true, true, true, true, true, false},
+                                         LayerSelection{true, true, true, true, true, true, true}};
+inline constexpr std::array kScalarLayers{&LayerOperators::laplace_single, &LayerOperators::laplace_double,
+                                          &LayerOperators::laplace_adjoint, &LayerOperators::laplace_hypersingular};
+inline constexpr std::array kVectorLayers{&LayerOperators::stokes_single, &LayerOperators::stokes_double};
 
 inline LayerOperators assemble(const Space& space, const Matrix& position, const LayerSelection& selection) {
   Instruments instruments;
