@@ -9,14 +9,9 @@
 
 #include "bie/scene/given_time.hpp"
 #include "bie/scene/nearest_name.hpp"
+#include "bie/support/thread_count.hpp"
 
 namespace vehd {
-namespace {
-
-constexpr int most_threads = 1024;
-
-}  // namespace
-
 std::string shell_word(const std::string& word) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;

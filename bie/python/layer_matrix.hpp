@@ -10,11 +10,11 @@ namespace vehd::python {
 /// The layer operators of a surface.
 enum class Layer { single, double_layer, adjoint, hypersingular, stokes_single, stokes_double };
 
-/// One layer operator on plain densities, from coefficients to coefficients of degree p; principal values. Vector
-/// densities of the Stokes layers are three scalars one after the other.
+/// One layer operator from coefficients to coefficients of degree p, plain or weighted as in LayerOperators; principal
+/// values. Vector densities of the Stokes layers are three scalars one after the other.
 class LayerMatrix {
  public:
-  LayerMatrix(std::shared_ptr<SurfaceObject> surface, Layer layer);
+  LayerMatrix(std::shared_ptr<SurfaceObject> surface, Layer layer, bool weighted);
 
   /// Number of rows and of columns.
   [[nodiscard]] Index size() const;
@@ -25,13 +25,10 @@ class LayerMatrix {
   [[nodiscard]] Matrix matrix() const;
 
  private:
-  [[nodiscard]] bool is_stokes() const { return layer_ == Layer::stokes_single || layer_ == Layer::stokes_double; }
-  [[nodiscard]] Matrix apply_scalar(const Matrix& density) const;
-  [[nodiscard]] Matrix apply_stokes(const Matrix& density) const;
-
   std::shared_ptr<SurfaceObject> surface_;
-  Layer layer_;
-  const Membrane& membrane_;
+  Index n_;                       ///< coefficients of a scalar field
+  const ScalarOperator* scalar_;  ///< or null
+  const StokesOperator* stokes_;
 };
 
 }  // namespace vehd::python

@@ -24,16 +24,15 @@ Matrix density_of(const SurfaceObject& surface, const std::optional<Matrix>& giv
 OffSurfaceValues evaluated(const std::shared_ptr<SurfaceObject>& surface, const Matrix& points,
                            const std::optional<Matrix>& single, const std::optional<Matrix>& double_layer,
                            const std::optional<Matrix>& stokes_single, const std::optional<Matrix>& stokes_double,
-                           bool gradients, Side side, double tolerance) {
+                           bool weighted, bool gradients, Side side, double tolerance) {
   require_size("points (components)", points.cols(), 3);
   LayerDensities densities;
-  if (single) densities.laplace_single = surface->weighted(density_of(*surface, single, "single", 1));
+  if (single) densities.laplace_single = density_of(*surface, single, "single", 1);
   if (double_layer) densities.laplace_double = density_of(*surface, double_layer, "double", 1);
-  if (stokes_single) {
-    densities.stokes_single = surface->weighted(density_of(*surface, stokes_single, "stokes_single", 3));
-  }
+  if (stokes_single) densities.stokes_single = density_of(*surface, stokes_single, "stokes_single", 3);
   if (stokes_double) densities.stokes_double = density_of(*surface, stokes_double, "stokes_double", 3);
   densities.gradients = gradients;
+  densities.plain = !weighted;
   const OffSurfaceLayers layers(surface->coefficients(), std::move(densities), {.tolerance = tolerance});
   Instruments instruments;
   return layers.evaluate(points, side, instruments);
@@ -43,13 +42,13 @@ OffSurfaceValues evaluated(const std::shared_ptr<SurfaceObject>& surface, const 
 template <auto member>
 py::object values_of(const OffSurfaceValues& values) {
   const Matrix& found = (values.*member).values;
-  if (found.size() == 0) return py::none();
+  if (found.cols() == 0) return py::none();
   if (found.cols() == 1) return py::cast(Vector(found.col(0)));
   return py::cast(found);
 }
 template <auto member>
 py::object error_of(const OffSurfaceValues& values) {
-  return (values.*member).values.size() == 0 ? py::object(py::none()) : py::cast((values.*member).error);
+  return (values.*member).values.cols() == 0 ? py::object(py::none()) : py::cast((values.*member).error);
 }
 
 }  // namespace
@@ -67,8 +66,8 @@ void bind_layers(py::module_& module) {
       .value("exterior", Side::exterior)
       .value("principal_value", Side::principal_value);
   py::class_<LayerMatrix>(module, "LayerMatrix")
-      .def(py::init<std::shared_ptr<SurfaceObject>, Layer>(), py::arg("surface"), py::arg("layer"),
-           py::call_guard<py::gil_scoped_release>())
+      .def(py::init<std::shared_ptr<SurfaceObject>, Layer, bool>(), py::arg("surface"), py::arg("layer"),
+           py::arg("weighted"), py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("size", &LayerMatrix::size)
       .def(
           "apply",
@@ -103,7 +102,7 @@ void bind_layers(py::module_& module) {
       .def_property_readonly("resolved", [](const O& values) { return values.resolved; });
   module.def("evaluate_layers", &evaluated, py::arg("surface"), py::arg("points"), py::arg("single") = std::nullopt,
              py::arg("double") = std::nullopt, py::arg("stokes_single") = std::nullopt,
-             py::arg("stokes_double") = std::nullopt, py::arg("gradients") = false,
+             py::arg("stokes_double") = std::nullopt, py::arg("weighted") = false, py::arg("gradients") = false,
              py::arg("side") = Side::principal_value, py::arg("tolerance") = 1e-9,
              py::call_guard<py::gil_scoped_release>());
 }

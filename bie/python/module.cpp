@@ -7,6 +7,7 @@
 #include "bie/support/errors.hpp"
 #include "bie/support/memory.hpp"
 #include "bie/support/output_error.hpp"
+#include "bie/support/thread_count.hpp"
 
 namespace vehd::python {
 
@@ -34,9 +35,9 @@ PYBIND11_MODULE(_core, module) {
   bind_check(module);
   module.def("version", &vehd::program_version, "Version of vehd.");
   module.def("library_versions", &vehd::library_versions, "Versions of the libraries that results depend on, by name.");
+  module.attr("most_threads") = vehd::most_threads;
   module.def(
-      "set_threads", [](int count) { omp_set_num_threads(count); }, pybind11::arg("count"),
-      "Number of threads of all that follows. The last digits of results may depend on it.");
+      "set_threads", [](int count) { omp_set_num_threads(count); }, pybind11::arg("count"));
   module.def(
       "threads", [] { return omp_get_max_threads(); }, "Number of threads.");
 }

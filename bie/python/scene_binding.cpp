@@ -41,18 +41,46 @@ GivenScene given(SceneSource source) {
 toml::table table_of(const py::dict& dict);
 toml::array array_of(py::handle list, const std::string& name);
 
+/// A value in C++. @throws SceneProblem if it does not fit
+template <typename T>
+T fitting(py::handle value, const std::string& name, const char* accepted) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw SceneProblem(
+        fmt::format("{}: \"{}\" is {}; accepted: {}", name, name, std::string(py::repr(value)), accepted));
+  }
+}
+
+/// While alive, one level deeper in what Python has nested.
+class Level {
+ public:
+  Level() {
+    if (Py_EnterRecursiveCall(" in the tables of a scene") != 0) throw py::error_already_set();
+  }
+  ~Level() { Py_LeaveRecursiveCall(); }
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
+};
+
 /// Hands the value to `take` as the type that TOML has for it.
 template <typename Take>
 void with_value(py::handle value, const std::string& name, const Take& take) {
+  if (py::hasattr(value, "dtype") && value.attr("ndim").cast<int>() == 0) {
+    // A number of numpy as Python has it; of extended precision it stays what it is.
+    const py::object plain = value.attr("item")();
+    if (!plain.get_type().is(value.get_type())) return with_value(plain, name, take);
+  }
   if (py::isinstance<py::bool_>(value)) return take(value.cast<bool>());
-  if (py::isinstance<py::str>(value)) return take(value.cast<std::string>());
+  if (py::isinstance<py::str>(value)) return take(fitting<std::string>(value, name, "text of Unicode characters"));
   if (py::isinstance<py::dict>(value)) return take(table_of(value.cast<py::dict>()));
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value) || py::isinstance<py::array>(value)) {
     return take(array_of(value, name));
   }
-  // Whatever else is a number, those of numpy among them.
+  // Whatever else is a number.
   if (PyIndex_Check(value.ptr()) != 0)
-    return take(py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>());
+    return take(
+        fitting<std::int64_t>(py::int_(py::reinterpret_borrow<py::object>(value)), name, "whole numbers of 64 bits"));
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() != nullptr) {
     PyErr_Clear();
@@ -63,15 +91,17 @@ void with_value(py::handle value, const std::string& name, const Take& take) {
 }
 
 toml::array array_of(py::handle list, const std::string& name) {
+  const Level level;
   toml::array array;
   for (const py::handle item : list) with_value(item, name, [&](const auto& entry) { array.push_back(entry); });
   return array;
 }
 
 toml::table table_of(const py::dict& dict) {
+  const Level level;
   toml::table table;
   for (const auto& [key, value] : dict) {
-    const std::string name = py::str(key);
+    const auto name = fitting<std::string>(py::str(key), "dict", "keys of Unicode characters");
     with_value(value, name, [&](const auto& entry) { table.insert(name, entry); });
   }
   return table;

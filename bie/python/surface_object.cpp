@@ -27,39 +27,51 @@ NumericalSettings settings_of(const Matrix& position, const SurfaceObject::Finen
 SurfaceObject::SurfaceObject(Matrix position, const Fineness& fineness)
     : position_(std::move(position)),
       space_(settings_of(position_, fineness), {}),
-      membrane_(membrane_at(space_, position_, {}, 1.0, instruments_)) {}
-
-const Membrane& SurfaceObject::with(const LayerSelection& selection) {
-  const std::lock_guard lock(mutex_);
-  LayerOperators& layers = membrane_.layers;
-  const LayerSelection missing{
-      .laplace_single = selection.laplace_single && layers.laplace_single.empty(),
-      .laplace_double = selection.laplace_double && layers.laplace_double.empty(),
-      .laplace_adjoint = selection.laplace_adjoint && layers.laplace_adjoint.empty(),
-      .stokes_single = selection.stokes_single && layers.stokes_single.empty(),
-      .stokes_double = selection.stokes_double && layers.stokes_double.empty(),
-  };
-  if (!missing.laplace_single && !missing.laplace_double && !missing.laplace_adjoint && !missing.stokes_single &&
-      !missing.stokes_double) {
-    return membrane_;
+      membrane_(membrane_at(space_, position_, {}, 1.0, instruments_)) {
+  // Squares of metrics overflow beyond; scenes have the same range.
+  constexpr double kSmallest = 1e-30, kLargest = 1e30;
+  if (!(membrane_.radius >= kSmallest && membrane_.radius <= kLargest)) {
+    throw InputError(fmt::format("the surface has the radius √(area/4π) = {:.6g}; accepted: {:g} ... {:g}",
+                                 membrane_.radius, kSmallest, kLargest));
   }
+  const double volume = enclosed_volume(geometry());
+  if (volume > 0.0) return;
+  throw InputError(
+      fmt::format("the surface encloses the volume {:.6g}; accepted: x(θ, φ) with x_θ × x_φ pointing outwards, hence a "
+                  "volume above "
+                  "0; negating the coefficients of m < 0 turns a surface inside out and keeps its shape",
+                  volume));
+}
+
+const LayerOperators& SurfaceObject::operators(const LayerSelection& selection) {
+  const std::lock_guard lock(mutex_);
+  LayerOperators& layers = selection.plain ? plain_ : membrane_.layers;
+  LayerSelection missing{.plain = selection.plain};
+  bool any = false;
+  const auto each = [&](const auto& visit) {
+    visit(&LayerSelection::laplace_single, &LayerOperators::laplace_single);
+    visit(&LayerSelection::laplace_double, &LayerOperators::laplace_double);
+    visit(&LayerSelection::laplace_adjoint, &LayerOperators::laplace_adjoint);
+    visit(&LayerSelection::laplace_hypersingular, &LayerOperators::laplace_hypersingular);
+    visit(&LayerSelection::stokes_single, &LayerOperators::stokes_single);
+    visit(&LayerSelection::stokes_double, &LayerOperators::stokes_double);
+  };
+  each([&](auto selected, auto layer) {
+    missing.*selected = selection.*selected && (layers.*layer).empty();
+    any = any || missing.*selected;
+  });
+  if (!any) return layers;
   LayerOperators made = assemble_symmetric_operators(space_.quadrature(), space_.targets(), position_, missing,
                                                      instruments_, space_.subspace(), space_.fold());
-  if (missing.laplace_single) layers.laplace_single = std::move(made.laplace_single);
-  if (missing.laplace_double) layers.laplace_double = std::move(made.laplace_double);
-  if (missing.laplace_adjoint) layers.laplace_adjoint = std::move(made.laplace_adjoint);
-  if (missing.stokes_single) layers.stokes_single = std::move(made.stokes_single);
-  if (missing.stokes_double) layers.stokes_double = std::move(made.stokes_double);
+  each([&](auto selected, auto layer) {
+    if (missing.*selected) layers.*layer = std::move(made.*layer);
+  });
+  return layers;
+}
+
+const Membrane& SurfaceObject::with(const LayerSelection& selection) {
+  static_cast<void>(operators(selection));
   return membrane_;
-}
-
-Matrix SurfaceObject::weighted(const Matrix& coefficients) const {
-  return membrane_.weighted(transform().synthesize(coefficients));
-}
-
-Matrix SurfaceObject::unweighted(const Matrix& coefficients) const {
-  const Vector inverse = geometry().area_element.cwiseInverse();
-  return transform().analyze(inverse.asDiagonal() * transform().synthesize(coefficients));
 }
 
 }  // namespace vehd::python

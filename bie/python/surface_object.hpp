@@ -8,7 +8,7 @@
 
 namespace vehd::python {
 
-/// A frozen surface of one degree with the operators that have been asked for. Every one is assembled once.
+/// A frozen surface of one degree with the operators that have been requested. Every one is assembled once.
 class SurfaceObject {
  public:
   /// How fine it is.
@@ -19,6 +19,7 @@ class SurfaceObject {
 
   /// @param position  coefficients of x, [n_coefficients x 3]
   /// @throws ShapeError if that is no field of a degree from lowest_order to highest_order
+  /// @throws InputError if x_θ × x_φ does not point outwards
   SurfaceObject(Matrix position, const Fineness& fineness);
 
   [[nodiscard]] int order() const { return space_.order(); }
@@ -27,18 +28,17 @@ class SurfaceObject {
   /// Between the degree and the grid of the surface.
   [[nodiscard]] const SphereTransform& transform() const { return membrane_.fine; }
   [[nodiscard]] const Surface& geometry() const { return membrane_.surface; }
-  /// The membrane with these operators at least; those of the Stokes double layer for equal viscosities.
+  /// These operators at least, plain or weighted as the selection says.
+  [[nodiscard]] const LayerOperators& operators(const LayerSelection& selection);
+  /// The membrane with these weighted operators at least.
   [[nodiscard]] const Membrane& with(const LayerSelection& selection);
-  /// Coefficients of J f from those of f.
-  [[nodiscard]] Matrix weighted(const Matrix& coefficients) const;
-  /// Coefficients of f from those of J f.
-  [[nodiscard]] Matrix unweighted(const Matrix& coefficients) const;
 
  private:
   Matrix position_;
   MembraneSpace space_;
   Instruments instruments_;
   Membrane membrane_;
+  LayerOperators plain_;
   std::mutex mutex_;  // operators are assembled while other threads of Python run
 };
 

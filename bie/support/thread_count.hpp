@@ -4,6 +4,9 @@
 
 namespace vehd {
 
+/// That a user may request: OpenMP ends the process where it cannot start one.
+constexpr int most_threads = 1024;
+
 /// So many threads in its scope.
 class ThreadCount {
  public:

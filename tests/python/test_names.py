@@ -61,5 +61,21 @@ class Names(unittest.TestCase):
             self.assertTrue(re.search(rf"\b{name}\b", page), name)
 
 
+class OtherLibraries(unittest.TestCase):
+    def test_no_name_is_used_that_newer_releases_have_removed(self):
+        # Of NumPy 2 and of SciPy 1.14.
+        removed = re.compile(r"\bnp\.(trapz|in1d|product|cumproduct|sometrue|alltrue|float_|complex_|unicode_|string_|Inf|"
+                             r"Infinity|NaN|NAN|infty|PINF|NINF|row_stack|msort|asfarray|find_common_type|cast|sctypes|"
+                             r"round_|issubclass_|set_string_function)\b|\bnumpy\.(trapz|in1d|product)\b|"
+                             r"\b(simps|cumtrapz|sph_harm|interp2d)\(|\bgmres\([^)]*\btol=")
+        for folder, pattern in (("bie/python", "**/*.py"), ("docs", "**/*.py"), ("docs", "**/*.ipynb"),
+                                ("docs", "**/*.md"), ("tests", "**/*.py")):
+            for file in (SOURCE / folder).glob(pattern):
+                if file.name == "test_names.py":
+                    continue
+                found = removed.search(file.read_text())
+                self.assertIsNone(found, f"{file}: {found and found.group()}")
+
+
 if __name__ == "__main__":
     unittest.main()

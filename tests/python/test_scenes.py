@@ -61,12 +61,30 @@ class Errors(InFolder):
             vehd.Scene.from_text(SHEARED.replace("viscosity_ratio", "viscocity_ratio"), name="my scene")
         with self.assertRaisesRegex(vehd.SceneError, 'dict:[0-9]+: unknown key "axis".*"axes"'):
             vehd.Scene.from_dict({"shape": {"kind": "ellipsoid", "axis": [1, 1, 2]}, "membrane": {}, "numerics": {}})
+        with self.assertRaisesRegex(vehd.InputError, r"settings is \['flow.rate=1'\]; accepted: a mapping"):
+            vehd.Scene(self.write(SHEARED), ["flow.rate=1"])
         with self.assertRaisesRegex(vehd.SceneError, "--set flow.rat=1"):
             vehd.Scene(self.write(SHEARED), {"flow.rat": 1})
 
     def test_what_no_scene_can_hold_is_refused(self):
         with self.assertRaisesRegex(vehd.SceneError, '"kind" is a complex'):
             vehd.Scene.from_dict({"shape": {"kind": 1j}})
+        for wrong in (2**70, -2**64, "\udc80", np.complex64(1j), None, {1}, np.array([1 + 1j])):
+            with self.subTest(wrong=repr(wrong)), self.assertRaisesRegex(vehd.SceneError, '"axes" is .*; accepted: '):
+                vehd.Scene.from_dict({"shape": {"axes": wrong}})
+        nested = {}
+        nested["shape"] = {"kind": [nested]}
+        with self.assertRaises(RecursionError):
+            vehd.Scene.from_dict(nested)
+
+    def test_numbers_of_numpy_are_those_of_python(self):
+        tables = {"shape": {"kind": "ellipsoid", "axes": [1, 1, 2]}, "membrane": {"inextensible": False},
+                  "numerics": {"degree": 6, "dt": 0.5, "end_time": 1.0}}
+        expected = vehd.Scene.from_dict(tables)
+        tables["shape"]["axes"] = np.array([1, 1, 2], dtype=np.float32)
+        tables["membrane"]["inextensible"] = np.bool_(False)
+        tables["numerics"] = {"degree": np.int8(6), "dt": np.array(0.5), "end_time": np.longdouble(1.0)}
+        self.assertEqual(vehd.Scene.from_dict(tables), expected)
 
     def test_exceptions_are_those_of_python_as_well(self):
         self.assertTrue(issubclass(vehd.SceneError, vehd.InputError))

@@ -25,18 +25,20 @@ from ._core import (  # noqa: E402
     OutputError,
     SceneError,
     ShapeError,
-    coefficient_index,
-    degree_of,
-    evaluate_harmonics,
     library_versions,
-    n_coefficients,
-    resize_degree,
-    set_threads,
     threads,
 )
 from ._core import version as _version  # noqa: E402
 from .checking import CheckResult, check, has_finite_elements, solve_by_elements  # noqa: E402
 from .example1 import example1, example1_sources  # noqa: E402
+from .harmonics import (  # noqa: E402
+    coefficient_index,
+    degree_of,
+    evaluate_harmonics,
+    n_coefficients,
+    resize_degree,
+)
+from .machine import set_threads  # noqa: E402
 from .scenes import Scene  # noqa: E402
 from .simulation import Simulation  # noqa: E402
 from .solves import point_source_fields, solve_electric, solve_jumps, solve_tension  # noqa: E402

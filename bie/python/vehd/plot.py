@@ -4,7 +4,8 @@ from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _core
+from .arguments import real, reals, whole
+from .harmonics import evaluate_harmonics
 from .simulation import Simulation
 from .surface import Surface
 from .tables import Table
@@ -37,10 +38,11 @@ def outline(what: Any, axes: Optional[Any] = None, azimuth: float = 0.0, **style
 
     if axes is None:
         _, axes = plt.subplots(layout="constrained")
+    azimuth = real("azimuth", azimuth)
     angle = np.linspace(0.0, 2.0 * np.pi, 400)
     theta = np.where(angle <= np.pi, angle, 2.0 * np.pi - angle)
     phi = np.where(angle <= np.pi, azimuth, azimuth + np.pi)
-    x = _core.evaluate_harmonics(np.asarray(getattr(what, "coefficients", getattr(what, "position", what))), theta, phi)
+    x = evaluate_harmonics(getattr(what, "coefficients", getattr(what, "position", what)), theta, phi)
     axes.plot(x[:, 0] * np.cos(azimuth) + x[:, 1] * np.sin(azimuth), x[:, 2], **style)
     axes.set_aspect("equal")
     return axes
@@ -48,12 +50,13 @@ def outline(what: Any, axes: Optional[Any] = None, azimuth: float = 0.0, **style
 
 def _mesh(surface: Surface, values: Optional[np.ndarray], n: int) -> tuple:
     """Points of a closed mesh [n, 2n, 3] and values there."""
+    n = whole("n", n, 2)
     theta, phi = np.meshgrid(np.linspace(0, np.pi, n), np.linspace(0, 2 * np.pi, 2 * n), indexing="ij")
     at = theta.ravel(), phi.ravel()
-    x = _core.evaluate_harmonics(surface.coefficients, *at).reshape(n, 2 * n, 3)
+    x = evaluate_harmonics(surface.coefficients, *at).reshape(n, 2 * n, 3)
     if values is None:
         return x, None
-    return x, _core.evaluate_harmonics(np.asarray(values, dtype=float), *at).reshape(n, 2 * n)
+    return x, evaluate_harmonics(reals("values", values, ("(p+1)²",)), *at).reshape(n, 2 * n)
 
 
 def shape(what: Any, values: Optional[np.ndarray] = None, axes: Optional[Any] = None, n: int = 40,

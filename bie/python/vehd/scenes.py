@@ -8,6 +8,8 @@ from typing import Any, Mapping, Optional, Union
 import numpy as np
 
 from . import _core
+from .arguments import shown
+
 
 def _place(error: BaseException) -> tuple:
     """File and line that a message begins with."""
@@ -24,6 +26,9 @@ Path = Union[str, "os.PathLike[str]"]
 
 def _settings(values: Optional[Mapping[str, Any]]) -> list:
     """As the option --set takes them. What JSON and TOML write alike is all that a value can be."""
+    if not isinstance(values or {}, Mapping):
+        raise _core.InputError(f"settings is {shown(values)}; accepted: a mapping from \"table.key\" to values")
+
     def plain(value: Any) -> Any:
         return value.tolist() if hasattr(value, "tolist") else value
 

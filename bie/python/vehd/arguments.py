@@ -1,0 +1,89 @@
+"""What public functions accept. Each passes its arguments through here, so that nothing is cut or converted in silence."""
+
+import difflib
+import math
+import operator
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _core
+
+Shape = Sequence[Union[int, str]]
+
+
+def _text(shape: Shape) -> str:
+    return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
+
+
+def shown(value: Any) -> str:
+    """A value as messages quote it, cut after 60 characters."""
+    text = repr(value.item() if isinstance(value, np.generic) else value)
+    return text if len(text) <= 60 else text[:60] + " ..."
+
+
+def _fits(shape: tuple, accepted: Shape) -> bool:
+    return len(shape) == len(accepted) and all(isinstance(n, str) or n == size for size, n in zip(shape, accepted))
+
+
+def reals(name: str, values: Any, *shapes: Shape) -> np.ndarray:
+    """Finite real numbers in double precision.
+
+    shapes: that are accepted; a letter stands for any count.
+    InputError: other values; ShapeError: another shape.
+    """
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise _core.ShapeError(f"{name} is no array: {error}") from None
+    if array.dtype.kind == "c":
+        raise _core.InputError(f"{name} is complex; accepted: real numbers, so pass the real and the imaginary part "
+                               "one after the other")
+    if array.dtype.kind not in "biuf":
+        raise _core.InputError(f"{name} holds values of type {array.dtype}; accepted: real numbers")
+    if np.ma.is_masked(values):
+        raise _core.InputError(f"{name} is masked; accepted: arrays without masked values")
+    if not any(_fits(array.shape, shape) for shape in shapes):
+        raise _core.ShapeError(f"{name} has the shape {_text(array.shape)}; accepted: {' or '.join(map(_text, shapes))}")
+    array = np.asarray(array, dtype=float)
+    wrong = np.argwhere(~np.isfinite(array))
+    if wrong.size > 0:
+        place = ", ".join(map(str, wrong[0]))
+        raise _core.InputError(f"{name}[{place}] is {array[tuple(wrong[0])]}; accepted: finite numbers")
+    return array
+
+
+def real(name: str, value: Any, above: Optional[float] = None, least: Optional[float] = None,
+         below: Optional[float] = None) -> float:
+    """A finite real number within bounds. InputError: anything else."""
+    bounds = [f"{word} {bound:g}" for word, bound in (("above", above), ("at least", least), ("below", below))
+              if bound is not None]
+    accepted = "a finite number" if not bounds else "a number " + " and ".join(bounds)
+    array = np.asarray(value)
+    is_real = array.ndim == 0 and array.dtype.kind in "iuf"
+    number = float(array) if is_real else math.nan
+    if (not math.isfinite(number) or (above is not None and number <= above) or (least is not None and number < least)
+            or (below is not None and number >= below)):
+        raise _core.InputError(f"{name} is {shown(value)}; accepted: {accepted}")
+    return number
+
+
+def whole(name: str, value: Any, least: int, most: Optional[int] = None) -> int:
+    """A whole number within bounds. InputError: anything else."""
+    try:
+        number = least - 1 if isinstance(value, (bool, np.bool_)) else operator.index(value)
+    except TypeError:
+        number = least - 1
+    if number < least or (most is not None and number > most):
+        accepted = f"{least} or more" if most is None else f"{least} to {most}"
+        raise _core.InputError(f"{name} is {shown(value)}; accepted: a whole number, {accepted}")
+    return number
+
+
+def word(name: str, value: Any, accepted: Sequence[str]) -> str:
+    """One of some words. InputError: anything else."""
+    if value in accepted:
+        return value
+    nearest = difflib.get_close_matches(str(value), accepted, 1)
+    raise _core.InputError(f"{name} is {shown(value)}; accepted: {', '.join(accepted)}"
+                           + (f"; did you mean {nearest[0]!r}?" if nearest else ""))
