@@ -19,12 +19,12 @@ double spacing_at(const std::vector<double>& times, std::size_t snapshot, double
   return times[right] - times[right - 1];
 }
 
+}  // namespace
+
 std::string shown_time(double time, const SiUnit& unit) {
   const std::string number = fmt::format("{:.10g}", time * unit.scale);
   return unit.symbol == "1" ? number : number + " " + unit.symbol;
 }
-
-}  // namespace
 
 SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time,
                                const SiUnit& shown) {

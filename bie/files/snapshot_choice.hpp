@@ -16,6 +16,9 @@ struct SnapshotChoice {
   std::string note;  ///< which other time it has; empty if it has that very time
 };
 
+/// A time of a run in a unit, as messages write it and as it may be given.
+std::string shown_time(double time, const SiUnit& unit);
+
 /// The nearest snapshot, provided that it is not farther than half the distance of neighbouring snapshots there: any
 /// time within a run has one, a time well before or after has none. Without a time, the last snapshot.
 /// @param file  that `run` was read from, for messages

@@ -8,8 +8,10 @@
 
 #include "bie/comparison/check.hpp"
 #include "bie/comparison/check_input.hpp"
+#include "bie/files/snapshot_choice.hpp"
 #include "bie/python/bindings.hpp"
 #include "bie/python/point_sources.hpp"
+#include "bie/runs/given_times.hpp"
 #include "bie/support/temporary.hpp"
 
 namespace vehd::python {
@@ -34,14 +36,21 @@ std::tuple<int, std::string> solve_sources(const std::filesystem::path& program_
   return {static_cast<int>(result.code), result.json.dump()};
 }
 
-/// Exit code and result, as text, of the finite-element program; and a note where the time is not the one asked for.
-std::tuple<int, std::string, std::string> check(const std::filesystem::path& program_folder,
-                                                const std::filesystem::path& file,
-                                                const std::vector<std::string>& settings,
-                                                const std::filesystem::path& directory,
-                                                const std::optional<std::string>& time,
-                                                const std::optional<std::string>& from, bool quick,
-                                                const std::optional<double>& required, int ranks) {
+/// The time of a state that was read from a file, as it may be given.
+std::string time_of(const FrozenState& frozen, const std::filesystem::path& file) {
+  if (file.extension() == ".toml") return "0";
+  return shown_time(frozen.state.time, GivenTimes(RunReader(file), file).shown());
+}
+
+/// Exit code and result, as text, of the finite-element program; a note where the time is not the one requested; and
+/// the time.
+std::tuple<int, std::string, std::string, std::string> check(const std::filesystem::path& program_folder,
+                                                             const std::filesystem::path& file,
+                                                             const std::vector<std::string>& settings,
+                                                             const std::filesystem::path& directory,
+                                                             const std::optional<std::string>& time,
+                                                             const std::optional<std::string>& from, bool quick,
+                                                             const std::optional<double>& required, int ranks) {
   const FemProgram fem(program_folder);
   CheckTask task{.frozen = read_frozen_state({file, settings}, time),
                  .directory = directory,
@@ -50,7 +59,7 @@ std::tuple<int, std::string, std::string> check(const std::filesystem::path& pro
                  .n_ranks = ranks};
   if (from) task.span = read_time_span(file, *from, task.frozen);
   const FemProgram::Result result = compare_methods(fem, task);
-  return {static_cast<int>(result.code), result.json.dump(), task.frozen.note};
+  return {static_cast<int>(result.code), result.json.dump(), task.frozen.note, time_of(task.frozen, file)};
 }
 
 }  // namespace

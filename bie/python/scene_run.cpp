@@ -56,7 +56,7 @@ SceneRun::SceneRun(const GivenScene& given, const std::optional<std::filesystem:
 
 SceneRun::~SceneRun() {
   try {
-    close();
+    if (has_own_files()) close();
   } catch (const std::exception&) {
     // The checkpoint of the last step is there, and nobody is left to tell.
   }
@@ -86,6 +86,7 @@ void SceneRun::start() {
 bool SceneRun::step() {
   const Busy busy(busy_);
   if (at_end()) return false;
+  require_own_files();
   if (closed_) throw std::runtime_error("the simulation is closed");
   moment_ = looks_ ? std::move(moment_) : nullptr;
   if (!parts_->recorded) {
@@ -112,9 +113,19 @@ void SceneRun::append_rows() {
   }
 }
 
+void SceneRun::snapshot() {
+  const Busy busy(busy_);
+  if (!directory_) throw InputError("a simulation in memory has no file for a snapshot: give it a directory");
+  require_own_files();
+  if (closed_) throw std::runtime_error("the simulation is closed");
+  parts_->recorded->snapshot();
+}
+
 void SceneRun::close() {
   const Busy busy(busy_);
   if (closed_) return;
+  require_own_files();
+  if (parts_->recorded) parts_->recorded->snapshot();
   const std::string now = simulation().time_text(simulation().evolution().state().time);
   end({.completed = at_end(), .reason = at_end() ? std::string() : "stopped from Python at time " + now});
 }
@@ -131,6 +142,12 @@ void SceneRun::end(const RunOutcome& outcome) {
 bool SceneRun::completed() const {
   require_idle();
   return at_end();
+}
+
+void SceneRun::require_own_files() const {
+  if (directory_ && !has_own_files()) {
+    throw std::runtime_error("the files of this simulation belong to the process that this one was forked from");
+  }
 }
 
 void SceneRun::require_idle() const {

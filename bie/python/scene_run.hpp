@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <atomic>
 #include <filesystem>
 #include <memory>
@@ -32,7 +34,10 @@ class SceneRun {
   /// One accepted step. @returns false where the end is reached already
   /// @throws ConvergenceError where none is acceptable: the state is the last good one
   bool step();
-  /// Brings the files up to date, writes the summary and leaves the directory; no step can follow.
+  /// Adds a snapshot of the present state to the files unless it has one, and brings them up to date.
+  /// @throws InputError if there are no files, std::runtime_error if the run is closed
+  void snapshot();
+  /// The same, writes the summary and leaves the directory; no step can follow.
   void close();
 
   [[nodiscard]] bool completed() const;
@@ -53,6 +58,9 @@ class SceneRun {
   void append_rows();
   void end(const RunOutcome& outcome);
   void require_idle() const;
+  /// A forked process has the simulation as well, but the files are those of the process that began it.
+  [[nodiscard]] bool has_own_files() const { return getpid() == process_; }
+  void require_own_files() const;
 
   /// What a moment may outlive the rest with.
   struct Parts {
@@ -71,6 +79,7 @@ class SceneRun {
   bool looks_ = false;  ///< the moment is that of the state
   bool closed_ = false;
   std::atomic<bool> busy_ = false;
+  pid_t process_ = getpid();
 };
 
 }  // namespace vehd::python

@@ -129,6 +129,7 @@ void bind_simulation(py::module_& module) {
            }),
            py::arg("scene"), py::arg("directory") = std::nullopt, py::arg("resume") = false)
       .def("step", &step)
+      .def("snapshot", &SceneRun::snapshot, py::call_guard<py::gil_scoped_release>())
       .def("close", &SceneRun::close, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("completed", &SceneRun::completed)
       .def_property_readonly("closed", &SceneRun::closed)

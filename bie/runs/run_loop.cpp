@@ -134,6 +134,15 @@ void RecordedRun::step() {
   if (after_step_) after_step_();
 }
 
+void RecordedRun::snapshot() {
+  const RunTotals totals = simulation_.totals();
+  ranks_.together([&] {
+    if (!recorder_) return;
+    recorder_->keep_last_state(simulation_.evolution().evaluation().fields);
+    recorder_->end_session(totals);
+  });
+}
+
 RunOutcome RecordedRun::failed(const ConvergenceError& error) {
   ranks_.together([&] {
     if (recorder_) recorder_->keep_last_state(simulation_.evolution().evaluation().fields);

@@ -54,6 +54,8 @@ class RecordedRun {
   void start();
   /// One accepted step. @throws ConvergenceError, OutputError
   void step();
+  /// Adds a snapshot of the last state unless it has one, and brings all files up to date. @throws OutputError
+  void snapshot();
   /// How the run has ended where a step has thrown this: a snapshot of the last state is added.
   [[nodiscard]] RunOutcome failed(const ConvergenceError& error);
   /// Brings all files up to date. @throws OutputError

@@ -45,7 +45,7 @@ class RunRecorder {
   /// Rows of history_error.csv and what error bars go on with; before the rows of the step with which they came.
   void record_errors(const std::vector<Vector>& rows, CompanionState companion);
 
-  /// Adds a snapshot of the state recorded last unless it has one: that of a run which cannot go on.
+  /// Adds a snapshot of the state recorded last unless it has one.
   void keep_last_state(const Fields& fields);
 
   /// Brings every file up to date, with the work that a session has done after its last row.

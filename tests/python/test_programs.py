@@ -125,6 +125,14 @@ class Checks(InFolder):
             vehd.check(vehd.Scene.from_text(SHEARED), self.folder / "check", from_time=0.0, quick=True)
 
     @unittest.skipUnless(has_elements, "the finite elements are not built (VEHD_FEM_CHECK)")
+    def test_the_present_state_of_a_run_is_checked(self):
+        scene = SHEARED.replace("every = 0.04", "every = 0.1")
+        run = vehd.Simulation(vehd.Scene.from_text(scene), self.folder / "run").run(until=0.03)
+        found = vehd.check(run, quick=True)
+        self.assertEqual(found.time, "0.04")
+        self.assertEqual(found.note, "")
+
+    @unittest.skipUnless(has_elements, "the finite elements are not built (VEHD_FEM_CHECK)")
     def test_elements_find_the_charge_of_point_sources(self):
         # Exact solution; a degree more divides the error by about four (docs/two_methods.md).
         shape = vehd.Surface.from_shape("radial", 16, base=1.0, amplitude=0.2, exponent=-3.0,

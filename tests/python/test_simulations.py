@@ -2,7 +2,11 @@
 
 import gc
 import os
+import pathlib
 import signal
+import subprocess
+import sys
+import tempfile
 import threading
 import unittest
 
@@ -56,6 +60,29 @@ class Bits(InFolder):
         self.assertTrue(run.completed)
         self.assertFalse(run.step())
         self.assertEqual(len(run.history["time"]), 6)
+
+    def assert_snapshot(self, run, time):
+        self.assertAlmostEqual(run.time, time)
+        scene = vehd.Scene.from_dict({"shape": {"kind": "file", "path": str(self.folder / "run/run.h5"), "time": time},
+                                      "membrane": {}, "numerics": {"degree": 6, "dt": 1.0, "end_time": 0.0}})
+        np.testing.assert_allclose(scene.position(), run.state[0].position, atol=1e-14)
+
+    def test_a_snapshot_is_added_when_it_is_requested_and_at_the_end(self):
+        file = self.write(SHEARED)
+        expected = vehd.Simulation(file).run().history
+        run = vehd.Simulation(file, self.folder / "run")
+        run.step()
+        run.snapshot()
+        self.assert_snapshot(run, 0.02)
+        run.run(until=0.05).close()
+        self.assert_snapshot(run, 0.06)
+        with self.assertRaisesRegex(RuntimeError, "closed"):
+            run.snapshot()
+        with self.assertRaisesRegex(vehd.InputError, "in memory"):
+            vehd.Simulation(file).snapshot()
+        run = vehd.Simulation(file, self.folder / "run", resume=True).run()
+        self.assert_snapshot(run, 0.1)
+        np.testing.assert_array_equal(run.history["inclination_deg"], expected["inclination_deg"])
 
     def test_another_scene_does_not_go_on(self):
         scene = vehd.Scene.from_text(SHEARED)
@@ -159,6 +186,36 @@ class Interruptions(unittest.TestCase):
         worker.join()
         self.assertTrue(seen)
         self.assertTrue(run.completed)
+
+    def test_a_forked_process_computes(self):
+        code = ("import os, vehd\n"
+                "vehd.set_threads(2)\n"
+                "trace = vehd.Surface.sphere(degree=24).single_layer.matrix.trace()\n"
+                "child = os.fork()\n"
+                "if child == 0:\n"
+                "    other = vehd.Surface.sphere(degree=24).single_layer.matrix.trace()\n"
+                "    os._exit(abs(other - trace) < 1e-9)\n"
+                "assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 1\n")
+        subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+
+    def test_a_forked_process_leaves_the_files_alone(self):
+        code = ("import os, sys, vehd\n"
+                "run = vehd.Simulation(sys.argv[1], sys.argv[2])\n"
+                "run.step()\n"
+                "child = os.fork()\n"
+                "if child == 0:\n"
+                "    try:\n"
+                "        run.step()\n"
+                "    except RuntimeError as error:\n"
+                "        sys.exit('forked' in str(error))\n"
+                "    sys.exit(0)\n"
+                "assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 1\n"
+                "assert not os.path.exists(os.path.join(sys.argv[2], 'summary.json'))\n"
+                "assert run.run().completed\n")
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "scene.toml"
+            scene.write_text(SHEARED)
+            subprocess.run([sys.executable, "-c", code, scene, f"{folder}/run"], check=True, timeout=60)
 
     @staticmethod
     def wait_for_step(run):

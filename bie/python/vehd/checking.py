@@ -3,22 +3,26 @@
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Mapping, Optional, Union
 
 import numpy as np
 
 from . import _core
+from .arguments import real, whole
 from .scenes import Scene, _settings
 from .simulation import Simulation
+from .solves import Sources, conductivities, point_sources
 from .surface import Surface
 from .tables import Table
 
 
 class CheckResult(dict):
     """What `vehd check --json` writes (docs/check.md); `agrees`: every row agrees within errors that are small enough;
-    `note`: where another time was compared than the one asked for."""
+    `time`: of the snapshot that was compared, as in "0.5 ms", a number where the scene has no unit of time; `note`: where
+    that is not the requested time."""
 
     agrees: bool
+    time: str
     note: str
 
     @property
@@ -57,7 +61,8 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
           ranks: int = 1, settings: Optional[Mapping[str, Any]] = None) -> CheckResult:
     """Compares the fields of a frozen shape with finite elements, as `vehd check` does.
 
-    what: a simulation with files, its run.h5 or its folder; or a scene, or its file, for its initial state.
+    what: a simulation with files, to which a snapshot of its present state is added if it is not closed; its run.h5 or
+    its folder; or a scene, or its file, for its initial state.
     directory: for the results; "check" beside a run.h5 if left out.
     time: of a snapshot, as "0.5 ms" or a number in the unit of the history; the last one if left out.
     from_time: of an earlier snapshot, likewise; the elements then also advance V_m from there by themselves.
@@ -69,13 +74,15 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
     if isinstance(what, Simulation):
         if what.directory is None:
             raise _core.InputError("a simulation in memory has no snapshots: give it a directory, or check its scene")
+        if not what.closed:
+            what.snapshot()
         what = what.directory
     overrides = _settings(settings)
     if isinstance(what, Scene):
         if directory is None:
             raise _core.InputError("a scene has no folder of its own: give a directory")
         os.makedirs(directory, exist_ok=True)
-        file = Path(directory) / "scene.toml"
+        file = Path(directory) / "checked_scene.toml"
         file.write_text(what.text)
     else:
         file = Path(what)
@@ -86,17 +93,18 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
             raise _core.InputError("a scene has no folder of its own: give a directory")
         directory = file.parent / "check"
     times = [None if moment is None else str(moment) for moment in (time, from_time)]
-    code, text, note = _core.check(_program_folder(), os.fspath(file), overrides, os.fspath(directory), *times, quick,
-                                   require, ranks)
+    required = None if require is None else real("require", require, above=0.0, below=1.0)
+    code, text, note, found = _core.check(_program_folder(), os.fspath(file), overrides, os.fspath(directory), *times,
+                                          bool(quick), required, whole("ranks", ranks, 1))
     result = CheckResult(json.loads(text) or {})
     result.agrees = code == 0
+    result.time = found
     result.note = note
     return result
 
 
-def solve_by_elements(surface: Surface, sources: List[Tuple[Sequence[float], float, bool]], conductivity_in: float,
-                      conductivity_out: float, *, degree: int = 5, cells: int = 3,
-                      outer_radius: float = 8.0) -> Dict[str, Any]:
+def solve_by_elements(surface: Surface, sources: Sources, conductivity_in: float, conductivity_out: float, *,
+                      degree: int = 5, cells: int = 3, outer_radius: float = 8.0) -> Dict[str, Any]:
     """The problem of `solve_jumps` for the jumps of point sources, by finite elements in the volume, in a program of its
     own, and how far its solution is from the exact one.
 
@@ -108,8 +116,9 @@ def solve_by_elements(surface: Surface, sources: List[Tuple[Sequence[float], flo
     InputError: there is no finite-element program. RuntimeError: it has not come to its end.
     """
     code, text = _core.solve_sources_by_elements(
-        _program_folder(), surface.coefficients, [(np.asarray(p, dtype=float), s, i) for p, s, i in sources],
-        conductivity_in, conductivity_out, degree, cells, outer_radius)
+        _program_folder(), surface.coefficients, point_sources(surface, sources),
+        *conductivities(conductivity_in, conductivity_out), whole("degree", degree, 1), whole("cells", cells, 1),
+        real("outer_radius", outer_radius, above=1.0))
     if code != 0:
         raise RuntimeError(f"the finite elements ended with exit code {code}; their messages are on standard error")
     return json.loads(text)

@@ -1,10 +1,12 @@
 """Simulations, step by step."""
 
+import math
 import os
 import sys
 from typing import Any, Callable, Iterator, Mapping, Optional, Union
 
 from . import _core
+from .arguments import real
 from .scenes import Scene
 from .tables import Table
 
@@ -58,6 +60,8 @@ class Simulation:
         until: in the unit of the history. Steps are not cut for it, so that they stay those of the program.
         progress: True shows a line on standard error; a function is called with the status after every step.
         """
+        if until is not None and until != math.inf:
+            until = real("until", until)
         show = _show if progress is True else progress
         try:
             while (until is None or self.time < until) and self.step():
@@ -82,6 +86,11 @@ class Simulation:
     def completed(self) -> bool:
         """Whether the end of the scene is reached."""
         return self._core.completed
+
+    @property
+    def closed(self) -> bool:
+        """Whether no step can follow."""
+        return self._core.closed
 
     @property
     def state(self) -> "_core.State":
@@ -110,9 +119,17 @@ class Simulation:
         """Of the files, or None."""
         return None if self._core.directory is None else str(self._core.directory)
 
+    def snapshot(self) -> None:
+        """Adds a snapshot of the present state to run.h5 unless it has one, and brings all files up to date.
+
+        InputError: the simulation has no directory. RuntimeError: it is closed.
+        """
+        self._core.snapshot()
+
     def close(self) -> None:
-        """Writes the summary and leaves the directory to others; no step can follow. The end of the scene, of a `with`
-        block and of the object do the same."""
+        """Adds a snapshot of the present state, writes the summary and leaves the directory to others; no step can
+        follow. The end of the scene, of a `with` block and of the object do the same. Without a directory nothing is
+        written."""
         self._core.close()
 
     def __enter__(self) -> "Simulation":
