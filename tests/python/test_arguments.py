@@ -113,7 +113,7 @@ class Completeness(unittest.TestCase):
             kinds = {np.ndarray: ARRAYS, float: NUMBERS, int: NUMBERS}
             for kind in (hint, *typing.get_args(hint)):
                 known = kinds.get(kind)
-                if known is not None and path not in known and not ELSEWHERE.match(path):
+                if known is not None and path not in known and path not in ARRAYS and not ELSEWHERE.match(path):
                     missing.append(path)
         self.assertEqual(missing, ["Operator.__matmul__.density"])
 
@@ -175,7 +175,7 @@ class Arrays(unittest.TestCase):
             found = operator @ (density + 2j * density[::-1])
             np.testing.assert_array_equal(found.real, operator @ density, err_msg=name)
             np.testing.assert_array_equal(found.imag, operator @ (2 * density[::-1]), err_msg=name)
-            for wrong in (np.full_like(density, np.nan), density * np.inf * 1j, density.astype(str)):
+            for wrong in (np.full_like(density, np.nan), np.full(density.shape, complex(0.0, np.inf)), density.astype(str)):
                 with self.assertRaises(vehd.InputError):
                     operator @ wrong
             with self.assertRaises(vehd.ShapeError):
@@ -195,7 +195,7 @@ class Numbers(unittest.TestCase):
                 with self.subTest(path, given=wrong):
                     with self.assertRaises(vehd.InputError) as caught:
                         take(wrong)
-                    self.assertRegex(str(caught.exception), rf"^{name}\b.*; accepted: ")
+                    self.assertRegex(str(caught.exception), rf"\b{name}\b.*; accepted: ")
 
     def test_sides_are_named(self):
         with self.assertRaisesRegex(vehd.InputError, "side is 'interor'; accepted: interior, .* did you mean 'interior'"):

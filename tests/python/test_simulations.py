@@ -100,6 +100,13 @@ class Bits(InFolder):
         vehd.Simulation(scene, self.folder / "run", resume=True).close()
 
 
+class Tables(unittest.TestCase):
+    def test_the_nearest_column_is_named(self):
+        table = vehd.Simulation(vehd.Scene.from_text(SHEARED)).history
+        with self.assertRaisesRegex(KeyError, "no column 'extentx'; did you mean 'extent_x'"):
+            table["extentx"]
+
+
 class Views(unittest.TestCase):
     def setUp(self):
         self.run_ = vehd.Simulation(vehd.Scene.from_text(SHEARED))
@@ -194,7 +201,7 @@ class Interruptions(unittest.TestCase):
                 "child = os.fork()\n"
                 "if child == 0:\n"
                 "    other = vehd.Surface.sphere(degree=24).single_layer.matrix.trace()\n"
-                "    os._exit(abs(other - trace) < 1e-9)\n"
+                "    os._exit(int(abs(other - trace) < 1e-9))\n"
                 "assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 1\n")
         subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
@@ -207,7 +214,7 @@ class Interruptions(unittest.TestCase):
                 "    try:\n"
                 "        run.step()\n"
                 "    except RuntimeError as error:\n"
-                "        sys.exit('forked' in str(error))\n"
+                "        sys.exit(int('forked' in str(error)))\n"
                 "    sys.exit(0)\n"
                 "assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 1\n"
                 "assert not os.path.exists(os.path.join(sys.argv[2], 'summary.json'))\n"

@@ -153,6 +153,68 @@ class Layers(unittest.TestCase):
             self.assertIsNone(found.single)
 
 
+class Densities(unittest.TestCase):
+    """A density of degree 5 on a surface of degree 12: all that the same fields of degree 22 have, and no more errors."""
+
+    def setUp(self):
+        rng = np.random.default_rng(5)
+        self.s = bumpy(12)
+        self.finer = vehd.Surface(vehd.resize_degree(self.s.coefficients, 22))
+        self.scalar = vehd.resize_degree(rng.standard_normal(36), 12)
+        self.vector = vehd.resize_degree(rng.standard_normal((36, 3)), 12)
+
+    def test_nothing_of_them_is_cut_off_the_surface(self):
+        k = np.arange(0, self.s.weight.size, 41)
+        for distance in (1e-3, -1e-3, 0.0, 0.1, 1.0):
+            at = self.s.position[k] + distance * self.s.normal[k]
+            found = self.s.evaluate(at, single=self.scalar, double=self.scalar, stokes_single=self.vector,
+                                    stokes_double=self.vector, gradients=True)
+            scalar, vector = vehd.resize_degree(self.scalar, 22), vehd.resize_degree(self.vector, 22)
+            exact = self.finer.evaluate(at, single=scalar, double=scalar, stokes_single=vector, stokes_double=vector,
+                                        gradients=True, tolerance=1e-11)
+            for name in ("single", "single_gradient", "double", "double_gradient", "stokes_single", "stokes_double"):
+                difference = abs(getattr(found, name) - getattr(exact, name)).reshape(k.size, -1).max(axis=1)
+                np.testing.assert_array_less(difference, getattr(found, name + "_error") + 1e-13, err_msg=name)
+                self.assertLess(difference.max(), 1e-8, name)
+
+    def test_operators_lose_what_the_degree_cannot_hold(self):
+        for name in ("single_layer", "double_layer", "adjoint", "hypersingular", "stokes_single", "stokes_double"):
+            density = self.vector if name.startswith("stokes") else self.scalar
+            exact = getattr(self.finer, name) @ vehd.resize_degree(density, 22)
+            held = vehd.resize_degree(exact, 12)
+            lost = self.finer.synthesize(exact - vehd.resize_degree(held, 22))
+            found = self.s.synthesize(getattr(self.s, name) @ density - held)
+            self.assertLess(abs(found).max(), abs(lost).max(), name)
+
+    def test_weighted_operators_reach_the_errors_of_example_1(self):
+        for degree in (12, 24):
+            s = vehd.Surface.from_shape("radial", degree, upsampling=1, base=1.0, amplitude=0.2, exponent=-3.0,
+                                        modes=[{"n": 3, "m": 2, "a": 1.0}])
+            exact = vehd.point_source_fields(s, vehd.example1_sources())
+            jump = s.analyze(exact["potential_in"] - exact["potential_out"])
+            eta, current = 1 / 3, (2.0 * exact["flux_in"] - exact["flux_out"]) / 3.0
+            adjoint, of_jump = s.adjoint.weighted, s.hypersingular.weighted @ jump
+            q = np.linalg.solve(0.5 * np.eye(jump.size) + eta * adjoint.matrix,
+                                eta * of_jump + s.analyze(s.area_element * current))
+            found = 2 * (current + eta * s.synthesize(of_jump - adjoint @ q) / s.area_element)
+            charge = exact["flux_in"] - exact["flux_out"]
+            error = np.abs(found - charge).max() / np.abs(charge).max()
+            self.assertLess(error, 3.0 * vehd.example1(degree)["error_q"])
+
+    def test_weighted_operators_take_the_density_times_the_area_element(self):
+        s = bumpy(20)
+        f = vehd.resize_degree(self.scalar, 20)
+        weighted = s.analyze(s.area_element * s.synthesize(f))
+        adjoint = s.analyze(s.area_element * s.synthesize(s.adjoint @ f))
+        np.testing.assert_allclose(s.single_layer.weighted @ weighted, s.single_layer @ f, atol=1e-7)
+        np.testing.assert_allclose(s.adjoint.weighted @ weighted, adjoint, atol=1e-7)
+        np.testing.assert_allclose(s.double_layer.weighted @ f, s.double_layer @ f, atol=1e-12)
+        self.assertIs(s.adjoint.weighted.weighted, s.adjoint.weighted)
+        at = 1.5 * s.position[:3]
+        np.testing.assert_allclose(s.evaluate(at, single=weighted, weighted=True).single,
+                                   s.evaluate(at, single=f).single, atol=1e-9)
+
+
 class Solves(unittest.TestCase):
     def test_a_sphere_in_a_field(self):
         s = vehd.Surface.sphere(degree=8, quadrature=2.0)

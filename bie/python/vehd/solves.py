@@ -26,7 +26,8 @@ def point_sources(surface: Surface, sources: Sources) -> Sources:
         try:
             place, strength, inside = source
         except (TypeError, ValueError):
-            raise _core.InputError(f"sources[{i}] is {shown(source)}; accepted: (place, strength, whether it is inside)") from None
+            raise _core.InputError(f"sources[{i}] is {shown(source)}; accepted: (place, strength, whether it is "
+                                   "inside)") from None
         if not isinstance(inside, (bool, np.bool_)):
             raise _core.InputError(f"sources[{i}] has {shown(inside)} for whether it is inside; accepted: True or False")
         checked.append((reals(f"the place of sources[{i}]", place, (3,)), real(f"the strength of sources[{i}]", strength),

@@ -1,5 +1,6 @@
 """Histories of runs as tables."""
 
+import difflib
 import os
 from pathlib import Path
 from typing import Any, Union
@@ -20,6 +21,10 @@ class Table(dict):
         table = cls(core.columns())
         table.units = core.units()
         return table
+
+    def __missing__(self, name: Any) -> None:
+        nearest = difflib.get_close_matches(str(name), self, 1)
+        raise KeyError(f"no column {name!r}" + (f"; did you mean {nearest[0]!r}?" if nearest else ""))
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame; needs pandas."""
