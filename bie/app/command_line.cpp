@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "bie/app/commands.hpp"
+#include "bie/files/json_text.hpp"
 #include "bie/files/versions.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/interruption.hpp"
@@ -86,7 +87,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
 }
 
 void write_json(const CommonOptions& options, const nlohmann::json& result) {
-  if (options.json) options.json->write(result.dump(2) + "\n");
+  if (options.json) options.json->write(json_text(result));
 }
 
 int run_program(int argc, char** argv, const Ranks& ranks) {

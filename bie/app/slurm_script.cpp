@@ -5,16 +5,34 @@
 #include <algorithm>
 
 #include "bie/app/scene_choice.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
+namespace {
+
+/// A name that can stand between quotes in a line #SBATCH, where % begins a pattern. @throws InputError
+const std::string& sbatch_text(const std::string& name) {
+  const bool is_refused = std::ranges::any_of(name, [](unsigned char letter) {
+    return letter < 0x20 || letter == 0x7f || letter == '\'' || letter == '"' || letter == '\\' || letter == '%';
+  });
+  if (is_refused) {
+    throw InputError(fmt::format(
+        "--emit slurm: a line #SBATCH cannot hold {}; accepted: names without quotes, \\, % and control characters",
+        shell_word(name)));
+  }
+  return name;
+}
+
+}  // namespace
 
 std::string slurm_script(const SlurmTask& task) {
   // Time for the step in hand; Slurm may send the signal up to a minute early.
   const int notice = std::clamp(task.minutes * 60 / 10, 10, 300);
-  return fmt::format(R"(#!/bin/bash
+  return fmt::format(
+      R"(#!/bin/bash
 # {predicted}
 # sbatch {directory_word}/sweep.sbatch
-#SBATCH --job-name={name}
+#SBATCH --job-name="{name}"
 #SBATCH --array=0-{last}
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task={cpus}
@@ -22,7 +40,7 @@ std::string slurm_script(const SlurmTask& task) {
 #SBATCH --signal=TERM@{notice}
 #SBATCH --requeue
 #SBATCH --open-mode=append
-#SBATCH --output={directory}/slurm-%a.log
+#SBATCH --output="{directory}/slurm-%a.log"
 
 srun {program} sweep {sweep} -o {directory_word} --pack "$SLURM_ARRAY_TASK_ID" --jobs {jobs} --threads {threads}
 status=$?
@@ -32,12 +50,11 @@ if [ "$status" -eq 3 ]; then
 fi
 exit "$status"
 )",
-                     fmt::arg("predicted", task.predicted), fmt::arg("name", task.name),
-                     fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus),
-                     fmt::arg("minutes", task.minutes), fmt::arg("notice", notice),
-                     fmt::arg("directory", task.directory), fmt::arg("directory_word", shell_word(task.directory)),
-                     fmt::arg("program", shell_word(task.program)), fmt::arg("sweep", shell_word(task.sweep)),
-                     fmt::arg("jobs", task.n_jobs), fmt::arg("threads", task.n_threads));
+      fmt::arg("predicted", task.predicted), fmt::arg("name", sbatch_text(task.name)),
+      fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus), fmt::arg("minutes", task.minutes),
+      fmt::arg("notice", notice), fmt::arg("directory", sbatch_text(task.directory)),
+      fmt::arg("directory_word", shell_word(task.directory)), fmt::arg("program", shell_word(task.program)),
+      fmt::arg("sweep", shell_word(task.sweep)), fmt::arg("jobs", task.n_jobs), fmt::arg("threads", task.n_threads));
 }
 
 }  // namespace vehd

@@ -20,6 +20,7 @@ struct SlurmTask {
 
 /// Text of a script for sbatch: an array of jobs, each a worker of the sweep. Before the time is over a member is told
 /// to end; its run goes on when the member has its next turn, for which it asks itself.
+/// @throws InputError if Slurm cannot be given the name or the directory
 std::string slurm_script(const SlurmTask& task);
 
 }  // namespace vehd

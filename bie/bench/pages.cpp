@@ -29,7 +29,7 @@ void imitate_source_tree(const fs::path& folder, const fs::path& docs) {
 /// What is wrong; empty if nothing is.
 std::string failure_of(const std::string& command, const fs::path& folder) {
   const fs::path messages = folder / "messages";
-  const ChildEnd end = run_child({{"sh", "-c", "cd \"$0\" && " + command, folder.string()}, messages});
+  const ChildEnd end = run_child({{"sh", "-c", command}, messages, folder});
   if (end.start_problem == 0 && end.signal == 0 && end.exit_code == 0) return {};
   return fmt::format("{}: {}", command, text_of_file(messages));
 }

@@ -120,8 +120,8 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
   for (std::size_t i = 0; i < bars.groups.size(); ++i) {
     // One word a line.
     std::string name = bars.groups[i];
-    for (std::size_t at = name.find(' '); at != std::string::npos; at = name.find(' ')) name.replace(at, 1, "\\n");
-    names.push_back(fmt::format("\"{}\" {}", name, i));
+    std::ranges::replace(name, ' ', '\n');
+    names.push_back(fmt::format("{} {}", gnuplot_quoted(name), i));
   }
   script.text += fmt::format("set bmargin at screen {:.5f}\n", around_bottom_of_bars / panel_height);
   script.text += fmt::format(
@@ -186,8 +186,7 @@ void draw_bench(const std::vector<BenchPanel>& panels, const std::filesystem::pa
   const double one = has_bars ? 1.6 * panel_width : panel_width;
   const double width = std::ceil(one * static_cast<double>(panels.size()) + key_width_of(panels));
   BenchScript script;
-  script.text = gnuplot_terminal({std::filesystem::absolute(picture), PictureFormat::png},
-                                 {width, panel_height, letters, pixels});
+  script.text = gnuplot_terminal(PictureFormat::png, {width, panel_height, letters, pixels});
   script.text += fmt::format(
       "set multiplot\n"
       "set border lw {0:.3g}; set tics scale 0.6; unset key\n"
@@ -206,7 +205,7 @@ void draw_bench(const std::vector<BenchPanel>& panels, const std::filesystem::pa
                                1.0 - (around_top + 13.0 * static_cast<double>(script.in_key.size())) / panel_height);
     has_bars ? add_bars(panels[i], script) : add_curves(panels[i], script);
   }
-  run_gnuplot(script.text + "unset multiplot\n", std::filesystem::absolute(picture).parent_path());
+  draw_with_gnuplot(script.text + "unset multiplot\n", {picture, PictureFormat::png});
 }
 
 }  // namespace vehd

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bie/bench/redraw.hpp"
+#include "bie/files/json_text.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -28,7 +29,7 @@ nlohmann::ordered_json write_bench(const BenchResult& result, const BenchOutput&
   make_directory(output.directory);
   const auto file = [&](const std::string& end) { return output.directory / (result.name + end); };
   nlohmann::ordered_json json = json_of(result);
-  replace_file(file(".json"), json.dump(2) + "\n");
+  replace_file(file(".json"), json_text(json));
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
     replace_file(output.directory / (name_of_table(result, i) + ".csv"), csv_of(result.tables[i]));
   }

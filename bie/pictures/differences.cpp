@@ -9,6 +9,7 @@
 
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 constexpr int difference_width = 620;
 constexpr int difference_height = 560;
 constexpr int coordinates = 3;
+constexpr const char* data_name = "differences.dat";
 
 /// Names of the columns, from the first line "# x y z q …".
 std::vector<std::string> columns_of(const std::filesystem::path& data) {
@@ -38,14 +40,14 @@ std::string title_of(const std::string& column) {
 }
 
 /// Equal ranges on the three axes: gnuplot fits a cube into its panel, but not every box.
-std::string cube_around(const std::string& quoted_data) {
+std::string cube_around() {
   std::string script = "half = 0\n";
   const std::string axes = "xyz";
   for (std::size_t i = 0; i < axes.size(); ++i) {
     script += fmt::format(
-        "stats {0} using {1} name '{2}' nooutput\nhalf = {2}_max - {2}_min > 2*half ? 0.5*({2}_max - "
+        "stats '{0}' using {1} name '{2}' nooutput\nhalf = {2}_max - {2}_min > 2*half ? 0.5*({2}_max - "
         "{2}_min) : half\n",
-        quoted_data, i + 1, axes[i]);
+        data_name, i + 1, axes[i]);
   }
   for (const char axis : axes) {
     script += fmt::format("set {0}range [0.5*({0}_min + {0}_max) - half : 0.5*({0}_min + {0}_max) + half]\n", axis);
@@ -55,7 +57,7 @@ std::string cube_around(const std::string& quoted_data) {
 
 }  // namespace
 
-std::filesystem::path differences_file(const std::filesystem::path& directory) { return directory / "differences.dat"; }
+std::filesystem::path differences_file(const std::filesystem::path& directory) { return directory / data_name; }
 
 bool draw_differences(const std::filesystem::path& directory) {
   const std::filesystem::path data = differences_file(directory);
@@ -64,24 +66,24 @@ bool draw_differences(const std::filesystem::path& directory) {
   const auto n_fields = static_cast<int>(columns.size()) - coordinates;
   const int across = n_fields > 1 ? 2 : 1;
   const int down = (n_fields + across - 1) / across;
-  const std::string quoted_data = gnuplot_quoted(data.string());
-  std::string script = fmt::format(
-      "set terminal pngcairo size {},{} enhanced font 'Sans,16' background rgb 'white'\n"
-      "set output {}\n"
+  const PictureSize size{static_cast<double>(across * difference_width), static_cast<double>(down * difference_height),
+                         16.0 / 0.75, 1.0};
+  std::string script = gnuplot_terminal(PictureFormat::png, size);
+  script +=
       "set pm3d depthorder; unset key; set view 70,35,1.7; set view equal xyz; set xyplane at 0\n"
       "unset border; unset tics; set colorbox\n"
       "set cbtics in 1; set format cb '%g'\n"
-      "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n",
-      across * difference_width, down * difference_height, gnuplot_quoted((directory / "differences.png").string()));
-  script += cube_around(quoted_data);
+      "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n";
+  script += cube_around();
   script +=
       fmt::format("set multiplot layout {},{} title 'log_{{10}} of |FEM − BIE| over the largest value of the field'\n",
                   down, across);
   for (int i = 0; i < n_fields; ++i) {
-    script += fmt::format("set title '{}'\nsplot {} using 1:2:3:{} with pm3d\n", title_of(columns[coordinates + i]),
-                          quoted_data, coordinates + i + 1);
+    script += fmt::format("set title {}\nsplot '{}' using 1:2:3:{} with pm3d\n",
+                          gnuplot_quoted(title_of(columns[coordinates + i])), data_name, coordinates + i + 1);
   }
-  run_gnuplot(script + "unset multiplot\n", directory);
+  draw_with_gnuplot(script + "unset multiplot\n", {directory / "differences.png", PictureFormat::png},
+                    {{data_name, text_of_file(data)}});
   return true;
 }
 

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <regex>
+#include <string_view>
 
 #include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
@@ -11,12 +14,36 @@
 #include "bie/support/temporary.hpp"
 
 namespace vehd {
-void run_gnuplot(const std::string& script, const std::filesystem::path& folder) {
-  const TemporaryFile script_file(folder / ".gnuplot-script");
-  const TemporaryFile log_file(folder / ".gnuplot-messages");
-  replace_file(script_file.path(), script);
+namespace {
 
-  const ChildEnd end = run_child({{"gnuplot", script_file.path().string()}, log_file.path()});
+constexpr const char *script_name = "script", *messages_name = "messages", *picture_name = "picture";
+
+bool is_letter_digit_or_blank(char byte) {
+  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9') || byte == ' ';
+}
+
+/// Gnuplot 5.4 writes an & of a text into SVG as it is.
+std::string well_formed(const std::string& svg) {
+  static const std::regex entity("^&(amp|lt|gt|quot|apos|#[0-9]+|#x[0-9a-fA-F]+);");
+  constexpr std::size_t longest_entity = 10;
+  std::string result;
+  for (std::size_t at = 0; at < svg.size(); ++at) {
+    result += svg[at];
+    if (svg[at] == '&' && !std::regex_search(svg.substr(at, longest_entity), entity)) result += "amp;";
+  }
+  return result;
+}
+
+bool is_control_character(char byte) { return (byte >= 0 && byte < ' ') || byte == 0x7f; }
+
+}  // namespace
+
+void draw_with_gnuplot(const std::string& script, const PictureFile& picture, const std::vector<GnuplotFile>& files) {
+  const TemporaryFolder folder("vehd-picture");
+  for (const GnuplotFile& file : files) replace_file(folder.path() / file.name, file.bytes);
+  replace_file(folder.path() / script_name, script);
+  const std::filesystem::path messages = folder.path() / messages_name;
+  const ChildEnd end = run_child({{"gnuplot", script_name}, messages, folder.path()});
   if (end.start_problem == ENOENT) {
     throw InputError("gnuplot is not installed; on Debian it is the package gnuplot-nox");
   }
@@ -24,19 +51,47 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& folder)
     throw InputError(fmt::format("gnuplot cannot be started: {}", std::strerror(end.start_problem)));
   }
   if (end.signal != 0 || end.exit_code != 0) {
-    throw InputError(fmt::format("gnuplot failed: {}", text_of_file(log_file.path())));
+    throw InputError(fmt::format("gnuplot failed: {}", text_of_file(messages)));
   }
+  const std::string drawn = text_of_file(folder.path() / picture_name);
+  replace_file(picture.path, picture.format == PictureFormat::svg ? well_formed(drawn) : drawn);
+}
+
+std::string gnuplot_terminal(PictureFormat format, const PictureSize& size) {
+  const std::string font = fmt::format("enhanced font 'DejaVu Sans,{:.4g}' background rgb 'white'\nset output '{}'\n",
+                                       gnuplot_font_size(format, size.font, size.pixels_per_point), picture_name);
+  switch (format) {
+    case PictureFormat::png:
+      return fmt::format("set terminal pngcairo rounded size {},{} {}", std::lround(size.width * size.pixels_per_point),
+                         std::lround(size.height * size.pixels_per_point), font);
+    case PictureFormat::pdf: {
+      // Gnuplot cuts the size down to whole points.
+      constexpr double points_per_inch = 72.0, more = 0.01;
+      return fmt::format("set terminal pdfcairo rounded size {:.5f}in,{:.5f}in {}",
+                         (size.width + more) / points_per_inch, (size.height + more) / points_per_inch, font);
+    }
+    case PictureFormat::svg:
+      return fmt::format("set terminal svg standalone rounded size {:.0f},{:.0f} {}", size.width, size.height, font);
+  }
+  return "";
 }
 
 std::string gnuplot_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char letter : text) quoted += letter == '\'' ? std::string("''") : std::string(1, letter);
-  return quoted + "'";
+  std::string quoted = "\"";
+  for (const char byte : text) {
+    quoted += is_letter_digit_or_blank(byte) ? std::string(1, byte)
+                                             : fmt::format("\\{:03o}", static_cast<unsigned char>(byte));
+  }
+  return quoted + "\"";
 }
 
 std::string gnuplot_literal(const std::string& text) {
+  constexpr std::string_view notation = "_^{}@&~\\";
   std::string literal;
-  for (const char letter : text) literal += letter == '_' ? std::string("\\_") : std::string(1, letter);
+  for (const char letter : text) {
+    if (notation.find(letter) != std::string_view::npos) literal += '\\';
+    literal += is_control_character(letter) ? ' ' : letter;
+  }
   return literal;
 }
 

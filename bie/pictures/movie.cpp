@@ -20,9 +20,11 @@ constexpr double seconds_of_movie = 10.0;
 /// Slower ones stumble, faster ones hide what happens.
 constexpr double least_frame_rate = 4.0, largest_frame_rate = 25.0;
 
-void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path& messages) {
+/// In a folder of its own with names of vehd's: of a path ffmpeg would take "%" as a pattern and "x:" as a protocol.
+void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path& folder) {
+  const std::filesystem::path messages = folder / "messages";
   arguments.insert(arguments.begin(), {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y"});
-  const ChildEnd end = run_child({arguments, messages});
+  const ChildEnd end = run_child({arguments, messages, folder});
   if (end.start_problem == ENOENT) {
     throw InputError("ffmpeg is not installed, which makes movies; on Debian it is the package ffmpeg");
   }
@@ -38,9 +40,8 @@ void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path&
 
 void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::filesystem::path& file, Progress& progress) {
   const TemporaryFolder folder("vehd-movie");
-  const std::filesystem::path messages = folder.path() / "messages";
   // Better known before minutes of drawing than after.
-  run_ffmpeg({"-version"}, messages);
+  run_ffmpeg({"-version"}, folder.path());
   for (std::size_t i = 0; i < n_frames; ++i) {
     progress.update(static_cast<double>(i) / static_cast<double>(n_frames),
                     fmt::format("picture {} of {}", i + 1, n_frames));
@@ -49,13 +50,12 @@ void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::files
   progress.begin(1.0, "movie");
   const double rate =
       std::clamp(static_cast<double>(n_frames) / seconds_of_movie, least_frame_rate, largest_frame_rate);
-  const std::filesystem::path movie = folder.path() / "movie.mp4";
+  const char* movie = "movie.mp4";
   // Players want even sizes and this way to store colours; with the index in front a movie plays while it loads.
-  run_ffmpeg(
-      {"-framerate", fmt::format("{:.4g}", rate), "-i", (folder.path() / "%06d.png").string(), "-vf",
-       "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p", "-movflags", "+faststart", movie.string()},
-      messages);
-  replace_file(file, text_of_file(movie));
+  run_ffmpeg({"-framerate", fmt::format("{:.4g}", rate), "-i", "%06d.png", "-vf",
+              "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p", "-movflags", "+faststart", movie},
+             folder.path());
+  replace_file(file, text_of_file(folder.path() / movie));
 }
 
 std::filesystem::path plot_movie(const PlotTask& task, Progress& progress) {

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "bie/pictures/gnuplot.hpp"
-#include "bie/support/file_system.hpp"
-#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {
@@ -16,15 +13,15 @@ namespace {
 /// Height of a line of text with its indices, in units of the font size.
 constexpr double line_height = 1.5;
 
-/// Raw RGB for gnuplot, rows from the bottom.
-void write_raw(const std::filesystem::path& path, const Image& image) {
+/// RGB for gnuplot, rows from the bottom.
+std::string raw_bytes(const Image& image) {
   std::string bytes;
   bytes.reserve(image.rgb.size());
   for (int row = image.height - 1; row >= 0; --row) {
     const auto begin = image.rgb.begin() + std::ptrdiff_t{row} * image.width * 3;
     bytes.append(begin, begin + std::ptrdiff_t{image.width} * 3);
   }
-  replace_file(path, bytes);
+  return bytes;
 }
 
 /// Width of a character in units of the font size, none too small.
@@ -97,10 +94,7 @@ Box box_of(const PageText& text) {
 }
 
 void draw_page(const Page& page, const PictureFile& picture) {
-  const std::filesystem::path folder = std::filesystem::absolute(picture.path).parent_path();
-  PictureFile target = picture;
-  target.path = std::filesystem::absolute(picture.path);
-  std::string script = gnuplot_terminal(target, {page.width, page.height, 8.0, page_pixels});
+  std::string script = gnuplot_terminal(picture.format, {page.width, page.height, 8.0, page_pixels});
   script += fmt::format(
       "unset border; unset tics; unset key\n"
       "set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1\n"
@@ -113,19 +107,18 @@ void draw_page(const Page& page, const PictureFile& picture) {
     tag += static_cast<int>(line.points.size());
   }
   for (const PageText& text : page.texts) script += text_script(text, picture.format);
-  std::vector<std::unique_ptr<TemporaryFile>> files;
+  std::vector<GnuplotFile> files;
   std::string plot = "plot ";
   for (const PageImage& item : page.images) {
-    files.push_back(std::make_unique<TemporaryFile>(folder / fmt::format(".image-{}.rgb", files.size())));
-    write_raw(files.back()->path(), item.image);
+    files.push_back({fmt::format("image-{}.rgb", files.size()), raw_bytes(item.image)});
     const double dx = item.box.width() / item.image.width, dy = item.box.height() / item.image.height;
     plot += fmt::format(
-        "{} binary array=({},{}) dx={:.9g} dy={:.9g} origin=({:.9g},{:.9g}) format='%uchar' using 1:2:3 with "
+        "'{}' binary array=({},{}) dx={:.9g} dy={:.9g} origin=({:.9g},{:.9g}) format='%uchar' using 1:2:3 with "
         "rgbimage, ",
-        gnuplot_quoted(files.back()->path().string()), item.image.width, item.image.height, dx, dy,
-        item.box.left + 0.5 * dx, item.box.bottom + 0.5 * dy);
+        files.back().name, item.image.width, item.image.height, dx, dy, item.box.left + 0.5 * dx,
+        item.box.bottom + 0.5 * dy);
   }
-  run_gnuplot(script + plot + "NaN notitle\n", folder);
+  draw_with_gnuplot(script + plot + "NaN notitle\n", picture, files);
 }
 
 }  // namespace vehd

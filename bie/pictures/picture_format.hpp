@@ -33,9 +33,6 @@ struct PictureSize {
   double pixels_per_point = 4.0;  ///< of PNG
 };
 
-/// The lines of a gnuplot script that open a picture.
-std::string gnuplot_terminal(const PictureFile& picture, const PictureSize& size);
-
 /// Width of a line in points as gnuplot wants it for this format.
 double gnuplot_line_width(PictureFormat format, double points, double pixels_per_point);
 

@@ -195,8 +195,7 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
 
   const int columns = panels.size() > 1 ? 2 : 1, rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
   const double width = columns * panel_width, height = rows * panel_height;
-  const PictureFile target{std::filesystem::absolute(file.path), file.format};
-  std::string script = gnuplot_terminal(target, {width, height, letter_size, Drawing::pixels});
+  std::string script = gnuplot_terminal(file.format, {width, height, letter_size, Drawing::pixels});
   script += fmt::format(
       "set multiplot\n"
       "set border lw {0:.3g}\n"
@@ -219,7 +218,7 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
     const bool is_shared = axes.size() == 1 && (axes.front().curves.size() > 1 || axes.front().is_logarithmic);
     script += is_shared ? panel_of_common_axis(axes.front(), drawing) : panel_of_own_axes(panels[i], drawing);
   }
-  run_gnuplot(script + "unset multiplot\n", target.path.parent_path());
+  draw_with_gnuplot(script + "unset multiplot\n", file);
   return true;
 }
 

@@ -26,6 +26,7 @@ constexpr int connection_to_owner = STDERR_FILENO + 1;
 struct Start {
   char* const* words;
   const char* output;  ///< null: none of its own
+  const char* folder;  ///< null: none of its own
 };
 
 long milliseconds_now() {
@@ -52,7 +53,7 @@ ChildEnd end_of(int status) {
     ::dup2(::open(start.output, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666), STDOUT_FILENO);
     ::dup2(STDOUT_FILENO, STDERR_FILENO);
   }
-  ::execvp(start.words[0], start.words);
+  if (start.folder == nullptr || ::chdir(start.folder) == 0) ::execvp(start.words[0], start.words);
   report({.start_problem = errno});
   ::_exit(1);
 }
@@ -131,7 +132,8 @@ ChildEnd run_child(const ChildProgram& program) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const Start start{pointers.data(), program.output.empty() ? nullptr : program.output.c_str()};
+  const auto path_or_null = [](const std::filesystem::path& path) { return path.empty() ? nullptr : path.c_str(); };
+  const Start start{pointers.data(), path_or_null(program.output), path_or_null(program.folder)};
   std::array<int, 2> connection{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, connection.data()) != 0) return {.start_problem = errno};
   // What this program has printed so far comes first.

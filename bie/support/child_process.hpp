@@ -10,6 +10,7 @@ namespace vehd {
 struct ChildProgram {
   std::vector<std::string> words;  ///< its name, looked for in PATH, and its arguments
   std::filesystem::path output;    ///< takes its standard output and error; empty: they go where those of this one go
+  std::filesystem::path folder{};  ///< its working directory; empty: that of this one
 };
 
 /// How it ended.

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "bie/files/json_text.hpp"
 #include "bie/runs/sweep/worker_id.hpp"
 #include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
@@ -51,7 +52,7 @@ void write_result(const std::filesystem::path& directory, const RunResult& resul
                             {"seconds", result.seconds},
                             {"final", result.final_values},
                             {"units", result.units}};
-  replace_file(result_file(directory), json.dump(2) + "\n");
+  replace_file(result_file(directory), json_text(json));
 }
 
 std::optional<RunResult> read_result(const std::filesystem::path& directory) {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <set>
 
+#include "bie/files/json_text.hpp"
 #include "bie/runs/sweep/claim.hpp"
 #include "bie/runs/sweep/run_result.hpp"
 #include "bie/support/csv.hpp"
@@ -152,7 +153,7 @@ nlohmann::json description_of(const SweepFile& sweep, const ColumnCells& columns
 
 SweepCount write_sweep_table(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs) {
   const ColumnCells columns(sweep);
-  replace_shared_file(paths.description(), description_of(sweep, columns).dump(2) + "\n");
+  replace_shared_file(paths.description(), json_text(description_of(sweep, columns)));
   TableText table = table_text(paths, sweep, runs, columns);
   // Whoever writes last has seen all: what another worker has finished meanwhile is looked for once more.
   for (std::string written; table.text != written; table = table_text(paths, sweep, runs, columns)) {
