@@ -226,10 +226,9 @@ class SoundCheck {
       if constexpr (std::is_same_v<decltype(value), const std::int64_t&>) require(value >= 0, name);
     });
     require(companion.start_order >= lowest_order && companion.start_order <= highest_order, "start_order");
-    require(companion.waiting.size() == 0 || companion.waiting.cols() == companion.node.size(), state_of_companion);
-    require(
-        companion.node.size() == 0 || companion.sizes.size() == 0 || companion.sizes.size() == companion.node.size(),
-        state_of_companion);
+    // Sizes are those of all rows so far; there is no error before the first comparison.
+    require(companion.waiting.size() == 0 || companion.waiting.cols() == companion.sizes.size(), state_of_companion);
+    require(companion.node.size() == 0 || companion.node.size() == companion.sizes.size(), state_of_companion);
   }
 
  private:

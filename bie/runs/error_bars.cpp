@@ -389,7 +389,7 @@ CompanionState ErrorBars::state() const {
                        {},
                        sizes_,
                        Vector{{work_.of_run, work_.of_companion}}};
-  state.waiting.resize(std::ssize(waiting_), node_.size());
+  state.waiting.resize(std::ssize(waiting_), sizes_.size());
   for (Index i = 0; i < state.waiting.rows(); ++i) {
     state.waiting.row(i) = waiting_[static_cast<std::size_t>(i)].transpose();
   }
