@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 
 #include "bie/app/command_line.hpp"
@@ -14,6 +15,8 @@ int main(int argc, char** argv) {
     setenv("OMP_WAIT_POLICY", "passive", 1);
     execv("/proc/self/exe", argv);
   }
+  // A write beyond the limit of file sizes (ulimit -f) then fails as on a full disk, and the run stops in order.
+  std::signal(SIGXFSZ, SIG_IGN);
 #ifdef VEHD_MPI
   return vehd::run_program(argc, argv, vehd::mpi_ranks());
 #else
