@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
 #include <string_view>
 
+#include "bie/geometry/roundness.hpp"
+#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/toml_values.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -46,6 +52,19 @@ class PorationChecks {
              "\"lysis_tension\" in [poration] has no effect without a tension; accepted: \"inextensible\" and "
              "\"mobile\" in [membrane] true");
     }
+    if (poration_.lysis_tension && is_sphere()) {
+      refuse("lysis_tension",
+             "\"lysis_tension\" in [poration] of a sphere: a uniform tension of any size moves nothing there, so the "
+             "tension is not determined; accepted: another [shape], or \"threshold_Vm\" alone");
+    }
+  }
+
+  [[nodiscard]] bool is_sphere() const {
+    const Matrix position = initial_position(scene_);
+    const int order = order_of(position.rows());
+    const Surface shape = make_surface(SphereTransform(order, make_grid(order)), position);
+    const double radius = std::sqrt(surface_area(shape) / (4.0 * std::numbers::pi));
+    return distance_variation(shape) < thresholds::sphere_variation * radius;
   }
 
   void check_reaction() const {

@@ -20,7 +20,8 @@ void add_poration_keys(KeyTable& table) {
   table.begin("poration", {"criterion"});
   table.add("threshold_Vm", above_zero, {"V_c", "potential", "of |V_m|; this, lysis_tension or both"}, of_poration,
             &PorationScene::threshold_potential);
-  table.add("lysis_tension", above_zero, {"λ_c", "force/length", "of λ + C_m V_m²/2; this, threshold_Vm or both"},
+  table.add("lysis_tension", above_zero,
+            {"λ_c", "force/length", "of λ + C_m V_m²/2, which a sphere does not determine; this, threshold_Vm or both"},
             of_poration, &PorationScene::lysis_tension);
   table.begin("poration", {"porosity"});
   table

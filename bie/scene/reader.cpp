@@ -230,12 +230,13 @@ Scene scene_of(const toml::table& file, const std::string& name, const std::file
 void check_one(Scene& scene, const toml::table& file, const std::string& name, const std::filesystem::path& folder,
                bool is_heavy) {
   check_scene(scene, file, name, is_heavy);
-  check_poration(scene, file, name);
   check_places(scene, file, name);
   if (scene.shape.kind == ShapeKind::file) {
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
   }
   check_shape_file(scene, file, name);
+  check_shape_size(scene, file, name);
+  check_poration(scene, file, name);
 }
 
 /// A scene with tables [[vesicle]].

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bie/scene/initial_shape.hpp"
+#include "bie/scene/placement.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/toml_values.hpp"
@@ -311,6 +312,15 @@ class Checks {
 
 void check_scene(const Scene& scene, const toml::table& table, const std::string& file, bool is_heavy) {
   Checks(scene, table, file, is_heavy).run();
+}
+
+void check_shape_size(const Scene& scene, const toml::table& table, const std::string& file) {
+  const ShapeSize size = size_of(initial_position(scene));
+  const auto is_accepted = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (is_accepted(size.area) && is_accepted(size.volume)) return;
+  throw InputError(
+      fmt::format("{}: the shape in [shape] has the area {:g} and the volume {:g}; accepted: > 0 and finite",
+                  place(*table.get("shape"), file), size.area, size.volume));
 }
 
 void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file) {

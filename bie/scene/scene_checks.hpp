@@ -14,6 +14,9 @@ namespace vehd {
 /// @throws InputError "file:line: ..." at the key to blame
 void check_scene(const Scene& scene, const toml::table& table, const std::string& file, bool is_heavy = false);
 
+/// The shape, whose area and volume must be positive and finite. @param scene  of one vesicle @throws InputError
+void check_shape_size(const Scene& scene, const toml::table& table, const std::string& file);
+
 /// The symmetry that the scene insists on; builds its shape. @throws InputError
 void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file);
 

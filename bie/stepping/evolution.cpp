@@ -226,6 +226,12 @@ StepGoal Evolution::goal_for(const EventTimes& events, const std::vector<Raise>&
 /// @param former  tries of the same step, which count with this one
 StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const StepAttempt& former,
                                    const StepGoal& goal) {
+  // Steps that are shorter would not change the time at the end.
+  if (!(std::min(wanted, setup_.control.largest) >= setup_.control.smallest)) {
+    throw ConvergenceError(fmt::format(
+        "no acceptable step from time {}: one of {} is needed, but all below {} are lost in the rounding of end_time",
+        setup_.time_text(state_.time), setup_.time_text(wanted), setup_.time_text(setup_.control.smallest)));
+  }
   State from = state_;
   // Equal up to rounding: the step must end on the event, not just before it.
   from.dt_next = plan.reaches_event ? std::max(wanted, plan.dt_limit) : wanted;

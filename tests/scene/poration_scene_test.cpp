@@ -51,6 +51,22 @@ BOOST_AUTO_TEST_CASE(what_it_needs_or_does_not_go_with_is_said) {
                      "model = \"criterion\"\nthreshold_Vm = 1\n", "\"average\""));
 }
 
+BOOST_AUTO_TEST_CASE(the_tension_of_a_sphere_is_no_criterion) {
+  const auto message = [](const std::string& shape, const std::string& criterion) {
+    return message_of("[shape]\n" + shape + "\n[numerics]\ndt = 0.1\nend_time = 1\ndegree = 6\n" + in_a_field +
+                      "[poration]\nmodel = \"criterion\"\n" + criterion);
+  };
+  const std::string lysis = "lysis_tension = 1\n", potential = "threshold_Vm = 1\n";
+  const std::string sphere = "kind = \"ellipsoid\"\naxes = [2, 2, 2]\ncentre = [1, 2, 3]";
+  for (const std::string& round :
+       {sphere, std::string("kind = \"radial\"\nbase = 3.0\nmodes = [{n = 0, m = 0, a = 0.1}]")}) {
+    const std::string refused = message(round, potential + lysis);
+    BOOST_TEST(refused.find("\"lysis_tension\" in [poration] of a sphere") != std::string::npos, refused);
+  }
+  BOOST_TEST(message(sphere, potential) == "");
+  BOOST_TEST(message("kind = \"ellipsoid\"\naxes = [2, 2, 2.01]", lysis) == "");
+}
+
 namespace {
 
 const std::string porosity_keys =

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bie/geometry/roundness.hpp"
 #include "bie/physics/bending.hpp"
 #include "bie/physics/tension.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -39,10 +40,8 @@ Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membr
 }
 
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane) {
-  if (!parameters.inextensible) return false;
-  const Surface& surface = membrane.surface;
-  const Vector radius = (surface.position.rowwise() - centroid(surface).transpose()).rowwise().norm();
-  return radius.maxCoeff() - radius.minCoeff() < thresholds::sphere_variation * membrane.radius;
+  return parameters.inextensible &&
+         distance_variation(membrane.surface) < thresholds::sphere_variation * membrane.radius;
 }
 
 namespace {

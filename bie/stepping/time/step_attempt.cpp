@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bie/stepping/time/deferred_correction.hpp"
@@ -44,6 +45,14 @@ void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& ph
   }
 }
 
+bool is_finite(const State& state) {
+  return std::ranges::all_of(state.vesicles, [](const VesicleState& vesicle) {
+    bool result = vesicle.position.allFinite();
+    for_each_scalar(vesicle, [&](const Vector& values) { result = result && values.allFinite(); });
+    return result;
+  });
+}
+
 }  // namespace
 
 StepAttempt attempt_step(const Model& model, const Discretisation& discretisation, const State& state,
@@ -62,6 +71,8 @@ StepAttempt attempt_step(const Model& model, const Discretisation& discretisatio
       attempt.state = physics.end_state(end.node);
       attempt.accepted = true;
     }
+    if (attempt.accepted && !is_finite(attempt.state))
+      throw ConvergenceError("the state behind the step is not finite");
   } catch (const ConvergenceError& error) {
     attempt.accepted = false;
     attempt.factor = 0.5;
