@@ -35,7 +35,7 @@ std::filesystem::path directory_of(const RunOptions& options) {
 /// What to do about a run that has stopped.
 std::string next_step(const RunOptions& options, const Scene& scene, const RunOutcome& outcome) {
   const std::string command =
-      fmt::format("vehd run {} -o {} --resume", options.scene.text(), directory_of(options).string());
+      fmt::format("vehd run {} -o {} --resume", options.scene.text(), shell_word(directory_of(options).string()));
   if (!outcome.cannot_step) return "continue with: " + command;
   return fmt::format("unchanged it would stop there again: {} of {}, then continue with: {}",
                      what_may_help(scene.numerics), options.scene.source.file.string(), command);
@@ -55,6 +55,9 @@ void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
   }
   if (summary.contains("error_bars") && summary["error_bars"].contains("text")) {
     fmt::print("largest estimated error: {}\n", summary["error_bars"]["text"].get<std::string>());
+  }
+  if (const auto symmetry = summary["symmetry"].get<std::string>(); symmetry != "none") {
+    fmt::print("symmetry: {} (imposed by the start: nothing that breaks it can grow)\n", symmetry);
   }
   fmt::print("verdict: {}\n", summary["verdict"].get<std::string>());
   fmt::print("files: {}\n", paths.directory.string());

@@ -99,7 +99,7 @@ BenchTable empty_stability_table() {
 std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, const RunOutcome& outcome, bool brief,
                               bool& failed) {
   const HistoryTable history(run.paths.history());
-  const std::string verdict = verdict_of(history, hard.scene.numerics.tolerance, outcome.reason);
+  const std::string verdict = verdict_of(history, trust_demands(hard.scene), outcome.reason);
   const std::vector<Finding> findings = findings_of(hard, history, brief);
   const Finding worst = *std::max_element(findings.begin(), findings.end(),
                                           [](const Finding& a, const Finding& b) { return a.share() < b.share(); });

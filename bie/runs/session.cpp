@@ -3,10 +3,12 @@
 #include <fstream>
 #include <utility>
 
+#include "bie/files/json_text.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/summary.hpp"
 #include "bie/runs/worst_error.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -22,6 +24,12 @@ bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths&
   if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
   const nlohmann::json summary = nlohmann::json::parse(std::ifstream(paths.summary()), nullptr, false);
   return summary.is_object() && summary.value("completed", nlohmann::json()) == true;
+}
+
+/// That of the start, which all states of the run are kept to.
+std::string imposed_symmetry(const Scene& scene) {
+  const Problem problem = problem_of(scene);
+  return symmetry_text(problem.symmetry, problem.frame);
 }
 
 }  // namespace
@@ -56,10 +64,11 @@ RunOutcome RunSession::simulate(Interruption& interruption, TellStatus tell,
 nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {
   const HistoryTable history(paths_.history());
   nlohmann::json summary = summary_of(history, scene_, read_checkpoint(paths_.checkpoint()), outcome);
+  summary["symmetry"] = imposed_symmetry(scene_);
   if (scene_.numerics.error_bars) {
     summary["error_bars"] = worst_error(history, HistoryTable(paths_.history_error()));
   }
-  replace_file(paths_.summary(), summary.dump(2) + "\n");
+  replace_file(paths_.summary(), json_text(summary));
   return summary;
 }
 

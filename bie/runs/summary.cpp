@@ -56,7 +56,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   const std::int64_t steps = history.n_steps();
   nlohmann::json json;
   json["completed"] = outcome.completed;
-  json["verdict"] = verdict_of(history, scene.numerics.tolerance, outcome.reason);
+  json["verdict"] = verdict_of(history, trust_demands(scene), outcome.reason);
   if (!outcome.completed) json["reason"] = outcome.reason;
   json["changes"] = changes_in(history.units(scene.units).of("time"), checkpoint.changes);
   json["time"] = last(history.column("time"));

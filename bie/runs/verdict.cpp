@@ -11,12 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include "bie/scene/vesicles.hpp"
+
 namespace vehd {
 namespace {
 
-constexpr std::array limits = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"volume_drift", 1e-6},
-                               TrustLimit{"strain_max", 0.05}, TrustLimit{"spectrum_tail", 5e-3},
+constexpr std::array limits = {TrustLimit{"volume_drift", 1e-6}, TrustLimit{"spectrum_tail", 5e-3},
                                TrustLimit{"quadrature_error", 1e-3}};
+/// Of an inextensible membrane.
+constexpr std::array limits_of_area = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"strain_max", 0.05}};
 
 /// Steps ring where the tension swings from one to the next by this share of its largest value, and the tail of the
 /// spectrum by this factor with it: what a field that jumps does to the tension leaves the shape alone, and a collapse
@@ -60,9 +63,9 @@ std::optional<double> first_time(const HistoryTable& history, const std::vector<
   return history.column("time")[static_cast<std::size_t>(first - values.begin())];
 }
 
-std::vector<std::string> beyond_limits(const HistoryTable& history, std::optional<double> tolerance) {
+std::vector<std::string> beyond_limits(const HistoryTable& history, const TrustDemands& demands) {
   std::vector<std::string> findings;
-  for (const TrustLimit& limit : trust_limits(tolerance)) {
+  for (const TrustLimit& limit : trust_limits(demands)) {
     const std::vector<double>& values = history.column(limit.column);
     const auto time = first_time(history, values, [&](double value) { return std::abs(value) <= limit.largest; });
     if (!time) continue;
@@ -198,27 +201,38 @@ std::optional<std::string> rejections(const HistoryTable& history) {
 
 }  // namespace
 
-std::vector<TrustLimit> trust_limits(std::optional<double> tolerance) {
-  std::vector<TrustLimit> all(limits.begin(), limits.end());
+TrustDemands trust_demands(const Scene& scene) {
+  const auto keeps_area = [](const Scene& one) { return one.membrane.inextensible; };
+  return {scene.numerics.tolerance, std::ranges::all_of(each_alone(scene), keeps_area),
+          scene.poration && scene.poration->model != PorationModel::criterion};
+}
+
+std::vector<TrustLimit> trust_limits(const TrustDemands& demands) {
+  std::vector<TrustLimit> all;
+  if (demands.keeps_area) all.assign(limits_of_area.begin(), limits_of_area.end());
+  all.insert(all.end(), limits.begin(), limits.end());
   // The highest degree that the scene allows was not enough.
-  if (tolerance) all.push_back({"truncation", *tolerance});
+  if (demands.tolerance) all.push_back({"truncation", *demands.tolerance});
   return all;
 }
 
-std::string verdict_of(const HistoryTable& history, std::optional<double> tolerance, const std::string& stop_reason) {
-  std::vector<std::string> findings = beyond_limits(history, tolerance);
+std::string verdict_of(const HistoryTable& history, const TrustDemands& demands, const std::string& stop_reason) {
+  std::vector<std::string> findings = beyond_limits(history, demands);
   if (auto finding = ringing(history)) findings.push_back(std::move(*finding));
   // With a tolerance attempts are what finds the step.
-  if (!tolerance) {
+  if (!demands.tolerance) {
     if (auto finding = rejections(history)) findings.push_back(std::move(*finding));
   }
   // By themselves no fault: a membrane is compressed at the start of a pulse that ends before anything has grown.
-  const double unseen = tolerance.value_or(most_unseen);
+  const double unseen = demands.tolerance.value_or(most_unseen);
   if (const auto wrinkles = unseen_wrinkles(history);
       wrinkles && (wrinkles->matters(unseen) || !findings.empty() || !stop_reason.empty())) {
     findings.push_back(wrinkles->text(history, unseen));
   }
   if (auto finding = narrow_gap(history)) findings.push_back(std::move(*finding));
+  if (demands.tolerance && demands.porates) {
+    findings.emplace_back("poration is not covered by the tolerance: the degree follows shape and V_m alone");
+  }
   const std::string text = fmt::format("{}", fmt::join(findings, "; "));
   if (stop_reason.empty()) return text.empty() ? trustworthy : text;
   return text.empty() ? "stopped: " + stop_reason : fmt::format("stopped: {}; until then {}", stop_reason, text);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bie/runs/history.hpp"
+#include "bie/scene/scene.hpp"
 
 namespace vehd {
 
@@ -17,19 +18,24 @@ struct TrustLimit {
   double largest;
 };
 
+/// What a scene asks of the numbers of its run.
+struct TrustDemands {
+  std::optional<double> tolerance{};  ///< which the share left out by the degree must keep; none: fixed steps
+  bool keeps_area = true;             ///< every membrane is inextensible
+  bool porates = false;               ///< it conducts more where it is porated
+};
+TrustDemands trust_demands(const Scene& scene);
+
 /// All that are judged in this way.
-/// @param tolerance  see verdict_of
-std::vector<TrustLimit> trust_limits(std::optional<double> tolerance);
+std::vector<TrustLimit> trust_limits(const TrustDemands& demands);
 
 /// Parts of the membrane that are nearer to each other, in grid spacings, are one to the grid.
 constexpr double least_trusted_separation = 1.0;
 
 /// Whether the numbers of a run can be relied on, judged from its whole history.
-/// @param tolerance    of the scene, which the share left out by the degree must keep; none: fixed steps
 /// @param stop_reason  why the run ended before its time; empty if it did not
 /// @return "trustworthy", or which number is not and since when; for a run that stopped early "stopped: " with the
 ///         reason, and behind it what is not to be trusted of the time until then
-std::string verdict_of(const HistoryTable& history, std::optional<double> tolerance,
-                       const std::string& stop_reason = {});
+std::string verdict_of(const HistoryTable& history, const TrustDemands& demands, const std::string& stop_reason = {});
 
 }  // namespace vehd

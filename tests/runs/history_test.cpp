@@ -127,9 +127,9 @@ BOOST_AUTO_TEST_CASE(a_history_of_an_earlier_program_goes_on_with_its_columns) {
 }
 
 BOOST_AUTO_TEST_CASE(the_verdict_says_times_with_their_unit) {
-  BOOST_TEST(vehd::verdict_of(vehd::HistoryTable(Written(kUnits).path), std::nullopt, "").find("since time 1 ms") !=
+  BOOST_TEST(vehd::verdict_of(vehd::HistoryTable(Written(kUnits).path), {}, "").find("since time 1 ms") !=
              std::string::npos);
-  BOOST_TEST(vehd::verdict_of(vehd::HistoryTable(Written({}).path), std::nullopt, "").find("since time 5 (") !=
+  BOOST_TEST(vehd::verdict_of(vehd::HistoryTable(Written({}).path), {}, "").find("since time 5 (") !=
              std::string::npos);
 }
 

@@ -3,17 +3,18 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "bie/scene/reader.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
 
 /// Verdict of a run whose rows are these.
-std::string judged(const std::vector<vehd::HistoryRow>& rows, std::optional<double> tolerance = std::nullopt,
+std::string judged(const std::vector<vehd::HistoryRow>& rows, const vehd::TrustDemands& demands = {},
                    const std::string& stop_reason = {}) {
   const TemporaryDirectory directory;
   vehd::HistoryFile file(directory / "history.csv", 0, 0);
   for (const vehd::HistoryRow& row : rows) file.append(row);
-  return vehd::verdict_of(vehd::HistoryTable(directory / "history.csv"), tolerance, stop_reason);
+  return vehd::verdict_of(vehd::HistoryTable(directory / "history.csv"), demands, stop_reason);
 }
 
 vehd::HistoryRow row_at(double time, double area_drift, double strain) {
@@ -61,8 +62,29 @@ BOOST_AUTO_TEST_CASE(degree_that_the_tolerance_finds_too_low_is_reported) {
   vehd::HistoryRow row = row_at(1, 0, 0);
   row.truncation = 2e-4;
   BOOST_TEST(judged({row_at(0, 0, 0), row}) == "trustworthy");
-  BOOST_TEST(judged({row_at(0, 0, 0), row}, 1e-3) == "trustworthy");
-  BOOST_TEST(judged({row_at(0, 0, 0), row}, 1e-4) == "truncation above 0.0001 since time 1 (worst 0.0002)");
+  BOOST_TEST(judged({row_at(0, 0, 0), row}, {1e-3}) == "trustworthy");
+  BOOST_TEST(judged({row_at(0, 0, 0), row}, {1e-4}) == "truncation above 0.0001 since time 1 (worst 0.0002)");
+}
+
+BOOST_AUTO_TEST_CASE(only_an_inextensible_membrane_has_to_keep_its_area) {
+  const auto judged_as = [](const std::string& membrane) {
+    const vehd::Scene scene = vehd::parse_scene(
+        "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 2]\n[numerics]\ndt = 0.1\nend_time = 1\n[membrane]\n" + membrane,
+        "scene.toml", ".");
+    return judged({row_at(0, 0, 0), row_at(1, 0.1, 0.2)}, vehd::trust_demands(scene));
+  };
+  BOOST_TEST(judged_as("inextensible = false") == "trustworthy");
+  BOOST_TEST(judged_as("inextensible = true").find("area_drift above") == 0u);
+  vehd::HistoryRow leaky = row_at(1, 0.1, 0.2);
+  leaky.diagnostics.vesicles[0].volume_drift = 1e-3;
+  BOOST_TEST(judged({row_at(0, 0, 0), leaky}, {.keeps_area = false}).find("volume_drift above") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_tolerance_does_not_cover_pores) {
+  const std::vector<vehd::HistoryRow> rows = {row_at(0, 0, 0), row_at(1, 0, 0)};
+  BOOST_TEST(judged(rows, {.tolerance = 1e-3, .porates = true}).find("not covered by the tolerance") !=
+             std::string::npos);
+  BOOST_TEST(judged(rows, {.porates = true}) == "trustworthy");
 }
 
 BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is_wrong) {
@@ -75,10 +97,10 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}, {}, "no acceptable step") ==
              "stopped: no acceptable step; until then " + wrinkles);
   compressed.truncation = 0.1;
-  BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) ==
+  BOOST_TEST(judged({row_at(0, 0, 0), compressed}, {1e-3}) ==
              "truncation above 0.001 since time 1 (worst 0.1); " + wrinkles);
   compressed.diagnostics.vesicles[0].wrinkle_degree = 9.0;
-  BOOST_TEST(judged({row_at(0, 0, 0), compressed}, 1e-3) == "truncation above 0.001 since time 1 (worst 0.1)");
+  BOOST_TEST(judged({row_at(0, 0, 0), compressed}, {1e-3}) == "truncation above 0.001 since time 1 (worst 0.1)");
 }
 
 // Of 1e-4 a growth by e³ = 20 makes 2e-3, one by e⁸ 0.3.
@@ -97,7 +119,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_that_had_the_time_to_grow_unseen_are_reported) {
       "0.0001 that it cut off may have grown ";
   BOOST_TEST(judged({compressed(0, 5), compressed(1, 3)}) == wrinkles + "3e+03 times");
   BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}) == "trustworthy");
-  BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}, 1e-3) == wrinkles + "2e+01 times");
+  BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}, {1e-3}) == wrinkles + "2e+01 times");
   // Nothing was there to grow.
   BOOST_TEST(judged({compressed(0, 5, 20.0, 0.0), compressed(1, 3)}) == "trustworthy");
   // Seen, and hence followed by the tolerance.
@@ -110,7 +132,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_that_had_the_time_to_grow_unseen_are_reported) {
 BOOST_AUTO_TEST_CASE(run_that_stopped_says_so_and_why) {
   const std::vector<vehd::HistoryRow> good = {row_at(0, 0, 0), row_at(1, 0, 0)};
   BOOST_TEST(judged(good, {}, "no acceptable step") == "stopped: no acceptable step");
-  BOOST_TEST(judged({row_at(0, 0, 0), row_at(1, 0, 0.1)}, 1e-3, "a signal came") ==
+  BOOST_TEST(judged({row_at(0, 0, 0), row_at(1, 0, 0.1)}, {1e-3}, "a signal came") ==
              "stopped: a signal came; until then strain_max above 0.05 since time 1 (worst 0.1)");
   BOOST_TEST(judged({}, {}, "no start") == "stopped: no start");
 }
@@ -128,7 +150,7 @@ BOOST_AUTO_TEST_CASE(steps_that_ring_are_seen) {
   };
   BOOST_TEST(judged(rows(40.0, 5.0)).starts_with("tension_integral and spectrum_tail swing from step to step since "),
              judged(rows(40.0, 5.0)));
-  BOOST_TEST(judged(rows(40.0, 5.0), 1e-3).find("swing") != std::string::npos);
+  BOOST_TEST(judged(rows(40.0, 5.0), {1e-3}).find("swing") != std::string::npos);
   BOOST_TEST(judged(rows(1.0, 5.0)) == "trustworthy");
   BOOST_TEST(judged(rows(40.0, 1.5)) == "trustworthy");
 }
@@ -148,7 +170,7 @@ BOOST_AUTO_TEST_CASE(jumps_collapses_and_changes_of_degree_are_no_ringing) {
   }
   BOOST_TEST(judged(pulses) == "trustworthy");
   BOOST_TEST(judged(collapse) == "trustworthy");
-  BOOST_TEST(judged(degrees, 0.1) == "trustworthy");
+  BOOST_TEST(judged(degrees, {0.1}) == "trustworthy");
 }
 
 BOOST_AUTO_TEST_CASE(fixed_steps_that_fail_again_and_again_are_seen) {
@@ -162,7 +184,7 @@ BOOST_AUTO_TEST_CASE(fixed_steps_that_fail_again_and_again_are_seen) {
   };
   BOOST_TEST(judged(rows(5)) == "rejected before 20 of 100 steps since time 0.5");
   BOOST_TEST(judged(rows(12)) == "trustworthy");
-  BOOST_TEST(judged(rows(5), 1e-3) == "trustworthy");
+  BOOST_TEST(judged(rows(5), {1e-3}) == "trustworthy");
   // One step in three, of a few.
   std::vector<vehd::HistoryRow> few = rows(3);
   few.resize(20);

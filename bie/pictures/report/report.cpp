@@ -104,6 +104,9 @@ nlohmann::json facts_of(const nlohmann::json& summary, const HistoryTable& histo
     add("computing time", duration_text(number("seconds")));
     add("memory", fmt::format("{:.0f} MB", number("peak_memory_bytes") / 1e6));
     add("highest degree", fmt::format("{:.0f}", number("order_max")));
+    if (const std::string symmetry = summary.value("symmetry", "none"); symmetry != "none") {
+      add("symmetry, imposed by the start", symmetry);
+    }
     if (const auto poration = summary.find("poration"); poration != summary.end()) {
       add("criterion of poration", poration->value("text", std::string()));
     }

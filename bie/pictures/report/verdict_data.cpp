@@ -47,13 +47,13 @@ std::string state_of(const std::string& verdict, bool has_ended) {
 }  // namespace
 
 nlohmann::json verdict_data(const HistoryTable& history, const Scene& scene, const nlohmann::json& summary) {
+  const TrustDemands demands = trust_demands(scene);
   const bool has_ended = summary.is_object() && summary.contains("verdict") && summary["verdict"].is_string();
-  const auto verdict =
-      has_ended ? summary["verdict"].get<std::string>() : verdict_of(history, scene.numerics.tolerance);
+  const auto verdict = has_ended ? summary["verdict"].get<std::string>() : verdict_of(history, demands);
   nlohmann::json json{{"text", has_ended ? verdict : "not finished (no summary.json); so far " + verdict},
                       {"state", state_of(verdict, has_ended)},
                       {"limits", nlohmann::json::array()}};
-  for (const TrustLimit& limit : trust_limits(scene.numerics.tolerance)) {
+  for (const TrustLimit& limit : trust_limits(demands)) {
     if (!history.has(limit.column)) continue;
     json["limits"].push_back(limit_row(limit.column, history.largest_magnitude(limit.column), limit.largest, false));
   }
