@@ -35,7 +35,17 @@ std::vector<NamedScene> all_scenes() {
     hard.scene.numerics.end_time = std::min(hard.scene.numerics.end_time, hard.short_end_time);
     result.push_back({hard.name, hard.scene});
   }
-  for (const char* name : {"everything", "poiseuille"}) {
+  for (const char* name : {"two_spheres", "sphere_beside_prolate"}) {
+    Scene scene = read_scene(source / "tests/invariance" / (std::string(name) + ".toml"));
+    for (const int time_order : {1, 4}) {
+      scene.numerics.time_order = time_order;
+      result.push_back({name + fmt::format("_order_{}", time_order), scene});
+    }
+    scene = at_tolerance(scene, 1e-3);
+    scene.numerics.order = 10;
+    result.push_back({name + std::string("_tolerance"), std::move(scene)});
+  }
+  for (const char* name : {"everything", "poiseuille", "sphere", "sphere_in_tube"}) {
     Scene scene = read_scene(source / "tests/invariance" / (std::string(name) + ".toml"));
     for (int time_order = 1; time_order <= highest_time_order; ++time_order) {
       scene.numerics.time_order = time_order;

@@ -13,8 +13,8 @@ struct NamedScene {
   Scene scene;
 };
 
-/// Every shipped scene; every hard case in its short form; everything at once, and a pulse off the axis of a tube, at
-/// every order in time and with a tolerance.
+/// Every shipped scene; every hard case in its short form; everything at once, and a pulse off the axis of a tube, on a
+/// vesicle that deforms and on a sphere, at every order in time and with a tolerance; spheres among several.
 std::vector<NamedScene> all_scenes();
 
 /// Random numbers of a scene's own, whatever other scenes there are.

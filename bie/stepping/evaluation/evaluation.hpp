@@ -42,7 +42,7 @@ struct SolvedFields {
 enum class Shapes { of_state, of_previous };
 
 /// Solves everything at a frozen state; collective, see Discretisation::shares.
-/// @param previous  of the same run, if there is one: where shapes are frozen its operators serve again
+/// @param previous  of the same run, if any: its spheres stay spheres, and where shapes rest its operators serve again
 /// @param limit     which value counts where a waveform jumps at the time of the state
 /// @param shapes    whether they are known to be those of `previous`, so that its operators serve again
 /// @throws ConvergenceError naming the solve that failed

@@ -77,7 +77,6 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<F
     const VesicleTask& task = tasks[a];
     membranes.push_back({flow_parameters(task.model, task.vesicle), task.membrane});
     background.push_back(forcing[a].velocity);
-    task.solution.is_sphere = uniform_tension_is_free(membranes[a].parameters, task.membrane);
     is_sphere.push_back(task.solution.is_sphere);
     start.push_back(task.state.tension);
     const auto& recycled = task.state.recycled.tension;

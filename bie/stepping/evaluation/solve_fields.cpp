@@ -48,7 +48,6 @@ void solve_velocity(const VesicleTask& task, const Forcing& forcing, int& iterat
     const VelocityField driven = velocity_field(membrane, velocity, false);
     const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
     const FlowParameters parameters = flow_parameters(task.model, task.vesicle);
-    task.solution.is_sphere = uniform_tension_is_free(parameters, membrane);
     const FlowOptions options{task.solution.is_sphere, {}, task.space.subspace().scalars()};
     const auto& known = task.state.recycled.tension;
     FlowSystem system(parameters, membrane, 0.0, options, known ? known->in(options.entries, 1) : RecycledSubspace{});
@@ -110,6 +109,11 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
     solution.membrane = reuse ? previous->vesicles[a].membrane
                               : assembled(model, model.vesicles[a], discretisation.vesicle(a), state.vesicles[a],
                                           !solved.electric_inactive, shares.owns(a), of_one);
+    // What truncation does to a sphere within a step makes it no other membrane.
+    solution.is_sphere =
+        previous != nullptr
+            ? previous->vesicles[a].is_sphere
+            : model.mobile && uniform_tension_is_free(flow_parameters(model, model.vesicles[a]), *solution.membrane);
   });
   std::vector<VesicleTask> tasks;
   for (std::size_t a = 0; a < n; ++a) {

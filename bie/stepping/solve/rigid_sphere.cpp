@@ -2,8 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
+#include "bie/sphere/harmonics.hpp"
+#include "bie/sphere/neighbourhood.hpp"
 #include "bie/stepping/space/remap.hpp"
+#include "bie/stepping/thresholds.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
@@ -73,21 +81,65 @@ SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displa
   return motion;
 }
 
-Motion rigid_sphere_motion(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion,
-                           const Arrival& arrival) {
+SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion) {
   const Surface& s = sphere.surface;
-  Motion result;
   Matrix radial = from_centre(s) + motion.flow;
   const Vector retraction = sphere.radius * radial.rowwise().norm().cwiseInverse();
   radial.array().colwise() *= retraction.array();
   radial *= motion.rotation.transpose();
   const Vector3 centre = centroid(s) + motion.translation;
-  result.material = start;
-  result.material.position = sphere.fine.analyze(radial.rowwise() + centre.transpose());
-  const Vector stretch = area_element(sphere.fine, result.material.position).cwiseQuotient(s.area_element);
+  SurfaceFields result = start;
+  result.position = sphere.fine.analyze(radial.rowwise() + centre.transpose());
+  const Vector stretch = area_element(sphere.fine, result.position).cwiseQuotient(s.area_element);
   const Vector stretch_before = 1.0 + sphere.fine.synthesize(start.area_strain).col(0).array();
-  result.material.area_strain = sphere.fine.analyze(stretch_before.cwiseProduct(stretch).array() - 1.0);
-  result.arrived = arrival(result.material);
+  result.area_strain = sphere.fine.analyze(stretch_before.cwiseProduct(stretch).array() - 1.0);
+  return result;
+}
+
+namespace {
+
+/// Unit vectors to where on the parameter sphere the material is that is at these places after the motion.
+Matrix origins(const Membrane& sphere, const SphereMotion& motion, const Matrix& material, const Matrix& places) {
+  const SphereGrid& grid = sphere.fine.grid();
+  Matrix nodes(grid.n_points(), 3);
+  for (Index i = 0; i < nodes.rows(); ++i) nodes.row(i) = direction(point_of(grid, i));
+  const Matrix r = from_centre(sphere.surface);
+  // From the parameter sphere to the moved one, but for the flow within it.
+  const Matrix3 turned = motion.rotation * nearest_rotation(sphere.surface, nodes, r);
+  Matrix from = r.rowwise().normalized() * turned;
+  double before = std::numeric_limits<double>::infinity();
+  for (;;) {
+    const Matrix missing =
+        (places - evaluate_harmonics(material, from, sphere.fine.azimuthal_order())) * turned / sphere.radius;
+    double largest = 0.0;
+    for (Index i = 0; i < from.rows(); ++i) {
+      const Vector3 at = from.row(i);
+      const Vector3 step = Vector3(missing.row(i)) - at.dot(Vector3(missing.row(i))) * at;
+      largest = std::max(largest, step.norm());
+      from.row(i) = along_great_circle(at, step);
+    }
+    // At rounding steps no longer become smaller.
+    if (!(largest < before)) break;
+    before = largest;
+  }
+  if (!(before < thresholds::sphere_variation)) {
+    throw ConvergenceError("points of a sphere flow too far within it in one step");
+  }
+  return from;
+}
+
+}  // namespace
+
+SurfaceFields at_translated_nodes(const Matrix& position, const Membrane& sphere, const SphereMotion& motion,
+                                  const SurfaceFields& material) {
+  const SphereTransform& fine = sphere.fine;
+  const Matrix places = sphere.surface.position.rowwise() + motion.translation.transpose();
+  const Matrix from = origins(sphere, motion, material.position, places);
+  SurfaceFields result = material;
+  result.position = position;
+  result.position.row(0) += std::sqrt(4.0 * std::numbers::pi) * motion.translation.transpose();
+  for_each_scalar(
+      result, [&](Vector& scalar) { scalar = fine.analyze(evaluate_harmonics(scalar, from, fine.azimuthal_order())); });
   return result;
 }
 

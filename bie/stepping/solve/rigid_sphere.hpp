@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bie/physics/membrane.hpp"
-#include "bie/stepping/solve/motion.hpp"
+#include "bie/stepping/state/surface_fields.hpp"
 
 /// An inextensible sphere is rigid. To first order its points may leave it at constant area elements, which is the
 /// velocity of Eq. (27); but any shape that they form has more area than the sphere of its volume, so a uniform
@@ -31,9 +31,17 @@ SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, 
 /// @param displacement  coefficients, [n_coefficients x 3]
 SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displacement);
 
-/// The sphere after the motion; points end on the translated sphere exactly. The mean tension stays undetermined.
+/// The sphere after the motion, at its material points, which end on the translated sphere exactly. The mean tension
+/// stays undetermined.
 /// @param start  of the step: the strain there; V_m and λ as they are at the end
-Motion rigid_sphere_motion(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion,
-                           const Arrival& arrival);
+SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion);
+
+/// The same at nodes that the motion only translates: each of them takes over the fields of the material point that has
+/// come to it. The surface is then the translated one of the start, however far its points turn and flow.
+/// @param position  at the start of the step, coefficients
+/// @param material  after the motion, at the material points
+/// @throws ConvergenceError where the flow within the sphere is too far for one step
+SurfaceFields at_translated_nodes(const Matrix& position, const Membrane& sphere, const SphereMotion& motion,
+                                  const SurfaceFields& material);
 
 }  // namespace vehd

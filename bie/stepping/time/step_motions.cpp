@@ -76,13 +76,19 @@ Motion StepOperations::motion(std::size_t a, const MotionStart& start, const Rig
     return resting;
   }
   const auto timer = instruments.time("velocity solve");
-  const Arrival there = arrival(a, end, instruments);
   if (solution.is_sphere) {
-    return rigid_sphere_motion(start.fields, *solution.membrane, rigid(a, *solution.membrane), there);
+    const Membrane& sphere = *solution.membrane;
+    const SphereMotion moved = rigid(a, sphere);
+    Motion result;
+    result.material = moved_sphere(start.fields, sphere, moved);
+    result.arrived = end == NodeEnd::material
+                         ? result.material
+                         : at_translated_nodes(start_.vesicles[a].position, sphere, moved, result.material);
+    return result;
   }
   const FlowParameters parameters = flow_parameters(model_, model_.vesicles[a]);
   return constrained_motion({parameters, discretisation_.settings(), start_.vesicles[a], *solution.membrane}, start, dt,
-                            flow_[a].of(dt), there, iterations);
+                            flow_[a].of(dt), arrival(a, end, instruments), iterations);
 }
 
 Arrival StepOperations::arrival(std::size_t a, NodeEnd end, Instruments& instruments) const {

@@ -1,0 +1,254 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "bie/physics/gravity.hpp"
+#include "bie/physics/poiseuille_flow.hpp"
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/time/time_rule.hpp"
+#include "tests/support/several_runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+// Inextensible spheres, alone and among others, against exact solutions at every accepted step, in steps of a fixed
+// size and in those that a tolerance allows, which are long: nothing of a rigid motion is an error.
+BOOST_AUTO_TEST_SUITE(spheres)
+
+namespace {
+
+constexpr int kDegree = 8;
+constexpr double kRadius = 1.3;
+const Vector3 kCentre(0.3, -0.2, 0.5);
+
+/// How a run steps: in steps of dt, or with a tolerance.
+struct Steps {
+  int time_order;
+  double tolerance = 0.0, dt = 0.25;
+
+  friend std::ostream& operator<<(std::ostream& out, const Steps& steps) {
+    return out << "order " << steps.time_order << ", tolerance " << steps.tolerance;
+  }
+};
+
+std::vector<Steps> all_steps() {
+  std::vector<Steps> result;
+  for (int order = 1; order <= highest_time_order; ++order) result.push_back({order});
+  for (int order = 2; order <= highest_time_order; ++order) result.push_back({order, 1e-3});
+  return result;
+}
+
+using Look = std::function<void(const State&, const Evaluation&)>;
+
+/// @param look  sees the start and every accepted step
+/// @returns how many steps there were
+int run(const Model& model, const std::vector<StartMembrane>& start, const Steps& steps, double end_time,
+        const Look& look) {
+  EvolutionSetup setup{model, {}, {}, fixed_steps(steps.dt)};
+  setup.settings.order = steps.tolerance > 0.0 ? 16 : kDegree;
+  setup.settings.time_order = steps.time_order;
+  if (steps.tolerance > 0.0) setup.control = {end_time, 1e-9 * end_time, steps.tolerance};
+  Instruments instruments;
+  Evolution evolution(setup, start, instruments);
+  evolution.evaluate_start();
+  look(evolution.state(), evolution.evaluation());
+  int n_steps = 0;
+  for (; evolution.state().time < end_time; ++n_steps) {
+    evolution.step({{}, end_time});
+    look(evolution.state(), evolution.evaluation());
+  }
+  return n_steps;
+}
+
+Vector3 centroid_velocity(const VesicleDiagnostics& d) {
+  return {d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z};
+}
+
+Vector3 place(const VesicleDiagnostics& d) { return {d.centroid_x, d.centroid_y, d.centroid_z}; }
+
+/// Largest difference of an extent from that of a sphere, over the radius.
+double deformation(const VesicleDiagnostics& d, double radius) {
+  return std::max({std::abs(d.extent_x - 2.0 * radius), std::abs(d.extent_y - 2.0 * radius),
+                   std::abs(d.extent_z - 2.0 * radius)}) /
+         radius;
+}
+
+/// ∫ r × v dA = (2/3) A R² Ω.
+Vector3 rotation_rate(const VesicleSolution& solution, const VesicleFields& fields) {
+  const Surface& s = solution.membrane->surface;
+  const Matrix velocity = solution.membrane->fine.synthesize(fields.velocity);
+  const Vector3 centre = centroid(s);
+  Vector3 moment = Vector3::Zero();
+  for (Index i = 0; i < velocity.rows(); ++i) {
+    const Vector3 r = Vector3(s.position.row(i)) - centre;
+    moment += s.quadrature[i] * r.cross(Vector3(velocity.row(i)));
+  }
+  return 1.5 / (s.quadrature.sum() * std::pow(solution.membrane->radius, 2)) * moment;
+}
+
+Vector3 vorticity(const Matrix3& gradient) {
+  return {gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1)};
+}
+
+std::vector<BackgroundFlow> linear_flows() {
+  BackgroundFlow mixed;
+  mixed.gradient << 0.2, 0.1, 0.7, -0.2, -0.3, 0.1, 0.3, 0.2, 0.1;
+  return {shear_flow(1.0), planar_extension(-0.8), axisymmetric_extension(0.7), mixed};
+}
+
+StartMembrane off_centre_sphere() { return {translated(sphere(kDegree, kRadius), kCentre)}; }
+
+}  // namespace
+
+// Einstein, and a centre that goes with the fluid: x(t) = exp(∇v t) x(0).
+BOOST_AUTO_TEST_CASE(every_linear_flow_turns_a_sphere_and_is_as_viscous_as_einstein_says) {
+  for (const BackgroundFlow& flow : linear_flows()) {
+    for (const Steps& steps : all_steps()) {
+      BOOST_TEST_CONTEXT(steps << ", gradient " << flow.gradient.reshaped().transpose()) {
+        Model model = relaxation_model(0.1);
+        model.flow = flow;
+        const Vector3 exact = 0.5 * vorticity(flow.gradient);
+        double wrong = 0.0, viscosity = 0.0;
+        run(model, {off_centre_sphere()}, steps, 3.0, [&](const State&, const Evaluation& e) {
+          const VesicleDiagnostics& d = e.diagnostics.vesicles[0];
+          wrong =
+              std::max({wrong, deformation(d, kRadius), (centroid_velocity(d) - flow.gradient * place(d)).norm(),
+                        (rotation_rate(e.vesicles[0], e.fields.vesicles[0]) - exact).norm(), std::abs(d.area_drift)});
+          viscosity = std::max(viscosity, std::abs(d.rheology.intrinsic_viscosity() - 2.5));
+        });
+        BOOST_TEST(wrong < 1e-9);
+        BOOST_TEST(viscosity < 1e-9);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(spheres_in_tubes_and_under_gravity_move_as_faxen_and_stokes_say) {
+  const double centre_velocity = 0.8, tube = 5.0;
+  const Vector3 g(0.3, -0.4, -1.2);
+  Model model = relaxation_model(0.1);
+  model.effects.push_back(
+      std::make_shared<PoiseuilleFlowEffect>(PoiseuilleParameters{centre_velocity, tube, Waveform{}}));
+  model.effects.push_back(std::make_shared<GravityEffect>(GravityParameters{0.7, g}));
+  for (const Steps& steps : all_steps()) {
+    BOOST_TEST_CONTEXT(steps) {
+      double wrong = 0.0;
+      run(model, {off_centre_sphere()}, steps, 3.0, [&](const State&, const Evaluation& e) {
+        const VesicleDiagnostics& d = e.diagnostics.vesicles[0];
+        const double off_axis2 = place(d).tail<2>().squaredNorm();
+        Vector3 exact = 2.0 / 9.0 * 0.7 * kRadius * kRadius * g;
+        exact.x() += centre_velocity * (1.0 - (off_axis2 + 2.0 / 3.0 * kRadius * kRadius) / (tube * tube));
+        wrong = std::max({wrong, deformation(d, kRadius), (centroid_velocity(d) - exact).norm()});
+      });
+      BOOST_TEST(wrong < 1e-9);
+    }
+  }
+}
+
+namespace {
+
+/// Of the membrane potential V·r/R of a sphere that turns: dV/dt = Ω × V − (V − V_s)/τ.
+struct TurningCharge {
+  double kappa, conductance, capacitance;
+  Vector3 field, rotation;
+
+  [[nodiscard]] Vector3 steady() const {
+    const double rate = (conductance + kappa / kRadius) / capacitance;
+    Matrix3 turning;
+    turning << 0.0, -rotation.z(), rotation.y(), rotation.z(), 0.0, -rotation.x(), -rotation.y(), rotation.x(), 0.0;
+    const Vector3 source = 1.5 * kappa / capacitance * field;
+    return (rate * Matrix3::Identity() - turning).inverse() * source;
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_turning_sphere_in_a_field_reaches_the_exact_potential) {
+  const TurningCharge exact{2.0 * 1.0 * 2.0 / (1.0 + 2.0 * 2.0), 0.5, 0.7, {0.4, 0.3, 0.9}, {0.0, 0.5, 0.0}};
+  Model model = relaxation_model(0.1);
+  model.flow = shear_flow(1.0);
+  set_electric(model, {exact.field, 1.0, 2.0, 1.0}, {exact.capacitance, exact.conductance});
+  for (const Steps& steps : {Steps{3, 0.0, 0.1}, Steps{5, 0.0, 0.2}, Steps{3, 1e-3}, Steps{4, 1e-3}, Steps{5, 1e-4}}) {
+    BOOST_TEST_CONTEXT(steps) {
+      double deformed = 0.0, potential = 0.0;
+      run(model, {off_centre_sphere()}, steps, 12.0, [&](const State&, const Evaluation& e) {
+        const VesicleDiagnostics& d = e.diagnostics.vesicles[0];
+        deformed = std::max(deformed, deformation(d, kRadius));
+        potential = d.Vm_max;
+      });
+      BOOST_TEST(deformed < 1e-9);
+      BOOST_TEST(std::abs(potential / exact.steady().norm() - 1.0) < (steps.tolerance > 0.0 ? steps.tolerance : 2e-3));
+    }
+  }
+}
+
+// A membrane that neither charges nor leaks carries its V_m along: after any angle the pattern has turned by it.
+BOOST_AUTO_TEST_CASE(a_potential_that_does_not_change_turns_with_the_sphere) {
+  Model model;
+  model.flow = shear_flow(1.0);
+  set_electric(model, {{0.0, 0.0, 1e-9}, 1e-9, 1e-9, 1e-9}, {1.0, 0.0});
+  for (const Steps& steps : all_steps()) {
+    BOOST_TEST_CONTEXT(steps) {
+      StartMembrane start = off_centre_sphere();
+      start.potential.given = harmonic(kDegree, 1, 0).col(0) + harmonic(kDegree, 3, 2).col(0);
+      double wrong = 0.0;
+      run(model, {start}, steps, 9.0, [&](const State& state, const Evaluation&) {
+        // About y by half the time: z goes towards x.
+        const double angle = 0.5 * state.time;
+        const Vector& v = state.vesicles[0].transmembrane_potential;
+        const double along_z = v[coefficient_index(1, 0)], along_x = v[coefficient_index(1, 1)];
+        wrong = std::max(wrong, std::hypot(along_z - std::cos(angle), std::abs(along_x) - std::abs(std::sin(angle))));
+        const Index third = coefficient_index(3, -3);
+        wrong = std::max(wrong, std::abs(v.segment(third, 7).norm() - 1.0));
+      });
+      BOOST_TEST(wrong < 1e-8);
+    }
+  }
+}
+
+// What is left of a sphere by a file, by other units or by a former run is a sphere.
+BOOST_AUTO_TEST_CASE(a_sphere_up_to_rounding_is_a_sphere) {
+  Model model = shear_model();
+  for (const double excess : {1e-15, 1e-12, 1e-9, 1e-7}) {
+    for (const Steps& steps : {Steps{1}, Steps{4}, Steps{4, 1e-3}}) {
+      BOOST_TEST_CONTEXT(steps << ", excess " << excess) {
+        double viscosity = 0.0, deformed = 0.0;
+        run(model, {StartMembrane{ellipsoid(kDegree, {1.0, 1.0 - excess, 1.0 + excess})}}, steps, 3.0,
+            [&](const State&, const Evaluation& e) {
+              const VesicleDiagnostics& d = e.diagnostics.vesicles[0];
+              viscosity = std::max(viscosity, std::abs(d.rheology.intrinsic_viscosity() - 2.5));
+              deformed = std::max(deformed, deformation(d, 1.0));
+            });
+        BOOST_TEST(viscosity < 1e-9 + 10.0 * excess);
+        BOOST_TEST(deformed < 1e-9 + 10.0 * excess);
+      }
+    }
+  }
+}
+
+// A sphere stays one beside a vesicle that deforms, whose shape a tolerance serves as well as short steps do.
+BOOST_AUTO_TEST_CASE(a_sphere_beside_a_prolate_is_rigid_and_the_prolate_is_not) {
+  Model model = shear_model();
+  model = with_vesicles(model, 2);
+  const Vector3 apart(0.2, 0.1, 2.4);
+  const std::vector<StartMembrane> start{{sphere(kDegree)}, {translated(ellipsoid(kDegree, {1.0, 0.9, 1.2}), apart)}};
+  double deformed = 0.0, viscosity = 0.0;
+  const auto look = [&](double& extent) {
+    return [&](const State&, const Evaluation& e) {
+      deformed = std::max(deformed, deformation(e.diagnostics.vesicles[0], 1.0));
+      viscosity = e.diagnostics.vesicles[0].rheology.intrinsic_viscosity();
+      extent = e.diagnostics.vesicles[1].extent_x;
+    };
+  };
+  double extent = 0.0, reference = 0.0;
+  run(model, start, {4, 1e-3}, 0.6, look(extent));
+  const double of_tolerance = viscosity;
+  run(model, start, {5, 0.0, 0.1}, 0.6, look(reference));
+  BOOST_TEST(deformed < 1e-9);
+  BOOST_TEST(std::abs(extent - reference) < 2e-3);
+  BOOST_TEST(std::abs(of_tolerance - viscosity) < 5e-3);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
