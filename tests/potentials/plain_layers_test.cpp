@@ -13,16 +13,17 @@ namespace {
 
 constexpr int kOrder = 12, kFiner = 36, kBand = 5;
 
-/// Largest error of a plain operator on densities of degree kBand on a bumpy surface, against what the surface and the
-/// densities have at a much higher degree, projected onto the lower one; relative.
+/// Error of a plain operator on densities of degree kBand on a bumpy surface, over what degree kOrder cannot hold of
+/// the result: both against the surface and the densities at a much higher degree.
 template <typename Operator>
 double error_of(Operator LayerOperators::*layer, LayerSelection selection) {
   selection.plain = true;
   const Matrix position = asymmetric_shape(kOrder), density = smooth_coefficients(kOrder, kBand, 3, 81);
   const LayerOperators coarse = assemble(Space(kOrder), position, selection);
   const LayerOperators fine = assemble(Space(kFiner), resize_order(position, kFiner), selection);
-  return relative_difference((coarse.*layer).apply(density),
-                             resize_order((fine.*layer).apply(resize_order(density, kFiner)), kOrder));
+  const Matrix exact = (fine.*layer).apply(resize_order(density, kFiner));
+  const Matrix held = resize_order(exact, kOrder);
+  return ((coarse.*layer).apply(density) - held).norm() / (exact - resize_order(held, kFiner)).norm();
 }
 
 }  // namespace
@@ -42,21 +43,13 @@ BOOST_AUTO_TEST_CASE(they_have_the_eigenvalues_of_a_sphere) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(nothing_of_a_density_is_cut) {
-  const double single = error_of(&LayerOperators::laplace_single, {.laplace_single = true});
-  BOOST_TEST(single < 1e-6);
-  const double double_layer = error_of(&LayerOperators::laplace_double, {.laplace_double = true});
-  BOOST_TEST(double_layer < 1e-6);
-  const double adjoint = error_of(&LayerOperators::laplace_adjoint, {.laplace_adjoint = true});
-  BOOST_TEST(adjoint < 1e-6);
-  const double hypersingular = error_of(&LayerOperators::laplace_hypersingular, {.laplace_hypersingular = true});
-  BOOST_TEST(hypersingular < 1e-5);
-  const double stokes_single = error_of(&LayerOperators::stokes_single, {.stokes_single = true});
-  BOOST_TEST(stokes_single < 1e-6);
-  const double stokes_double = error_of(&LayerOperators::stokes_double, {.stokes_double = true});
-  BOOST_TEST(stokes_double < 1e-6);
-  BOOST_TEST_MESSAGE("S " << single << ", D " << double_layer << ", S' " << adjoint << ", D' " << hypersingular
-                          << ", Stokes " << stokes_single << " and " << stokes_double);
+BOOST_AUTO_TEST_CASE(they_lose_no_more_than_the_degree_cannot_hold_of_their_result) {
+  BOOST_TEST(error_of(&LayerOperators::laplace_single, {.laplace_single = true}) < 1.0);
+  BOOST_TEST(error_of(&LayerOperators::laplace_double, {.laplace_double = true}) < 1.0);
+  BOOST_TEST(error_of(&LayerOperators::laplace_adjoint, {.laplace_adjoint = true}) < 1.0);
+  BOOST_TEST(error_of(&LayerOperators::laplace_hypersingular, {.laplace_hypersingular = true}) < 1.0);
+  BOOST_TEST(error_of(&LayerOperators::stokes_single, {.stokes_single = true}) < 1.0);
+  BOOST_TEST(error_of(&LayerOperators::stokes_double, {.stokes_double = true}) < 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(off_the_surface_their_error_is_the_estimated_one) {
