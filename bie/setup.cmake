@@ -8,7 +8,8 @@
 #                                            build/python, runs Example 1 of the paper with it
 #   cmake -DSTEP=callgrind -P bie/setup.cmake  installs valgrind, counts the instructions of a run without electricity:
 #                                              none in electric code, next to none in bookkeeping
-#   cmake -DSTEP=faults -P bie/setup.cmake    kills a run 200 times and breaks its files and its disk in every other way
+#   cmake -DSTEP=faults -P bie/setup.cmake    kills a run 200 times, damages runs at 1000 places and breaks files and disk
+#                                             in every other way
 #   cmake -DSTEP=slurm -P bie/setup.cmake     installs Slurm, starts one of this machine alone and gives it a sweep; as root
 #   cmake -DSTEP=sanitize -P bie/setup.cmake  installs clang, runs all tests under address and undefined-behaviour
 #                                             sanitizers
@@ -284,7 +285,7 @@ else()
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs} --target ${targets})
 endif()
 if(STEP STREQUAL "faults")
-  run_or_stop("${build}/test_faults" -- 200)
+  run_or_stop("${build}/test_faults" -- 200 1000)
 endif()
 if(STEP STREQUAL "slurm")
   set(ENV{VEHD_OWN_SLURM} 1)

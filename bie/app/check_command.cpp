@@ -52,7 +52,7 @@ ExitCode check(const CheckOptions& options) {
                  .quick = options.quick,
                  .required = options.required,
                  .n_ranks = options.ranks};
-  if (!task.frozen.note.empty()) fmt::print(stderr, "{}\n", task.frozen.note);
+  for (const std::string& note : task.frozen.notes) fmt::print(stderr, "{}\n", note);
   if (options.from) task.span = read_time_span(options.scene.source.file, *options.from, task.frozen);
   task.tell = [first = true](const CheckFields& fields) mutable { print_solved(fields, std::exchange(first, false)); };
   std::filesystem::remove(differences_file(task.directory));

@@ -22,7 +22,7 @@ struct MeshOptions {
 ExitCode mesh(const MeshOptions& options) {
   const FemProgram fem;
   const FrozenShape shape = read_frozen_shape(options.file, options.time);
-  if (!shape.note.empty()) fmt::print(stderr, "{}\n", shape.note);
+  for (const std::string& note : shape.notes) fmt::print(stderr, "{}\n", note);
   const FemProgram::Result result =
       write_volume_mesh(fem, {shape, options.output, options.family, options.refine});
   if (result.code != ExitCode::done) return result.code;

@@ -20,6 +20,7 @@ ExitCode report(const ReportOptions& options) {
   const ReportTask task{paths, options.output.empty() ? paths.report() : std::filesystem::path(options.output),
                         options.most_snapshots};
   const ReportSize size = write_report(task);
+  for (const std::string& note : size.notes) fmt::print(stderr, "{}\n", note);
   fmt::print("{}: {} of {} snapshots, {:.1f} MB; open it in a browser\n", task.output.string(), size.snapshots,
              size.all, static_cast<double>(size.bytes) / 1e6);
   write_json(options.common, {{"report", task.output.string()},

@@ -4,10 +4,11 @@
 
 #include <cmath>
 
-#include "bie/files/run_reader.hpp"
+#include "bie/comparison/stored_copies.hpp"
 #include "bie/files/snapshot_choice.hpp"
 #include "bie/geometry/surface.hpp"
 #include "bie/runs/given_times.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/scene/given_time.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
@@ -54,9 +55,9 @@ void require_outward(const Scene& scene, const std::filesystem::path& file, std:
 }
 
 /// Of one vesicle of a snapshot.
-void require_outward(const RunReader& run, std::size_t snapshot, std::size_t vesicle, const Matrix& position) {
-  const std::string of_one = run.n_vesicles() < 2 ? "" : fmt::format(" of vesicle {:02}", vesicle);
-  require_outward(fmt::format("{}: x{} at time {:g}", run.name(), of_one, run.times()[snapshot]), position);
+void require_outward(const RunSnapshot& snapshot, std::size_t vesicle, const Matrix& position) {
+  const std::string of_one = snapshot.n_vesicles() < 2 ? "" : fmt::format(" of vesicle {:02}", vesicle);
+  require_outward(fmt::format("{}: x{} at time {:g}", snapshot.name(), of_one, snapshot.time()), position);
 }
 
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
@@ -97,11 +98,13 @@ void require_start(const std::filesystem::path& file, const std::optional<std::s
                                file.string(), *time));
 }
 
-SnapshotChoice choice_of(const RunReader& run, const std::filesystem::path& file,
-                         const std::optional<std::string>& time) {
-  if (!time) return choose_snapshot(run, file, std::nullopt);
+std::size_t choice_of(const RunReader& run, const std::filesystem::path& file, const std::optional<std::string>& time,
+                      ReadingNotes& notes) {
+  if (!time) return choose_snapshot(run, file, std::nullopt).snapshot;
   const GivenTimes times(run, file);
-  return choose_snapshot(run, file, times.number_of(*time), times.shown());
+  const SnapshotChoice choice = choose_snapshot(run, file, times.number_of(*time), times.shown());
+  if (!choice.note.empty()) notes.push_back(choice.note);
+  return choice.snapshot;
 }
 
 /// In the laboratory, where the finite elements are as well.
@@ -135,8 +138,7 @@ FrozenState start_of_scene(const SceneSource& source) {
 /// One vesicle of a snapshot: every field that a run of this scene writes, so that none can be missing unnoticed.
 class VesicleOfSnapshot {
  public:
-  VesicleOfSnapshot(const RunReader& run, std::size_t snapshot, std::size_t vesicle)
-      : run_(run), snapshot_(snapshot), vesicle_(vesicle) {}
+  VesicleOfSnapshot(const RunSnapshot& snapshot, std::size_t vesicle) : snapshot_(snapshot), vesicle_(vesicle) {}
 
   void read(const MembraneScene& scene, FrozenState& frozen) const {
     const Model& model = frozen.model;
@@ -145,7 +147,7 @@ class VesicleOfSnapshot {
     VesicleFields& fields = frozen.fields.vesicles.emplace_back();
     const bool electric = model.electric.has_value(), tense = model.mobile && of_model.inextensible;
     state.position = coefficients("x", 3);
-    require_outward(run_, snapshot_, vesicle_, state.position);
+    require_outward(snapshot_, vesicle_, state.position);
     state.area_strain = Vector::Zero(state.position.rows());
     if (of_model.inextensible) state.tension = Vector::Zero(state.position.rows());
     fields.velocity = coefficients("velocity", 3, model.mobile);
@@ -164,7 +166,7 @@ class VesicleOfSnapshot {
     state.poration = coefficients("poration", 1, of_model.reaction != nullptr);
     fields.conductance = coefficients("conductance", 1, of_model.reaction != nullptr);
     // The file continues them by zeros to its own degree, at which nothing was solved.
-    const int degree = run_.degree(snapshot_, vesicle_);
+    const int degree = snapshot_.degree(vesicle_);
     state = resized(std::move(state), degree);
     fields = resized(std::move(fields), degree);
   }
@@ -185,11 +187,11 @@ class VesicleOfSnapshot {
 
   /// @param is_written  by a run of this scene; else empty
   [[nodiscard]] Matrix coefficients(const std::string& name, Index components, bool is_written = true) const {
-    return is_written ? run_.coefficients(snapshot_, name, components, vesicle_) : Matrix();
+    return is_written ? snapshot_.coefficients(name, components, vesicle_) : Matrix();
   }
 
-  const RunReader& run_;
-  std::size_t snapshot_, vesicle_;
+  const RunSnapshot& snapshot_;
+  std::size_t vesicle_;
 };
 
 void require_same_vesicles(const RunReader& run, const Scene& scene) {
@@ -200,25 +202,22 @@ void require_same_vesicles(const RunReader& run, const Scene& scene) {
 }
 
 FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
-  const RunReader run(file);
+  FrozenState frozen;
+  const RunReader run = read_snapshots(file, frozen.notes);
   require_few_vesicles(run.n_vesicles(), file, "vehd check");
-  const SnapshotChoice choice = choice_of(run, file, time);
-  const std::size_t snapshot = choice.snapshot;
-  run.require_sealed(snapshot);
+  const std::size_t number = choice_of(run, file, time, frozen.notes);
+  const RunSnapshot snapshot = run.snapshot(number);
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   require_instant(scene, file);
   require_known_places(scene, file);
   require_same_vesicles(run, scene);
-  FrozenState frozen;
   frozen.source = file.string();
-  frozen.note = choice.note;
   frozen.model = model_of(scene);
   frozen.names = vesicle_names(scene);
-  frozen.state.time = run.times()[snapshot];
+  frozen.state.time = snapshot.time();
   const std::vector<Scene> alone = each_alone(scene);
-  for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
-    VesicleOfSnapshot(run, snapshot, a).read(alone[a].membrane, frozen);
-  }
+  for (std::size_t a = 0; a < run.n_vesicles(); ++a) VesicleOfSnapshot(snapshot, a).read(alone[a].membrane, frozen);
+  require_copies(run, number);
   frozen.symmetry = symmetry_of(scene, frozen);
   frozen.settings = settings_of(scene);
   return frozen;
@@ -251,14 +250,12 @@ FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::opti
     }
     return shape;
   }
-  const RunReader run(file);
+  const RunReader run = read_snapshots(file, shape.notes);
   require_few_vesicles(run.n_vesicles(), file, "vehd mesh");
-  const SnapshotChoice choice = choice_of(run, file, time);
-  shape.note = choice.note;
+  const RunSnapshot snapshot = run.snapshot(choice_of(run, file, time, shape.notes));
   for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
-    const Matrix position = run.coefficients(choice.snapshot, "x", 3, a);
-    shape.positions.push_back(resize_order(position, run.degree(choice.snapshot, a)));
-    require_outward(run, choice.snapshot, a, shape.positions.back());
+    shape.positions.push_back(resize_order(snapshot.coefficients("x", 3, a), snapshot.degree(a)));
+    require_outward(snapshot, a, shape.positions.back());
   }
   return shape;
 }

@@ -22,7 +22,7 @@ struct FrozenState {
   NumericalSettings settings;        ///< that its run computes with
   State state;                       ///< time, x and V_m; V_m empty without electricity
   Fields fields;                     ///< as the run stored them; where the forcing jumps, those just after the jump
-  std::string note;                  ///< if it has another time than the one asked for
+  std::vector<std::string> notes{};  ///< another time than the one asked for, see also ReadingNotes
   std::vector<std::string> names{};  ///< of several vesicles
 };
 
@@ -31,9 +31,9 @@ constexpr std::size_t most_checked_vesicles = 2;
 
 /// The shapes alone.
 struct FrozenShape {
-  std::string source;             ///< as above
-  std::vector<Matrix> positions;  ///< of each vesicle, coefficients [n_coefficients x 3]
-  std::string note;               ///< as above
+  std::string source;                ///< as above
+  std::vector<Matrix> positions;     ///< of each vesicle, coefficients [n_coefficients x 3]
+  std::vector<std::string> notes{};  ///< as above
 };
 
 /// @param source  a run.h5, or a scene (.toml) whose initial state is computed in memory; settings go with a scene only

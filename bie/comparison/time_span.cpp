@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "bie/comparison/check_fields.hpp"
-#include "bie/files/run_reader.hpp"
 #include "bie/files/snapshot_choice.hpp"
 #include "bie/geometry/surface.hpp"
 #include "bie/runs/given_times.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -84,10 +84,10 @@ double largest_displacement(const Matrix& a, const Matrix& b) {
 void take_shapes(const RunReader& run, std::size_t first, std::size_t last, bool mobile, TimeSpan& span) {
   int order = 0;
   for (std::size_t i = first; i <= last; ++i) {
-    run.require_sealed(i);
-    span.shape_times.push_back(run.times()[i]);
-    span.positions.push_back(resize_order(run.coefficients(i, "x", 3), run.degree(i)));
-    if (mobile) span.velocities.push_back(run.coefficients(i, "velocity", 3));
+    const RunSnapshot snapshot = run.snapshot(i);
+    span.shape_times.push_back(snapshot.time());
+    span.positions.push_back(resize_order(snapshot.coefficients("x", 3), snapshot.degree()));
+    if (mobile) span.velocities.push_back(snapshot.coefficients("velocity", 3));
     order = std::max(order, order_of(span.positions.back().rows()));
   }
   for (std::vector<Matrix>* fields : {&span.positions, &span.velocities}) {
@@ -126,7 +126,8 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
     throw InputError(fmt::format("{}: has displacement currents; --from accepts runs without \"displacement_current\"",
                                  file.string()));
   }
-  const RunReader run(file);
+  ReadingNotes notes;
+  const RunReader run = read_snapshots(file, notes);
   const GivenTimes times(run, file);
   const SnapshotChoice choice = choose_snapshot(run, file, times.number_of(from), times.shown());
   TimeSpan span;
@@ -138,7 +139,8 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
                     "of an earlier snapshot",
                     file.string(), from, span.end));
   }
-  span.potential = resize_order(run.coefficients(choice.snapshot, "Vm", 1), run.degree(choice.snapshot));
+  const RunSnapshot start = run.snapshot(choice.snapshot);
+  span.potential = resize_order(start.coefficients("Vm", 1), start.degree());
   span.control = step_control_of(parse_scene(run.scene(), file.string() + " (scene)", file.parent_path()));
   take_shapes(run, choice.snapshot, run.nearest(span.end), end.model.mobile, span);
   take_field(end, file.string(), span);

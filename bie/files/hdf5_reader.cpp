@@ -13,6 +13,53 @@ namespace {
 /// No dataset or text of this program is larger, by far; what claims to be would only exhaust the memory.
 constexpr hsize_t most_values = hsize_t{1} << 21;
 constexpr std::size_t longest_text = std::size_t{1} << 24;
+/// Nor has one as many objects, or groups as deep in each other; links that lead back to a group above do not end.
+constexpr std::size_t most_objects = std::size_t{1} << 16;
+constexpr int deepest_group = 8;
+
+bool is_kind(hid_t type, H5T_class_t kind, std::size_t bytes) {
+  return H5Tget_class(type) == kind && H5Tget_size(type) == bytes;
+}
+
+herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+/// Checksum of one attribute. One of a kind that this program does not write has that of its kind alone.
+std::uint32_t checksum_of_attribute(hid_t object, const std::string& name) {
+  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(attribute.valid() ? H5Aget_type(attribute.id()) : H5I_INVALID_HID, H5Tclose);
+  const Hdf5Handle space(attribute.valid() ? H5Aget_space(attribute.id()) : H5I_INVALID_HID, H5Sclose);
+  const bool is_one = type.valid() && space.valid() && H5Sget_simple_extent_npoints(space.id()) == 1;
+  const auto read = [&](ContentKind kind, hid_t memory_type, std::size_t bytes) {
+    std::string value(bytes, '\0');
+    if (H5Aread(attribute.id(), memory_type, value.data()) < 0) kind = ContentKind::other;
+    if (kind == ContentKind::text) value.resize(std::min(value.size(), value.find('\0')));
+    return attribute_checksum(name, kind, value);
+  };
+  if (is_one && is_kind(type.id(), H5T_FLOAT, sizeof(double))) {
+    return read(ContentKind::numbers, H5T_NATIVE_DOUBLE, sizeof(double));
+  }
+  if (is_one && is_kind(type.id(), H5T_INTEGER, sizeof(std::int64_t))) {
+    return read(ContentKind::integers, H5T_NATIVE_INT64, sizeof(std::int64_t));
+  }
+  if (is_one && H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) <= 0 &&
+      H5Tget_size(type.id()) <= longest_text) {
+    return read(ContentKind::text, type.id(), H5Tget_size(type.id()));
+  }
+  return attribute_checksum(name, ContentKind::other, {});
+}
+
+std::uint32_t checksum_of_attributes(hid_t object) {
+  std::vector<std::string> names;
+  std::uint32_t sum = 0;
+  if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_attribute, &names) < 0) {
+    return attribute_checksum("", ContentKind::other, {});
+  }
+  for (const std::string& name : names) sum += checksum_of_attribute(object, name);
+  return sum;
+}
 
 }  // namespace
 
@@ -59,20 +106,19 @@ std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
   return std::move(*names);
 }
 
-Hdf5Reader::OpenDataset Hdf5Reader::open_numbers(const std::string& dataset) const {
-  OpenDataset result{Hdf5Handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose), {}, 1};
+Hdf5Reader::OpenDataset Hdf5Reader::open_dataset(const std::string& dataset) const {
+  OpenDataset result{Hdf5Handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose), {}, {}, 1};
   if (!result.handle.valid()) refuse(fmt::format("dataset {} is missing or damaged", dataset));
-  const Hdf5Handle type(H5Dget_type(result.handle.id()), H5Tclose);
+  result.type = Hdf5Handle(H5Dget_type(result.handle.id()), H5Tclose);
   const Hdf5Handle space(H5Dget_space(result.handle.id()), H5Sclose);
   const int rank = space.valid() ? H5Sget_simple_extent_ndims(space.id()) : -1;
-  if (!type.valid() || rank < 1 || rank > 4) refuse(fmt::format("dataset {} has an unknown layout", dataset));
-  if (H5Tget_class(type.id()) != H5T_FLOAT || H5Tget_size(type.id()) != sizeof(double)) {
-    refuse(fmt::format("dataset {} holds no double-precision numbers", dataset));
-  }
+  if (!result.type.valid() || rank < 1 || rank > 4) refuse(fmt::format("dataset {} has an unknown layout", dataset));
+  const std::size_t value_bytes = H5Tget_size(result.type.id());
   result.extents.resize(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space.id(), result.extents.data(), nullptr);
   // A damaged layout may claim more than the file has.
-  const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(result.handle.id()), bytes_) / sizeof(double);
+  const hsize_t stored =
+      value_bytes == 0 ? 0 : std::min<hsize_t>(H5Dget_storage_size(result.handle.id()), bytes_) / value_bytes;
   for (const hsize_t extent : result.extents) {
     // Checked before each product so that it cannot overflow.
     if (extent == 0 || result.n_values > stored / extent) {
@@ -82,6 +128,14 @@ Hdf5Reader::OpenDataset Hdf5Reader::open_numbers(const std::string& dataset) con
   }
   if (result.n_values > most_values) {
     refuse(fmt::format("dataset {} has {} numbers; accepted: at most {}", dataset, result.n_values, most_values));
+  }
+  return result;
+}
+
+Hdf5Reader::OpenDataset Hdf5Reader::open_numbers(const std::string& dataset) const {
+  OpenDataset result = open_dataset(dataset);
+  if (!is_kind(result.type.id(), H5T_FLOAT, sizeof(double))) {
+    refuse(fmt::format("dataset {} holds no double-precision numbers", dataset));
   }
   return result;
 }
@@ -118,6 +172,54 @@ std::string Hdf5Reader::text(const std::string& dataset) const {
   }
   value.resize(std::min(value.size(), value.find('\0')));
   return value;
+}
+
+bool Hdf5Reader::holds_numbers(const std::string& dataset) const {
+  const Hdf5Handle handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle type(handle.valid() ? H5Dget_type(handle.id()) : H5I_INVALID_HID, H5Tclose);
+  return type.valid() && is_kind(type.id(), H5T_FLOAT, sizeof(double));
+}
+
+std::uint32_t Hdf5Reader::dataset_checksum(const std::string& dataset) const {
+  {
+    const Hdf5Handle handle(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle type(handle.valid() ? H5Dget_type(handle.id()) : H5I_INVALID_HID, H5Tclose);
+    if (type.valid() && H5Tget_class(type.id()) == H5T_STRING) {
+      return content_checksum(ContentKind::text, {}, text(dataset));
+    }
+  }
+  const OpenDataset open = open_dataset(dataset);
+  const bool is_double = is_kind(open.type.id(), H5T_FLOAT, sizeof(double));
+  if (!is_double && !is_kind(open.type.id(), H5T_INTEGER, sizeof(std::int64_t))) {
+    return content_checksum(ContentKind::other, open.extents, {});
+  }
+  std::string bytes(open.n_values * sizeof(double), '\0');
+  const hid_t memory_type = is_double ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+  if (H5Dread(open.handle.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0) {
+    refuse(fmt::format("dataset {} cannot be read", dataset));
+  }
+  return content_checksum(is_double ? ContentKind::numbers : ContentKind::integers, open.extents, bytes);
+}
+
+void Hdf5Reader::add_checksums(const std::string& object, const std::string& closed, int depth,
+                               ObjectChecksums& sums) const {
+  const Hdf5Handle handle(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
+  if (!handle.valid()) refuse(fmt::format("{} is missing or damaged", object));
+  if (sums.size() >= most_objects || depth > deepest_group) refuse("has more objects than any run");
+  const bool is_group = H5Iget_type(handle.id()) == H5I_GROUP;
+  sums[object] = checksum_of_attributes(handle.id()) +
+                 (is_group ? content_checksum(ContentKind::group, {}, {}) : dataset_checksum(object));
+  if (!is_group || object == closed) return;
+  for (const std::string& name : members(object)) {
+    add_checksums(object == "/" ? "/" + name : object + "/" + name, closed, depth + 1, sums);
+  }
+}
+
+ObjectChecksums Hdf5Reader::object_checksums(const std::string& group, const std::string& closed) const {
+  ObjectChecksums sums;
+  add_checksums(group, closed, 0, sums);
+  sums.erase(seal_path(group));
+  return sums;
 }
 
 void Hdf5Reader::read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const {

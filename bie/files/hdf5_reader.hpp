@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bie/files/hdf5_handle.hpp"
+#include "bie/files/seal.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -39,6 +40,14 @@ class Hdf5Reader {
   /// Value of an attribute that is one text.
   [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
 
+  /// Whether a dataset is of double-precision numbers.
+  [[nodiscard]] bool holds_numbers(const std::string& dataset) const;
+  /// Checksum of shape, type and values of a dataset, see seal.hpp.
+  [[nodiscard]] std::uint32_t dataset_checksum(const std::string& dataset) const;
+  /// Checksums of all objects from a group down, but for its seal.
+  /// @param closed  a group below whose members do not count
+  [[nodiscard]] ObjectChecksums object_checksums(const std::string& group, const std::string& closed = {}) const;
+
   /// What stands for the file in messages.
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Throws InputError "name: problem".
@@ -46,11 +55,13 @@ class Hdf5Reader {
 
  private:
   struct OpenDataset {
-    Hdf5Handle handle;
+    Hdf5Handle handle, type;
     std::vector<hsize_t> extents;
     hsize_t n_values = 1;
   };
+  [[nodiscard]] OpenDataset open_dataset(const std::string& dataset) const;
   [[nodiscard]] OpenDataset open_numbers(const std::string& dataset) const;
+  void add_checksums(const std::string& object, const std::string& closed, int depth, ObjectChecksums& sums) const;
   void require_open();
   void read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const;
 

@@ -40,6 +40,16 @@ Hdf5Handle group_properties() {
   return properties;
 }
 
+template <typename Number>
+std::string_view bytes_of(std::span<const Number> values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
+}
+
+template <typename Number>
+std::string_view bytes_of(const Number& value) {
+  return bytes_of(std::span<const Number>(&value, 1));
+}
+
 bool put_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   Hdf5Handle handle(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -77,6 +87,7 @@ void Hdf5Writer::create(hid_t creation, hid_t access) {
   file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   // Here, as any further call would forget the reason.
   if (!file_.valid()) fail("cannot be opened");
+  unsealed_["/"] = content_checksum(ContentKind::group, {}, {});
 }
 
 void Hdf5Writer::open(hid_t access, Mode mode) {
@@ -103,33 +114,51 @@ void Hdf5Writer::group(const std::string& path) {
   const Hdf5Handle handle(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, group_properties_.id(), H5P_DEFAULT),
                           H5Gclose);
   if (!handle.valid()) fail(fmt::format("group {} cannot be written", path));
+  unsealed_[path] += content_checksum(ContentKind::group, {}, {});
 }
 
 void Hdf5Writer::numbers(const std::string& path, std::span<const double> values, const std::vector<hsize_t>& extents,
                          const DatasetLabel& label) {
-  write_dataset(path, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), extents, label);
+  write_dataset(path, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, bytes_of(values), extents, label);
+  unsealed_[path] += content_checksum(ContentKind::numbers, extents, bytes_of(values));
 }
 
 void Hdf5Writer::integers(const std::string& path, std::span<const std::int64_t> values,
                           const std::vector<hsize_t>& extents, const DatasetLabel& label) {
-  write_dataset(path, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), extents, label);
+  write_dataset(path, H5T_NATIVE_INT64, H5T_STD_I64LE, bytes_of(values), extents, label);
+  unsealed_[path] += content_checksum(ContentKind::integers, extents, bytes_of(values));
 }
 
-void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
+void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, std::string_view values,
                                const std::vector<hsize_t>& extents, const DatasetLabel& label) {
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
   Hdf5Handle dataset(
       H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT, dataset_properties_.id(), H5P_DEFAULT),
       H5Dclose);
-  if (!dataset.valid() || H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0 ||
+  if (!dataset.valid() || H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0 ||
       !put_attribute(dataset.id(), "dimension", label.dimension) || !put_attribute(dataset.id(), "unit", label.unit) ||
       !put_attribute(dataset.id(), "scale", H5T_NATIVE_DOUBLE, &label.scale) ||
       !put_attribute(dataset.id(), "description", label.description) || !dataset.close()) {
     fail(fmt::format("dataset {} cannot be written", path));
   }
+  count_attribute(path, "dimension", ContentKind::text, label.dimension);
+  count_attribute(path, "unit", ContentKind::text, label.unit);
+  count_attribute(path, "scale", ContentKind::numbers, bytes_of(label.scale));
+  count_attribute(path, "description", ContentKind::text, label.description);
 }
 
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
+  write_text(path, value);
+  unsealed_[path] += content_checksum(ContentKind::text, {}, value);
+}
+
+std::int64_t Hdf5Writer::seal(const std::string& group) {
+  const std::string text = seal_text(std::exchange(unsealed_, {}));
+  write_text(seal_path(group), text);
+  return seal_checksum(text);
+}
+
+void Hdf5Writer::write_text(const std::string& path, const std::string& value) {
   const Hdf5Handle type = text_type(value.size());
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle dataset(
@@ -148,14 +177,22 @@ void Hdf5Writer::copy_from(const Hdf5Writer& source, const std::string& path) {
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
   write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+  count_attribute(object, name, ContentKind::numbers, bytes_of(value));
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
   write_attribute(object, name, H5T_NATIVE_INT64, &value);
+  count_attribute(object, name, ContentKind::integers, bytes_of(value));
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, const std::string& value) {
   write_attribute(object, name, text_type(value.size()).id(), value.c_str());
+  count_attribute(object, name, ContentKind::text, value);
+}
+
+void Hdf5Writer::count_attribute(const std::string& object, std::string_view name, ContentKind kind,
+                                 std::string_view bytes) {
+  unsealed_[object] += attribute_checksum(name, kind, bytes);
 }
 
 void Hdf5Writer::write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value) {

@@ -5,9 +5,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bie/files/hdf5_handle.hpp"
+#include "bie/files/seal.hpp"
 
 namespace vehd {
 
@@ -48,6 +50,10 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   void attribute(const std::string& object, const std::string& name, const std::string& value);
 
+  /// Writes the seal of a group, or of the header of the file ("/"): it covers all that was written, not copied, since
+  /// the last seal. @return the checksum of the seal
+  std::int64_t seal(const std::string& group);
+
   /// All bytes of the file so far.
   [[nodiscard]] std::string image() const;
 
@@ -61,13 +67,16 @@ class Hdf5Writer {
   void create(hid_t creation, hid_t access);
   void open(hid_t access, Mode mode);
   [[noreturn]] void fail(const std::string& what) const;
-  void write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, const void* values,
+  void write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, std::string_view values,
                      const std::vector<hsize_t>& extents, const DatasetLabel& label);
   void write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value);
+  void write_text(const std::string& path, const std::string& value);
+  void count_attribute(const std::string& object, std::string_view name, ContentKind kind, std::string_view bytes);
 
   std::string name_;
   Hdf5Handle dataset_properties_, group_properties_;
   Hdf5Handle file_;
+  ObjectChecksums unsealed_;  ///< objects written since the last seal
 };
 
 }  // namespace vehd

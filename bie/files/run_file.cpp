@@ -7,7 +7,6 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/surface_mesh.hpp"
 #include "bie/stepping/state/resized.hpp"
-#include "bie/support/checksum.hpp"
 #include "bie/support/complex_columns.hpp"
 
 namespace vehd {
@@ -80,9 +79,8 @@ void write_coefficient_convention(Hdf5Writer& file, int order) {
 class VesicleWriter {
  public:
   /// @param group  that is there
-  VesicleWriter(Hdf5Writer& file, std::string group, const SphereTransform& transform, const SiUnits& si_units,
-                Checksum& checksum)
-      : checksum_(checksum), file_(file), group_(std::move(group)), transform_(transform), si_units_(si_units) {
+  VesicleWriter(Hdf5Writer& file, std::string group, const SphereTransform& transform, const SiUnits& si_units)
+      : file_(file), group_(std::move(group)), transform_(transform), si_units_(si_units) {
     file_.group(group_ + "/coefficients");
     file_.group(group_ + "/surface");
   }
@@ -121,10 +119,8 @@ class VesicleWriter {
   void numbers(const std::string& name, const Matrix& values, const std::vector<hsize_t>& extents,
                const DatasetLabel& label) {
     file_.numbers(group_ + "/" + name, memory_of(values), extents, labelled(label, si_units_));
-    checksum_.add(memory_of(values));
   }
 
-  Checksum& checksum_;
   Hdf5Writer& file_;
   std::string group_;
   const SphereTransform& transform_;
@@ -216,12 +212,9 @@ std::string vesicle_group(std::size_t vesicle) { return fmt::format("{:02d}", ve
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields, const SiUnits& si_units) {
   const std::string group = "/snapshots/" + name;
-  Checksum checksum;
   file.group(group);
   file.attribute(group, "time", state.time);
   file.attribute(group, "step", state.step);
-  checksum.add(std::span(&state.time, 1));
-  checksum.add(state.step);
   const std::size_t n = state.vesicles.size();
   if (n > 1) file.group(group + "/vesicles");
   for (std::size_t a = 0; a < n; ++a) {
@@ -232,13 +225,11 @@ std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const Sph
     }
     const std::int64_t degree = order_of(state.vesicles[a].position.rows());
     file.attribute(own, degree_attribute, degree);
-    checksum.add(degree);
-    VesicleWriter writer(file, own, transform, si_units, checksum);
+    VesicleWriter writer(file, own, transform, si_units);
     write_vesicle(writer, transform, resized(state.vesicles[a], transform.order()),
                   resized(fields.vesicles[a], transform.order()));
   }
-  file.attribute(group, "checksum", checksum.value());
-  return checksum.value();
+  return file.seal(group);
 }
 
 }  // namespace vehd

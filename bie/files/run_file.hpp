@@ -22,19 +22,19 @@ struct RunHeader {
 /// Six digits, so that the order of names is the order of time.
 std::string snapshot_name(std::int64_t number);
 
-/// Writes the header into an empty file.
+/// Writes the header into an empty file; whoever adds nothing more to it seals it.
 /// @param transform  between degree p and the grid of the file
 void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const RunHeader& header);
 
 /// Name of a vesicle below a snapshot of several: at least two digits.
 std::string vesicle_group(std::size_t vesicle);
 
-/// Writes /snapshots/NAME: grid fields, coefficients/ and surface/; of several vesicles the same of each in
+/// Writes /snapshots/NAME, sealed: grid fields, coefficients/ and surface/; of several vesicles the same of each in
 /// /snapshots/NAME/vesicles/NN, with its grid.
 /// @param state, fields  each vesicle in the degree that it was solved in, which its attribute "degree" keeps: the file
 ///                       has it continued by zeros to that of the transform
 /// @param si_units  every dataset says in `unit` and `scale` what it says
-/// @return its checksum
+/// @return the checksum of its seal
 /// @throws OutputError
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields, const SiUnits& si_units);

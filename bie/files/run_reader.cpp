@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "bie/sphere/degrees.hpp"
@@ -36,49 +35,61 @@ std::vector<std::string> vesicle_groups(const Hdf5Reader& file, const std::strin
   return groups;
 }
 
-std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group) {
-  const double time = file.number_attribute(group, "time");
-  Checksum checksum;
-  checksum.add(std::span(&time, 1));
-  checksum.add(file.integer_attribute(group, "step"));
-  for (const std::string& vesicle : vesicle_groups(file, group)) {
-    if (file.has_attribute(vesicle, degree_attribute)) checksum.add(file.integer_attribute(vesicle, degree_attribute));
-    for (const std::string_view field : snapshot_fields) {
-      for (const std::string_view part : snapshot_parts) {
-        const std::string dataset = fmt::format("{}/{}{}", vesicle, part, field);
-        if (!file.has(dataset)) continue;
-        const Vector values = file.vector(dataset);
-        checksum.add(std::span(values.data(), static_cast<std::size_t>(values.size())));
-      }
-    }
-  }
-  return checksum.value();
-}
-
-int solved_degree(const Hdf5Reader& file, const std::string& vesicle) {
-  const int of_file = order_of(file.matrix(vesicle + "/coefficients/x").rows());
-  if (!file.has_attribute(vesicle, degree_attribute)) return of_file;
-  const std::int64_t degree = file.integer_attribute(vesicle, degree_attribute);
-  if (degree >= lowest_order && degree <= of_file) return static_cast<int>(degree);
-  file.refuse(fmt::format("{} has the degree {}; accepted: {} to {}", vesicle, degree, lowest_order, of_file));
-}
-
-void require_checksum(const Hdf5Reader& file, const std::string& group, std::int64_t checksum) {
-  if (file.integer_attribute(group, "checksum") == checksum) return;
-  file.refuse(fmt::format("{} is damaged: its values do not match their checksum", group));
-}
-
 RunReader::RunReader(Hdf5Reader file) : file_(std::move(file)) {
   require_run_schema(file_);
   names_ = file_.members("/snapshots");
+  const auto has_seal = [&](const std::string& name) { return file_.has(seal_path("/snapshots/" + name)); };
+  // One that is left says that the others were lost.
+  is_sealed_ = file_.has(seal_path("/")) || std::ranges::any_of(names_, has_seal);
+  require_sealed("/", "/snapshots");
   if (names_.empty()) file_.refuse("holds no snapshot");
   for (const std::string& name : names_) {
-    times_.push_back(file_.number_attribute("/snapshots/" + name, "time"));
+    const std::string group = "/snapshots/" + name;
+    if (const std::string expected = fmt::format("/snapshots/{:06d}", times_.size()); group != expected) {
+      file_.refuse(fmt::format("lacks {}", expected));
+    }
+    // Which snapshot is taken follows from the times of all: the attributes of their groups.
+    require_sealed(group, group);
+    times_.push_back(file_.number_attribute(group, "time"));
     if (!std::isfinite(times_.back())) {
-      file_.refuse(fmt::format("/snapshots/{} has the time {}, not a finite number", name, times_.back()));
+      file_.refuse(fmt::format("{} has the time {}, not a finite number", group, times_.back()));
     }
   }
-  n_vesicles_ = vesicle_groups(file_, group_of(0)).size();
+  n_vesicles_ = vesicle_groups(file_, "/snapshots/" + names_.front()).size();
+}
+
+std::string RunReader::seal_of(const std::string& group) const {
+  if (!file_.has(seal_path(group))) file_.refuse(fmt::format("{} has lost its seal, {}", group, seal_path(group)));
+  return file_.text(seal_path(group));
+}
+
+void RunReader::require_sealed(const std::string& group, const std::string& closed) const {
+  if (!is_sealed_) return;
+  std::string seal = seal_of(group);
+  // The group stands in the first line.
+  if (group == closed) seal.resize(std::min(seal.size(), seal.find('\n')));
+  if (const std::string found = differences(seal, file_.object_checksums(group, closed)); !found.empty()) {
+    file_.refuse("damaged or altered: " + found);
+  }
+}
+
+RunSnapshot RunReader::snapshot(std::size_t number) const {
+  const std::string group = "/snapshots/" + names_.at(number);
+  require_sealed(group, {});
+  return {file_, group, times_[number], n_vesicles_};
+}
+
+int RunReader::order() const {
+  return static_cast<int>(std::clamp<std::int64_t>(file_.integer_attribute("/", "order"), 0, highest_order));
+}
+
+std::int64_t RunReader::checksum(std::size_t count) const {
+  Checksum all;
+  if (!is_sealed_) return all.value();
+  for (std::size_t i = 0; i < std::min(count, names_.size()); ++i) {
+    all.add(seal_checksum(seal_of("/snapshots/" + names_[i])));
+  }
+  return all.value();
 }
 
 std::size_t RunReader::nearest(double time) const {
@@ -102,58 +113,48 @@ std::size_t RunReader::at(double time) const {
   file_.refuse(fmt::format("no snapshot at time {:g}; the nearest is at {:g}", time, times_[nearest(time)]));
 }
 
-std::string RunReader::vesicle_group_of(std::size_t snapshot, std::size_t vesicle) const {
-  return group_of(snapshot) + (n_vesicles_ > 1 ? fmt::format("/vesicles/{:02d}", vesicle) : "");
-}
-
-std::string RunReader::path_of(std::size_t snapshot, const std::string& name, std::size_t vesicle) const {
-  return vesicle_group_of(snapshot, vesicle) + "/coefficients/" + name;
-}
-
 void RunReader::require_one_vesicle(const std::string& who) const {
   if (n_vesicles_ == 1) return;
   file_.refuse(fmt::format("holds {} vesicles; {} accepts a run of one", n_vesicles_, who));
 }
 
-bool RunReader::has_field(std::size_t snapshot, const std::string& name) const {
-  return file_.has(path_of(snapshot, name, 0));
+std::string RunSnapshot::group_of(std::size_t vesicle) const {
+  return group_ + (n_vesicles_ > 1 ? fmt::format("/vesicles/{:02d}", vesicle) : "");
 }
 
-void RunReader::require_sealed(std::size_t snapshot) const {
-  const std::string group = group_of(snapshot);
-  if (file_.has_attribute(group, "checksum")) return;
-  file_.refuse(fmt::format("{} has no checksum, so that its numbers cannot be told from damaged ones", group));
+int RunSnapshot::degree(std::size_t vesicle) const {
+  const int of_file = order_of(read("x", vesicle).rows());
+  if (!file_.has_attribute(group_of(vesicle), degree_attribute)) return of_file;
+  const std::int64_t degree = file_.integer_attribute(group_of(vesicle), degree_attribute);
+  if (degree >= lowest_order && degree <= of_file) return static_cast<int>(degree);
+  file_.refuse(
+      fmt::format("{} has the degree {}; accepted: {} to {}", group_of(vesicle), degree, lowest_order, of_file));
 }
 
-Matrix RunReader::read(std::size_t snapshot, const std::string& name, std::size_t vesicle) const {
-  if (file_.has_attribute(group_of(snapshot), "checksum")) {
-    require_checksum(file_, group_of(snapshot), snapshot_checksum(file_, group_of(snapshot)));
-  }
-  Matrix values = file_.matrix(path_of(snapshot, name, vesicle));
+Matrix RunSnapshot::read(const std::string& field, std::size_t vesicle) const {
+  const std::string path = path_of(field, vesicle);
+  Matrix values = file_.matrix(path);
   try {
     const int order = order_of(values.rows());
     if (order > highest_order) {
-      file_.refuse(fmt::format("{} is of degree {}; accepted: at most {}", path_of(snapshot, name, vesicle), order,
-                               highest_order));
+      file_.refuse(fmt::format("{} is of degree {}; accepted: at most {}", path, order, highest_order));
     }
   } catch (const ShapeError& error) {
-    file_.refuse(fmt::format("{}: {}", path_of(snapshot, name, vesicle), error.what()));
+    file_.refuse(fmt::format("{}: {}", path, error.what()));
   }
-  if (!values.allFinite())
-    file_.refuse(fmt::format("{} holds values that are not finite", path_of(snapshot, name, vesicle)));
+  if (!values.allFinite()) file_.refuse(fmt::format("{} holds values that are not finite", path));
   return values;
 }
 
-Matrix RunReader::coefficients(std::size_t snapshot, const std::string& name, Index components,
-                               std::size_t vesicle) const {
-  if (!file_.has(path_of(snapshot, name, vesicle))) {
+Matrix RunSnapshot::coefficients(const std::string& field, Index components, std::size_t vesicle) const {
+  if (!file_.has(path_of(field, vesicle))) {
     file_.refuse(fmt::format("dataset {} is missing; expected: coefficients with {} component{}",
-                             path_of(snapshot, name, vesicle), components, components == 1 ? "" : "s"));
+                             path_of(field, vesicle), components, components == 1 ? "" : "s"));
   }
-  Matrix values = read(snapshot, name, vesicle);
-  const Index rows = name == "x" ? values.rows() : file_.matrix(path_of(snapshot, "x", vesicle)).rows();
+  Matrix values = read(field, vesicle);
+  const Index rows = field == "x" ? values.rows() : file_.matrix(path_of("x", vesicle)).rows();
   if (values.cols() != components || values.rows() != rows) {
-    file_.refuse(fmt::format("{} is {} x {}, but must be {} x {}", path_of(snapshot, name, vesicle), values.cols(),
+    file_.refuse(fmt::format("{} is {} x {}, but must be {} x {}", path_of(field, vesicle), values.cols(),
                              values.rows(), components, rows));
   }
   return values;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bie/files/hdf5_reader.hpp"
@@ -15,8 +16,7 @@ namespace vehd {
 /// Version of the layout of run.h5 that this program reads and writes.
 constexpr std::int64_t run_schema_version = 1;
 
-/// Datasets that a snapshot may have, in the order in which its checksum takes them; each on the grid, in coefficients/
-/// and in surface/.
+/// Datasets that a snapshot may have; each on the grid, in coefficients/ and in surface/.
 constexpr std::array<std::string_view, 26> snapshot_fields = {"x",
                                                               "velocity",
                                                               "force_bending",
@@ -55,18 +55,47 @@ std::vector<std::string> vesicle_groups(const Hdf5Reader& file, const std::strin
 /// Attribute of a vesicle of a snapshot: the degree that it was solved in, beyond which its coefficients are zero.
 constexpr const char* degree_attribute = "degree";
 
-/// That degree: with a tolerance it is lower than that of the file, as a rule. A file of an earlier program does not
-/// have it: that of the file. @throws InputError if it is none that the coefficients can have
-/// @param vesicle  its group, which has x
-int solved_degree(const Hdf5Reader& file, const std::string& vesicle);
+/// One snapshot of a run.h5 that is intact: it matches its seal, or the file is of an earlier vehd and has none.
+class RunSnapshot {
+ public:
+  [[nodiscard]] double time() const { return time_; }
+  /// The file in messages.
+  [[nodiscard]] const std::string& name() const { return file_.name(); }
+  [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
+  /// Steps of the run until then. @throws InputError
+  [[nodiscard]] std::int64_t step() const { return file_.integer_attribute(group_, "step"); }
+  /// Whether it has the coefficients of this field.
+  /// @param vesicle  of several
+  [[nodiscard]] bool has_field(const std::string& field, std::size_t vesicle = 0) const {
+    return file_.has(path_of(field, vesicle));
+  }
+  /// The degree that a vesicle was solved in: with a tolerance it is lower than that of the file, as a rule. A file of
+  /// an earlier program does not have it: that of the file. @throws InputError if it is none that x can have
+  [[nodiscard]] int degree(std::size_t vesicle = 0) const;
+  /// Harmonic coefficients, [n_coefficients x components]. @throws InputError
+  [[nodiscard]] Matrix coefficients(const std::string& field) const { return read(field, 0); }
+  /// The same, of the stated number of components and of the order of x.
+  /// @param vesicle  of several
+  [[nodiscard]] Matrix coefficients(const std::string& field, Index components, std::size_t vesicle = 0) const;
 
-/// Checksum of time, step, degrees and all numbers of a snapshot as they are in the file.
-std::int64_t snapshot_checksum(const Hdf5Reader& file, const std::string& group);
+ private:
+  friend class RunReader;
+  RunSnapshot(const Hdf5Reader& file, std::string group, double time, std::size_t n_vesicles)
+      : file_(file), group_(std::move(group)), time_(time), n_vesicles_(n_vesicles) {}
+  [[nodiscard]] Matrix read(const std::string& field, std::size_t vesicle) const;
+  [[nodiscard]] std::string group_of(std::size_t vesicle) const;
+  [[nodiscard]] std::string path_of(const std::string& field, std::size_t vesicle) const {
+    return group_of(vesicle) + "/coefficients/" + field;
+  }
 
-/// @throws InputError if the snapshot's attribute "checksum" says otherwise
-void require_checksum(const Hdf5Reader& file, const std::string& group, std::int64_t checksum);
+  const Hdf5Reader& file_;
+  std::string group_;
+  double time_;
+  std::size_t n_vesicles_;
+};
 
-/// Access to the snapshots of a run.h5. @throws InputError
+/// Access to the snapshots of a run.h5, whose header and times are compared with their seals at once, and each snapshot
+/// when it is opened. A file of an earlier vehd has no seals and is read as it is. @throws InputError
 class RunReader {
  public:
   explicit RunReader(Hdf5Reader file);
@@ -80,8 +109,13 @@ class RunReader {
   [[nodiscard]] std::optional<std::size_t> find(double time) const;
   /// The same. @throws InputError if there is none
   [[nodiscard]] std::size_t at(double time) const;
+  /// A snapshot, which must not outlive the reader. @throws InputError naming what does not match its seal
+  [[nodiscard]] RunSnapshot snapshot(std::size_t number) const;
   /// The path of the file, or what stands for it in messages.
   [[nodiscard]] const std::string& name() const { return file_.name(); }
+  [[nodiscard]] const Hdf5Reader& file() const { return file_; }
+  /// Degree of the grid.
+  [[nodiscard]] int order() const;
   /// Whether the run has kept its scene.
   [[nodiscard]] bool has_scene() const { return file_.has("/scene"); }
   /// The effective scene of the run.
@@ -90,34 +124,20 @@ class RunReader {
   [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
   /// @param who  cannot do with several vesicles, "vehd mesh" @throws InputError if there are
   void require_one_vesicle(const std::string& who) const;
-  /// Whether a snapshot has the coefficients of this field, of the first vesicle where there are several.
-  [[nodiscard]] bool has_field(std::size_t snapshot, const std::string& name) const;
-  /// Where the numbers themselves are judged. @throws InputError if the snapshot has no checksum
-  void require_sealed(std::size_t snapshot) const;
-  /// Harmonic coefficients, [n_coefficients x components], of a snapshot that is intact as a whole. A run.h5 without
-  /// checksums is of an earlier program and is read as it is.
-  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name) const {
-    return read(snapshot, name, 0);
-  }
-  /// See solved_degree().
-  [[nodiscard]] int degree(std::size_t snapshot, std::size_t vesicle = 0) const {
-    return solved_degree(file_, vesicle_group_of(snapshot, vesicle));
-  }
-  /// The same, of the stated number of components and of the order of x.
-  /// @param vesicle  of several
-  [[nodiscard]] Matrix coefficients(std::size_t snapshot, const std::string& name, Index components,
-                                    std::size_t vesicle = 0) const;
+  /// Whether the file has seals, without which damage goes unnoticed.
+  [[nodiscard]] bool is_sealed() const { return is_sealed_; }
+  /// Checksum of the seals of the first snapshots, at most as many as there are.
+  [[nodiscard]] std::int64_t checksum(std::size_t count) const;
 
  private:
-  [[nodiscard]] std::string group_of(std::size_t snapshot) const { return "/snapshots/" + names_.at(snapshot); }
-  [[nodiscard]] Matrix read(std::size_t snapshot, const std::string& name, std::size_t vesicle) const;
-  [[nodiscard]] std::string vesicle_group_of(std::size_t snapshot, std::size_t vesicle) const;
-  [[nodiscard]] std::string path_of(std::size_t snapshot, const std::string& name, std::size_t vesicle) const;
+  [[nodiscard]] std::string seal_of(const std::string& group) const;
+  void require_sealed(const std::string& group, const std::string& closed) const;
 
   Hdf5Reader file_;
   std::vector<std::string> names_;
   std::vector<double> times_;
   std::size_t n_vesicles_ = 1;
+  bool is_sealed_ = false;
 };
 
 }  // namespace vehd

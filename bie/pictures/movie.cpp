@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "bie/pictures/shape_times.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -59,7 +60,8 @@ void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::files
 }
 
 std::filesystem::path plot_movie(const PlotTask& task, Progress& progress) {
-  const RunReader run(task.paths.snapshots());
+  ReadingNotes notes;
+  const RunReader run = read_snapshots(task.paths.snapshots(), notes);
   const std::vector<std::size_t> snapshots = spread_evenly(run.times().size(), most_frames);
   make_directory(task.output);
   std::filesystem::path movie = task.output / "movie.mp4";

@@ -12,7 +12,7 @@
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/shown_numbers.hpp"
 #include "bie/scene/output_units.hpp"
-#include "bie/scene/reader.hpp"
+#include "bie/runs/run_files.hpp"
 
 namespace vehd {
 namespace {
@@ -184,10 +184,11 @@ std::string panel_of_common_axis(const HistoryQuantity& quantity, Drawing& drawi
 }  // namespace
 
 bool plot_history(const PlotTask& task, const PictureFile& file) {
-  const Scene scene = read_scene(task.paths.scene());
-  const HistoryTable history(task.paths.history());
+  ReadingNotes notes;
+  const Scene scene = read_scene_of(read_snapshots(task.paths.snapshots(), notes));
+  const HistoryTable history = read_table(task.paths.history(), notes);
   std::optional<HistoryTable> errors;
-  if (scene.numerics.error_bars) errors.emplace(task.paths.history_error());
+  if (scene.numerics.error_bars) errors.emplace(read_table(task.paths.history_error(), notes));
   const std::vector<HistoryPanel> panels = panels_of(scene, history, errors ? &*errors : nullptr);
   if (panels.empty()) return false;
   const std::vector<double>& times = history.column("time");

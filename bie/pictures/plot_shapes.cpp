@@ -11,8 +11,7 @@
 #include "bie/pictures/shapes_layout.hpp"
 #include "bie/pictures/view.hpp"
 #include "bie/runs/given_times.hpp"
-#include "bie/runs/run_units.hpp"
-#include "bie/scene/reader.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -160,17 +159,18 @@ std::vector<SnapshotChoice> shapes_to_plot(const PlotTask& task, const RunReader
 
 PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
   require_run(task.paths);
-  const RunReader run(task.paths.snapshots());
-  const Scene scene = read_scene(task.paths.scene());
-  const OutputUnits units = units_of_run(task.paths);
-  const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
-  const ShapeField field = task.style.field.value_or(default_field(run, choices.front().snapshot));
   PlotResult result{{file.path}, {}};
+  const RunReader run = read_snapshots(task.paths.snapshots(), result.notes);
+  const Scene scene = read_scene_of(run);
+  const OutputUnits units = units_of_run(task.paths, scene.units, result.notes);
+  const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
+  const ShapeField field = task.style.field.value_or(default_field(run.snapshot(choices.front().snapshot)));
   ShapesPicture picture;
   std::vector<double> times;
   for (const SnapshotChoice& choice : choices) {
-    require_field(run, choice.snapshot, field);
-    picture.shapes.push_back(shape_of(read_shape(run, choice.snapshot, field), field, picture_grid_order));
+    const RunSnapshot snapshot = run.snapshot(choice.snapshot);
+    require_field(snapshot, field);
+    picture.shapes.push_back(shape_of(read_shape(snapshot, field), field, picture_grid_order));
     times.push_back(picture.shapes.back().time);
     if (!choice.note.empty()) result.notes.push_back(choice.note);
   }
@@ -186,17 +186,19 @@ PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
 }
 
 FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::vector<std::size_t>& snapshots) {
-  const Scene scene = read_scene(task.paths.scene());
-  const OutputUnits units = units_of_run(task.paths);
-  const ShapeField field = task.style.field.value_or(default_field(run, snapshots.front()));
+  const Scene scene = read_scene_of(run);
+  ReadingNotes notes;
+  const OutputUnits units = units_of_run(task.paths, scene.units, notes);
+  const ShapeField field = task.style.field.value_or(default_field(run.snapshot(snapshots.front())));
   // For what all frames share a coarse grid is enough.
   constexpr int coarse_order = 24;
   std::vector<ShapeCoefficients> read;
   std::vector<Shape> shapes;
   std::vector<double> times;
-  for (const std::size_t snapshot : snapshots) {
-    require_field(run, snapshot, field);
-    read.push_back(read_shape(run, snapshot, field));
+  for (const std::size_t number : snapshots) {
+    const RunSnapshot snapshot = run.snapshot(number);
+    require_field(snapshot, field);
+    read.push_back(read_shape(snapshot, field));
     shapes.push_back(shape_of(read.back(), field, coarse_order));
     times.push_back(shapes.back().time);
   }

@@ -30,12 +30,12 @@ bool is_of_amplitude(ShapeField field) {
          field == ShapeField::charge_amplitude;
 }
 
-bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
+bool has(const RunSnapshot& snapshot, ShapeField field) {
   switch (field) {
     case ShapeField::potential:
-      return run.has_field(snapshot, "Vm");
+      return snapshot.has_field("Vm");
     case ShapeField::charge:
-      return run.has_field(snapshot, "q");
+      return snapshot.has_field("q");
     case ShapeField::tension:
     case ShapeField::poration:
     case ShapeField::conductance:
@@ -43,13 +43,13 @@ bool has(const RunReader& run, std::size_t snapshot, ShapeField field) {
     case ShapeField::pump_current:
     case ShapeField::bending_modulus:
     case ShapeField::spontaneous_curvature:
-      return run.has_field(snapshot, std::string(label_of(field).dataset));
+      return snapshot.has_field(std::string(label_of(field).dataset));
     case ShapeField::potential_amplitude:
     case ShapeField::potential_phase:
     case ShapeField::charge_amplitude:
-      return run.has_field(snapshot, std::string(parts_of(field).front()));
+      return snapshot.has_field(std::string(parts_of(field).front()));
     case ShapeField::force:
-      return std::ranges::any_of(forces, [&](const auto& force) { return run.has_field(snapshot, force.first); });
+      return std::ranges::any_of(forces, [&](const auto& force) { return snapshot.has_field(force.first); });
     case ShapeField::none:
     case ShapeField::curvature:
       break;
@@ -131,42 +131,42 @@ FieldLabel label_of(ShapeField field) {
   return {"", "1"};
 }
 
-ShapeField default_field(const RunReader& run, std::size_t snapshot) {
+ShapeField default_field(const RunSnapshot& snapshot) {
   for (const ShapeField field : {ShapeField::potential, ShapeField::potential_amplitude, ShapeField::tension}) {
-    if (has(run, snapshot, field)) return field;
+    if (has(snapshot, field)) return field;
   }
   return ShapeField::curvature;
 }
 
-void require_field(const RunReader& run, std::size_t snapshot, ShapeField field) {
-  if (has(run, snapshot, field)) return;
+void require_field(const RunSnapshot& snapshot, ShapeField field) {
+  if (has(snapshot, field)) return;
   std::vector<std::string_view> present;
   for (std::size_t i = 0; i < shape_field_names.size(); ++i) {
-    if (has(run, snapshot, static_cast<ShapeField>(i))) present.push_back(shape_field_names[i]);
+    if (has(snapshot, static_cast<ShapeField>(i))) present.push_back(shape_field_names[i]);
   }
   throw InputError(fmt::format("--field {}: {} has none; accepted: {}",
-                               shape_field_names[static_cast<std::size_t>(field)], run.name(),
+                               shape_field_names[static_cast<std::size_t>(field)], snapshot.name(),
                                fmt::join(present, ", ")));
 }
 
 namespace {
 
-VesicleCoefficients read_vesicle(const RunReader& run, std::size_t snapshot, ShapeField field, std::size_t vesicle) {
-  VesicleCoefficients read{run.coefficients(snapshot, "x", 3, vesicle), {}};
+VesicleCoefficients read_vesicle(const RunSnapshot& snapshot, ShapeField field, std::size_t vesicle) {
+  VesicleCoefficients read{snapshot.coefficients("x", 3, vesicle), {}};
   if (const std::string_view dataset = label_of(field).dataset; !dataset.empty()) {
-    read.field = run.coefficients(snapshot, std::string(dataset), 1, vesicle);
+    read.field = snapshot.coefficients(std::string(dataset), 1, vesicle);
   }
   if (is_of_amplitude(field)) {
     const auto [real, imaginary] = parts_of(field);
     read.field.resize(read.position.rows(), 2);
-    read.field << run.coefficients(snapshot, std::string(real), 1, vesicle),
-        run.coefficients(snapshot, std::string(imaginary), 1, vesicle);
+    read.field << snapshot.coefficients(std::string(real), 1, vesicle),
+        snapshot.coefficients(std::string(imaginary), 1, vesicle);
   }
   if (field == ShapeField::force) {
     // The whole force of the membrane on the fluid.
     read.field = Matrix::Zero(read.position.rows(), 3);
     for (const auto& [name, sign] : forces) {
-      if (run.has_field(snapshot, name)) read.field += sign * run.coefficients(snapshot, name, 3, vesicle);
+      if (snapshot.has_field(name)) read.field += sign * snapshot.coefficients(name, 3, vesicle);
     }
   }
   return read;
@@ -208,9 +208,9 @@ void append(Shape& shape, const Shape& other) {
 
 }  // namespace
 
-ShapeCoefficients read_shape(const RunReader& run, std::size_t snapshot, ShapeField field) {
-  ShapeCoefficients read{run.times()[snapshot], {}};
-  for (std::size_t a = 0; a < run.n_vesicles(); ++a) read.vesicles.push_back(read_vesicle(run, snapshot, field, a));
+ShapeCoefficients read_shape(const RunSnapshot& snapshot, ShapeField field) {
+  ShapeCoefficients read{snapshot.time(), {}};
+  for (std::size_t a = 0; a < snapshot.n_vesicles(); ++a) read.vesicles.push_back(read_vesicle(snapshot, field, a));
   return read;
 }
 

@@ -56,10 +56,10 @@ struct FieldLabel {
 FieldLabel label_of(ShapeField field);
 
 /// V_m, or its amplitude in an averaged field, without it the tension, without that the curvature.
-ShapeField default_field(const RunReader& run, std::size_t snapshot);
+ShapeField default_field(const RunSnapshot& snapshot);
 
 /// @throws InputError that names what there is, if the snapshot does not have what the field needs
-void require_field(const RunReader& run, std::size_t snapshot, ShapeField field);
+void require_field(const RunSnapshot& snapshot, ShapeField field);
 
 /// One snapshot with all its vesicles, the centroid of their membranes together in the origin.
 struct Shape {
@@ -82,7 +82,7 @@ struct ShapeCoefficients {
   double time = 0.0;
   std::vector<VesicleCoefficients> vesicles;
 };
-ShapeCoefficients read_shape(const RunReader& run, std::size_t snapshot, ShapeField field);
+ShapeCoefficients read_shape(const RunSnapshot& snapshot, ShapeField field);
 
 /// @param field  that was read
 /// @param grid_order  degree of the grid that is drawn, at least that of the snapshot

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -59,7 +60,8 @@ std::tuple<int, std::string, std::string, std::string> check(const std::filesyst
                  .n_ranks = ranks};
   if (from) task.span = read_time_span(file, *from, task.frozen);
   const FemProgram::Result result = compare_methods(fem, task);
-  return {static_cast<int>(result.code), result.json.dump(), task.frozen.note, time_of(task.frozen, file)};
+  return {static_cast<int>(result.code), result.json.dump(), fmt::format("{}", fmt::join(task.frozen.notes, "\n")),
+          time_of(task.frozen, file)};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
 #include "bie/python/scene_run.hpp"
+#include "bie/runs/run_files.hpp"
 
 namespace vehd::python {
 namespace {
@@ -44,6 +45,16 @@ py::dict columns_of(const HistoryTable& table) {
     columns[py::str(name)] = py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
   }
   return columns;
+}
+
+/// A table of a run; what cannot be known to be intact is a warning.
+HistoryTable checked_table(const std::filesystem::path& path) {
+  ReadingNotes notes;
+  HistoryTable table = read_table(path, notes);
+  for (const std::string& note : notes) {
+    if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), 1) != 0) throw py::error_already_set();
+  }
+  return table;
 }
 
 py::dict units_of(const HistoryTable& table) {
@@ -119,7 +130,7 @@ void bind_simulation(py::module_& module) {
       .def_readonly("seconds", &RunStatus::seconds)
       .def_readonly("time_unit", &RunStatus::time_unit);
   py::class_<HistoryTable>(module, "HistoryTable")
-      .def(py::init<const std::filesystem::path&>(), py::arg("path"))
+      .def(py::init(&checked_table), py::arg("path"))
       .def("columns", &columns_of)
       .def("units", &units_of);
   py::class_<SceneRun>(module, "SceneRun")

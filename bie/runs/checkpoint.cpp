@@ -15,13 +15,12 @@
 #include "bie/stepping/state/unknowns.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/time_rule.hpp"
-#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
 
-constexpr std::int64_t schema_of_one = 11, schema_of_several = 12;
+constexpr std::int64_t schema_of_one = 13, schema_of_several = 14;
 
 std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_of_several : schema_of_one; }
 
@@ -296,7 +295,8 @@ std::size_t n_vesicles_in(const Hdf5Reader& file) {
   const std::int64_t version = file.integer_attribute("/", "schema_version");
   if (version == schema_of_one) return 1;
   if (version != schema_of_several) {
-    file.refuse(fmt::format("has schema version {}; accepted: {}, {}", version, schema_of_one, schema_of_several));
+    throw OtherSchemaVersion(fmt::format("{}: has schema version {}; accepted: {}, {}", file.name(), version,
+                                         schema_of_one, schema_of_several));
   }
   std::size_t count = 0;
   while (file.has(group_of_vesicle(state_of_run, count, 2))) ++count;

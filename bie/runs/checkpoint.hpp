@@ -9,6 +9,7 @@
 
 #include "bie/runs/scene_changes.hpp"
 #include "bie/stepping/state/state.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 
@@ -46,7 +47,7 @@ struct Checkpoint {
   std::int64_t vesicles_bytes = 0;     ///< of vesicles.csv, likewise; 0 of one vesicle
   std::int64_t vesicles_checksum = 0;  ///< of these bytes
   std::int64_t n_snapshots = 0;
-  std::int64_t snapshots_checksum = 0;  ///< of the checksums of these snapshots
+  std::int64_t snapshots_checksum = 0;  ///< of the checksums of their seals
   std::int64_t threads = 1;
   RunTotals totals;
   std::optional<CompanionState> companion;  ///< of a run with error bars
@@ -55,7 +56,12 @@ struct Checkpoint {
 /// Replaces the file in one step. @throws OutputError
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// @throws InputError if the file is truncated, altered or of another schema version
+/// Of a checkpoint that another vehd wrote.
+struct OtherSchemaVersion : InputError {
+  using InputError::InputError;
+};
+
+/// @throws InputError if the file is truncated or altered, OtherSchemaVersion
 /// Accuracy: exact; a resumed run takes the same steps bit for bit (tests/app/resume_test.cpp)
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "bie/runs/run_directory.hpp"
-#include "bie/runs/run_units.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/scene/given_time.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
@@ -13,8 +13,9 @@ namespace vehd {
 GivenTimes::GivenTimes(const RunReader& run, const std::filesystem::path& file) : file_(file.string()) {
   if (run.has_scene()) scales_ = parse_units(run.scene(), file_ + " (scene)");
   const RunPaths beside{file.parent_path()};
-  if (std::filesystem::exists(beside.history())) {
-    unit_ = units_of_history(beside.history(), scales_).of("time");
+  if (std::filesystem::exists(beside.history()) || std::filesystem::exists(beside.checkpoint())) {
+    ReadingNotes notes;
+    unit_ = units_of_run(beside, scales_, notes).of("time");
   } else if (!scales_ || !scales_->time) {
     unit_ = OutputUnit{};
   }

@@ -1,6 +1,7 @@
 #include "bie/runs/history.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,9 @@
 namespace vehd {
 namespace {
 
+/// Column behind all others: the checksum of everything before it in the file.
+constexpr std::string_view checksum_column = "checksum";
+
 std::string header_of(std::string_view name, const std::string& unit) {
   return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
 }
@@ -27,7 +31,25 @@ std::string header_line(const OutputUnits& units, HistoryKind kind) {
   for (const HistoryColumn& column : history_columns(kind)) {
     cells.push_back(header_of(column.name, units.of(column.dimension).symbol));
   }
+  cells.emplace_back(checksum_column);
   return csv_line(cells);
+}
+
+/// Headers of the columns of a file, without that of checksums.
+struct FileHeader {
+  std::vector<std::string> cells;
+  bool is_sealed = false;
+
+  explicit FileHeader(const std::string& line) : cells(csv_cells(line)), is_sealed(cells.back() == checksum_column) {
+    if (is_sealed) cells.pop_back();
+  }
+};
+
+FileHeader header_in(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  return FileHeader(line);
 }
 
 /// Name and unit of a header.
@@ -38,8 +60,8 @@ std::pair<std::string, std::string> parts_of(const std::string& header) {
 }
 
 /// Columns of a file that has all, or those of an earlier vehd; nothing of any other.
-std::optional<std::size_t> columns_under(const std::string& header, HistoryKind kind) {
-  const std::vector<std::string> cells = csv_cells(header);
+std::optional<std::size_t> columns_under(const FileHeader& header, HistoryKind kind) {
+  const std::vector<std::string>& cells = header.cells;
   const std::vector<HistoryColumn>& known = history_columns(kind);
   if (cells.size() > known.size() || cells.size() < first_columns(kind)) return std::nullopt;
   const bool same = std::ranges::equal(
@@ -60,24 +82,24 @@ Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
 
 }  // namespace
 
-void require_history(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
-                     HistoryKind kind) {
-  if (kept_bytes == 0) return;
-  std::error_code error;
-  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  if (error || size < kept_bytes) {
-    throw InputError(fmt::format("{}: is missing or shorter than the {} bytes that the checkpoint counts",
-                                 path.string(), kept_bytes));
+void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum) {
+  if (bytes == 0) return;
+  const HistoryTable table(path);
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
+  if (size < bytes) {
+    throw InputError(
+        fmt::format("{}: rows are missing at its end: it has {} rows in {} bytes, and checkpoint.h5 counts {} bytes",
+                    path.string(), table.n_rows(), size, bytes));
   }
-  std::ifstream kept(path, std::ios::binary);
-  std::string first_line;
-  std::getline(kept, first_line);
-  if (!columns_under(first_line, kind)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
-  kept.seekg(0);
-  if (checksum_of(kept, kept_bytes).value() != checksum) {
+  std::ifstream file(path, std::ios::binary);
+  if (checksum_of(file, bytes).value() != checksum) {
     throw InputError(fmt::format("{}: was altered: its first {} bytes do not match the checksum in checkpoint.h5",
-                                 path.string(), kept_bytes));
+                                 path.string(), bytes));
   }
+}
+
+void require_columns(const std::filesystem::path& path, HistoryKind kind) {
+  if (!columns_under(header_in(path), kind)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
@@ -85,9 +107,8 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_by
     : path_(path), kind_(kind), checksum_(checksum) {
   for (const HistoryColumn& column : history_columns(kind)) factors_.push_back(units.of(column.dimension).factor);
   if (kept_bytes > 0) {
-    std::ifstream kept(path, std::ios::binary);
-    std::string header;
-    std::getline(kept, header);
+    const FileHeader header = header_in(path);
+    is_sealed_ = header.is_sealed;
     if (const auto n_columns = columns_under(header, kind)) factors_.resize(*n_columns);
   } else {
     stream_.open(path, std::ios::binary | std::ios::trunc);
@@ -115,7 +136,11 @@ void HistoryFile::append(const Vector& values) {
   for (std::size_t i = 0; i < factors_.size(); ++i) {
     cells.push_back(fmt::format("{:.17g}", values[static_cast<Index>(i)] * factors_[i]));
   }
-  write(csv_line(cells));
+  if (!is_sealed_) return write(csv_line(cells));
+  const std::string row = fmt::format("{},", fmt::join(cells, ","));
+  Checksum checksum = checksum_;
+  checksum.add(row);
+  write(fmt::format("{}{}\n", row, checksum.value()));
 }
 
 void HistoryFile::write(const std::string& text) {
@@ -140,13 +165,30 @@ HistoryTable::HistoryTable(const std::filesystem::path& path) {
 HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::move(name)) {
   std::string line;
   if (!std::getline(stream, line)) throw InputError(fmt::format("{}: no such file or empty", file_));
-  for (const std::string& cell : csv_cells(line)) {
+  const FileHeader header(line);
+  is_sealed_ = header.is_sealed;
+  for (const std::string& cell : header.cells) {
     auto [plain, unit] = parts_of(cell);
     names_.push_back(std::move(plain));
     units_.push_back(std::move(unit));
   }
   columns_.resize(names_.size());
+  Checksum before;
+  before.add(line + "\n");
   while (std::getline(stream, line)) {
+    if (is_sealed_) {
+      // Without its end it is a part of a row.
+      if (stream.eof()) break;
+      const std::size_t cell = line.rfind(',') + 1;
+      before.add(line.substr(0, cell));
+      if (cell == 0 || line.substr(cell) != std::to_string(before.value())) {
+        throw InputError(fmt::format(
+            "{}:{}: does not match its checksum: it was altered, or lines before it were altered or removed", file_,
+            n_rows_ + 2));
+      }
+      before.add(line.substr(cell) + "\n");
+      line.resize(cell - 1);
+    }
     const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != names_.size()) {
       throw InputError(
@@ -206,7 +248,7 @@ std::string HistoryTable::time_text(double time) const {
   return symbol.empty() ? fmt::format("{:g}", time) : fmt::format("{:g} {}", time, symbol);
 }
 
-OutputUnits HistoryTable::units(std::optional<UnitsScene> scales) const {
+std::map<std::string, std::string, std::less<>> HistoryTable::symbols() const {
   std::map<std::string, std::string, std::less<>> symbols;
   const auto add = [&](const HistoryColumn& column) {
     const auto found = std::ranges::find(names_, column.name);
@@ -218,7 +260,7 @@ OutputUnits HistoryTable::units(std::optional<UnitsScene> scales) const {
   for (std::size_t model = 0; model < n_poration_models; ++model) {
     std::ranges::for_each(poration_columns(static_cast<PorationModel>(model)), add);
   }
-  return {std::move(scales), std::move(symbols)};
+  return symbols;
 }
 
 }  // namespace vehd

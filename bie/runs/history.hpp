@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bie/scene/output_units.hpp"
@@ -73,13 +75,16 @@ std::size_t first_columns(HistoryKind kind);
 /// A row of the values of all columns, without units.
 Vector values_of(const HistoryRow& row, HistoryKind kind);
 
-/// Checks the first bytes of a history.csv.
-/// @throws InputError if the file is shorter, was altered there or has other columns
-void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum,
-                     HistoryKind kind = HistoryKind::of_one);
+/// Compares a table with what a checkpoint counts of it, 0 bytes: nothing.
+/// @throws InputError naming the row that was altered, or if rows are missing at the end
+void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum);
+
+/// @throws InputError if a table has other columns than those of its kind
+void require_columns(const std::filesystem::path& path, HistoryKind kind);
 
 /// Appends rows to history.csv; each is in the file when `append` returns.
-/// Numbers have 17 significant digits: reading them back gives the same bits.
+/// Numbers have 17 significant digits: reading them back gives the same bits. The last cell of a row is the checksum of
+/// everything in the file before it. A file of an earlier vehd goes on without.
 class HistoryFile {
  public:
   /// Starts a file, or continues one after its first `kept_bytes` bytes when that is not 0.
@@ -104,14 +109,17 @@ class HistoryFile {
   std::filesystem::path path_;
   HistoryKind kind_;
   std::vector<double> factors_;  ///< of the columns
+  bool is_sealed_ = true;        ///< rows end with checksums
   std::ofstream stream_;
   std::int64_t bytes_ = 0;
   Checksum checksum_;
 };
 
-/// A history.csv in memory. Columns go by their plain names, whatever the units of the file.
+/// A history.csv in memory. Columns go by their plain names, whatever the units of the file; that of checksums is none
+/// of them.
 class HistoryTable {
  public:
+  /// Reads rows that match their checksums; a part of a row at the end, which a kill can leave, is left out.
   /// @throws InputError "file:line: ..."
   explicit HistoryTable(const std::filesystem::path& path);
   /// The same from any stream; `name` stands for the file in messages.
@@ -123,6 +131,8 @@ class HistoryTable {
   void append(const HistoryRow& row);
 
   [[nodiscard]] std::size_t n_rows() const { return n_rows_; }
+  /// Whether its rows have checksums, without which damage goes unnoticed.
+  [[nodiscard]] bool is_sealed() const { return is_sealed_; }
   /// Of all columns, in their order.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   /// Steps that the rows tell of: neither the start nor the other side of a jump took one.
@@ -142,7 +152,9 @@ class HistoryTable {
   [[nodiscard]] std::string time_text(double time) const;
   /// The units that the columns tell of.
   /// @param scales  of the scene of the run
-  [[nodiscard]] OutputUnits units(std::optional<UnitsScene> scales) const;
+  [[nodiscard]] OutputUnits units(std::optional<UnitsScene> scales) const { return {std::move(scales), symbols()}; }
+  /// Their symbols by dimension.
+  [[nodiscard]] std::map<std::string, std::string, std::less<>> symbols() const;
 
  private:
   [[nodiscard]] std::size_t index(const std::string& name) const;
@@ -153,6 +165,7 @@ class HistoryTable {
   std::vector<std::string> names_, units_;
   std::vector<std::vector<double>> columns_;
   std::size_t n_rows_ = 0;
+  bool is_sealed_ = false;
 };
 
 }  // namespace vehd

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bie/files/hdf5_reader.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/scene/key_lookup.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
@@ -101,8 +101,7 @@ Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& 
 
 int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
   if (checkpoint.n_snapshots == 0) return scene.numerics.order;
-  const std::int64_t present = Hdf5Reader(paths.snapshots()).integer_attribute("/", "order");
-  return std::max(scene.numerics.order, static_cast<int>(std::clamp<std::int64_t>(present, 0, highest_order)));
+  return std::max(scene.numerics.order, RunReader(paths.snapshots()).order());
 }
 
 std::string what_may_help(const NumericsScene& numerics) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bie/runs/resumption.hpp"
-#include "bie/runs/run_units.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/support/output_error.hpp"
 
 namespace vehd {
@@ -17,8 +17,8 @@ namespace {
 Checkpoint start_of(const RunTask& task) { return task.checkpoint.value_or(Checkpoint{}); }
 
 OutputUnits units_of(const RunTask& task) {
-  return start_of(task).history_bytes > 0 ? units_of_history(task.paths.history(), task.scene.units)
-                                          : OutputUnits(task.scene);
+  ReadingNotes notes;
+  return start_of(task).history_bytes > 0 ? units_of_run(task.paths, task.scene.units, notes) : OutputUnits(task.scene);
 }
 
 NumericalSettings settings_of_files(const RunTask& task, NumericalSettings settings) {

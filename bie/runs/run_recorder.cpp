@@ -1,6 +1,5 @@
 #include "bie/runs/run_recorder.hpp"
 
-#include "bie/files/hdf5_reader.hpp"
 #include "bie/files/run_file.hpp"
 #include "bie/runs/snapshot_copy.hpp"
 #include "bie/runs/vesicle_rows.hpp"
@@ -18,19 +17,16 @@ bool is_late(const std::optional<std::chrono::steady_clock::time_point>& written
 
 bool has_several(const Checkpoint& checkpoint) { return checkpoint.state.vesicles.size() > 1; }
 
-/// Nothing is touched before the files of the run to continue are known to be intact. Then the checkpoint comes first:
-/// whatever a kill leaves behind can be resumed.
+/// Files that go on are intact, see require_intact. The checkpoint comes first: whatever a kill leaves behind can be
+/// resumed.
 Checkpoint written(const RunPaths& paths, Checkpoint start, HistoryKind kind) {
   if (start.n_snapshots > 0) {
-    start.snapshots_checksum = require_snapshots(paths.snapshots(), start.n_snapshots, start.snapshots_checksum);
+    // Another one where a session that was killed had written the same snapshots in another degree.
+    start.snapshots_checksum = RunReader(paths.snapshots()).checksum(static_cast<std::size_t>(start.n_snapshots));
   }
-  require_history(paths.history(), start.history_bytes, start.history_checksum, kind);
-  if (has_several(start)) {
-    require_history(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, of_each_like(kind));
-  }
-  if (start.companion) {
-    require_history(paths.history_error(), start.companion->bytes, start.companion->checksum, kind);
-  }
+  if (start.history_bytes > 0) require_columns(paths.history(), kind);
+  if (start.vesicles_bytes > 0) require_columns(paths.vesicles(), of_each_like(kind));
+  if (start.companion && start.companion->bytes > 0) require_columns(paths.history_error(), kind);
   write_checkpoint(paths.checkpoint(), start);
   replace_file(paths.scene(), with_changes(start.scene, start.changes));
   return start;
@@ -41,10 +37,10 @@ SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform&
                                    const SiUnits& si_units) {
   SnapshotStore::Kept kept{start.n_snapshots, start.snapshots_checksum, {}};
   if (start.n_snapshots == 0) return kept;
-  const auto present = std::make_shared<const Hdf5Reader>(paths.snapshots());
-  if (present->integer_attribute("/", "order") == output.order()) return kept;
-  kept.convert = [present, &output, &si_units](Hdf5Writer& file, const std::string& name) {
-    return copy_snapshot(file, *present, name, output, si_units);
+  const auto present = std::make_shared<const RunReader>(paths.snapshots());
+  if (present->order() == output.order()) return kept;
+  kept.convert = [present, &output, &si_units](Hdf5Writer& file, std::size_t number) {
+    return copy_snapshot(file, *present, number, output, si_units);
   };
   return kept;
 }
@@ -93,13 +89,10 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
   xdmf_.n_points = grid.n_points() + 2;
   xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
   if (start.n_snapshots == 0) return;
-  const Hdf5Reader file(paths.snapshots());
-  const auto group_of = [](std::int64_t number) { return "/snapshots/" + snapshot_name(number); };
-  for (std::int64_t number = 0; number < start.n_snapshots; ++number) {
-    xdmf_.times.push_back(file.number_attribute(group_of(number), "time"));
-  }
-  const std::string first = vesicle_groups(file, group_of(0)).front();
-  name_fields(xdmf_, [&](const std::string& name) { return file.has(first + "/" + name); });
+  const RunReader run(paths.snapshots());
+  xdmf_.times.assign(run.times().begin(), run.times().begin() + start.n_snapshots);
+  const std::string first = vesicle_groups(run.file(), "/snapshots/" + snapshot_name(0)).front();
+  name_fields(xdmf_, [&](const std::string& name) { return run.file().has(first + "/" + name); });
 }
 
 void RunRecorder::record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals) {

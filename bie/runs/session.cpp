@@ -1,11 +1,10 @@
 #include "bie/runs/session.hpp"
 
-#include <fstream>
 #include <utility>
 
-#include "bie/files/json_text.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/runs/resumption.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/runs/summary.hpp"
 #include "bie/runs/worst_error.hpp"
 #include "bie/scene/problem.hpp"
@@ -22,7 +21,8 @@ std::unique_ptr<DirectoryLock> lock_in(const RunPaths& paths) {
 /// A run that has reached the end of the scene. How its steps would be computed does not matter any more.
 bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
   if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
-  const nlohmann::json summary = nlohmann::json::parse(std::ifstream(paths.summary()), nullptr, false);
+  ReadingNotes notes;
+  const nlohmann::json summary = read_summary(paths.summary(), notes);
   return summary.is_object() && summary.value("completed", nlohmann::json()) == true;
 }
 
@@ -43,6 +43,7 @@ RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesy
   if (!admit_run(paths_, resume)) return;
   checkpoint_ = read_checkpoint(paths_.checkpoint());
   require_same_physics(scene_, source, *checkpoint_, paths_);
+  require_intact(paths_, *checkpoint_);
   complete_ = has_ended(scene_, *checkpoint_, paths_);
   threads_before_ = checkpoint_->threads;
   n_changes_before_ = checkpoint_->changes.size();
@@ -68,10 +69,12 @@ nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {
   if (scene_.numerics.error_bars) {
     summary["error_bars"] = worst_error(history, HistoryTable(paths_.history_error()));
   }
-  replace_file(paths_.summary(), json_text(summary));
-  return summary;
+  return write_summary(paths_.summary(), std::move(summary));
 }
 
-nlohmann::json RunSession::last_summary() const { return nlohmann::json::parse(std::ifstream(paths_.summary())); }
+nlohmann::json RunSession::last_summary() const {
+  ReadingNotes notes;
+  return read_summary(paths_.summary(), notes);
+}
 
 }  // namespace vehd

@@ -7,23 +7,19 @@ namespace vehd {
 
 namespace {
 
-/// @param group  of the vesicle
-void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleState& vesicle, VesicleFields& fields) {
-  const auto matrix = [&](const char* field) {
-    const std::string dataset = group + "/coefficients/" + field;
-    return source.has(dataset) ? source.matrix(dataset) : Matrix();
+/// @param number  of the vesicle
+void read_vesicle(const RunSnapshot& source, std::size_t number, VesicleState& vesicle, VesicleFields& fields) {
+  const auto read = [&](const char* field, Index components) {
+    return source.has_field(field, number) ? source.coefficients(field, components, number) : Matrix();
   };
-  const auto vector = [&](const char* field) {
-    const Matrix values = matrix(field);
-    return values.size() == 0 ? Vector() : Vector(values.col(0));
-  };
+  const auto matrix = [&](const char* field) { return read(field, 3); };
+  const auto vector = [&](const char* field) -> Vector { return read(field, 1).reshaped(); };
   const auto amplitude = [&](const char* real, const char* imaginary) {
-    const Matrix first = matrix(real), second = matrix(imaginary);
-    Matrix parts(first.rows(), first.cols() + second.cols());
-    parts << first, second;
+    Matrix parts(vesicle.position.rows(), 2);
+    parts << source.coefficients(real, 1, number), source.coefficients(imaginary, 1, number);
     return parts;
   };
-  vesicle.position = matrix("x");
+  vesicle.position = source.coefficients("x", 3, number);
   vesicle.transmembrane_potential = vector("Vm");
   vesicle.area_strain = vector("area_strain");
   vesicle.poration = vector("poration");
@@ -42,7 +38,7 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
   fields.charge = vector("q");
   fields.free_charge_in = vector("free_charge_in");
   fields.free_charge_out = vector("free_charge_out");
-  if (source.has(group + "/coefficients/Vm_real")) {
+  if (source.has_field("Vm_real", number)) {
     fields.potential_amplitude = amplitude("Vm_real", "Vm_imaginary");
     fields.charge_amplitude = amplitude("q_real", "q_imaginary");
   }
@@ -50,22 +46,21 @@ void read_vesicle(const Hdf5Reader& source, const std::string& group, VesicleSta
 
 }  // namespace
 
-std::int64_t copy_snapshot(Hdf5Writer& target, const Hdf5Reader& source, const std::string& name,
+std::int64_t copy_snapshot(Hdf5Writer& target, const RunReader& source, std::size_t number,
                            const SphereTransform& transform, const SiUnits& si_units) {
-  const std::string group = "/snapshots/" + name;
+  const RunSnapshot snapshot = source.snapshot(number);
   State state;
-  state.time = source.number_attribute(group, "time");
-  state.step = source.integer_attribute(group, "step");
+  state.time = snapshot.time();
+  state.step = snapshot.step();
   Fields fields;
-  for (const std::string& of_vesicle : vesicle_groups(source, group)) {
+  for (std::size_t a = 0; a < snapshot.n_vesicles(); ++a) {
     VesicleState vesicle;
-    VesicleFields of_fields;
-    read_vesicle(source, of_vesicle, vesicle, of_fields);
-    const int degree = solved_degree(source, of_vesicle);
-    state.vesicles.push_back(resized(std::move(vesicle), degree));
-    fields.vesicles.push_back(resized(std::move(of_fields), degree));
+    VesicleFields of_vesicle;
+    read_vesicle(snapshot, a, vesicle, of_vesicle);
+    state.vesicles.push_back(resized(std::move(vesicle), snapshot.degree(a)));
+    fields.vesicles.push_back(resized(std::move(of_vesicle), snapshot.degree(a)));
   }
-  return write_snapshot(target, name, transform, state, fields, si_units);
+  return write_snapshot(target, snapshot_name(static_cast<std::int64_t>(number)), transform, state, fields, si_units);
 }
 
 }  // namespace vehd

@@ -36,23 +36,16 @@ void or_remove(const std::filesystem::path& file, Write write) {
 
 }  // namespace
 
-std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t expected) {
-  const Hdf5Reader file(path);
-  require_run_schema(file);
-  Checksum all;
-  for (std::int64_t number = 0; number < count; ++number) {
-    const std::string group = group_of(number);
-    if (!file.has(group)) file.refuse(fmt::format("lacks {}, which the checkpoint counts", group));
-    const std::int64_t checksum = snapshot_checksum(file, group);
-    require_checksum(file, group, checksum);
-    all.add(checksum);
+void require_counted(const RunReader& run, std::int64_t count, std::int64_t expected) {
+  const Hdf5Reader& file = run.file();
+  if (const auto present = std::ssize(run.times()); present < count) {
+    file.refuse(fmt::format("holds {} of the {} snapshots that checkpoint.h5 counts", present, count));
   }
   const bool converted =
       file.has_attribute("/", converted_from) && file.integer_attribute("/", converted_from) == expected;
-  if (all.value() != expected && !converted) {
-    file.refuse("holds other snapshots than those that the checkpoint counts");
+  if (run.checksum(static_cast<std::size_t>(count)) != expected && !converted) {
+    file.refuse("holds other snapshots than those that checkpoint.h5 counts");
   }
-  return all.value();
 }
 
 SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& write_header, const Kept& kept)
@@ -69,11 +62,12 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
   or_remove(fresh, [&] {
     Hdf5Writer file(fresh, Hdf5Writer::Mode::create);
     write_header(file);
+    if (kept.convert) file.attribute("/", converted_from, kept.checksum);
+    file.seal("/");
     if (kept.convert) {
       for (std::int64_t number = 0; number < kept.count; ++number) {
-        checksum_.add(kept.convert(file, snapshot_name(number)));
+        checksum_.add(kept.convert(file, static_cast<std::size_t>(number)));
       }
-      file.attribute("/", converted_from, kept.checksum);
     } else if (kept.count > 0) {
       Hdf5Writer present(path_, Hdf5Writer::Mode::read);
       for (std::int64_t number = 0; number < kept.count; ++number) file.copy_from(present, group_of(number));

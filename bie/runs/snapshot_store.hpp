@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "bie/files/hdf5_writer.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/support/checksum.hpp"
 
 namespace vehd {
 
-/// Checks every number of the first snapshots of a run.h5.
-/// @param checksum  of their checksums, in the order of time
-/// @return that of the file: another one where a session that was killed had written the same snapshots in another
-/// degree
-/// @throws InputError if the file is damaged, lacks some of these snapshots or has others in their place
-std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t count, std::int64_t checksum);
+/// Compares the seals of the first snapshots of a run.h5 with those that a checkpoint counts.
+/// @param checksum  of their checksums, in the order of time; the file may have another one where a session that was
+///                  killed had written the same snapshots in another degree
+/// @throws InputError if the file lacks some of these snapshots or has others in their place
+void require_counted(const RunReader& run, std::int64_t count, std::int64_t checksum);
 
 /// A growing run.h5 that is a complete, closed HDF5 file at every instant.
 ///
@@ -27,15 +27,15 @@ std::int64_t require_snapshots(const std::filesystem::path& path, std::int64_t c
 class SnapshotStore {
  public:
   using WriteHeader = std::function<void(Hdf5Writer&)>;
-  /// Writes one of those that are added together. Returns its checksum.
+  /// Writes one of those that are added together. Returns the checksum of its seal.
   using WriteSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name, std::size_t i)>;
-  /// Writes a kept snapshot from the present file in another degree. Returns its checksum.
-  using ConvertSnapshot = std::function<std::int64_t(Hdf5Writer&, const std::string& name)>;
+  /// Writes a kept snapshot from the present file in another degree. Returns the checksum of its seal.
+  using ConvertSnapshot = std::function<std::int64_t(Hdf5Writer&, std::size_t number)>;
 
   /// Snapshots of an existing file that are taken over.
   struct Kept {
     std::int64_t count = 0;
-    std::int64_t checksum = 0;  ///< of their checksums; `require_snapshots` has found them intact
+    std::int64_t checksum = 0;  ///< of their checksums; whoever keeps them has found them intact
     ConvertSnapshot convert;    ///< empty: they are copied as they are
   };
 

@@ -13,12 +13,12 @@ ShapeFile::ShapeFile(const Scene& scene) : run_(scene.shape.path) {
   length_ = factor(&UnitsScene::length);
   potential_ = factor(&UnitsScene::potential);
   const auto& time = scene.shape.time;
-  snapshot_ = time ? run_.at(*time / factor(&UnitsScene::time)) : run_.times().size() - 1;
+  number_ = time ? run_.at(*time / factor(&UnitsScene::time)) : run_.times().size() - 1;
 }
 
-Matrix ShapeFile::position() const { return length_ * run_.coefficients(snapshot_, "x", 3); }
+Matrix ShapeFile::position() const { return length_ * snapshot().coefficients("x", 3); }
 
-Vector ShapeFile::potential() const { return potential_ * run_.coefficients(snapshot_, "Vm", 1).col(0); }
+Vector ShapeFile::potential() const { return potential_ * snapshot().coefficients("Vm", 1).col(0); }
 
 std::optional<UnitsScene> units_of(const RunReader& run) {
   if (!run.has_scene()) return std::nullopt;

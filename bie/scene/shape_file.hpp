@@ -19,13 +19,15 @@ class ShapeFile {
   /// Coefficients in the order of that run, [n_coefficients x 3]. @throws InputError
   [[nodiscard]] Matrix position() const;
   /// Whether the snapshot has V_m.
-  [[nodiscard]] bool has_potential() const { return run_.has_field(snapshot_, "Vm"); }
+  [[nodiscard]] bool has_potential() const { return snapshot().has_field("Vm"); }
   /// V_m of a file that has it, likewise. @throws InputError
   [[nodiscard]] Vector potential() const;
 
  private:
+  [[nodiscard]] RunSnapshot snapshot() const { return run_.snapshot(number_); }
+
   RunReader run_;
-  std::size_t snapshot_ = 0;
+  std::size_t number_ = 0;
   double length_ = 1.0, potential_ = 1.0;  ///< of 1 in the file, in the scene
 };
 

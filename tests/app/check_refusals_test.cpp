@@ -50,17 +50,16 @@ BOOST_AUTO_TEST_CASE(stored_number_that_is_wrong_by_a_percent_is_noticed) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(snapshot_without_its_checksum_is_refused) {
+BOOST_AUTO_TEST_CASE(snapshot_that_lost_its_seal_is_refused) {
   const FinishedRun run;
   const std::string file = run.output + "/run.h5";
   {
     const vehd::Hdf5Handle damaged = open_for_damage(file);
-    BOOST_TEST_REQUIRE(H5Adelete_by_name(damaged.id(), "/snapshots/000001", "checksum", H5P_DEFAULT) >= 0);
+    BOOST_TEST_REQUIRE(H5Ldelete(damaged.id(), "/snapshots/000001/seal", H5P_DEFAULT) >= 0);
   }
   const ProgramResult result = run_vehd({"check", file, "--time", "0.5", "--quick"});
   BOOST_TEST(result.exit_code == 1);
-  BOOST_TEST(result.errors ==
-             file + ": /snapshots/000001 has no checksum, so that its numbers cannot be told from damaged ones\n");
+  BOOST_TEST(result.errors == file + ": /snapshots/000001 has lost its seal, /snapshots/000001/seal\n");
 }
 
 BOOST_AUTO_TEST_CASE(input_without_what_is_compared_is_refused) {

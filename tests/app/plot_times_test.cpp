@@ -107,7 +107,7 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortS
   const std::string run = output + "/run.h5";
   for (const char* time : {"50", "50 us", "0.05 ms"}) {
     BOOST_TEST(vehd::read_frozen_state({run, {}}, time).state.time == 5.0, boost::test_tools::tolerance(1e-12));
-    BOOST_TEST(vehd::read_frozen_shape(run, time).note == "");
+    BOOST_TEST(vehd::read_frozen_shape(run, time).notes.empty());
   }
   // Alone a file does not say in which unit it was shown.
   const std::string lone = directory / "lone.h5";
@@ -120,7 +120,7 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortS
                                "have; accepted: as in \"50 ms\"";
   });
   // A scene has its start alone, in whatever unit.
-  BOOST_TEST(vehd::read_frozen_shape(scene, "0 ms").note == "");
+  BOOST_TEST(vehd::read_frozen_shape(scene, "0 ms").notes.empty());
   BOOST_CHECK_THROW((void)vehd::read_frozen_shape(scene, "50 us"), vehd::InputError);
 }
 
@@ -128,8 +128,8 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortS
 BOOST_AUTO_TEST_CASE(times_of_a_run_that_shows_numbers_of_the_scene_are_such) {
   const FinishedRun run(quick_scene_with_units("time = \"10 us\"\n", "0.5") + "units = \"dimensionless\"\n");
   const std::string file = run.output + "/run.h5";
-  BOOST_TEST(vehd::read_frozen_shape(file, "0.5").note == "");
-  BOOST_TEST(vehd::read_frozen_shape(file, "5 us").note == "");
+  BOOST_TEST(vehd::read_frozen_shape(file, "0.5").notes.empty());
+  BOOST_TEST(vehd::read_frozen_shape(file, "5 us").notes.empty());
 }
 
 BOOST_FIXTURE_TEST_CASE(frozen_states_take_the_same_times, ShortRun) {
@@ -138,8 +138,8 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_take_the_same_times, ShortRun) {
     const vehd::FrozenShape shape = vehd::read_frozen_shape(file(), time);
     BOOST_TEST_REQUIRE(shape.positions.size() == 1);
     BOOST_TEST((shape.positions.front() == state.state.vesicles[0].position));
-    BOOST_TEST(shape.note == state.note);
-    return std::pair{state.state.time, state.note.empty() ? "" : state.note + "\n"};
+    BOOST_TEST(shape.notes == state.notes, boost::test_tools::per_element());
+    return std::pair{state.state.time, state.notes.empty() ? "" : state.notes.front() + "\n"};
   };
   BOOST_TEST((both(std::nullopt) == std::pair{1.25, std::string()}));
   BOOST_TEST((both("0.5") == std::pair{0.5, std::string()}));

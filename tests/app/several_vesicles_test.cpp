@@ -109,8 +109,8 @@ BOOST_AUTO_TEST_CASE(files_tell_of_every_vesicle) {
   const vehd::RunReader snapshots(run.output + "/run.h5");
   BOOST_TEST(snapshots.n_vesicles() == 2);
   const double middle = std::sqrt(4.0 * std::numbers::pi);
-  BOOST_TEST(std::abs(snapshots.coefficients(0, "x", 3, 0)(0, 0) / middle + 1.6) < 1e-12);
-  BOOST_TEST(std::abs(snapshots.coefficients(0, "x", 3, 1)(0, 0) / middle - 1.4) < 1e-12);
+  BOOST_TEST(std::abs(snapshots.snapshot(0).coefficients("x", 3, 0)(0, 0) / middle + 1.6) < 1e-12);
+  BOOST_TEST(std::abs(snapshots.snapshot(0).coefficients("x", 3, 1)(0, 0) / middle - 1.4) < 1e-12);
   const std::string xdmf = file_text(run.output + "/run.xdmf");
   for (const char* place : {"/snapshots/000000/vesicles/00/surface/x", "/snapshots/000001/vesicles/01/surface/Vm"}) {
     BOOST_TEST(xdmf.find(place) != std::string::npos, place);
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_suspension_runs_as_what_was_placed) {
   BOOST_TEST(file_text(run.output + "/scene.toml").find("[suspension]") == std::string::npos);
   const vehd::RunReader snapshots(run.output + "/run.h5");
   BOOST_TEST(snapshots.n_vesicles() == 3);
-  BOOST_TEST(snapshots.has_field(0, "force_contact"));
+  BOOST_TEST(snapshots.snapshot(0).has_field("force_contact"));
 }
 
 BOOST_AUTO_TEST_CASE(what_knows_one_vesicle_alone_says_so) {

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(snapshot_at_a_switch_holds_the_side_after_it) {
   BOOST_TEST(snapshots.times() == (std::vector<double>{0.0, 0.5, 1.0}), boost::test_tools::per_element());
   const vehd::HistoryTable history(run.reference + "/history.csv");
   const std::vector<double>& north = history.column("q_north");
-  const vehd::Matrix charge = snapshots.coefficients(2, "q");
+  const vehd::Matrix charge = snapshots.snapshot(2).coefficients("q");
   double at_pole = 0.0;
   for (int n = 0; n <= vehd::order_of(charge.rows()); ++n) {
     at_pole += charge(vehd::coefficient_index(n, 0), 0) * std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi));

@@ -46,6 +46,7 @@ class StartedRun {
     std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing);
     { change(open_for_damage(copy).id()); }
     try {
+      reseal(copy, "/");
       reseal(copy, group);
     } catch (const std::runtime_error&) {
       // What its checksum is made of is not there.
@@ -225,6 +226,7 @@ void write_padded_run(const std::string& path, const std::string& scene, const v
   vehd::Hdf5Writer file(path, vehd::Hdf5Writer::Mode::create);
   const vehd::SiUnits units = vehd::si_units_of(std::nullopt);
   vehd::write_run_header(file, transform, {scene, 1, units});
+  file.seal("/");
   vehd::write_snapshot(file, vehd::snapshot_name(0), transform, solved.state, solved.fields, units);
   file.close();
 }

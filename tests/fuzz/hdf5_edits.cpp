@@ -15,6 +15,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/seals.hpp"
 
 namespace fuzz {
 namespace {
@@ -94,6 +95,7 @@ std::string good_run() {
   const vehd::SphereTransform transform(order, vehd::make_grid(order));
   vehd::Hdf5Writer file("run.h5", vehd::Hdf5Writer::Mode::in_memory);
   vehd::write_run_header(file, transform, {scene_text, 1, vehd::si_units_of(std::nullopt)});
+  file.seal("/");
   vehd::State state;
   state.vesicles.emplace_back();
   state.vesicles[0].position = ellipsoid();
@@ -197,18 +199,12 @@ void put_attribute(hid_t file, Bytes& bytes) {
   H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
 }
 
-/// So that what lies behind the checksum is reached.
-void correct_checksums(const std::string& image, hid_t file) {
-  for (const char* group : {"/snapshots/000000", "/snapshots/000001"}) {
+/// So that what lies behind the seals is reached.
+void correct_seals(const std::string& image, hid_t file) {
+  for (const char* group : {"/", "/snapshots/000000", "/snapshots/000001"}) {
     try {
-      const std::int64_t checksum = vehd::snapshot_checksum(vehd::Hdf5Reader(image, "run.h5"), group);
-      // Made anew: HDF5 1.10 crashes when it writes to attributes that were edited.
-      H5Adelete_by_name(file, group, "checksum", H5P_DEFAULT);
-      const vehd::Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-      const vehd::Hdf5Handle attribute(
-          H5Acreate_by_name(file, group, "checksum", H5T_STD_I64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-          H5Aclose);
-      H5Awrite(attribute.id(), H5T_NATIVE_INT64, &checksum);
+      const std::string seal = vehd::testing::seal_of(vehd::Hdf5Reader(image, "run.h5"), group);
+      vehd::testing::put_text(file, vehd::seal_path(group), seal);
     } catch (const vehd::InputError&) {
     }
   }
@@ -258,7 +254,7 @@ EditedFile edited_file(std::string_view text) {
   for (int count = 0; !bytes.empty() && count < 32; ++count) edit(file.id(), bytes);
   result.image = image_of(file.id());
   if (result.is_checkpoint || (start & 2U) != 0) return result;
-  correct_checksums(result.image, file.id());
+  correct_seals(result.image, file.id());
   result.image = image_of(file.id());
   return result;
 }

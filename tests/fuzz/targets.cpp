@@ -3,6 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bie/comparison/stored_copies.hpp"
 #include "bie/estimate/plan_cost.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/runs/checkpoint.hpp"
@@ -33,6 +34,18 @@ void refuse_or_read(Reader reader) {
   }
 }
 
+void read_snapshot(const vehd::RunSnapshot& snapshot) {
+  for (const std::string_view field : vehd::snapshot_fields) {
+    const std::string name(field);
+    if (!snapshot.has_field(name)) continue;
+    refuse_or_read([&] {
+      const vehd::Matrix values = snapshot.coefficients(name);
+      if (!values.allFinite()) throw std::logic_error("accepted values that are not finite");
+    });
+    refuse_or_read([&] { (void)snapshot.coefficients(name, name == "Vm" ? 1 : 3); });
+  }
+}
+
 /// Everything that plot, mesh, check and a shape file read.
 void read_run(vehd::Hdf5Reader file) {
   const vehd::RunReader run(std::move(file));
@@ -40,15 +53,8 @@ void read_run(vehd::Hdf5Reader file) {
   refuse_or_read([&] { (void)vehd::units_of(run); });
   for (std::size_t snapshot = 0; snapshot < std::min<std::size_t>(run.times().size(), 3); ++snapshot) {
     (void)run.at(run.times()[snapshot]);
-    for (const std::string_view field : vehd::snapshot_fields) {
-      const std::string name(field);
-      if (!run.has_field(snapshot, name)) continue;
-      refuse_or_read([&] {
-        const vehd::Matrix values = run.coefficients(snapshot, name);
-        if (!values.allFinite()) throw std::logic_error("accepted values that are not finite");
-      });
-      refuse_or_read([&] { (void)run.coefficients(snapshot, name, name == "Vm" ? 1 : 3); });
-    }
+    refuse_or_read([&] { read_snapshot(run.snapshot(snapshot)); });
+    refuse_or_read([&] { vehd::require_copies(run, snapshot); });
   }
 }
 

@@ -1,8 +1,9 @@
 #include "bie/runs/history.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <sstream>
 
-#include "bie/runs/run_units.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/runs/verdict.hpp"
 #include "bie/support/checksum.hpp"
 #include "bie/support/errors.hpp"
@@ -79,11 +80,14 @@ BOOST_AUTO_TEST_CASE(columns_go_by_their_plain_names_whatever_their_units) {
 
 BOOST_AUTO_TEST_CASE(a_history_tells_in_which_units_it_began) {
   const Written si(kUnits);
-  const vehd::OutputUnits units = vehd::units_of_history(si.path, kScales);
+  vehd::ReadingNotes notes;
+  const vehd::OutputUnits units = vehd::units_of_run({si.path.parent_path()}, kScales, notes);
   BOOST_TEST(units.of("time").symbol == "ms");
   BOOST_TEST(units.of("time").factor == 0.2, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(!units.of("area").is_si());
-  BOOST_TEST(!vehd::units_of_history(si.directory / "none.csv", kScales).of("time").is_si());
+  std::filesystem::remove(si.path);
+  BOOST_TEST(!vehd::units_of_run({si.path.parent_path()}, kScales, notes).of("time").is_si());
+  BOOST_TEST(notes.empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_history_goes_on_after_what_the_checkpoint_counts) {
@@ -91,14 +95,14 @@ BOOST_AUTO_TEST_CASE(a_history_goes_on_after_what_the_checkpoint_counts) {
   const std::string text = file_text(si.path);
   write_text(si.path, text + "3,4");
   vehd::require_history(si.path, si.bytes, si.checksum);
-  vehd::HistoryFile file(si.path, si.bytes, si.checksum, vehd::units_of_history(si.path, kScales));
+  vehd::HistoryFile file(si.path, si.bytes, si.checksum, vehd::HistoryTable(si.path).units(kScales));
   BOOST_TEST(file_text(si.path) == text);
   file.append(row_at(7.5));
   BOOST_TEST(vehd::HistoryTable(si.path).column("time").back() == 1.5, boost::test_tools::tolerance(1e-14));
   std::string other = text;
   other.replace(other.find("extent_x"), 8, "extent_w");
   write_text(si.path, other);
-  BOOST_CHECK_THROW(vehd::require_history(si.path, si.bytes, si.checksum), vehd::InputError);
+  BOOST_CHECK_THROW(vehd::require_columns(si.path, vehd::HistoryKind::of_one), vehd::InputError);
 }
 
 BOOST_AUTO_TEST_CASE(a_history_of_an_earlier_program_goes_on_with_its_columns) {
@@ -123,7 +127,40 @@ BOOST_AUTO_TEST_CASE(a_history_of_an_earlier_program_goes_on_with_its_columns) {
   BOOST_TEST(table.names().back() == "Vm_phase_deg");
   // Fewer no program ever had that wrote checkpoints of today.
   write_text(path, "time,dt\n");
-  BOOST_CHECK_THROW(vehd::require_history(path, 8, of_text("time,dt\n")), vehd::InputError);
+  BOOST_CHECK_THROW(vehd::require_columns(path, vehd::HistoryKind::of_one), vehd::InputError);
+}
+
+// A checksum counts all that is above it, so that rows which were taken out or exchanged are missed as well.
+BOOST_AUTO_TEST_CASE(an_altered_row_is_named) {
+  const Written written({});
+  const std::string text = file_text(written.path);
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line + "\n");
+  const auto refusal_of = [&](const std::string& altered) {
+    write_text(written.path, altered);
+    try {
+      (void)vehd::HistoryTable(written.path);
+    } catch (const vehd::InputError& error) {
+      return std::string(error.what()).substr(written.path.string().size());
+    }
+    return std::string();
+  };
+  const std::string why = ": does not match its checksum: it was altered, or lines before it were altered or removed";
+  BOOST_TEST(refusal_of(text) == "");
+  std::string edited = lines[2];
+  edited.front() = '9';
+  BOOST_TEST(refusal_of(lines[0] + lines[1] + edited + lines[3]) == ":3" + why);
+  BOOST_TEST(refusal_of(lines[0] + lines[2] + lines[3]) == ":2" + why);
+  BOOST_TEST(refusal_of(lines[0] + lines[1] + lines[3] + lines[2]) == ":3" + why);
+  BOOST_TEST(refusal_of(lines[0] + lines[1] + lines[2] + lines[2]) == ":4" + why);
+  std::string header = lines[0];
+  header.replace(header.find("extent_x"), 8, "extent_y");
+  BOOST_TEST(refusal_of(header + lines[1] + lines[2]) == ":2" + why);
+  BOOST_TEST(refusal_of(lines[0] + lines[1] + "3,4\n") == ":3" + why);
+  // What a kill leaves of a row is none.
+  BOOST_TEST(refusal_of(lines[0] + lines[1] + "3,4") == "");
+  BOOST_TEST(vehd::HistoryTable(written.path).n_rows() == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(the_verdict_says_times_with_their_unit) {

@@ -73,11 +73,9 @@ class Run {
   [[nodiscard]] std::string file(const std::string& name) const { return file_text(folder_ / ("out/" + name)); }
   /// Of all numbers of each snapshot.
   [[nodiscard]] std::vector<std::int64_t> checksums() const {
-    const vehd::Hdf5Reader numbers(folder_ / "out/run.h5");
+    const vehd::RunReader run(folder_ / "out/run.h5");
     std::vector<std::int64_t> all;
-    for (const std::string& name : numbers.members("/snapshots")) {
-      all.push_back(vehd::snapshot_checksum(numbers, "/snapshots/" + name));
-    }
+    for (std::size_t count = 1; count <= run.times().size(); ++count) all.push_back(run.checksum(count));
     return all;
   }
   [[nodiscard]] std::string counted(const std::string& what) const {

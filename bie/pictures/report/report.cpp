@@ -15,8 +15,8 @@
 #include "bie/pictures/report/scene_data.hpp"
 #include "bie/pictures/report/surface_data.hpp"
 #include "bie/pictures/report/verdict_data.hpp"
+#include "bie/runs/run_files.hpp"
 #include "bie/scene/output_units.hpp"
-#include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/progress.hpp"
@@ -122,14 +122,15 @@ ReportSize write_report(const ReportTask& task) {
   if (!std::filesystem::exists(task.paths.snapshots())) {
     throw InputError(fmt::format("{}: holds no run (no run.h5)", task.paths.directory.string()));
   }
-  const Scene scene = read_scene(task.paths.scene());
-  const RunReader run(task.paths.snapshots());
+  ReportSize size;
+  const RunReader run = read_snapshots(task.paths.snapshots(), size.notes);
   run.require_one_vesicle("vehd report");
-  const HistoryTable history(task.paths.history());
-  // Absent while a run is under way; a damaged one tells no more than that.
-  const nlohmann::json summary = nlohmann::json::parse(text_of_file(task.paths.summary()), nullptr, false);
+  const Scene scene = read_scene_of(run);
+  const HistoryTable history = read_table(task.paths.history(), size.notes);
+  const nlohmann::json summary = read_summary(task.paths.summary(), size.notes);
   const std::vector<std::size_t> snapshots = snapshots_for_page(run, task.most_snapshots);
-  ReportSize size{snapshots.size(), run.times().size()};
+  size.snapshots = snapshots.size();
+  size.all = run.times().size();
 
   nlohmann::json data{{"headline", headline_of(scene)},
                       {"verdict", verdict_data(history, scene, summary)},

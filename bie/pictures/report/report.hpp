@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "bie/runs/run_directory.hpp"
 
@@ -19,6 +21,7 @@ struct ReportSize {
   std::size_t snapshots = 0;  ///< in the page
   std::size_t all = 0;        ///< of the run
   std::size_t bytes = 0;
+  std::vector<std::string> notes{};  ///< see ReadingNotes
 };
 
 /// Writes one HTML file that needs nothing else: verdict, vesicle in 3D, shapes, histories, scene.

@@ -24,9 +24,9 @@ constexpr std::array page_fields = {ShapeField::potential, ShapeField::charge, S
 
 std::string dataset_of(ShapeField field) { return std::string(label_of(field).dataset); }
 
-std::size_t n_components(const RunReader& run, std::size_t snapshot) {
+std::size_t n_components(const RunSnapshot& snapshot) {
   return 3 + static_cast<std::size_t>(std::ranges::count_if(
-                 page_fields, [&](ShapeField field) { return run.has_field(snapshot, dataset_of(field)); }));
+                 page_fields, [&](ShapeField field) { return snapshot.has_field(dataset_of(field)); }));
 }
 
 /// One field at all times.
@@ -73,9 +73,10 @@ nlohmann::json field_data(const FieldLabel& field, const FieldOverTime& values, 
 std::vector<std::size_t> snapshots_for_page(const RunReader& run, std::size_t most) {
   const std::vector<std::size_t> chosen = spread_evenly(run.times().size(), std::max<std::size_t>(most, 2));
   std::size_t bytes = 0;
-  for (const std::size_t snapshot : chosen) {
-    const int order = order_of(run.coefficients(snapshot, "x", 3).rows());
-    bytes += n_components(run, snapshot) * packed_bytes(order);
+  for (const std::size_t number : chosen) {
+    const RunSnapshot snapshot = run.snapshot(number);
+    const int order = order_of(snapshot.coefficients("x", 3).rows());
+    bytes += n_components(snapshot) * packed_bytes(order);
   }
   if (bytes <= most_surface_bytes) return chosen;
   return spread_evenly(run.times().size(), std::max<std::size_t>(2, chosen.size() * most_surface_bytes / bytes));
@@ -89,8 +90,9 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
   const OutputUnit time = units.of("time"), length = units.of("length");
   std::array<OutputUnit, page_fields.size()> field_units;
   for (std::size_t i = 0; i < page_fields.size(); ++i) field_units[i] = units.of(label_of(page_fields[i]).dimension);
-  for (const std::size_t snapshot : snapshots) {
-    Matrix x = run.coefficients(snapshot, "x", 3) * length.factor;
+  for (const std::size_t number : snapshots) {
+    const RunSnapshot snapshot = run.snapshot(number);
+    Matrix x = snapshot.coefficients("x", 3) * length.factor;
     // The only harmonic whose mean over the sphere is not zero.
     x.row(0).setZero();
     position.add(x);
@@ -101,12 +103,12 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
     radius = std::max(radius, points.rowwise().norm().maxCoeff());
     const Eigen::RowVector3d extents = points.colwise().maxCoeff() - points.colwise().minCoeff();
     json["extents"].push_back(rounded_list({extents.begin(), extents.end()}));
-    json["times"].push_back(rounded_for_page(run.times()[snapshot] * time.factor));
+    json["times"].push_back(rounded_for_page(snapshot.time() * time.factor));
     json["degrees"].push_back(order);
     for (std::size_t i = 0; i < page_fields.size(); ++i) {
       const std::string dataset = dataset_of(page_fields[i]);
-      if (!run.has_field(snapshot, dataset)) continue;
-      fields[i].add(run.coefficients(snapshot, dataset, 1) * field_units[i].factor, transform, surface.quadrature);
+      if (!snapshot.has_field(dataset)) continue;
+      fields[i].add(snapshot.coefficients(dataset, 1) * field_units[i].factor, transform, surface.quadrature);
     }
   }
   json["position"] = position.json();

@@ -19,7 +19,7 @@ from .tables import Table
 class CheckResult(dict):
     """What `vehd check --json` writes (docs/check.md); `agrees`: every row agrees within errors that are small enough;
     `time`: of the snapshot that was compared, as in "0.5 ms", a number where the scene has no unit of time; `note`: where
-    that is not the requested time."""
+    that is not the requested time, and what cannot be known to be intact."""
 
     agrees: bool
     time: str

@@ -46,7 +46,8 @@ class Table(dict):
 
 
 def read_history(path: Union[str, "os.PathLike[str]"]) -> Table:
-    """The history of a run: of its folder, or of a history.csv or vesicles.csv."""
+    """The history of a run: of its folder, or of a history.csv or vesicles.csv. Raises InputError where rows were altered
+    or are missing."""
     file = Path(path)
     if file.is_dir():
         file = file / "history.csv"

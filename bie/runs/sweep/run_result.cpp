@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <vector>
-
 #include "bie/files/json_text.hpp"
+#include "bie/runs/history.hpp"
 #include "bie/runs/sweep/worker_id.hpp"
-#include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/temporary.hpp"
@@ -18,15 +14,6 @@ namespace {
 
 std::filesystem::path result_file(const std::filesystem::path& directory) { return directory / "result.json"; }
 
-/// First and last line of a file.
-std::array<std::string, 2> outer_lines(const std::filesystem::path& path) {
-  std::string text = text_of_file(path);
-  while (text.ends_with('\n')) text.pop_back();
-  const std::size_t first_end = text.find('\n'), last_start = text.rfind('\n');
-  if (first_end == std::string::npos) throw InputError(fmt::format("{}: holds no row", path.string()));
-  return {text.substr(0, first_end), text.substr(last_start + 1)};
-}
-
 }  // namespace
 
 RunResult result_of(const RunPaths& paths, const nlohmann::json& summary, double seconds) {
@@ -34,14 +21,12 @@ RunResult result_of(const RunPaths& paths, const nlohmann::json& summary, double
   result.verdict = summary.value("verdict", "");
   result.reason = summary.value("reason", "");
   result.seconds = seconds;
-  const auto [header, last] = outer_lines(paths.history());
-  const std::vector<std::string> names = csv_cells(header), values = csv_cells(last);
-  for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) {
-    // "time [ms]", or the name alone.
-    const std::size_t unit = names[i].find(" [");
-    const std::string name = names[i].substr(0, unit);
-    result.final_values[name] = values[i];
-    if (unit != std::string::npos) result.units[name] = names[i].substr(unit + 2, names[i].size() - unit - 3);
+  // The session has just written it or compared it with its checkpoint.
+  const HistoryTable history(paths.history());
+  if (history.n_rows() == 0) throw InputError(fmt::format("{}: holds no row", paths.history().string()));
+  for (const std::string& name : history.names()) {
+    result.final_values[name] = fmt::format("{:.17g}", history.column(name).back());
+    if (!history.unit(name).empty()) result.units[name] = history.unit(name);
   }
   return result;
 }

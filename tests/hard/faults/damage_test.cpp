@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <functional>
 #include <random>
@@ -105,7 +106,7 @@ BOOST_FIXTURE_TEST_CASE(other_schema_versions_are_not_resumed, StoppedRun) {
   set_version(directory / "image.h5", 2);
   damage(
       checkpoint, [&](std::string& text) { text = vehd::sealed(file_text(directory / "image.h5")); },
-      [&] { check_refused(checkpoint + ": has schema version 2; accepted: 11, 12"); });
+      [&] { check_refused(checkpoint + ": has schema version 2; accepted: 13, 14"); });
   const std::string original = file_text(snapshots);
   set_version(snapshots, 7);
   const std::string message = snapshots + ": has schema version 7; accepted: 1";
@@ -120,7 +121,8 @@ BOOST_FIXTURE_TEST_CASE(other_schema_versions_are_not_resumed, StoppedRun) {
 
 BOOST_FIXTURE_TEST_CASE(altered_number_of_a_snapshot_is_neither_resumed_nor_shown, StoppedRun) {
   const vehd::Vector force = vehd::Hdf5Reader(snapshots).vector("/snapshots/000001/force_bending");
-  const std::string message = snapshots + ": /snapshots/000001 is damaged: its values do not match their checksum";
+  const std::string message =
+      snapshots + ": damaged or altered: /snapshots/000001/force_bending does not match its checksum";
   damage(snapshots, flip(place_of(force, file_text(snapshots)) + 3, 2), [&] {
     check_refused(message);
     const ProgramResult plot = run_vehd({"plot", output, "--times", "0.5"});
@@ -133,7 +135,7 @@ BOOST_FIXTURE_TEST_CASE(altered_number_of_a_snapshot_is_neither_resumed_nor_show
 BOOST_FIXTURE_TEST_CASE(any_flipped_bit_of_a_run_file_is_refused_or_harmless, StoppedRun) {
   const std::string original = file_text(snapshots);
   const vehd::RunReader intact(snapshots);
-  const vehd::Matrix expected = intact.coefficients(1, "x");
+  const vehd::Matrix expected = intact.snapshot(1).coefficients("x");
   const std::string path = directory / "damaged.h5";
   std::mt19937 random(5);
   int refused = 0;
@@ -143,7 +145,7 @@ BOOST_FIXTURE_TEST_CASE(any_flipped_bit_of_a_run_file_is_refused_or_harmless, St
     write_text(path, altered);
     try {
       const vehd::RunReader run(path);
-      const vehd::Matrix actual = run.coefficients(1, "x");
+      const vehd::Matrix actual = run.snapshot(1).coefficients("x");
       // The bit belonged to padding, to a description or to another snapshot.
       BOOST_TEST_REQUIRE((actual.array() == expected.array()).all());
     } catch (const vehd::InputError&) {
@@ -169,15 +171,18 @@ BOOST_FIXTURE_TEST_CASE(truncated_run_file_is_not_resumed, StoppedRun) {
 
 BOOST_FIXTURE_TEST_CASE(altered_history_is_not_resumed, StoppedRun) {
   const std::int64_t bytes = vehd::read_checkpoint(checkpoint).history_bytes;
+  const std::string counted = file_text(history).substr(0, static_cast<std::size_t>(bytes));
+  const auto last_line = std::ranges::count(counted, '\n');
   damage(history, flip(static_cast<std::size_t>(bytes) - 5, 0), [&] {
-    check_refused(history + ": was altered: its first " + std::to_string(bytes) +
-                  " bytes do not match the checksum in checkpoint.h5");
+    check_refused(history + ":" + std::to_string(last_line) +
+                  ": does not match its checksum: it was altered, or lines before it were altered or removed");
   });
   damage(
       history, [&](std::string& text) { text.resize(static_cast<std::size_t>(bytes) - 1); },
       [&] {
-        check_refused(history + ": is missing or shorter than the " + std::to_string(bytes) +
-                      " bytes that the checkpoint counts");
+        check_refused(history + ": rows are missing at its end: it has " + std::to_string(last_line - 2) + " rows in " +
+                      std::to_string(bytes - 1) + " bytes, and checkpoint.h5 counts " + std::to_string(bytes) +
+                      " bytes");
       });
   finish();
 }
@@ -191,7 +196,7 @@ BOOST_FIXTURE_TEST_CASE(snapshots_of_another_run_are_not_resumed, StoppedRun) {
   const std::string foreign = file_text(directory / "other/run.h5");
   damage(
       snapshots, [&](std::string& text) { text = foreign; },
-      [&] { check_refused(snapshots + ": holds other snapshots than those that the checkpoint counts"); });
+      [&] { check_refused(snapshots + ": holds other snapshots than those that checkpoint.h5 counts"); });
   finish();
 }
 

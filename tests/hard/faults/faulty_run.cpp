@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "bie/files/run_reader.hpp"
 #include "bie/runs/checkpoint.hpp"
@@ -52,13 +53,11 @@ std::int64_t FaultyRun::check_files() const {
     BOOST_TEST(accepted == 0);
     return accepted;
   }
-  const vehd::Hdf5Reader file(snapshots);
-  const std::vector<std::string> names = file.members("/snapshots");
-  BOOST_TEST(std::ssize(names) >= accepted);
-  for (const std::string& name : names) {
-    const std::string group = "/snapshots/" + name;
-    vehd::require_checksum(file, group, vehd::snapshot_checksum(file, group));
-  }
+  const std::size_t count = vehd::Hdf5Reader(std::filesystem::path(snapshots)).members("/snapshots").size();
+  BOOST_TEST(std::cmp_greater_equal(count, accepted));
+  if (count == 0) return accepted;
+  const vehd::RunReader run(snapshots);
+  for (std::size_t number = 0; number < count; ++number) (void)run.snapshot(number);
   const auto expected = snapshot_data(reference + "/run.h5");
   const auto actual = snapshot_data(snapshots);
   BOOST_TEST_REQUIRE(actual.size() <= expected.size());
