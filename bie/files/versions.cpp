@@ -1,8 +1,10 @@
 #include "bie/files/versions.hpp"
 
+#include <fftw3.h>
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <string_view>
 
 #include "bie/files/hdf5_handle.hpp"
 #include "bie/linear/instruction_set.hpp"
@@ -35,6 +37,7 @@ std::map<std::string, std::string> library_versions() {
   H5get_libversion(&major, &minor, &release);
   return {{"compiler", compiler()},
           {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"fftw", std::string(std::string_view(fftw_version).substr(std::string_view("fftw-").size()))},
           {"hdf5", fmt::format("{}.{}.{}", major, minor, release)}};
 }
 

@@ -80,6 +80,10 @@ BOOST_AUTO_TEST_CASE(help_and_version_succeed) {
     BOOST_TEST(result.output.find("vehd") != std::string::npos);
     BOOST_TEST(result.errors.empty());
   }
+  const std::string version = run_vehd({"--version"}).output;
+  for (const char* library : {"compiler", "eigen", "fftw", "hdf5"}) {
+    BOOST_TEST(version.find("\n" + std::string(library) + " ") != std::string::npos, version);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(unwritable_directory) {
