@@ -36,10 +36,10 @@ struct Context {
 [[noreturn]] void refuse_value(const Context& context, const toml::node& node, double value) {
   const std::string problem = fmt::format("is {}", shown(node));
   if (!context.key.range.contains(value)) context.refuse(node, problem);
-  const std::string most = context.key.unit == "time" ? "" : fmt::format("{:g}", largest_magnitude);
-  context.refuse(
-      node, problem,
-      fmt::format("{}; its magnitude 0 or {:g} ... {}", accepted_text(context.key), smallest_magnitude, most));
+  const std::string magnitude = context.key.unit == "time"
+                                    ? fmt::format("at least {:g}", smallest_magnitude)
+                                    : fmt::format("{:g} ... {:g}", smallest_magnitude, largest_magnitude);
+  context.refuse(node, problem, fmt::format("{}, {} in magnitude unless 0", accepted_text(context.key), magnitude));
 }
 
 /// SI value of a text such as "1 kV/cm".

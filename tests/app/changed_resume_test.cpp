@@ -125,9 +125,9 @@ BOOST_AUTO_TEST_CASE(degree_may_rise_and_fall_and_no_snapshot_loses_a_digit) {
     BOOST_TEST(file.matrix("/snapshots/" + name + "/x").rows() == 10 * 20);
     // Each is intact and keeps the degree that it was solved in.
     const vehd::RunReader run_file(run.output + "/run.h5");
-    const vehd::RunSnapshot snapshot = run_file.snapshot(std::stoul(name));
-    const double time = snapshot.time();
-    BOOST_TEST(snapshot.degree() == (time < 1.1 ? 6 : time < 2.1 ? 9 : 5), time);
+    const vehd::RunSnapshot stored = run_file.snapshot(std::stoul(name));
+    const double time = stored.time();
+    BOOST_TEST(stored.degree() == (time < 1.1 ? 6 : time < 2.1 ? 9 : 5), time);
   }
   BOOST_TEST(run_vehd({"plot", run.output}).exit_code == 0);
   BOOST_TEST(run.summary()["changes"].size() == 2U);

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bie/comparison/check_input.hpp"
+#include "bie/files/run_reader.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 #include "tests/support/run_damage.hpp"
