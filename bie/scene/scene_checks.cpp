@@ -315,7 +315,10 @@ void check_scene(const Scene& scene, const toml::table& table, const std::string
 }
 
 void check_shape_size(const Scene& scene, const toml::table& table, const std::string& file) {
-  const ShapeSize size = size_of(initial_position(scene));
+  // About its own centre: the volume of a far shape would have no digits left.
+  Scene centred = scene;
+  centred.shape.centre = {};
+  const ShapeSize size = size_of(initial_position(centred));
   const auto is_accepted = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (is_accepted(size.area) && is_accepted(size.volume)) return;
   throw InputError(

@@ -25,6 +25,8 @@ void scale_field_of_run(const std::string& path, const std::string& group, const
     }
   }
   reseal(path, group);
+  // It counts the snapshots as they were.
+  std::filesystem::remove(std::filesystem::path(path).parent_path() / "checkpoint.h5");
 }
 
 const std::string moving_scene =

@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(of_vesicles_and_words_of_a_scene_stand_in_all_files_as_they
   std::string scene =
       "[membrane]\nbending_modulus = 0.1\n[numerics]\ndegree = 4\ndt = 0.1\nend_time = 0.1\n[electric]\n"
       "field = [0, 0, 0.1]\nconductivity_in = 2\nconductivity_out = 1\n[electric.waveform]\nkind = \"table\"\n"
-      "file = " +
+      "path = " +
       vehd::to_toml(std::string("a\n`cd;touch pwned` 'b' & <c>.csv")) + "\n";
   write_text(folder.directory / "a\n`cd;touch pwned` 'b' & <c>.csv", "time,value\n0,0\n0.05,1\n1,1\n");
   for (const std::string& name : hostile_names()) {

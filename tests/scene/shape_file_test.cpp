@@ -52,6 +52,7 @@ class StoredRun {
     const vehd::Scene parsed = vehd::parse_scene(scene, "stored.toml", directory_ / "");
     vehd::Hdf5Writer file(path(), vehd::Hdf5Writer::Mode::create);
     vehd::write_run_header(file, transform, {vehd::effective_scene(parsed), 1, vehd::si_units_of(parsed.units)});
+    (void)file.seal("/");
     for (int number = 0; number < 5; ++number) {
       vehd::State state;
       state.time = number;

@@ -147,67 +147,6 @@ BOOST_AUTO_TEST_CASE(spheres_in_tubes_and_under_gravity_move_as_faxen_and_stokes
   }
 }
 
-namespace {
-
-/// Of the membrane potential V·r/R of a sphere that turns: dV/dt = Ω × V − (V − V_s)/τ.
-struct TurningCharge {
-  double kappa, conductance, capacitance;
-  Vector3 field, rotation;
-
-  [[nodiscard]] Vector3 steady() const {
-    const double rate = (conductance + kappa / kRadius) / capacitance;
-    Matrix3 turning;
-    turning << 0.0, -rotation.z(), rotation.y(), rotation.z(), 0.0, -rotation.x(), -rotation.y(), rotation.x(), 0.0;
-    const Vector3 source = 1.5 * kappa / capacitance * field;
-    return (rate * Matrix3::Identity() - turning).inverse() * source;
-  }
-};
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(a_turning_sphere_in_a_field_reaches_the_exact_potential) {
-  const TurningCharge exact{2.0 * 1.0 * 2.0 / (1.0 + 2.0 * 2.0), 0.5, 0.7, {0.4, 0.3, 0.9}, {0.0, 0.5, 0.0}};
-  Model model = relaxation_model(0.1);
-  model.flow = shear_flow(1.0);
-  set_electric(model, {exact.field, 1.0, 2.0, 1.0}, {exact.capacitance, exact.conductance});
-  for (const Steps& steps : {Steps{3, 0.0, 0.1}, Steps{5, 0.0, 0.2}, Steps{3, 1e-3}, Steps{4, 1e-3}, Steps{5, 1e-4}}) {
-    BOOST_TEST_CONTEXT(steps) {
-      double deformed = 0.0, potential = 0.0;
-      run(model, {off_centre_sphere()}, steps, 12.0, [&](const State&, const Evaluation& e) {
-        const VesicleDiagnostics& d = e.diagnostics.vesicles[0];
-        deformed = std::max(deformed, deformation(d, kRadius));
-        potential = d.Vm_max;
-      });
-      BOOST_TEST(deformed < 1e-9);
-      BOOST_TEST(std::abs(potential / exact.steady().norm() - 1.0) < (steps.tolerance > 0.0 ? steps.tolerance : 2e-3));
-    }
-  }
-}
-
-// A membrane that neither charges nor leaks carries its V_m along: after any angle the pattern has turned by it.
-BOOST_AUTO_TEST_CASE(a_potential_that_does_not_change_turns_with_the_sphere) {
-  Model model;
-  model.flow = shear_flow(1.0);
-  set_electric(model, {{0.0, 0.0, 1e-9}, 1e-9, 1e-9, 1e-9}, {1.0, 0.0});
-  for (const Steps& steps : all_steps()) {
-    BOOST_TEST_CONTEXT(steps) {
-      StartMembrane start = off_centre_sphere();
-      start.potential.given = harmonic(kDegree, 1, 0).col(0) + harmonic(kDegree, 3, 2).col(0);
-      double wrong = 0.0;
-      run(model, {start}, steps, 9.0, [&](const State& state, const Evaluation&) {
-        // About y by half the time: z goes towards x.
-        const double angle = 0.5 * state.time;
-        const Vector& v = state.vesicles[0].transmembrane_potential;
-        const double along_z = v[coefficient_index(1, 0)], along_x = v[coefficient_index(1, 1)];
-        wrong = std::max(wrong, std::hypot(along_z - std::cos(angle), std::abs(along_x) - std::abs(std::sin(angle))));
-        const Index third = coefficient_index(3, -3);
-        wrong = std::max(wrong, std::abs(v.segment(third, 7).norm() - 1.0));
-      });
-      BOOST_TEST(wrong < 1e-8);
-    }
-  }
-}
-
 // What is left of a sphere by a file, by other units or by a former run is a sphere.
 BOOST_AUTO_TEST_CASE(a_sphere_up_to_rounding_is_a_sphere) {
   Model model = shear_model();
@@ -226,29 +165,6 @@ BOOST_AUTO_TEST_CASE(a_sphere_up_to_rounding_is_a_sphere) {
       }
     }
   }
-}
-
-// A sphere stays one beside a vesicle that deforms, whose shape a tolerance serves as well as short steps do.
-BOOST_AUTO_TEST_CASE(a_sphere_beside_a_prolate_is_rigid_and_the_prolate_is_not) {
-  Model model = shear_model();
-  model = with_vesicles(model, 2);
-  const Vector3 apart(0.2, 0.1, 2.4);
-  const std::vector<StartMembrane> start{{sphere(kDegree)}, {translated(ellipsoid(kDegree, {1.0, 0.9, 1.2}), apart)}};
-  double deformed = 0.0, viscosity = 0.0;
-  const auto look = [&](double& extent) {
-    return [&](const State&, const Evaluation& e) {
-      deformed = std::max(deformed, deformation(e.diagnostics.vesicles[0], 1.0));
-      viscosity = e.diagnostics.vesicles[0].rheology.intrinsic_viscosity();
-      extent = e.diagnostics.vesicles[1].extent_x;
-    };
-  };
-  double extent = 0.0, reference = 0.0;
-  run(model, start, {4, 1e-3}, 0.6, look(extent));
-  const double of_tolerance = viscosity;
-  run(model, start, {5, 0.0, 0.1}, 0.6, look(reference));
-  BOOST_TEST(deformed < 1e-9);
-  BOOST_TEST(std::abs(extent - reference) < 2e-3);
-  BOOST_TEST(std::abs(of_tolerance - viscosity) < 5e-3);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
