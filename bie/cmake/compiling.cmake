@@ -41,6 +41,9 @@ if(BUILD_SHARED_LIBS)
   target_compile_options(vehd_compilation INTERFACE -fvisibility-inlines-hidden -fno-semantic-interposition)
   add_link_options(-Wl,-Bsymbolic -Wl,--enable-new-dtags)
 endif()
+# Matrices of other libraries (Debian's gmsh has Eigen inside) are aligned, and so freed, otherwise: what the compiler
+# leaves out of line here must not take the place of theirs.
+add_link_options(-Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/own_templates.map)
 if(VEHD_SANITIZE)
   target_compile_options(vehd_compilation INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
   target_link_options(vehd_compilation INTERFACE -fsanitize=address,undefined)
