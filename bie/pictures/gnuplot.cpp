@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char *script_name = "script", *messages_name = "messages", *picture_name = "picture";
 
-bool is_letter_digit_or_blank(char byte) {
-  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9') || byte == ' ';
+bool is_letter_or_blank(char byte) {
+  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == ' ';
 }
 
 /// Gnuplot 5.4 writes an & of a text into SVG as it is.
@@ -78,9 +78,10 @@ std::string gnuplot_terminal(PictureFormat format, const PictureSize& size) {
 
 std::string gnuplot_quoted(const std::string& text) {
   std::string quoted = "\"";
+  // Digits as well: gnuplot would take one behind an octal number as part of it.
   for (const char byte : text) {
-    quoted += is_letter_digit_or_blank(byte) ? std::string(1, byte)
-                                             : fmt::format("\\{:03o}", static_cast<unsigned char>(byte));
+    quoted +=
+        is_letter_or_blank(byte) ? std::string(1, byte) : fmt::format("\\{:03o}", static_cast<unsigned char>(byte));
   }
   return quoted + "\"";
 }

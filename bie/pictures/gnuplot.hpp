@@ -24,7 +24,7 @@ void draw_with_gnuplot(const std::string& script, const PictureFile& picture,
 /// The lines of a gnuplot script that open a picture.
 std::string gnuplot_terminal(PictureFormat format, const PictureSize& size);
 
-/// Any text as a gnuplot string with just these bytes. All but letters, digits and blanks are written as octal numbers:
+/// Any text as a gnuplot string with just these bytes. All but letters and blanks are written as octal numbers:
 /// nothing in the text can end the string or start a command.
 std::string gnuplot_quoted(const std::string& text);
 
