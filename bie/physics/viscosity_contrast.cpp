@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bie/physics/effect.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -46,7 +47,8 @@ ViscosityContrast::ViscosityContrast(const ViscosityContrastParameters& paramete
   const double ratio = parameters.ratio;
   if (!(ratio >= 0.0)) throw InputError(fmt::format("viscosity ratio is {} but must not be negative", ratio));
   unknowns_ = subspace.vectors();
-  const double radius = std::cbrt(std::abs(enclosed_volume(surface)));
+  // A square root scales exactly with powers of two, a cube root does not.
+  const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   rigid_ = rigid_motions(fine.analyze(surface.position), radius, unknowns_);
   // Of degree p, as v is: the product with its coefficients is the flux of v.
   const Matrix area_vector = fine.analyze(surface.area_element.asDiagonal() * surface.normal);

@@ -76,7 +76,8 @@ class OneTension {
     if (!inextensible_) return {};
     Matrix result = tension_force(membrane_, unknowns.tension);
     if (is_sphere_) {
-      result += Vector(membrane_.fine.synthesize(unknowns.normal)).asDiagonal() * membrane_.surface.normal;
+      const Matrix normal = Vector(membrane_.fine.synthesize(unknowns.normal)).asDiagonal() * membrane_.surface.normal;
+      result += without_mean(normal);
     }
     return result;
   }
@@ -86,7 +87,8 @@ class OneTension {
     const SphereDerivatives u = membrane_.fine.synthesize_gradient(velocity);
     ScalarPair result{Vector::Zero(velocity.rows()), weighted_divergence(membrane_, u)};
     if (is_sphere_) {
-      result.normal = membrane_.fine.analyze(u.value.cwiseProduct(membrane_.surface.normal).rowwise().sum());
+      const Matrix moving = without_mean(u.value);
+      result.normal = membrane_.fine.analyze(moving.cwiseProduct(membrane_.surface.normal).rowwise().sum());
       result.tension[0] = 0.0;
     }
     return result;
@@ -116,6 +118,12 @@ class OneTension {
   }
 
  private:
+  /// Degrees of c and u·n are those of the parameter sphere, so on points that have flowed degrees from 2 on have a
+  /// part of degree 1 in space. Without the mean they neither hold a translation nor exert a net force.
+  [[nodiscard]] Matrix without_mean(const Matrix& values) const {
+    return values.rowwise() - surface_mean(membrane_.surface, values).transpose();
+  }
+
   const FlowMembrane& one_;
   const Membrane& membrane_;
   bool inextensible_, is_sphere_;

@@ -23,11 +23,11 @@ struct CoupledTension {
 /// that under the other forces. The unknowns are λ/R, preconditioned with the sphere's inverse on each membrane, or
 /// with that of each membrane's own response (TensionInverse) where there are many.
 ///
-/// An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp): there a force c n of degrees 2 … p − 1
-/// holds it in shape, the limit of a large uniform tension on a shape that hardly differs from a sphere; it is an
-/// unknown beside λ, and counts as force of the tension. The mean of λ stays zero there.
-/// Of several ranks, see Interaction, each needs the forces on its own membranes and gets forces and velocities of
-/// these, the tensions and what is learned of all.
+/// An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp): there a force c n, c of degrees 2 … p −
+/// 1, less its mean holds it in shape, the limit of a large uniform tension on a shape that hardly differs from a
+/// sphere; it is an unknown beside λ, and counts as force of the tension. The mean of λ stays zero there. Of several
+/// ranks, see Interaction, each needs the forces on its own membranes and gets forces and velocities of these, the
+/// tensions and what is learned of all.
 /// @param is_sphere   of each membrane, see uniform_tension_is_free
 /// @param weighted    of J f, f the other forces, as CoupledFlow::velocities has them; likewise the background
 /// @param start       λ of each to start from; empty ones are zero. Their flow is found together with w.
