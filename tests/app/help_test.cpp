@@ -26,7 +26,9 @@ BOOST_AUTO_TEST_CASE(scene_help_has_every_key_once_with_its_default) {
     for (const char* column : {"symbol", "type", "unit", "range", "default", "meaning"}) {
       BOOST_TEST(!key[column].get<std::string>().empty(), key["key"]);
     }
-    if (key["key"] == "viscosity" && key["table"] == "fluid") BOOST_TEST(key["default"] == "1.0");
+    if (key["key"] == "viscosity" && key["table"] == "fluid") {
+      BOOST_TEST(key["default"] == "1.0; required with [units]");
+    }
     if (key["key"] == "axes") BOOST_TEST(key["default"] == "required");
     if (key["key"] == "every") BOOST_TEST(key["default"] == "absent");
   }

@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(of_vesicles_and_words_of_a_scene_stand_in_all_files_as_they
       "field = [0, 0, 0.1]\nconductivity_in = 2\nconductivity_out = 1\n[electric.waveform]\nkind = \"table\"\n"
       "path = " +
       vehd::to_toml(std::string("a\n`cd;touch pwned` 'b' & <c>.csv")) + "\n";
-  write_text(folder.directory / "a\n`cd;touch pwned` 'b' & <c>.csv", "time,value\n0,0\n0.05,1\n1,1\n");
+  write_text(folder.directory / "a\n`cd;touch pwned` 'b' & <c>.csv", "0,0\n0.05,1\n1,1\n");
   for (const std::string& name : hostile_names()) {
     const bool is_plain = std::ranges::all_of(
         name, [](unsigned char letter) { return letter >= 0x20 && letter != 0x7f && letter != '"' && letter < 0xf0; });
