@@ -142,7 +142,8 @@ std::vector<Waveform> waveforms_of(const Scene& scene) {
   return result;
 }
 
-/// The same of all acting waveforms, and of snapshots where steps have to end there.
+/// At least how many times steps must end before the end of the run: at jumps of the acting waveforms and, with fixed
+/// steps, at snapshots.
 double fewest_events(const Scene& scene) {
   const double end = scene.numerics.end_time;
   double count = scene.numerics.tolerance ? 0.0 : events_of(scene).snapshots.count(end);

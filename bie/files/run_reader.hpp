@@ -74,7 +74,7 @@ class RunSnapshot {
   [[nodiscard]] int degree(std::size_t vesicle = 0) const;
   /// Harmonic coefficients, [n_coefficients x components]. @throws InputError
   [[nodiscard]] Matrix coefficients(const std::string& field) const { return read(field, 0); }
-  /// The same, of the stated number of components and of the order of x.
+  /// Coefficients with the stated number of components and the order of x. @throws InputError if they differ
   /// @param vesicle  of several
   [[nodiscard]] Matrix coefficients(const std::string& field, Index components, std::size_t vesicle = 0) const;
 

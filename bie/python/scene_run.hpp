@@ -37,7 +37,7 @@ class SceneRun {
   /// Adds a snapshot of the present state to the files unless it has one, and brings them up to date.
   /// @throws InputError if there are no files, std::runtime_error if the run is closed
   void snapshot();
-  /// The same, writes the summary and leaves the directory; no step can follow.
+  /// Adds a snapshot as snapshot() does, writes the summary and leaves the directory; no step can follow.
   void close();
 
   [[nodiscard]] bool completed() const;

@@ -7,10 +7,11 @@
 /// functional a force is known much better than as a field, whose small waves have four derivatives of x.
 namespace vehd::fem_check {
 
-/// The same question about the work of a force.
+/// Turns a question about a force as a field into one about its work on smooth displacements.
 FieldQuestion work_on_smooth(FieldQuestion question, const SurfacePoints& points);
 
-/// The same question about the work of a tension force, which the levels have as λ: ∫ f_λ·w dA = −∫ λ ∇_γ·w dA.
+/// Turns a question about f_λ into one about its work on smooth displacements; the levels have λ, and
+/// ∫ f_λ·w dA = −∫ λ ∇_γ·w dA.
 /// @param question  about f_λ, `values` a tension of the levels
 /// @param position  coefficients of x
 FieldQuestion work_of_tension(FieldQuestion question, const Eigen::MatrixXd& position, const SurfacePoints& points);

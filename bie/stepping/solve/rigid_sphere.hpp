@@ -36,8 +36,9 @@ SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displa
 /// @param start  of the step: the strain there; V_m and λ as they are at the end
 SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion);
 
-/// The same at nodes that the motion only translates: each of them takes over the fields of the material point that has
-/// come to it. The surface is then the translated one of the start, however far its points turn and flow.
+/// The sphere after the motion, at nodes that are only translated: each node takes over the fields of the material
+/// point that has come to it. The surface is then the translated one of the start, however far its points turn and
+/// flow.
 /// @param position  at the start of the step, coefficients
 /// @param material  after the motion, at the material points
 /// @throws ConvergenceError where the flow within the sphere is too far for one step
