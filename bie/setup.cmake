@@ -159,7 +159,8 @@ if(STEP MATCHES "^(sanitize|fuzz)$")
   endif()
 endif()
 
-# Installs Debian packages, after saying which and how.
+# Installs Debian packages, after saying which and how. Scripts of packages speak of errors where there are none (of
+# PETSC's alternatives, for example): all is shown only where apt-get fails.
 function(install_packages)
   set(packages ${ARGN})
   list(REMOVE_DUPLICATES packages)
@@ -182,8 +183,20 @@ function(install_packages)
   endif()
   message(STATUS "Installing: ${names}")
   message(STATUS "with:       ${command}")
-  run_or_stop(${as_root} env DEBIAN_FRONTEND=noninteractive ${apt} update -q)
-  run_or_stop(${as_root} env DEBIAN_FRONTEND=noninteractive ${apt} install -q -y --no-install-recommends ${packages})
+  set(log "${build}/installing.log")
+  message(STATUS "which takes minutes; what it says: ${log}")
+  file(MAKE_DIRECTORY "${build}")
+  execute_process(COMMAND ${as_root} env DEBIAN_FRONTEND=noninteractive ${apt} update -q
+                  OUTPUT_FILE "${log}" ERROR_FILE "${log}" RESULT_VARIABLE status)
+  if(status EQUAL 0)
+    execute_process(COMMAND ${as_root} env DEBIAN_FRONTEND=noninteractive ${apt} install -q -y --no-install-recommends
+                            ${packages}
+                    OUTPUT_FILE "${log}" ERROR_FILE "${log}" RESULT_VARIABLE status)
+  endif()
+  if(NOT status EQUAL 0)
+    file(READ "${log}" text)
+    message(FATAL_ERROR "${text}\nfailed (${status}): ${command}")
+  endif()
 endfunction()
 
 if(missing)

@@ -1,5 +1,5 @@
 # What bie/setup.cmake says and does about what is missing, in a folder that has nothing but it, a configuration that
-# misses a library, and an apt-get that only writes down how it is called:
+# misses a library, and an apt-get that only writes down how it is called, speaks of errors, and fails where asked to:
 #   cmake -DSOURCE=source -DFOLDER=work -P setup.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -16,7 +16,8 @@ endif()
 add_custom_target(vehd COMMAND ${CMAKE_COMMAND} -E echo built)
 add_custom_target(everything ALL DEPENDS vehd)
 ]=])
-file(WRITE "${FOLDER}/bin/apt-get" "#!/bin/sh\necho \"$*\" >> \"${FOLDER}/calls\"\ntouch \"${FOLDER}/installed\"\n")
+file(WRITE "${FOLDER}/bin/apt-get" "#!/bin/sh\necho \"$*\" >> \"${FOLDER}/calls\"
+echo 'alternatives: error: nothing' >&2\ntest ! -e \"${FOLDER}/offline\" && touch \"${FOLDER}/installed\"\n")
 file(WRITE "${FOLDER}/bin/sudo" "#!/bin/sh\nexec \"$@\"\n")
 file(CHMOD "${FOLDER}/bin/apt-get" "${FOLDER}/bin/sudo" PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
 
@@ -39,7 +40,18 @@ if(status EQUAL 0 OR EXISTS "${FOLDER}/calls")
   message(FATAL_ERROR "-DINSTALL=OFF installed, or went on without what is missing (${status}):\n${text}")
 endif()
 
+file(TOUCH "${FOLDER}/offline")
 run_setup(status text)
+require("${text}" "alternatives: error: nothing")
+if(status EQUAL 0)
+  message(FATAL_ERROR "a failed installation went on:\n${text}")
+endif()
+file(REMOVE "${FOLDER}/offline" "${FOLDER}/calls")
+
+run_setup(status text)
+if(text MATCHES "error")
+  message(FATAL_ERROR "shows what apt-get says although it has succeeded:\n${text}")
+endif()
 require("${text}" "Installing: [^\n]*libimaginary-dev librare-dev")
 require("${text}" "with: +[^\n]*apt-get install --no-install-recommends [^\n]*libimaginary-dev librare-dev")
 file(READ "${FOLDER}/calls" calls)
