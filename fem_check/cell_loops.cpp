@@ -1,5 +1,9 @@
 #include "fem_check/cell_loops.hpp"
 
+#include <deal.II/matrix_free/evaluation_template_face_factory.templates.h>
+// The next one has the same include guard.
+#undef dealii_matrix_free_evaluation_template_factory_templates_h
+#include <deal.II/matrix_free/evaluation_template_factory.templates.h>
 #include <deal.II/matrix_free/mapping_info.templates.h>
 #include <deal.II/matrix_free/mapping_info_storage.templates.h>
 #include <deal.II/matrix_free/matrix_free.templates.h>

@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "fem_check/cell_kernels.hpp"
 #include "fem_check/per_vesicle.hpp"
 #include "fem_check/space.hpp"
 
@@ -16,9 +15,6 @@ using Constraints = dealii::AffineConstraints<double>;
 using CellLoops = dealii::MatrixFree<3, double, Lanes>;
 /// Cells of one call of the work of a loop.
 using CellRange = std::pair<unsigned, unsigned>;
-/// A field with this number of components on one group of cells; its degree is that of the field in the loops.
-template <int n_components>
-using CellValues = dealii::FEEvaluation<3, -1, 0, n_components, double, Lanes>;
 
 /// Gauss points per direction and cell of every integral of elements of a degree.
 constexpr int points_per_direction(int degree) { return degree + 2; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "fem_check/cell_kernel.hpp"
 #include "fem_check/cell_points.hpp"
 #include "fem_check/membrane_trace.hpp"
 
@@ -111,7 +112,6 @@ void require_supported(const meshes::VolumeMesh& mesh, int degree) {
   if (mesh.cell_shape() != CellShape::hexahedron) {
     throw std::invalid_argument("the mesh has tetrahedra; the solvers take hexahedra");
   }
-  constexpr int highest_degree = 10;
   if (degree < 1 || degree > highest_degree) {
     throw std::invalid_argument("element degree is " + std::to_string(degree) + "; accepted are 1 to " +
                                 std::to_string(highest_degree));

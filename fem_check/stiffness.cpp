@@ -15,19 +15,19 @@ constexpr unsigned tensor_size = 6;
 
 /// Gauss weight times J⁻¹J⁻ᵀ at every point of every group of cells, so that ∫ ∇u·∇w = Σ ∂u·metric·∂w with derivatives
 /// by unit coordinates: six numbers to be read where J⁻¹ and the weight have ten.
-dealii::AlignedVector<Lanes> metric_of(const CellLoops& loops) {
+dealii::AlignedVector<Lanes> metric_of(const CellLoops& loops, const CellKernel& kernel) {
   constexpr unsigned entries[tensor_size][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-  CellValues<1> u(loops, tied_field);
-  dealii::AlignedVector<Lanes> result(std::size_t{loops.n_cell_batches()} * u.n_q_points * tensor_size);
+  CellValues<1> u(loops, tied_field, kernel);
+  dealii::AlignedVector<Lanes> result(std::size_t{loops.n_cell_batches()} * u.n_points() * tensor_size);
   Lanes* at = result.begin();
   for (unsigned group = 0; group < loops.n_cell_batches(); ++group) {
     u.reinit(group);
-    for (unsigned q = 0; q < u.n_q_points; ++q) {
-      const auto inverse = u.inverse_jacobian(q);  // transposed: ∇ = inverse · ∇_unit
+    for (unsigned q = 0; q < u.n_points(); ++q) {
+      const auto inverse = u.inverse_jacobian(q);
       for (const auto& [i, j] : entries) {
         Lanes sum = 0.0;
         for (unsigned d = 0; d < 3; ++d) sum += inverse[d][i] * inverse[d][j];
-        *at++ = u.JxW(q) * sum;
+        *at++ = u.weight(q) * sum;
       }
     }
   }
@@ -35,21 +35,17 @@ dealii::AlignedVector<Lanes> metric_of(const CellLoops& loops) {
 }
 
 /// to += Σ coefficient ∫ ∇u·∇w over a range of cells.
-void stiffness_cells(const CellLoops& loops, unsigned field, const dealii::AlignedVector<Lanes>& metric,
-                     const dealii::AlignedVector<Lanes>& coefficient, Distributed& to, const Distributed& from,
-                     const CellRange& range) {
-  CellValues<1> u(loops, field);
-  const unsigned n = u.n_q_points;
+void stiffness_cells(const CellLoops& loops, unsigned field, const CellKernel& kernel,
+                     const dealii::AlignedVector<Lanes>& metric, const dealii::AlignedVector<Lanes>& coefficient,
+                     Distributed& to, const Distributed& from, const CellRange& range) {
+  CellValues<1> u(loops, field, kernel);
+  const unsigned n = u.n_points();
   for (unsigned group = range.first; group < range.second; ++group) {
     u.reinit(group);
-    u.read_dof_values(from);
-    // A constant has no gradient: taken off, it leaves no rounding, however large it is.
-    Lanes* values = u.begin_dof_values();
-    const Lanes constant = values[0];
-    for (unsigned i = 0; i < u.dofs_per_cell; ++i) values[i] -= constant;
-    u.evaluate(dealii::EvaluationFlags::gradients);
-    // By unit coordinates, one direction after the other.
-    Lanes* slope = u.begin_gradients();
+    u.read(from);
+    u.remove_constants();
+    u.evaluate_gradients();
+    Lanes* slope = u.slopes();
     const Lanes factor = coefficient[group];
     const Lanes* m = metric.begin() + std::size_t{group} * n * tensor_size;
     for (unsigned q = 0; q < n; ++q, m += tensor_size) {
@@ -58,8 +54,8 @@ void stiffness_cells(const CellLoops& loops, unsigned field, const dealii::Align
       slope[n + q] = m[3] * a + m[1] * b + m[5] * c;
       slope[2 * n + q] = m[4] * a + m[5] * b + m[2] * c;
     }
-    u.integrate(dealii::EvaluationFlags::gradients);
-    u.distribute_local_to_global(to);
+    u.integrate_gradients();
+    u.add_to(to);
   }
 }
 
@@ -136,13 +132,14 @@ Stiffness::Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, c
       handler_(handler),
       form_(form),
       n_points_(n_points),
+      kernel_(degree(), n_points),
       pairs_(pairs_of(space, handler)),
       outer_(space, handler),
       constraints_(make_constraints(handler, pairs_, outer_.dofs(), fixed)) {
   none_.reinit(dealii::complete_index_set(handler.n_dofs()));
   none_.close();
   loops_ = make_cell_loops(space, {{&handler, &constraints_}, {&handler, &none_}}, n_points);
-  metric_ = metric_of(*loops_);
+  metric_ = metric_of(*loops_, kernel_);
   coefficient_ = per_cell(space, *loops_, form.inside, form.outside);
   surface_ = surface_terms(space, handler, constraints_, pairs_, outer_, form);
 }
@@ -150,7 +147,7 @@ Stiffness::Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, c
 void Stiffness::vmult(Distributed& to, const Distributed& from) const {
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
-        stiffness_cells(loops, tied_field, metric_, coefficient_, t, f, range);
+        stiffness_cells(loops, tied_field, kernel_, metric_, coefficient_, t, f, range);
       },
       to, from, true);
   surface_->add({&to}, {&from});
@@ -166,7 +163,7 @@ dealii::Vector<double> Stiffness::cell_product(const dealii::Vector<double>& u,
   for (const DofIndex dof : from.locally_owned_elements()) from(dof) = u[dof];
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
-        stiffness_cells(loops, untied_field, metric_, coefficient, t, f, range);
+        stiffness_cells(loops, untied_field, kernel_, metric_, coefficient, t, f, range);
       },
       product, from, true);
   return on_all_ranks(product, space_.communicator);
@@ -214,18 +211,18 @@ Distributed Stiffness::inverse_diagonal() const {
   const Distributed unused(diagonal);
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& to, const Distributed&, const CellRange& range) {
-        CellValues<1> u(loops, tied_field);
+        CellValues<1> u(loops, tied_field, kernel_);
         for (unsigned group = range.first; group < range.second; ++group) {
           u.reinit(group);
-          const Lanes* m = metric_.begin() + std::size_t{group} * u.n_q_points * tensor_size;
+          const Lanes* m = metric_.begin() + std::size_t{group} * u.n_points() * tensor_size;
           std::array<dealii::AlignedVector<Lanes>, tensor_size> tensor;
           for (unsigned entry = 0; entry < tensor_size; ++entry) {
-            tensor[entry].resize(u.n_q_points);
-            for (unsigned q = 0; q < u.n_q_points; ++q) tensor[entry][q] = m[q * tensor_size + entry];
+            tensor[entry].resize(u.n_points());
+            for (unsigned q = 0; q < u.n_points(); ++q) tensor[entry][q] = m[q * tensor_size + entry];
           }
           const dealii::AlignedVector<Lanes> values = cells.of_stiffness(tensor);
-          for (unsigned i = 0; i < u.dofs_per_cell; ++i) u.begin_dof_values()[i] = coefficient_[group] * values[i];
-          u.distribute_local_to_global(to);
+          for (unsigned i = 0; i < u.n_nodes(); ++i) u.nodal()[i] = coefficient_[group] * values[i];
+          u.add_to(to);
         }
       },
       diagonal, unused, true);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem_check/cell_values.hpp"
 #include "fem_check/membrane_trace.hpp"
 #include "fem_check/surface_terms.hpp"
 
@@ -72,6 +73,7 @@ class Stiffness : public dealii::Subscriptor {
   const dealii::DoFHandler<3>& handler_;
   ScalarForm form_;
   int n_points_;
+  CellKernel kernel_;
   SheetPairs pairs_;
   OuterSphere outer_;
   Constraints constraints_;

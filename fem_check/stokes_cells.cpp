@@ -11,7 +11,10 @@ constexpr unsigned pressure_field = 1;
 
 StokesCells::StokesCells(const Space& space, const dealii::DoFHandler<3>& pressure_dofs,
                          const Constraints& velocity_constraints, const PerVesicle<double>& viscosity_inside)
-    : space_(space), degree_(static_cast<int>(space.element.degree)) {
+    : space_(space),
+      degree_(static_cast<int>(space.element.degree)),
+      velocity_kernel_(degree_, points_per_direction(degree_)),
+      pressure_kernel_(degree_ - 1, points_per_direction(degree_)) {
   none_.reinit(dealii::complete_index_set(pressure_dofs.n_dofs()));
   none_.close();
   loops_ = make_cell_loops(space, {{&space.dofs, &velocity_constraints}, {&pressure_dofs, &none_}},
@@ -31,25 +34,19 @@ StokesCells::StokesCells(const Space& space, const dealii::DoFHandler<3>& pressu
 void StokesCells::apply(const Parts& to, const Parts& from) const {
   loops_->cell_loop<Parts, Parts>(
       [&](const CellLoops& loops, Parts& t, const Parts& f, const CellRange& range) {
-        CellValues<3> velocity(loops, velocity_field);
-        CellValues<1> pressure(loops, pressure_field);
+        CellValues<3> velocity(loops, velocity_field, velocity_kernel_);
+        CellValues<1> pressure(loops, pressure_field, pressure_kernel_);
         for (unsigned group = range.first; group < range.second; ++group) {
           velocity.reinit(group);
-          velocity.read_dof_values(f, 0);
-          // A translation has no gradient: taken off, it leaves no rounding.
-          const unsigned n = velocity.dofs_per_component;
-          for (unsigned d = 0; d < 3; ++d) {
-            Lanes* values = velocity.begin_dof_values() + d * n;
-            const Lanes constant = values[0];
-            for (unsigned i = 0; i < n; ++i) values[i] -= constant;
-          }
-          velocity.evaluate(dealii::EvaluationFlags::gradients);
+          velocity.read(f);
+          velocity.remove_constants();
+          velocity.evaluate_gradients();
           pressure.reinit(group);
-          pressure.read_dof_values(*f[3]);
-          pressure.evaluate(dealii::EvaluationFlags::values);
-          for (unsigned q = 0; q < velocity.n_q_points; ++q) {
-            const auto gradient = velocity.get_gradient(q);  // [component][direction]
-            const Lanes p = pressure.get_value(q);
+          pressure.read(*f[3]);
+          pressure.evaluate_values();
+          for (unsigned q = 0; q < velocity.n_points(); ++q) {
+            const auto gradient = velocity.gradient(q);  // [component][direction]
+            const Lanes p = pressure.value(q);
             auto flux = gradient;
             Lanes divergence = 0.0;
             for (unsigned a = 0; a < 3; ++a) {
@@ -62,10 +59,10 @@ void StokesCells::apply(const Parts& to, const Parts& from) const {
             velocity.submit_gradient(flux, q);
             pressure.submit_value(-divergence, q);
           }
-          velocity.integrate(dealii::EvaluationFlags::gradients);
-          velocity.distribute_local_to_global(t, 0);
-          pressure.integrate(dealii::EvaluationFlags::values);
-          pressure.distribute_local_to_global(*t[3]);
+          velocity.integrate_gradients();
+          velocity.add_to(t);
+          pressure.integrate_values();
+          pressure.add_to(*t[3]);
         }
       },
       const_cast<Parts&>(to), from, true);
@@ -74,16 +71,19 @@ void StokesCells::apply(const Parts& to, const Parts& from) const {
 void StokesCells::apply_divergence(Distributed& to, const Parts& from) const {
   loops_->cell_loop<Distributed, Parts>(
       [&](const CellLoops& loops, Distributed& t, const Parts& f, const CellRange& range) {
-        CellValues<3> velocity(loops, velocity_field);
-        CellValues<1> pressure(loops, pressure_field);
+        CellValues<3> velocity(loops, velocity_field, velocity_kernel_);
+        CellValues<1> pressure(loops, pressure_field, pressure_kernel_);
         for (unsigned group = range.first; group < range.second; ++group) {
           velocity.reinit(group);
-          velocity.read_dof_values(f, 0);
-          velocity.evaluate(dealii::EvaluationFlags::gradients);
+          velocity.read(f);
+          velocity.evaluate_gradients();
           pressure.reinit(group);
-          for (unsigned q = 0; q < velocity.n_q_points; ++q) pressure.submit_value(-velocity.get_divergence(q), q);
-          pressure.integrate(dealii::EvaluationFlags::values);
-          pressure.distribute_local_to_global(t);
+          for (unsigned q = 0; q < velocity.n_points(); ++q) {
+            const auto gradient = velocity.gradient(q);
+            pressure.submit_value(-(gradient[0][0] + gradient[1][1] + gradient[2][2]), q);
+          }
+          pressure.integrate_values();
+          pressure.add_to(t);
         }
       },
       to, from, true);
@@ -92,16 +92,16 @@ void StokesCells::apply_divergence(Distributed& to, const Parts& from) const {
 void StokesCells::apply_pressure_mass(Distributed& to, const Distributed& from) const {
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& t, const Distributed& f, const CellRange& range) {
-        CellValues<1> pressure(loops, pressure_field);
+        CellValues<1> pressure(loops, pressure_field, pressure_kernel_);
         for (unsigned group = range.first; group < range.second; ++group) {
           pressure.reinit(group);
-          pressure.read_dof_values(f);
-          pressure.evaluate(dealii::EvaluationFlags::values);
-          for (unsigned q = 0; q < pressure.n_q_points; ++q) {
-            pressure.submit_value(fluidity_[group] * pressure.get_value(q), q);
+          pressure.read(f);
+          pressure.evaluate_values();
+          for (unsigned q = 0; q < pressure.n_points(); ++q) {
+            pressure.submit_value(fluidity_[group] * pressure.value(q), q);
           }
-          pressure.integrate(dealii::EvaluationFlags::values);
-          pressure.distribute_local_to_global(t);
+          pressure.integrate_values();
+          pressure.add_to(t);
         }
       },
       to, from, true);
@@ -114,14 +114,14 @@ Distributed StokesCells::inverse_pressure_diagonal() const {
   const CellDiagonal cells(degree_ - 1, points_per_direction(degree_));
   loops_->cell_loop<Distributed, Distributed>(
       [&](const CellLoops& loops, Distributed& to, const Distributed&, const CellRange& range) {
-        CellValues<1> pressure(loops, pressure_field);
-        dealii::AlignedVector<Lanes> weight(pressure.n_q_points);
+        CellValues<1> pressure(loops, pressure_field, pressure_kernel_);
+        dealii::AlignedVector<Lanes> weight(pressure.n_points());
         for (unsigned group = range.first; group < range.second; ++group) {
           pressure.reinit(group);
-          for (unsigned q = 0; q < pressure.n_q_points; ++q) weight[q] = fluidity_[group] * pressure.JxW(q);
+          for (unsigned q = 0; q < pressure.n_points(); ++q) weight[q] = fluidity_[group] * pressure.weight(q);
           const dealii::AlignedVector<Lanes> values = cells.of_mass(weight);
-          for (unsigned i = 0; i < pressure.dofs_per_cell; ++i) pressure.begin_dof_values()[i] = values[i];
-          pressure.distribute_local_to_global(to);
+          for (unsigned i = 0; i < pressure.n_nodes(); ++i) pressure.nodal()[i] = values[i];
+          pressure.add_to(to);
         }
       },
       diagonal, unused, true);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem_check/cell_loops.hpp"
+#include "fem_check/cell_values.hpp"
 
 namespace vehd::fem_check {
 
@@ -32,6 +32,7 @@ class StokesCells {
  private:
   const Space& space_;
   int degree_;  // of the velocity
+  CellKernel velocity_kernel_, pressure_kernel_;
   Constraints none_;
   std::shared_ptr<const CellLoops> loops_;
   double contrast_outside_;
