@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "bie/support/errors.hpp"
+#include "bie/support/output_error.hpp"
 
 namespace vehd {
 
@@ -20,9 +21,15 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& lock_file)
     throw InputError(fmt::format("{}: cannot be written: {}", directory, std::strerror(errno)));
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    const int problem = errno;
     ::close(descriptor_);
-    throw InputError(
-        fmt::format("{}: another run is writing in this directory; wait for it or choose another -o", directory));
+    if (problem == EWOULDBLOCK) {
+      throw InputError(
+          fmt::format("{}: another run is writing in this directory; wait for it or choose another -o", directory));
+    }
+    throw OutputError(
+        fmt::format("{}: cannot be locked against a second run: {}; choose an -o on a file system with flock",
+                    directory, std::strerror(problem)));
   }
 }
 

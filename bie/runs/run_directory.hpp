@@ -27,6 +27,7 @@ struct RunPaths {
 class DirectoryLock {
  public:
   /// @throws InputError if another process holds it or the directory cannot be written
+  /// @throws OutputError if its file system has no locks
   explicit DirectoryLock(const std::filesystem::path& lock_file);
   ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;

@@ -1,6 +1,11 @@
-#include <boost/test/unit_test.hpp>
-#include <csignal>
+#include <fmt/format.h>
 
+#include <boost/test/unit_test.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "tests/app/sweep_folder.hpp"
 #include "tests/hard/faults/faulty_run.hpp"
 
 BOOST_AUTO_TEST_SUITE(concurrency)
@@ -33,6 +38,24 @@ BOOST_AUTO_TEST_CASE(a_killed_run_lets_the_next_one_in_at_once) {
     BOOST_TEST(program.wait().exit_code == -1);
   }
   run.finish_soon();
+}
+
+BOOST_AUTO_TEST_CASE(a_file_system_without_locks_is_no_second_run) {
+  const SweepWork work;
+  work.write_sweep("\"electric.conductivity_in\" = {values = [0.5, 1.0]}\n");
+  for (const int problem : {ENOSYS, ENOLCK}) {
+    const std::string fault = fmt::format("unlocked {}", problem);
+    const std::string text = fmt::format(": cannot be locked against a second run: {}; ", std::strerror(problem));
+    const ProgramResult run = run_command(
+        with_fault(fault, vehd_command({"run", work.directory / "base.toml", "-o", work.directory / "run"})));
+    BOOST_TEST(run.exit_code == 1);
+    BOOST_TEST(run.errors.starts_with(work.directory / "run" + text), run.errors);
+    const ProgramResult sweep = run_command(with_fault(fault, work.command()));
+    BOOST_TEST(sweep.exit_code == 3);
+    BOOST_TEST(sweep.errors.find(text) != std::string::npos, sweep.errors);
+  }
+  // Nothing of that is left that keeps a run from going on elsewhere.
+  BOOST_TEST(run_command(work.command()).exit_code == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

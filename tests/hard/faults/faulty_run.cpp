@@ -22,13 +22,15 @@ struct OneThread {
 
 BOOST_TEST_GLOBAL_FIXTURE(OneThread);
 
-std::vector<std::string> FaultyRun::command_with(const std::string& fault) const {
+std::vector<std::string> with_fault(const std::string& fault, const std::vector<std::string>& command) {
   // The sanitizers want to be loaded first, but all that they need is to be there.
   std::vector<std::string> result = {"env", "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0",
                                      "LD_PRELOAD=" VEHD_FAULT_SHIM, "VEHD_FAULT=" + fault};
   result.insert(result.end(), command.begin(), command.end());
   return result;
 }
+
+std::vector<std::string> FaultyRun::command_with(const std::string& fault) const { return with_fault(fault, command); }
 
 FaultyRun::Work FaultyRun::count_work() const {
   const ProgramResult result = run_command(command_with("count " + directory / "work"));

@@ -6,11 +6,13 @@
 
 #include "tests/app/reference_run.hpp"
 
-/// A run whose file operations fail or kill it, see shim/fault_shim.cpp.
+/// A command of vehd under a fault such as "kill 17", see shim/fault_shim.cpp; "" for none.
+std::vector<std::string> with_fault(const std::string& fault, const std::vector<std::string>& command);
+
+/// A run whose file operations fail or kill it.
 struct FaultyRun : ReferenceRun {
   using ReferenceRun::ReferenceRun;
 
-  /// The command of the run under a fault such as "kill 17"; "" for none.
   [[nodiscard]] std::vector<std::string> command_with(const std::string& fault) const;
 
   struct Work {

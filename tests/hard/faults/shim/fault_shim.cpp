@@ -2,6 +2,7 @@
 //   VEHD_FAULT="kill N"      SIGKILL at the N-th operation; a write has written half of its bytes by then
 //   VEHD_FAULT="full N"      the disk has room for N more bytes
 //   VEHD_FAULT="readonly N"  the file system becomes read-only at the N-th operation
+//   VEHD_FAULT="unlocked N"  no file can be locked: flock() fails with the error number N
 //   VEHD_FAULT="count FILE"  no fault; writes the number of operations and of bytes to FILE at the end
 // Operations are those on regular files: writing, creating, renaming, linking and removing.
 #include <dlfcn.h>
@@ -44,6 +45,12 @@ class Fault {
       std::fprintf(file, "%lld %lld\n", operations_, bytes_);
       std::fclose(file);
     }
+  }
+
+  bool admits_locks() const {
+    if (kind_ != "unlocked") return true;
+    errno = static_cast<int>(limit_);
+    return false;
   }
 
   /// Whether an operation without data may go on.
@@ -199,5 +206,9 @@ int link(const char* from, const char* to) { return change("link", from, to); }
 int unlink(const char* path) { return change("unlink", path); }
 int remove(const char* path) { return change("remove", path); }
 int mkdir(const char* path, mode_t mode) { return change("mkdir", path, mode); }
+
+int flock(int descriptor, int operation) {
+  return fault().admits_locks() ? real<int (*)(int, int)>("flock")(descriptor, operation) : -1;
+}
 
 }  // extern "C"
