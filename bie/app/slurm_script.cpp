@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bie/app/scene_choice.hpp"
 #include "bie/support/errors.hpp"
@@ -23,6 +24,37 @@ const std::string& sbatch_text(const std::string& name) {
   return name;
 }
 
+/// Lines #SBATCH that not every script has.
+std::string wishes(const SlurmTask& task) {
+  std::string lines;
+  if (task.memory_bytes > 0) {
+    // Of the workers and of whoever starts them, and half as much again.
+    const double bytes = 1.5 * static_cast<double>(task.memory_bytes) * (task.n_jobs + 1);
+    lines += fmt::format("#SBATCH --mem={:.0f}M\n", std::ceil(bytes / (1 << 20)));
+  }
+  if (!task.account.empty()) lines += fmt::format("#SBATCH --account=\"{}\"\n", sbatch_text(task.account));
+  if (!task.partition.empty()) lines += fmt::format("#SBATCH --partition=\"{}\"\n", sbatch_text(task.partition));
+  if (task.n_turns == 1) lines += "#SBATCH --requeue\n";
+  return lines;
+}
+
+/// How all turns are submitted.
+std::string submission(const SlurmTask& task) {
+  const std::string script = shell_word(task.directory) + "/sweep.sbatch";
+  if (task.n_turns == 1) return "sbatch " + script;
+  return fmt::format(
+      "job=$(sbatch --parsable {0}); for turn in {{2..{1}}}; do job=$(sbatch --parsable --dependency=afterany:$job "
+      "{0}); done",
+      script, task.n_turns);
+}
+
+constexpr const char* next_turn =
+    R"(# Stopped at the end of the time, and its run can go on: once more, at the next turn.
+if [ "$status" -eq 3 ]; then
+  scontrol requeue "${SLURM_ARRAY_JOB_ID}_${SLURM_ARRAY_TASK_ID}"
+fi
+)";
+
 }  // namespace
 
 std::string slurm_script(const SlurmTask& task) {
@@ -31,28 +63,24 @@ std::string slurm_script(const SlurmTask& task) {
   return fmt::format(
       R"(#!/bin/bash
 # {predicted}
-# sbatch {directory_word}/sweep.sbatch
+# {submission}
 #SBATCH --job-name="{name}"
 #SBATCH --array=0-{last}
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task={cpus}
 #SBATCH --time={minutes}
 #SBATCH --signal=TERM@{notice}
-#SBATCH --requeue
-#SBATCH --open-mode=append
+{wishes}#SBATCH --open-mode=append
 #SBATCH --output="{directory}/slurm-%a.log"
 
-srun {program} sweep {sweep} -o {directory_word} --pack "$SLURM_ARRAY_TASK_ID" --jobs {jobs} --threads {threads}
+{prologue}srun --cpus-per-task={cpus} {program} sweep {sweep} -o {directory_word} --pack "$SLURM_ARRAY_TASK_ID" --jobs {jobs} --threads {threads}
 status=$?
-# Stopped at the end of the time, and its run can go on: once more, at the next turn.
-if [ "$status" -eq 3 ]; then
-  scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}"
-fi
-exit "$status"
+{next_turn}exit "$status"
 )",
-      fmt::arg("predicted", task.predicted), fmt::arg("name", sbatch_text(task.name)),
-      fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus), fmt::arg("minutes", task.minutes),
-      fmt::arg("notice", notice), fmt::arg("directory", sbatch_text(task.directory)),
+      fmt::arg("predicted", task.predicted), fmt::arg("submission", submission(task)), fmt::arg("wishes", wishes(task)),
+      fmt::arg("prologue", task.prologue), fmt::arg("next_turn", task.n_turns == 1 ? next_turn : ""),
+      fmt::arg("name", sbatch_text(task.name)), fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus),
+      fmt::arg("minutes", task.minutes), fmt::arg("notice", notice), fmt::arg("directory", sbatch_text(task.directory)),
       fmt::arg("directory_word", shell_word(task.directory)), fmt::arg("program", shell_word(task.program)),
       fmt::arg("sweep", shell_word(task.sweep)), fmt::arg("jobs", task.n_jobs), fmt::arg("threads", task.n_threads));
 }

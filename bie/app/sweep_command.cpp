@@ -31,6 +31,8 @@ struct SweepOptions {
   std::optional<std::size_t> pack;
   std::string emit;
   int minutes = 60;
+  int n_turns = 1;
+  std::string account, partition, prologue;
   bool quiet = false;
   CommonOptions common;
 
@@ -111,7 +113,8 @@ void print_count(const SweepCount& count, const PreparedSweep& sweep, const Swee
 
 ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   CostCache cache;
-  const std::vector<double> seconds = predicted_seconds(sweep.runs, cache);
+  const SweepCost cost = predicted_cost(sweep.runs, cache);
+  const std::vector<double>& seconds = cost.seconds;
   const int n_jobs = options.n_jobs > 0 ? options.n_jobs : 1;
   const std::vector<SweepPack> packs = packs_of(seconds, packs_within(seconds, 60.0 * options.minutes * n_jobs));
   nlohmann::json names = nlohmann::json::array(), json = nlohmann::json::array();
@@ -138,6 +141,11 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   task.n_threads = options.n_threads;
   task.n_cpus = n_jobs * options.n_threads;
   task.minutes = options.minutes;
+  task.n_turns = options.n_turns;
+  task.memory_bytes = cost.memory_bytes;
+  task.account = options.account;
+  task.partition = options.partition;
+  if (!options.prologue.empty()) task.prologue = text_of_file(options.prologue) + "\n";
   task.predicted = fmt::format("{} runs, predicted to take {} together and {} the longest of them", sweep.runs.size(),
                                duration_text(total), duration_text(longest));
   replace_shared_file(sweep.paths.slurm_script(), slurm_script(task));
@@ -209,14 +217,34 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("--threads", options->n_threads, "Number of threads of each worker; one if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--emit", options->emit, "Run nothing: write DIR/sweep.sbatch, an array of jobs for Slurm")
-      ->check(one_of({"slurm"}));
+  CLI::Option* emit =
+      command->add_option("--emit", options->emit, "Run nothing: write DIR/sweep.sbatch, an array of jobs for Slurm")
+          ->check(one_of({"slurm"}));
   command
       ->add_option("--minutes", options->minutes,
                    "With --emit: that one of these jobs may take; what is not done by then goes on in its next turn")
       ->type_name("N")
       ->check(CLI::Range(1, 60 * 24 * 30))
       ->capture_default_str();
+  command->add_option("--account", options->account, "With --emit: to which the cluster charges the jobs")
+      ->type_name("NAME")
+      ->needs(emit);
+  command->add_option("--partition", options->partition, "With --emit: of the cluster, for the jobs")
+      ->type_name("NAME")
+      ->needs(emit);
+  command
+      ->add_option("--prologue", options->prologue,
+                   "With --emit: lines of shell for each job before its work, such as of modules; those that begin "
+                   "with #SBATCH first")
+      ->type_name("FILE")
+      ->needs(emit);
+  command
+      ->add_option("--turns", options->n_turns,
+                   "With --emit: so many turns, each when the one before has ended, by dependencies, where no job may "
+                   "put itself into the queue again")
+      ->type_name("N")
+      ->check(CLI::Range(2, 1000))
+      ->needs(emit);
   command->add_option("--pack", options->pack, "Begin with the runs of this pack of --emit, then help with the others")
       ->type_name("N");
   command->add_flag("--quiet", options->quiet, "Show no progress");

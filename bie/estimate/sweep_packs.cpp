@@ -24,20 +24,22 @@ std::string cost_class(const Scene& scene, const RunPlan& plan) {
 struct MeasuredCost {
   double seconds_per_step = 0.0;
   double steps_per_time = 0.0;  ///< with a tolerance
+  std::int64_t memory_bytes = 0;
   bool known = false;
 };
 
 MeasuredCost measured(const Scene& scene, RunPlan plan, CostCache& cache) {
   predict_cost(scene, plan, cache);
   if (!plan.stops.empty() || !plan.unknown.empty()) return {};
-  return {plan.seconds_per_step, static_cast<double>(plan.n_steps) / scene.numerics.end_time, true};
+  return {plan.seconds_per_step, static_cast<double>(plan.n_steps) / scene.numerics.end_time, plan.memory_bytes, true};
 }
 
 }  // namespace
 
-std::vector<double> predicted_seconds(const std::vector<SweepRun>& runs, CostCache& cache) {
+SweepCost predicted_cost(const std::vector<SweepRun>& runs, CostCache& cache) {
   std::map<std::string, MeasuredCost> costs;
-  std::vector<double> seconds(runs.size(), 0.0);
+  SweepCost result{std::vector<double>(runs.size(), 0.0)};
+  std::vector<double>& seconds = result.seconds;
   std::vector<std::size_t> unknown;
   double total = 0.0;
   std::size_t n_known = 0;
@@ -55,11 +57,12 @@ std::vector<double> predicted_seconds(const std::vector<SweepRun>& runs, CostCac
     const double steps =
         scene.numerics.tolerance ? cost.steps_per_time * scene.numerics.end_time : static_cast<double>(plan.n_steps);
     seconds[i] = steps * cost.seconds_per_step;
+    result.memory_bytes = std::max(result.memory_bytes, cost.memory_bytes);
     total += seconds[i];
     ++n_known;
   }
   for (const std::size_t i : unknown) seconds[i] = n_known > 0 ? total / static_cast<double>(n_known) : 1.0;
-  return seconds;
+  return result;
 }
 
 std::vector<SweepPack> packs_of(const std::vector<double>& seconds, std::size_t n_packs) {

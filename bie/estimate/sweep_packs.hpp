@@ -8,11 +8,16 @@
 
 namespace vehd {
 
-/// Seconds that each run of a sweep is predicted to take, 0 of a scene that is refused. Runs that need as many
-/// unknowns, operators and shapes a step have steps of one cost, which is measured on the first of them (predict_cost);
-/// a tolerance is taken to need as many steps in the same time as there. Runs whose trial stops count as an average
-/// run.
-std::vector<double> predicted_seconds(const std::vector<SweepRun>& runs, CostCache& cache);
+/// What the runs of a sweep are predicted to cost.
+struct SweepCost {
+  std::vector<double> seconds;    ///< of each run, 0 of a scene that is refused
+  std::int64_t memory_bytes = 0;  ///< most that one of them needs; 0 where that of none is known
+};
+
+/// Runs that need as many unknowns, operators and shapes a step have steps of one cost, which is measured on the first
+/// of them (predict_cost); a tolerance is taken to need as many steps in the same time as there. Runs whose trial stops
+/// count as an average run.
+SweepCost predicted_cost(const std::vector<SweepRun>& runs, CostCache& cache);
 
 /// Runs that belong together, longest first.
 using SweepPack = std::vector<std::size_t>;

@@ -146,9 +146,9 @@ BOOST_AUTO_TEST_CASE(of_a_sweep_are_words_of_its_script_for_slurm) {
       return fs::path(folder.directory / file).lexically_normal().string();
     };
     for (const std::string& word :
-         {std::string(VEHD_PROGRAM), std::string("sweep"), absolute(place + ".toml"), std::string("-o"),
-          absolute(place), std::string("--pack"), std::string("0"), std::string("--jobs"), std::string("1"),
-          std::string("--threads"), std::string("1")}) {
+         {std::string("--cpus-per-task=1"), std::string(VEHD_PROGRAM), std::string("sweep"), absolute(place + ".toml"),
+          std::string("-o"), absolute(place), std::string("--pack"), std::string("0"), std::string("--jobs"),
+          std::string("1"), std::string("--threads"), std::string("1")}) {
       expected += word + '\0';
     }
     BOOST_TEST((started.output == expected), name << ": " << started.output << started.errors);

@@ -171,10 +171,76 @@ BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_shares_the_runs_out, SweepWork) {
   for (const char* line : {"#SBATCH --array=0-0\n", "#SBATCH --time=90\n", "#SBATCH --signal=TERM@300\n"}) {
     BOOST_TEST(script.find(line) != std::string::npos, script);
   }
+  BOOST_TEST(script.find("\nsrun --cpus-per-task=1 ") != std::string::npos, script);
+  BOOST_TEST(script.find("scontrol requeue") != std::string::npos, script);
   BOOST_TEST(run_command({"bash", "-n", output + "/sweep.sbatch"}).exit_code == 0);
+  // Room for the worker and for whoever starts it: more than nothing, less than a small machine has.
+  const std::size_t memory = script.find("#SBATCH --mem=");
+  BOOST_TEST_REQUIRE(memory != std::string::npos, script);
+  BOOST_TEST(std::stoi(script.substr(memory + 14)) > 10);
+  BOOST_TEST(std::stoi(script.substr(memory + 14)) < 2000);
   BOOST_TEST(json_of(output + "/packs.json").at(0).size() == 6u);
   BOOST_TEST(run({"--pack", "0"}).exit_code == 0);
   BOOST_TEST(run({"--pack", "7"}).errors.starts_with("--pack 7: "));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_has_what_the_cluster_wants, SweepWork) {
+  const OwnCache cache;
+  write_sweep(conductivities);
+  write_text(directory / "modules.sh", "module load fftw");
+  const std::vector<std::string> wanted = {
+      "--account", "cells", "--partition", "long", "--prologue", directory / "modules.sh", "--turns", "3"};
+  std::vector<std::string> emit = {"--emit", "slurm"};
+  emit.insert(emit.end(), wanted.begin(), wanted.end());
+  const ProgramResult result = run(emit);
+  BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+  const std::string script = file_text(output + "/sweep.sbatch");
+  for (const char* text : {"#SBATCH --account=\"cells\"\n", "#SBATCH --partition=\"long\"\n",
+                           "\nmodule load fftw\nsrun ", "--dependency=afterany:$job"}) {
+    BOOST_TEST(script.find(text) != std::string::npos, script);
+  }
+  BOOST_TEST(script.find("requeue") == std::string::npos, script);
+  BOOST_TEST(run_command({"bash", "-n", output + "/sweep.sbatch"}).exit_code == 0);
+  // The line that submits all turns, with an sbatch that says how it is called.
+  const std::size_t line = script.find("# job="), end = script.find('\n', line);
+  BOOST_TEST_REQUIRE(line != std::string::npos, script);
+  const ProgramResult turns =
+      run_command({"bash", "-c", "sbatch() { echo \"$*\" >&2; echo 7; }; " + script.substr(line + 2, end - line - 2)});
+  const std::string first = "--parsable " + output + "/sweep.sbatch\n",
+                    next = "--parsable --dependency=afterany:7 " + output + "/sweep.sbatch\n";
+  BOOST_TEST(turns.errors == first + next + next);
+  // They are of --emit alone.
+  BOOST_TEST(run({"--account", "cells"}).exit_code == 1);
+  BOOST_TEST(run({"--emit", "slurm", "--account", "a\"b"}).errors.find("a line #SBATCH cannot hold") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(the_script_for_one_run_works_in_scratch_space_and_brings_its_files_back) {
+  const TemporaryDirectory directory;
+  fs::create_directories(directory / "bin");
+  write_text(directory / "bin/srun", "#!/bin/sh\nshift\nexec \"$@\"\n");
+  write_text(directory / "bin/scontrol", "#!/bin/sh\necho \"$*\" >> " + directory / "turns\n");
+  for (const char* program : {"bin/srun", "bin/scontrol"}) {
+    fs::permissions(directory / program, fs::perms::owner_all);
+  }
+  write_text(directory / "scene.toml", quick_scene("1.0"));
+  const std::string output = directory / "out";
+  const auto submit = [&](const std::string& program) {
+    return run_command({"env", "PATH=" + directory / "bin:" + std::getenv("PATH"), "TMPDIR=" + directory / "scratch",
+                        "SLURM_JOB_ID=7", "SLURM_CPUS_PER_TASK=1", "VEHD=" + program, "bash",
+                        VEHD_SOURCE_DIR "/docs/slurm/one_run.sbatch", directory / "scene.toml", output});
+  };
+  BOOST_TEST_REQUIRE(submit(VEHD_PROGRAM).exit_code == 0);
+  BOOST_TEST(json_of(output + "/summary.json").at("completed").get<bool>());
+  BOOST_TEST(fs::is_empty(directory / "scratch"));
+  BOOST_TEST(!fs::exists(directory / "turns"));
+  // Goes on in what is there; ended by a signal it asks for another turn.
+  const ProgramResult again = submit(VEHD_PROGRAM);
+  BOOST_TEST(again.output.find("nothing to do") != std::string::npos, again.output);
+  write_text(directory / "stopped", "#!/bin/sh\nexit 3\n");
+  fs::permissions(directory / "stopped", fs::perms::owner_all);
+  BOOST_TEST(submit(directory / "stopped").exit_code == 3);
+  BOOST_TEST(file_text(directory / "turns") == "requeue 7\n");
 }
 
 BOOST_FIXTURE_TEST_CASE(pictures_show_lines_of_one_key_and_maps_of_two, SweepWork) {
