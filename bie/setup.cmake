@@ -32,6 +32,7 @@
 #                                   levels: for every x86-64, the numerical libraries for its newer levels as well
 #   -DVEHD_TEST_LEVEL=x86-64-v3     test runs the tests that rounding could change once more, on numerical libraries for this
 #                                   instruction set, which build makes as well
+#   -DTESTS=REGEX                   test runs only the tests whose names match
 #   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON   a warning of the compiler ends the build
 cmake_minimum_required(VERSION 3.25)
 
@@ -49,6 +50,9 @@ if(NOT DEFINED INSTALL)
 endif()
 if(NOT DEFINED SECONDS)
   set(SECONDS 600)
+endif()
+if(NOT DEFINED TESTS)
+  set(TESTS .)
 endif()
 
 # A folder for each instruction set: none is compiled again because another was in between.
@@ -282,7 +286,8 @@ if(STEP MATCHES "^(test|sanitize)$")
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs})
   # One test more than there are processors: some wait for the disk, for a browser or for a process that they have ended.
   math(EXPR tests "${jobs} + 1")
-  run_or_stop("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" --parallel ${tests} --output-on-failure)
+  run_or_stop("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" --parallel ${tests} --output-on-failure
+              --tests-regex "${TESTS}")
 else()
   set(targets vehd)
   set(fuzzers scene tables files edits)

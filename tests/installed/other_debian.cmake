@@ -1,0 +1,73 @@
+# Builds and tries the last commit as a newcomer would, in a bare system of the other Debian release: 13, on a 13 itself
+# 12. The system and what is built in it stay in ${XDG_CACHE_HOME:-~/.cache}/vehd for the next time:
+#   cmake -P other_debian.cmake
+# Before -P: -DRELEASE=trixie for another release, -DTESTS=REGEX for other tests than those of Python and the notebooks,
+# "." for all. It needs root, mmdebstrap, git and the network; where the system cannot be made it says so and ends.
+cmake_minimum_required(VERSION 3.25)
+
+if(NOT DEFINED TESTS)
+  set(TESTS "^(python/|notebooks)")
+endif()
+if(NOT DEFINED RELEASE)
+  set(RELEASE trixie)
+  file(STRINGS /etc/os-release native REGEX "^VERSION_CODENAME=trixie")
+  if(native)
+    set(RELEASE bookworm)
+  endif()
+endif()
+if(NOT "$ENV{XDG_CACHE_HOME}" STREQUAL "")
+  set(root "$ENV{XDG_CACHE_HOME}/vehd/${RELEASE}")
+else()
+  set(root "$ENV{HOME}/.cache/vehd/${RELEASE}")
+endif()
+
+find_program(mmdebstrap mmdebstrap NO_CACHE)
+execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
+if(NOT user EQUAL 0 OR NOT mmdebstrap)
+  message(STATUS "skipped: a system of Debian ${RELEASE} needs root and mmdebstrap (a Debian package)")
+  return()
+endif()
+if(NOT EXISTS "${root}")
+  # From where this system has its own packages.
+  execute_process(COMMAND apt-get indextargets --format "$(REPO_URI)" "Component: main" "ShortDesc: Packages" "Origin: Debian"
+                  OUTPUT_VARIABLE mirrors ERROR_QUIET)
+  string(REGEX MATCH "^[^\n]*" mirror "${mirrors}")
+  file(REMOVE_RECURSE "${root}.new")
+  get_filename_component(cache "${root}" DIRECTORY)
+  file(MAKE_DIRECTORY "${cache}")
+  execute_process(COMMAND "${mmdebstrap}" --quiet --variant=apt --include=ca-certificates,cmake,g++,git "${RELEASE}"
+                          "${root}.new" ${mirror}
+                  RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(STATUS "skipped: mmdebstrap cannot make a system of Debian ${RELEASE} (${status})")
+    return()
+  endif()
+  file(RENAME "${root}.new" "${root}")
+endif()
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+if(NOT EXISTS "${root}/root/vehd")
+  run(git init -q "${root}/root/vehd")
+endif()
+run(git -C "${root}/root/vehd" fetch -q "${CMAKE_CURRENT_LIST_DIR}/../.." HEAD)
+run(git -C "${root}/root/vehd" checkout -q --force --detach FETCH_HEAD)
+
+# Runs a line of shell within the system, in the folder of the README; /proc and /dev end with it.
+function(within line)
+  string(TIMESTAMP start "%s")
+  run(cp /etc/resolv.conf "${root}/etc/resolv.conf")
+  run(unshare --mount --pid --fork sh -c
+      "mount -t proc proc '${root}/proc' && mount --rbind /dev '${root}/dev' && exec chroot '${root}' /usr/bin/env -i \
+HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -c 'cd /root/vehd && ${line}'")
+  string(TIMESTAMP end "%s")
+  math(EXPR taken "${end} - ${start}")
+  message(STATUS "Debian ${RELEASE}: ${taken} s for: ${line}")
+endfunction()
+
+set(strict -DCMAKE_COMPILE_WARNING_AS_ERROR=ON)
+within("cmake ${strict} -P bie/setup.cmake")
+within("cmake ${strict} -DSTEP=check -P bie/setup.cmake")
+within("build/vehd check docs/checks/shape33.toml --quick -o out/shape33_check")
+within("cmake ${strict} -DSTEP=test -DVEHD_FEM_CHECK=ON -DVEHD_PYTHON=ON \"-DTESTS=${TESTS}\" -P bie/setup.cmake")
