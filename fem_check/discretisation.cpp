@@ -60,8 +60,10 @@ void require_positive(int count, const char* what) {
 
 }  // namespace
 
-Discretisation::Discretisation(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, Ranks ranks)
-    : space_(std::make_shared<Space>(std::move(mesh), degree, ranks == Ranks::all ? MPI_COMM_WORLD : MPI_COMM_SELF)) {}
+Discretisation::Discretisation(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, Ranks ranks,
+                               int points_per_edge)
+    : space_(std::make_shared<Space>(std::move(mesh), degree, ranks == Ranks::all ? MPI_COMM_WORLD : MPI_COMM_SELF,
+                                     points_per_edge)) {}
 
 int Discretisation::degree() const { return static_cast<int>(space_->element.degree); }
 int Discretisation::n_cells() const { return static_cast<int>(space_->triangulation.n_active_cells()); }

@@ -19,8 +19,11 @@ class Discretisation {
  public:
   /// @param mesh    block mesh with split interface
   /// @param degree  k of the elements; the geometry has degree k + 1
-  /// @throws std::invalid_argument for another mesh or a degree outside 1 … 8
-  Discretisation(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, Ranks ranks = Ranks::all);
+  /// @param points_per_edge  of a face of γ, Gauss points at which what is given there is integrated; k + 2 if that is
+  ///                         more
+  /// @throws std::invalid_argument for another mesh or a degree outside 1 … 10
+  Discretisation(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, Ranks ranks = Ranks::all,
+                 int points_per_edge = 0);
 
   /// Degree k of the elements.
   [[nodiscard]] int degree() const;

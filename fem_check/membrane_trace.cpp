@@ -23,8 +23,8 @@ Vector lagrange(const std::vector<double>& nodes, const Eigen::Vector2d& point) 
   return Eigen::Map<const Vector>(product.data(), product.size());
 }
 
-SurfacePoints gauss_points(const Space& space) {
-  const dealii::QGauss<1> gauss(space.element.degree + 2);
+SurfacePoints gauss_points(const Space& space, int per_edge) {
+  const dealii::QGauss<1> gauss(static_cast<unsigned>(per_edge));
   std::vector<double> nodes;
   for (const auto& point : gauss.get_points()) nodes.push_back(point[0]);
   return tensor_points(space, nodes, gauss.get_weights());
@@ -72,9 +72,9 @@ Eigen::SparseMatrix<double> membrane_mass(const SurfacePoints& rule, const Sheet
   return mass;
 }
 
-MembraneTrace::MembraneTrace(const Space& space)
+MembraneTrace::MembraneTrace(const Space& space, int points_per_edge)
     : pairs_(sheet_pairs(space, space.dofs)),
-      rule_(gauss_points(space)),
+      rule_(gauss_points(space, points_per_edge)),
       edge_nodes_(edge_nodes(space.element.degree)) {
   nodes_ = first_at_each_node(tensor_points(space, edge_nodes_, {}), pairs_);
   const Eigen::Index per_face = rule_.size() / static_cast<Eigen::Index>(pairs_.of_face.size());

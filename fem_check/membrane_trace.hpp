@@ -11,7 +11,7 @@ Eigen::SparseMatrix<double> membrane_mass(const SurfacePoints& rule, const Sheet
 /// Restriction of the scalar element to γ: nodal values (one per pair of coincident nodes), functionals, L2 projection.
 class MembraneTrace {
  public:
-  explicit MembraneTrace(const Space& space);
+  MembraneTrace(const Space& space, int points_per_edge);
 
   [[nodiscard]] const SheetPairs& pairs() const { return pairs_; }
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(pairs_.pairs.size()); }

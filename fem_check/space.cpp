@@ -123,7 +123,7 @@ void require_supported(const meshes::VolumeMesh& mesh, int degree) {
 
 }  // namespace
 
-Space::Space(std::shared_ptr<const meshes::VolumeMesh> volume_mesh, int degree, MPI_Comm ranks)
+Space::Space(std::shared_ptr<const meshes::VolumeMesh> volume_mesh, int degree, MPI_Comm ranks, int points_per_edge)
     : mesh(std::move(volume_mesh)),
       centre(mesh->centre()),
       length(mesh->outer_radius()),
@@ -140,7 +140,7 @@ Space::Space(std::shared_ptr<const meshes::VolumeMesh> volume_mesh, int degree, 
   find_faces(*this);
   dofs.reinit(triangulation);
   dofs.distribute_dofs(element);
-  trace = std::make_shared<MembraneTrace>(*this);
+  trace = std::make_shared<MembraneTrace>(*this, std::max(degree + 2, points_per_edge));
   seconds_setup = watch.lap();
 }
 

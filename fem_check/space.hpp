@@ -35,7 +35,8 @@ class MembraneTrace;
 /// Triangulation, curved mapping and one scalar element on it. All that deal.II sees is without unit: places relative
 /// to the centre of the outer sphere, over its radius.
 struct Space {
-  Space(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, MPI_Comm communicator);
+  /// @param points_per_edge  as of a Discretisation
+  Space(std::shared_ptr<const meshes::VolumeMesh> mesh, int degree, MPI_Comm communicator, int points_per_edge);
 
   using Cell = dealii::DoFHandler<3>::active_cell_iterator;
   [[nodiscard]] Cell cell(const dealii::DoFHandler<3>& handler, unsigned index) const {

@@ -93,7 +93,8 @@ meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
   return options;
 }
 
-Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement) {
+Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement)
+    : points_per_edge_(refinement.points_per_edge) {
   if (shapes.size() == 2) {
     const std::array pair{shapes[0], shapes[1]};
     mesh_ = std::make_shared<meshes::TwoVesicleMesh>(
@@ -108,7 +109,7 @@ Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement&
 const Discretisation& Meshes::discretise(int degree) {
   const auto found = discretisations_.find(degree);
   if (found != discretisations_.end()) return found->second;
-  return discretisations_.emplace(degree, Discretisation(mesh_, degree)).first->second;
+  return discretisations_.emplace(degree, Discretisation(mesh_, degree, Ranks::all, points_per_edge_)).first->second;
 }
 
 }  // namespace vehd::fem_check

@@ -28,7 +28,8 @@ struct Refinement {
   // Of two vesicles: between a membrane and its box, and from the boxes to the outer sphere.
   int box_layers = 2, outer_layers = 2;
   double box_growth = 2.0, outer_growth = 2.0;
-  int points_per_edge = 12;  ///< of the comparison, Gauss points on each face of γ; see resolve()
+  /// Gauss points on each face of γ, of the comparison and of the integrals of what is given there; see resolve().
+  int points_per_edge = 12;
 
   // Degrees, rising, three at least.
   std::vector<int> potential_degrees{4, 5, 6, 7, 8, 9};
@@ -47,7 +48,7 @@ struct Refinement {
   static Refinement of_strongly_bent_bowl();
   /// The one of these that follows the bends of the shape.
   static Refinement following(const meshes::FrozenShape& shape);
-  /// As many points of the comparison as fields of a degree in harmonics need: three for each wave. What a force has
+  /// As many points on γ as fields of a degree in harmonics need: three for each wave. What a force has
   /// between points would else be work on smooth displacements: 7e-8 of it for a degree of 80, 12 points and 4 cells
   /// along an edge, where 16 points leave 1e-11.
   void resolve(int degree);
@@ -75,6 +76,7 @@ class Meshes {
 
  private:
   std::shared_ptr<const meshes::VolumeMesh> mesh_;
+  int points_per_edge_;
   std::map<int, Discretisation> discretisations_;
 };
 

@@ -1,7 +1,9 @@
 #include "fem_check/app/refinement.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
+#include "fem_check/flow.hpp"
 #include "meshes/harmonic_series.hpp"
 #include "tests/fem_check/cases.hpp"
 
@@ -69,6 +71,34 @@ BOOST_AUTO_TEST_CASE(points_of_the_comparison_resolve_waves_of_a_degree) {
   BOOST_TEST(refinement.points_per_edge > 12);
   BOOST_TEST(mean_of(96, refinement.points_per_edge, refinement.cells_per_edge) < 1e-3);
   BOOST_TEST(mean_of(96, 12, refinement.cells_per_edge) > 1e-2);
+}
+
+// A force that is a harmonic of degree 40 along one direction pulls the sphere nowhere: ∫ f dA = 0. What a rule with
+// too few points finds instead drags it along.
+BOOST_AUTO_TEST_CASE(given_forces_are_integrated_at_points_that_resolve_their_waves) {
+  constexpr int degree = 40;
+  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero((degree + 1) * (degree + 1), 1);
+  coefficients(degree * degree + degree, 0) = 1.0;
+  const vehd::meshes::HarmonicSeries harmonic(coefficients);
+  FlowProblem problem;
+  problem.force = [&](const SurfacePoints& at) {
+    Vectors force = Vectors::Zero(3, at.size());
+    force.row(2) = harmonic.values(at.direction).row(0);
+    return force;
+  };
+  Refinement refinement = Refinement::quick();
+  refinement.resolve(degree);
+  const auto drift = [&](const Discretisation& space) {
+    const SurfacePoints points = space.quadrature_points(refinement.points_per_edge);
+    const Vectors velocity = solve_flow(space, problem).on_surface(points).velocity;
+    return (velocity * points.weight).norm() / points.weight.sum();
+  };
+  Meshes meshes({unit_sphere()}, refinement);
+  const double resolved = drift(meshes.discretise(3));
+  const double unresolved =
+      drift(discretise(unit_sphere(), {.cells_per_edge = 3, .shell_layers = 2, .degree = 3, .outer_radius = 4.2}));
+  BOOST_TEST(resolved < 1e-2 * unresolved);
+  BOOST_TEST(resolved < 1e-4);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
