@@ -47,9 +47,9 @@ void Refinement::resolve(int degree) {
 
 Refinement Refinement::quick() {
   Refinement refinement;
-  refinement.potential_degrees = {3, 5, 6};
+  refinement.potential_degrees = {3, 5, 7};
   refinement.flow_degrees = {3, 5, 7};
-  refinement.shape_flow_degrees = {3, 4, 5};
+  refinement.shape_flow_degrees = {3, 5, 7};
   refinement.potential_target = 0.0;
   refinement.flow_target = 0.0;
   refinement.potential_tolerance = 1e-8;

@@ -52,8 +52,11 @@ struct Refinement {
   /// between points would else be work on smooth displacements: 7e-8 of it for a degree of 80, 12 points and 4 cells
   /// along an edge, where 16 points leave 1e-11.
   void resolve(int degree);
-  /// Three levels each.
+  /// Three levels each, of odd degree: a field that is even about the middle of a cell, as about the poles of an
+  /// axisymmetric shape, gains nothing from the next odd degree, and one that is odd nothing from an even one. A step
+  /// of one degree then hides the error that is left.
   static Refinement quick();
+  /// An even number of cells along an edge has no cell about a pole.
   static Refinement quick_of_two();
 };
 

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "fem_check/flow.hpp"
 #include "meshes/harmonic_series.hpp"
@@ -99,6 +100,35 @@ BOOST_AUTO_TEST_CASE(given_forces_are_integrated_at_points_that_resolve_their_wa
       drift(discretise(unit_sphere(), {.cells_per_edge = 3, .shell_layers = 2, .degree = 3, .outer_radius = 4.2}));
   BOOST_TEST(resolved < 1e-2 * unresolved);
   BOOST_TEST(resolved < 1e-4);
+}
+
+// The best polynomials of rising degree on a cell leave less than the last of them adds, of even and of odd functions.
+BOOST_AUTO_TEST_CASE(last_two_degrees_of_a_quick_check_differ_by_more_than_the_last_leaves) {
+  constexpr int n_intervals = 2000, highest = 20;
+  constexpr double width = 2.0 / n_intervals;
+  const auto squares = [](const auto& function) {
+    std::vector<double> of_degree(highest + 1);
+    for (int n = 0; n <= highest; ++n) {
+      double product = 0.0;
+      for (int i = 0; i < n_intervals; ++i) {
+        const double x = -1.0 + (i + 0.5) * width, sign = x < 0.0 && n % 2 == 1 ? -1.0 : 1.0;
+        product += width * function(x) * sign * std::legendre(static_cast<unsigned>(n), std::abs(x));
+      }
+      of_degree[static_cast<std::size_t>(n)] = 0.5 * (2 * n + 1) * product * product;
+    }
+    return of_degree;
+  };
+  const Refinement quick = Refinement::quick();
+  for (const std::vector<int>& degrees : {quick.potential_degrees, quick.flow_degrees, quick.shape_flow_degrees}) {
+    const int last = degrees.back(), before = degrees[degrees.size() - 2];
+    for (const std::vector<double>& of_degree :
+         {squares([](double x) { return std::cos(3.0 * x); }), squares([](double x) { return std::sin(3.0 * x); })}) {
+      const auto begin = of_degree.begin();
+      const double change = std::accumulate(begin + before + 1, begin + last + 1, 0.0);
+      const double left = std::accumulate(begin + last + 1, of_degree.end(), 0.0);
+      BOOST_TEST(change > left);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
