@@ -1,6 +1,7 @@
 # From a fresh Debian 12 with git, cmake and g++ to a result; run it from anywhere:
 #   cmake -P bie/setup.cmake               installs what is missing, builds, simulates Example 2 of the paper
-#   cmake -DSTEP=test -P bie/setup.cmake   installs what is missing, builds, runs the tests
+#   cmake -DSTEP=test -P bie/setup.cmake   installs what is missing, deal.II, gmsh and Python among it, builds, runs the tests
+#                                          of both halves
 #   cmake -DSTEP=build -P bie/setup.cmake  installs what is missing, builds
 #   cmake -DSTEP=check -P bie/setup.cmake  installs deal.II and gmsh as well, builds the finite-element check, compares the
 #                                          two methods on the first shape of Example 2
@@ -22,16 +23,16 @@
 #                                             it and tries it
 # Before -P, for every step:
 #   -DINSTALL=OFF                   installs nothing: says what is missing, and goes on where it can do without
-#   -DVEHD_FEM_CHECK=ON             test, build and docs include the finite-element check and install what it needs; without
-#                                   it they include the check where deal.II and gmsh are there already
-#   -DVEHD_PYTHON=ON                test, build and docs include the module of Python and install what it needs; without it
-#                                   they include it where pybind11 and numpy are there already; package includes it
-#                                   unless this is OFF
+#   -DVEHD_FEM_CHECK=OFF            test leaves out the finite-element check, and what it needs. With ON build and docs
+#                                   include it and install what it needs; without either, where deal.II and gmsh are there
+#   -DVEHD_PYTHON=OFF               test and package leave out the module of Python, and what it needs. With ON build and docs
+#                                   include it and install what it needs; without either, where pybind11 and numpy are there
 #   -DVEHD_MPI=ON                   builds a vehd that runs on several processes, and installs what it needs
 #   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of that of this machine;
 #                                   levels: for every x86-64, the numerical libraries for its newer levels as well
 #   -DVEHD_TEST_LEVEL=x86-64-v3     test runs the tests that rounding could change once more, on numerical libraries for this
 #                                   instruction set, which build makes as well
+#   -DEXTENDED=ON                   test runs those labelled extended as well (docs/building.md)
 #   -DTESTS=REGEX                   test runs only the tests whose names match
 #   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON   a warning of the compiler ends the build
 cmake_minimum_required(VERSION 3.25)
@@ -131,7 +132,7 @@ if(STEP MATCHES "^(test|sanitize|docs)$")
   need_python_module(python3-numpy numpy)
   need_python_module(python3-matplotlib matplotlib)
 endif()
-if(STEP STREQUAL "test" AND VEHD_PYTHON)
+if(STEP STREQUAL "test" AND (VEHD_PYTHON OR NOT DEFINED VEHD_PYTHON))
   # The tests solve with scipy, make a table of pandas and execute the notebooks.
   need_python_module(python3-scipy scipy)
   need_python_module(python3-pandas pandas)
@@ -212,7 +213,9 @@ if(STEP STREQUAL "site")
 endif()
 if(NOT DEFINED VEHD_FEM_CHECK)
   set(VEHD_FEM_CHECK OFF)
-  if(STEP MATCHES "^(test|build|docs)$")
+  if(STEP STREQUAL "test")
+    set(VEHD_FEM_CHECK ON)
+  elseif(STEP MATCHES "^(build|docs)$")
     set(VEHD_FEM_CHECK AUTO)
   endif()
 endif()
@@ -220,11 +223,11 @@ if(STEP STREQUAL "check")
   set(VEHD_FEM_CHECK ON)
 endif()
 
-if(STEP MATCHES "^(python|package)$" AND NOT DEFINED VEHD_PYTHON)
+if(STEP MATCHES "^(test|python|package)$" AND NOT DEFINED VEHD_PYTHON)
   set(VEHD_PYTHON ON)
 elseif(NOT DEFINED VEHD_PYTHON)
   set(VEHD_PYTHON OFF)
-  if(STEP MATCHES "^(test|build|docs)$")
+  if(STEP MATCHES "^(build|docs)$")
     set(VEHD_PYTHON AUTO)
   endif()
 endif()
@@ -286,8 +289,12 @@ if(STEP MATCHES "^(test|sanitize)$")
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs})
   # One test more than there are processors: some wait for the disk, for a browser or for a process that they have ended.
   math(EXPR tests "${jobs} + 1")
+  set(left_out --label-exclude extended)
+  if(EXTENDED OR STEP STREQUAL "sanitize")
+    set(left_out)
+  endif()
   run_or_stop("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" --parallel ${tests} --output-on-failure
-              --tests-regex "${TESTS}")
+              --tests-regex "${TESTS}" ${left_out})
 else()
   set(targets vehd)
   set(fuzzers scene tables files edits)

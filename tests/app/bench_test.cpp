@@ -88,7 +88,8 @@ void copy_docs(const fs::path& to) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(bench, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
+BOOST_AUTO_TEST_SUITE(bench, *boost::unit_test::label("slow") * boost::unit_test::label("extended") *
+                                 boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
   const Bench bench({"space", "--orders", "6,12", "--repeats", "2"});

@@ -7,7 +7,8 @@
 // Where much vanishes or is not determined: spheres, whose uniform tension does nothing, and vesicles that are images
 // of one another.
 BOOST_AUTO_TEST_SUITE(check_spheres, *boost::unit_test::precondition(finite_elements_are_built) *
-                                         boost::unit_test::label("slow") * boost::unit_test::label("once"))
+                                         boost::unit_test::label("slow") * boost::unit_test::label("extended") *
+                                         boost::unit_test::label("once"))
 
 namespace {
 

@@ -103,7 +103,8 @@ struct ReaderFolder {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(documentation, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
+BOOST_AUTO_TEST_SUITE(documentation, *boost::unit_test::label("slow") * boost::unit_test::label("extended") *
+                                         boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(every_shipped_scene_is_valid) {
   int count = 0;

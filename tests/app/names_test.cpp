@@ -79,7 +79,8 @@ constexpr const char* xml = "import xml.etree.ElementTree as tree; tree.parse(sy
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(names, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
+BOOST_AUTO_TEST_SUITE(names, *boost::unit_test::label("slow") * boost::unit_test::label("extended") *
+                                 boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(of_files_and_directories_are_data_to_every_command) {
   for (const std::string& name : hostile_names()) {

@@ -52,7 +52,7 @@ double factor(double predicted, double taken) { return std::max(predicted / take
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(prediction)
+BOOST_AUTO_TEST_SUITE(prediction, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 // Two tolerances with stretches of their own, the second of another order, and one that is predicted from these: where
 // errors grow and degrees rise, where a field turns, and where a shape comes to rest.

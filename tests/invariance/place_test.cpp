@@ -14,7 +14,7 @@
 using namespace vehd;
 using namespace vehd::testing;
 
-BOOST_AUTO_TEST_SUITE(place_of_a_scene, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(place_of_a_scene, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/recorded_history.hpp"
 
-BOOST_AUTO_TEST_SUITE(error_bars)
+BOOST_AUTO_TEST_SUITE(error_bars, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "bie/scene/reader.hpp"
 #include "tests/support/recorded_history.hpp"
 
-BOOST_AUTO_TEST_SUITE(rising_degree)
+BOOST_AUTO_TEST_SUITE(rising_degree, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 BOOST_AUTO_TEST_CASE(what_solves_leave_at_every_degree_is_no_reason_for_more) {
   // Between its pulses the membrane becomes compressed: what is wrong is expected to grow a hundred times, and what the

@@ -5,7 +5,7 @@
 #include "bie/scene/reader.hpp"
 #include "tests/support/recorded_history.hpp"
 
-BOOST_AUTO_TEST_SUITE(tension_of_long_steps)
+BOOST_AUTO_TEST_SUITE(tension_of_long_steps, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 namespace {
 
