@@ -184,7 +184,7 @@ std::string word(const Context& context, const toml::node& node) {
 }
 
 /// An entry of a list of tables with exactly these keys.
-const toml::table& entry_of(const std::vector<std::string_view>& names, const Context& context,
+const toml::table& entry_of(std::initializer_list<std::string_view> names, const Context& context,
                             const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr) context.refuse(node, fmt::format("has the entry {}", shown(node)));
