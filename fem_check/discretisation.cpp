@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "fem_check/cell_points.hpp"
+#include "fem_check/membrane_trace.hpp"
 
 namespace vehd::fem_check {
 
@@ -68,6 +69,7 @@ Discretisation::Discretisation(std::shared_ptr<const meshes::VolumeMesh> mesh, i
 int Discretisation::degree() const { return static_cast<int>(space_->element.degree); }
 int Discretisation::n_cells() const { return static_cast<int>(space_->triangulation.n_active_cells()); }
 int Discretisation::n_faces() const { return static_cast<int>(space_->membrane.size()); }
+int Discretisation::points_per_edge() const { return space_->trace->points_per_edge(); }
 long Discretisation::n_nodes() const { return static_cast<long>(space_->dofs.n_dofs()); }
 
 SurfacePoints Discretisation::quadrature_points(int per_edge) const {

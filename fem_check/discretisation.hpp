@@ -30,6 +30,8 @@ class Discretisation {
   /// Cells on both sides.
   [[nodiscard]] int n_cells() const;
   [[nodiscard]] int n_faces() const;  ///< of the membrane
+  /// Gauss points along an edge of a face of γ, at which what is given there is integrated.
+  [[nodiscard]] int points_per_edge() const;
   /// Nodes of the scalar element on both sides.
   [[nodiscard]] long n_nodes() const;
 

@@ -74,6 +74,7 @@ Eigen::SparseMatrix<double> membrane_mass(const SurfacePoints& rule, const Sheet
 
 MembraneTrace::MembraneTrace(const Space& space, int points_per_edge)
     : pairs_(sheet_pairs(space, space.dofs)),
+      points_per_edge_(points_per_edge),
       rule_(gauss_points(space, points_per_edge)),
       edge_nodes_(edge_nodes(space.element.degree)) {
   nodes_ = first_at_each_node(tensor_points(space, edge_nodes_, {}), pairs_);

@@ -17,6 +17,8 @@ class MembraneTrace {
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(pairs_.pairs.size()); }
   /// Positions (and directions) of the nodes, in the order of the pairs.
   [[nodiscard]] const SurfacePoints& nodes() const { return nodes_; }
+  /// Of the rule.
+  [[nodiscard]] int points_per_edge() const { return points_per_edge_; }
   /// Gauss points at which surface data are taken.
   [[nodiscard]] const SurfacePoints& rule() const { return rule_; }
   /// Values of the trace functions at the points of one face of the rule: [points x nodes].
@@ -33,6 +35,7 @@ class MembraneTrace {
 
  private:
   SheetPairs pairs_;
+  int points_per_edge_;
   SurfacePoints nodes_;
   SurfacePoints rule_;
   Eigen::MatrixXd shape_;

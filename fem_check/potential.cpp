@@ -1,6 +1,7 @@
 #include "fem_check/potential.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "fem_check/exterior_field.hpp"
 #include "fem_check/krylov.hpp"
@@ -291,6 +292,7 @@ ChargingSteps::ChargingSteps(ChargingSteps&&) noexcept = default;
 ChargingSteps& ChargingSteps::operator=(ChargingSteps&&) noexcept = default;
 
 Vector ChargingSteps::step(const Vector& from, const Vector3& field) {
+  if (from.size() != rule().size()) throw std::invalid_argument("V_m of a step is not given at the points of the rule");
   PotentialData& data = *implementation_->data;
   const auto& charging = std::get<ChargingMembrane>(data.problem.membrane);
   Stopwatch watch;

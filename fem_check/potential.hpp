@@ -115,8 +115,9 @@ class ChargingSteps {
   ChargingSteps& operator=(ChargingSteps&&) noexcept;
 
   /// V_m with C_m (V_m − from)/τ + G_m V_m = −σ_i ∂φ_i/∂n, τ the time step of the problem.
+  /// @param from   at the points of the rule
   /// @param field  E_∞ at the end of the step
-  /// @throws SolveError
+  /// @throws SolveError, std::invalid_argument for another number of values
   Vector step(const Vector& from, const Vector3& field);
   /// Gauss points of γ.
   [[nodiscard]] const SurfacePoints& rule() const;

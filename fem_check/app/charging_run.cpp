@@ -40,11 +40,11 @@ ChargingRun::ChargingRun(const CheckInput& input, const Refinement& refinement)
       refinement_(refinement),
       in_directions_(meshes::best_axes(meshes::FrozenShape(input.position)).in_directions) {}
 
-Discretisation ChargingRun::discretise(const Eigen::MatrixXd& position, int degree) const {
+Discretisation ChargingRun::discretise(const Eigen::MatrixXd& position, const Discretisation& like) const {
   const meshes::FrozenShape shape(position);
   return {std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement_, shape),
                                                                     meshes::axes_along(shape, in_directions_))),
-          degree};
+          like.degree(), Ranks::all, like.points_per_edge()};
 }
 
 Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan) const {
@@ -55,7 +55,7 @@ Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan)
   problem.tolerance = plan.settings.tolerance;
   problem.exterior_degree = plan.settings.exterior_degree;
   // The points at which the steps have V_m.
-  const SurfacePoints rule = space.quadrature_points(space.degree() + 2);
+  const SurfacePoints rule = space.quadrature_points(space.points_per_edge());
   Vector value = SurfaceSeries(in_time.potential)(rule).row(0);
   std::optional<ChargingSteps> charging;
   for (Eigen::Index p = 0; p < number_of_pieces(in_time); ++p) {
@@ -66,7 +66,7 @@ Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan)
     if (plan.path == nullptr) charging.emplace(space, problem);
     TimeLaw law{[&](const Vector& from, double, double time) {
       if (plan.path != nullptr) {
-        charging.emplace(discretise(plan.path->position(time), space.degree()), problem);
+        charging.emplace(discretise(plan.path->position(time), space), problem);
       }
       return charging->step(from, piece.at(time));
     }};

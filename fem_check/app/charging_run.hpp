@@ -28,7 +28,8 @@ class ChargingRun {
   [[nodiscard]] Solved solve(const Discretisation& space, const ChargingPlan& plan) const;
 
  private:
-  [[nodiscard]] Discretisation discretise(const Eigen::MatrixXd& position, int degree) const;
+  /// As another one of the same points of γ.
+  [[nodiscard]] Discretisation discretise(const Eigen::MatrixXd& position, const Discretisation& like) const;
 
   const CheckInput& input_;
   const Refinement& refinement_;

@@ -97,4 +97,18 @@ BOOST_AUTO_TEST_CASE(potential_rides_on_the_material_of_a_sphere_that_turns) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(steps_have_the_potential_at_the_points_of_their_mesh) {
+  const CheckInput input = turning_sphere(Vector3(0.9, 0.1, -0.4));
+  const Refinement many = coarse();
+  Refinement few = many;
+  few.points_per_edge = 1;
+  const ChargingRun run(input, many);
+  const auto advanced_on = [&](const Refinement& refinement) {
+    Meshes meshes({vehd::meshes::FrozenShape(input.position)}, refinement);
+    return run.solve(meshes.discretise(4), {.steps = 6, .settings = {1e-10}}).surface.at("Vm");
+  };
+  const Eigen::MatrixXd with_many = advanced_on(many);
+  BOOST_TEST((advanced_on(few) - with_many).norm() < 1e-4 * with_many.norm());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
