@@ -141,6 +141,8 @@ struct Multigrid::Implementation {
   std::unique_ptr<CoarseSolver> coarse;
   std::unique_ptr<LevelMatrices> matrices;
   std::unique_ptr<LevelSmoothers> smooth;
+  dealii::MGLevelObject<dealii::MGTwoLevelTransfer<3, Distributed>>
+      transfers;  // to which recent versions keep pointers
   std::unique_ptr<Transfer> transfer;
   std::unique_ptr<dealii::Multigrid<Distributed>> cycle;
   std::unique_ptr<dealii::PreconditionMG<3, Distributed, Transfer>> preconditioner;
@@ -165,15 +167,15 @@ Multigrid::Multigrid(const Space& space, const Fixed& fixed, const ScalarForm& f
     if (level > 0) mg.smoothers.back()->initialize(*mg.levels[level], smoother_data(*mg.levels[level]));
   }
   mg.coarse = std::make_unique<CoarseSolver>(*mg.levels.front());
-  dealii::MGLevelObject<dealii::MGTwoLevelTransfer<3, Distributed>> transfers(0, finest);
+  mg.transfers.resize(0, finest);
   for (unsigned level = 1; level <= finest; ++level) {
     const Stiffness& fine = *mg.levels[level];
     const Stiffness& coarse = *mg.levels[level - 1];
-    transfers[level].reinit_polynomial_transfer(fine.handler(), coarse.handler(), fine.constraints(),
-                                                coarse.constraints());
+    mg.transfers[level].reinit_polynomial_transfer(fine.handler(), coarse.handler(), fine.constraints(),
+                                                   coarse.constraints());
   }
   mg.transfer = std::make_unique<Transfer>(
-      transfers, [&](unsigned level, Distributed& vector) { mg.levels[level]->initialize(vector); });
+      mg.transfers, [&](unsigned level, Distributed& vector) { mg.levels[level]->initialize(vector); });
   mg.matrices = std::make_unique<LevelMatrices>(mg.levels);
   mg.smooth = std::make_unique<LevelSmoothers>(mg.smoothers);
   mg.cycle =
