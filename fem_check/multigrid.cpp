@@ -141,8 +141,8 @@ struct Multigrid::Implementation {
   std::unique_ptr<CoarseSolver> coarse;
   std::unique_ptr<LevelMatrices> matrices;
   std::unique_ptr<LevelSmoothers> smooth;
-  dealii::MGLevelObject<dealii::MGTwoLevelTransfer<3, Distributed>>
-      transfers;  // to which recent versions keep pointers
+  // Recent versions of deal.II keep pointers to these.
+  dealii::MGLevelObject<dealii::MGTwoLevelTransfer<3, Distributed>> transfers;
   std::unique_ptr<Transfer> transfer;
   std::unique_ptr<dealii::Multigrid<Distributed>> cycle;
   std::unique_ptr<dealii::PreconditionMG<3, Distributed, Transfer>> preconditioner;

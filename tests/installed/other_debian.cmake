@@ -54,12 +54,12 @@ endif()
 run(git -C "${root}/root/vehd" fetch -q "${CMAKE_CURRENT_LIST_DIR}/../.." HEAD)
 run(git -C "${root}/root/vehd" checkout -q --force --detach FETCH_HEAD)
 
-# Runs a line of shell within the system, in the folder of the README; /proc and /dev end with it.
+# Runs a line of shell within the system, in the folder of the README; /proc, /dev and /sys end with it.
 function(within line)
   string(TIMESTAMP start "%s")
   run(cp /etc/resolv.conf "${root}/etc/resolv.conf")
   run(unshare --mount --pid --fork sh -c
-      "mount -t proc proc '${root}/proc' && mount --rbind /dev '${root}/dev' && exec chroot '${root}' /usr/bin/env -i \
+      "mount -t proc proc '${root}/proc' && mount --rbind /dev '${root}/dev' && mount --rbind /sys '${root}/sys' && exec chroot '${root}' /usr/bin/env -i \
 HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -c 'cd /root/vehd && ${line}'")
   string(TIMESTAMP end "%s")
   math(EXPR taken "${end} - ${start}")
