@@ -1,4 +1,4 @@
-# From a fresh Debian 12 with git, cmake and g++ to a result; run it from anywhere:
+# From a fresh Debian 12 or 13 with git, cmake and g++ to a result; run it from anywhere:
 #   cmake -P bie/setup.cmake               installs what is missing, builds, simulates Example 2 of the paper
 #   cmake -DSTEP=test -P bie/setup.cmake   installs what is missing, deal.II, gmsh and Python among it, builds, runs the tests
 #                                          of both halves
@@ -54,6 +54,27 @@ if(NOT DEFINED SECONDS)
 endif()
 if(NOT DEFINED TESTS)
   set(TESTS .)
+endif()
+
+if(NOT DEFINED VEHD_FEM_CHECK)
+  set(VEHD_FEM_CHECK OFF)
+  if(STEP STREQUAL "test")
+    set(VEHD_FEM_CHECK ON)
+  elseif(STEP MATCHES "^(build|docs)$")
+    set(VEHD_FEM_CHECK AUTO)
+  endif()
+endif()
+if(STEP STREQUAL "check")
+  set(VEHD_FEM_CHECK ON)
+endif()
+
+if(STEP MATCHES "^(test|python|package)$" AND NOT DEFINED VEHD_PYTHON)
+  set(VEHD_PYTHON ON)
+elseif(NOT DEFINED VEHD_PYTHON)
+  set(VEHD_PYTHON OFF)
+  if(STEP MATCHES "^(build|docs)$")
+    set(VEHD_PYTHON AUTO)
+  endif()
 endif()
 
 # A folder for each instruction set: none is compiled again because another was in between.
@@ -132,7 +153,7 @@ if(STEP MATCHES "^(test|sanitize|docs)$")
   need_python_module(python3-numpy numpy)
   need_python_module(python3-matplotlib matplotlib)
 endif()
-if(STEP STREQUAL "test" AND (VEHD_PYTHON OR NOT DEFINED VEHD_PYTHON))
+if(STEP STREQUAL "test" AND VEHD_PYTHON)
   # The tests solve with scipy, make a table of pandas and execute the notebooks.
   need_python_module(python3-scipy scipy)
   need_python_module(python3-pandas pandas)
@@ -211,27 +232,6 @@ if(STEP STREQUAL "site")
   run_or_stop("${CMAKE_COMMAND}" -DSITE=${source}/build/site -P bie/cmake/site.cmake)
   return()
 endif()
-if(NOT DEFINED VEHD_FEM_CHECK)
-  set(VEHD_FEM_CHECK OFF)
-  if(STEP STREQUAL "test")
-    set(VEHD_FEM_CHECK ON)
-  elseif(STEP MATCHES "^(build|docs)$")
-    set(VEHD_FEM_CHECK AUTO)
-  endif()
-endif()
-if(STEP STREQUAL "check")
-  set(VEHD_FEM_CHECK ON)
-endif()
-
-if(STEP MATCHES "^(test|python|package)$" AND NOT DEFINED VEHD_PYTHON)
-  set(VEHD_PYTHON ON)
-elseif(NOT DEFINED VEHD_PYTHON)
-  set(VEHD_PYTHON OFF)
-  if(STEP MATCHES "^(build|docs)$")
-    set(VEHD_PYTHON AUTO)
-  endif()
-endif()
-
 # One compiler needs up to 2 GB of memory.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)

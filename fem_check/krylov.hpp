@@ -90,8 +90,8 @@ double generalised_minimal_residuals(const Operator& a, const Measure& measure, 
                                      const VectorType& b, VectorType& x, double goal, int& iterations,
                                      const char* what) {
   constexpr unsigned most_directions = 100;
-  // The solver measures the preconditioned residual, node by node: the energy is sure to fall only with more than a
-  // little of that, from a start that is nearly good enough as well.
+  // The solver measures the preconditioned residual node by node, which may fall a little without the energy: from a
+  // start that is nearly good enough a correction reduces it to a tenth at least as well.
   constexpr double largest_reduction = 0.1;
   return corrected(
       a, measure, b, x, goal, iterations, what, [&](VectorType& correction, const VectorType& residual, double size) {

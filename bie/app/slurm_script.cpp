@@ -25,7 +25,7 @@ const std::string& sbatch_text(const std::string& name) {
 }
 
 /// Lines #SBATCH that not every script has.
-std::string wishes(const SlurmTask& task) {
+std::string optional_lines(const SlurmTask& task) {
   std::string lines;
   if (task.memory_bytes > 0) {
     // Of the workers and of whoever starts them, and half as much again.
@@ -70,17 +70,18 @@ std::string slurm_script(const SlurmTask& task) {
 #SBATCH --cpus-per-task={cpus}
 #SBATCH --time={minutes}
 #SBATCH --signal=TERM@{notice}
-{wishes}#SBATCH --open-mode=append
+{optional_lines}#SBATCH --open-mode=append
 #SBATCH --output="{directory}/slurm-%a.log"
 
 {prologue}srun --cpus-per-task={cpus} {program} sweep {sweep} -o {directory_word} --pack "$SLURM_ARRAY_TASK_ID" --jobs {jobs} --threads {threads}
 status=$?
 {next_turn}exit "$status"
 )",
-      fmt::arg("predicted", task.predicted), fmt::arg("submission", submission(task)), fmt::arg("wishes", wishes(task)),
-      fmt::arg("prologue", task.prologue), fmt::arg("next_turn", task.n_turns == 1 ? next_turn : ""),
-      fmt::arg("name", sbatch_text(task.name)), fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus),
-      fmt::arg("minutes", task.minutes), fmt::arg("notice", notice), fmt::arg("directory", sbatch_text(task.directory)),
+      fmt::arg("predicted", task.predicted), fmt::arg("submission", submission(task)),
+      fmt::arg("optional_lines", optional_lines(task)), fmt::arg("prologue", task.prologue),
+      fmt::arg("next_turn", task.n_turns == 1 ? next_turn : ""), fmt::arg("name", sbatch_text(task.name)),
+      fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus), fmt::arg("minutes", task.minutes),
+      fmt::arg("notice", notice), fmt::arg("directory", sbatch_text(task.directory)),
       fmt::arg("directory_word", shell_word(task.directory)), fmt::arg("program", shell_word(task.program)),
       fmt::arg("sweep", shell_word(task.sweep)), fmt::arg("jobs", task.n_jobs), fmt::arg("threads", task.n_threads));
 }

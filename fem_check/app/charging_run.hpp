@@ -28,7 +28,7 @@ class ChargingRun {
   [[nodiscard]] Solved solve(const Discretisation& space, const ChargingPlan& plan) const;
 
  private:
-  /// As another one of the same points of γ.
+  /// Of a shape, with the degree and the points of γ of another discretisation.
   [[nodiscard]] Discretisation discretise(const Eigen::MatrixXd& position, const Discretisation& like) const;
 
   const CheckInput& input_;
