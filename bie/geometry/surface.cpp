@@ -39,8 +39,8 @@ Surface make_surface(const SphereTransform& transform, const Matrix& position_co
   s.tangent_1 = std::move(x.d1);
   s.tangent_2 = std::move(x.d2);
   for (Matrix* vectors : {&s.dual_1, &s.dual_2, &s.normal}) vectors->resize(n, 3);
-  for (Vector* scalars :
-       {&s.area_element, &s.g11, &s.g12, &s.g22, &s.laplace_1, &s.laplace_2, &s.mean_curvature, &s.gauss_curvature}) {
+  for (Vector* scalars : {&s.area_element, &s.g11, &s.g12, &s.g22, &s.b11, &s.b12, &s.b22, &s.laplace_1, &s.laplace_2,
+                          &s.mean_curvature, &s.gauss_curvature}) {
     scalars->resize(n);
   }
 #pragma omp simd
@@ -66,6 +66,9 @@ Surface make_surface(const SphereTransform& transform, const Matrix& position_co
     s.g11[i] = g11;
     s.g12[i] = g12;
     s.g22[i] = g22;
+    s.b11[i] = g11 * g11 * b11 + 2.0 * g11 * g12 * b12 + g12 * g12 * b22;
+    s.b12[i] = g11 * g12 * b11 + (g11 * g22 + g12 * g12) * b12 + g12 * g22 * b22;
+    s.b22[i] = g12 * g12 * b11 + 2.0 * g12 * g22 * b12 + g22 * g22 * b22;
     s.laplace_1[i] = dot(trace, dual_1);
     s.laplace_2[i] = dot(trace, dual_2);
     s.mean_curvature[i] = 0.5 * (g11 * b11 + 2.0 * g12 * b12 + g22 * b22);

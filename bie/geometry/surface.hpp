@@ -17,6 +17,7 @@ struct Surface {
   Matrix normal;                ///< outward unit normal
   Vector area_element;          ///< J = W/sin θ, Eq. (20): dA = J dω on the unit sphere
   Vector g11, g12, g22;         ///< inverse metric g^ab
+  Vector b11, b12, b22;         ///< second fundamental form b^ab = g^ac g^bd x_cd·n
   Vector laplace_1, laplace_2;  ///< g^ab C^c_ab, C the surface's connection minus the sphere's
   Vector mean_curvature;        ///< H = −1 on the unit sphere
   Vector gauss_curvature;       ///< K = 1 on the unit sphere

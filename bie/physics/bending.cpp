@@ -33,14 +33,17 @@ Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, 
   Vector h(s.n_points());
 #pragma omp simd
   for (Index i = 0; i < h.size(); ++i) {
-    double sum = 0.0;
+    double bent = 0.0, stretched = 0.0;
     for (Index c = 0; c < 3; ++c) {
       // Δ_γ as in surface_laplacian.
       const double laplacian = s.g11[i] * x.d11(i, c) + 2.0 * (s.g12[i] * x.d12(i, c)) + s.g22[i] * x.d22(i, c) -
                                s.laplace_1[i] * x.d1(i, c) - s.laplace_2[i] * x.d2(i, c);
-      sum += laplacian * s.normal(i, c);
+      bent += laplacian * s.normal(i, c);
+      const double x1 = s.tangent_1(i, c), x2 = s.tangent_2(i, c);
+      stretched +=
+          s.b11[i] * x1 * x.d1(i, c) + s.b12[i] * (x1 * x.d2(i, c) + x2 * x.d1(i, c)) + s.b22[i] * x2 * x.d2(i, c);
     }
-    h[i] = 0.5 * sum;
+    h[i] = 0.5 * bent - stretched;
   }
   return to.analyze(h);
 }

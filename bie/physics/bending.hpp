@@ -19,10 +19,13 @@ Matrix bending_force(const BendingParameters& bending, const Membrane& membrane)
 /// Accuracy: spectral; of spheres to 1e-12 (tests/physics/bending_test.cpp)
 double bending_energy_scaled(const Surface& surface);
 
-/// Linearised change of H for a displacement u, Eq. (28b) in the coordinate-free form H = ½ Δ_γ x·n with the
-/// geometry frozen: h = ½ Δ_γ u·n. Coefficients from the Hessian of u on the upsampled grid.
+/// First variation of H at material points for a displacement u: h = ½ Δ_γ u·n − b^ab x_a·∂_b u. The first term is Eq.
+/// (28b), which keeps the metric; the second one is what the change of the metric adds. Without it the implicit
+/// response to an ellipsoidal disturbance of a sphere is twice too stiff. Coefficients from the derivatives of u on the
+/// upsampled grid.
 /// @param to  transform from that grid to the degree of h
-/// Accuracy: rounding; of u = x it is H to 1e-12, of a rigid motion 0 to 1e-12 (tests/physics/bending_test.cpp)
+/// Accuracy: spectral; of u = x it is −H to 1e-12, of a rigid motion 0 to 1e-12, differences of H to 1e-6
+/// (tests/physics/bending_test.cpp)
 /// Source: paper Eq. (28b)
 Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, const SphereDerivatives& displacement);
 

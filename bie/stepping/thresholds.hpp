@@ -108,7 +108,7 @@ constexpr int most_own_steps = 1;
 /// And only where the polynomial is wrong there by this many times what is allowed at most: one that is wrong by more
 /// does not resolve the step. Measured.
 constexpr double nearly_exact = 5.0;
-/// From one derivative of the rates to the last but one after it, with the time over the step, no more than this is
+/// From one derivative of the motion to the last but one after it, with the time over the step, no more than this is
 /// continued: of a shape what changes faster follows its tension, which the rule settles but for what it leaves of what
 /// is followed, and of V_m it is a jump. Measured.
 constexpr double largest_change_of_shape = 1.0;

@@ -38,12 +38,14 @@ BOOST_AUTO_TEST_CASE(area_and_volume_do_not_drift_in_shear) {
 }
 
 BOOST_AUTO_TEST_CASE(time_error_falls_with_at_least_first_order) {
-  // A prolate in the field of Example 2, p = 8; extents and V_m do not depend on the grid.
-  const Discretisation discretisation = discretisation_of(8);
+  // A prolate in the field of Example 2; extents and V_m do not depend on the grid. At p = 8 what the degrees leave out
+  // of the energy is as large as the difference of two steps.
+  const int order = 16;
+  const Discretisation discretisation = discretisation_of(order);
   const Model model = field_model();
   const auto end = [&](int n_steps) {
     const double dt = 1.0 / n_steps;
-    const State state = run(model, discretisation, start(model, discretisation, prolate(8), dt), dt, n_steps);
+    const State state = run(model, discretisation, start(model, discretisation, prolate(order), dt), dt, n_steps);
     const VesicleDiagnostics d = evaluated(model, discretisation, state).diagnostics;
     return std::array{d.extent_z, d.extent_x, d.Vm_north, d.bending_energy_scaled};
   };

@@ -81,13 +81,28 @@ class Iteration {
   /// Moves the material points by the velocity so far. @throws ConvergenceError where that tears the membrane
   void move() {
     const Membrane& membrane = context_.membrane;
+    const VelocityField u = velocity_field(membrane, velocity_, bending());
+    if (bending()) {
+      rhs_.curvature = dt_ * curvature_increment(membrane, curvature_transform_, u.derivatives) - curvature_;
+      if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), thresholds::curvature_floor * mean_curvature_);
+      errors_.curvature = rhs_.curvature.norm() / curvature_scale_;
+    }
     motion_.material.position = start_.fields.position + dt_ * velocity_;
     after_ = measure(fine(), motion_.material.position);
-    const Eigen::ArrayXd stretch = after_.area_element.cwiseQuotient(membrane.surface.area_element);
-    if (!(stretch.minCoeff() > 1.0 - thresholds::largest_stretch &&
-          stretch.maxCoeff() < 1.0 + thresholds::largest_stretch)) {
-      throw ConvergenceError(fmt::format("area elements change by factors {:.2g} to {:.2g} in one step",
-                                         stretch.minCoeff(), stretch.maxCoeff()));
+    Eigen::ArrayXd stretch = after_.area_element.cwiseQuotient(membrane.surface.area_element);
+    is_torn_ = !(stretch.minCoeff() > 1.0 - thresholds::largest_stretch &&
+                 stretch.maxCoeff() < 1.0 + thresholds::largest_stretch);
+    if (is_torn_) {
+      if (!bending() || errors_.curvature <= context_.settings.curvature_tolerance) {
+        throw ConvergenceError(fmt::format("area elements change by factors {:.2g} to {:.2g} in one step",
+                                           stretch.minCoeff(), stretch.maxCoeff()));
+      }
+      // What bending has not answered yet, a stiff membrane takes back in the next pass: until then the constraint is
+      // the linear one of the start.
+      const Vector growth = dt_ * surface_divergence(membrane.surface, u.derivatives);
+      stretch = 1.0 + growth.array();
+      after_.area = area_ + membrane.surface.quadrature.dot(growth);
+      after_.volume = enclosed_volume(membrane.surface) + dt_ * flux();
     }
     strain_ = stretch_before_.array() * stretch - 1.0;
     weighted_strain_ = membrane.weighted(Vector((1.0 + to_take_back_.array()) * stretch - 1.0));
@@ -96,20 +111,13 @@ class Iteration {
     if (pass_ == 0) motion_.raw_area = errors_.area;
     // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
     errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
-    if (bending()) {
-      rhs_.curvature =
-          dt_ * curvature_increment(membrane, curvature_transform_, fine().synthesize_derivatives(velocity_)) -
-          curvature_;
-      if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), thresholds::curvature_floor * mean_curvature_);
-      errors_.curvature = rhs_.curvature.norm() / curvature_scale_;
-    }
   }
 
   /// Does the motion hold what it has to, on arrival as well? The first pass is the step itself, however small its
   /// residual.
   bool arrives(const Arrival& arrival) {
     const NumericalSettings& settings = context_.settings;
-    const bool is_there = pass_ > 0 && errors_.of_constraint() <= settings.constraint_tolerance &&
+    const bool is_there = pass_ > 0 && !is_torn_ && errors_.of_constraint() <= settings.constraint_tolerance &&
                           errors_.strain <= settings.strain_tolerance &&
                           errors_.curvature <= settings.curvature_tolerance;
     if (!is_there) return false;
@@ -162,6 +170,11 @@ class Iteration {
 
  private:
   [[nodiscard]] const SphereTransform& fine() const { return context_.membrane.fine; }
+  /// ∫u·n dA of the velocity so far.
+  [[nodiscard]] double flux() const {
+    const Surface& s = context_.membrane.surface;
+    return s.quadrature.dot(fine().synthesize(velocity_).cwiseProduct(s.normal).rowwise().sum());
+  }
   [[nodiscard]] bool bending() const { return context_.parameters.bending.has_value(); }
   [[nodiscard]] bool inextensible() const { return context_.parameters.inextensible; }
   /// Over what is accepted, the largest.
@@ -184,6 +197,7 @@ class Iteration {
   double mean_curvature_ = 0.0;
   double curvature_scale_ = 0.0;
   int pass_ = 0;
+  bool is_torn_ = false;  // by the velocity so far, which bending is still to answer
   double excess_before_ = std::numeric_limits<double>::infinity();
   int gainless_ = 0;
   Matrix velocity_;

@@ -31,7 +31,7 @@ VelocityField velocity_field(const Membrane& membrane, const Matrix& coefficient
 
 /// What h is known by and what it does to the tension that is there.
 struct CurvatureOptions {
-  Vector held_tension{};  ///< λ_0 ≥ 0 on the upsampled grid; empty: zero
+  Vector held_tension{};  ///< λ_0 on the upsampled grid; empty: zero
   /// Between a degree above p and the upsampled grid; empty: h has degree p. Positions of degree p have normal
   /// parts, and H, of the next one. Bending does nothing to that, but tension does, and it has to be implicit as well:
   /// at large λ dt/(μR) equilibria are unstable without it.

@@ -23,7 +23,7 @@ FlowSystem& FlowSystems::of(double dt) {
   const Index n_scalars = (parameters_.bending ? 1 : 0) + (parameters_.inextensible ? 1 : 0);
   FlowOptions options = options_;
   Vector& held = options.curvature.held_tension;
-  held = (held.array() - explicit_tension_time_ / dt).cwiseMax(0.0);
+  held = (held.array() - explicit_tension_time_ / dt).cwiseMax(held.array().cwiseMin(0.0));
   if (held.isZero(0.0)) held.resize(0);
   FlowSystem system(parameters_, membrane_, dt, options,
                     so_far ? so_far->in(options_.entries, n_scalars) : RecycledSubspace{});

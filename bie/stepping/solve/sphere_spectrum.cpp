@@ -20,10 +20,10 @@ LayerSpectrum layer_spectrum(const SphereFlow& sphere, int degree) {
           degree == 0 ? 0.0 : (n + 1.0) / (odd * (2.0 * n - 1.0)) / contrast.w};
 }
 
-/// ½ Δ_γ u·n of unit V.
+/// curvature_increment of unit V.
 double curvature_of_v(const SphereFlow& sphere, int degree) {
   const double n = degree;
-  return 0.5 * (n + 1.0) * (n + 1.0) * (n + 2.0) / (sphere.radius * sphere.radius);
+  return 0.5 * (n - 1.0) * (n + 1.0) * (n + 2.0) / (sphere.radius * sphere.radius);
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int degree) {
   const double tension_v = tension * (n + 2.0) * layer_v;
   const double tension_w = tension * (n - 1.0) * layer_w;
 
-  // ½ Δ_γ u·n and J ∇_γ·u of unit V and W.
+  // curvature_increment and J ∇_γ·u of unit V and W.
   const double curvature_v = curvature_of_v(sphere, degree);
-  const double curvature_w = -0.5 * n * n * (n - 1.0) / (sphere.radius * sphere.radius);
+  const double curvature_w = -0.5 * (n - 1.0) * n * (n + 2.0) / (sphere.radius * sphere.radius);
   const double divergence_v = -(n + 1.0) * (n + 2.0) * sphere.radius;
   const double divergence_w = -n * (n - 1.0) * sphere.radius;
 

@@ -115,41 +115,40 @@ NodeSolution Collocation::corrected_with_rate(const NodeSolution& y, NodeEnd end
 
 double Collocation::place_of(double time) const { return (time - physics_.start().time) / dt_; }
 
-VisibleDifference Collocation::polynomial_derivative(int k) const {
-  const Vector weights = dt_ * derivative_weights(points_of(rule_), k);
+VisibleDifference Collocation::path_derivative(int k) const {
+  const Vector weights = derivative_weights(points_of(rule_), k + 1);
   const NodeSolution& end = nodes_.back();
   NodeSolution moved = end;
   for (std::size_t a = 0; a < moved.vesicles.size(); ++a) {
     SurfaceFields& fields = moved.vesicles[a].material;
-    for (std::size_t j = 0; j < rates_.size(); ++j) {
-      const double weight = weights[static_cast<Index>(j)];
-      const Rate::OfVesicle& rate = rates_[j].vesicles[a];
-      if (rate.velocity.size() > 0) fields.position += weight * rate.velocity;
-      if (rate.potential.size() > 0) fields.transmembrane_potential += weight * rate.potential;
-      if (rate.poration.size() > 0) fields.poration += weight * rate.poration;
+    const auto add = [&](double weight, const SurfaceFields& there) {
+      fields.position += weight * there.position;
+      fields.transmembrane_potential += weight * there.transmembrane_potential;
+      fields.poration += weight * there.poration;
+    };
+    add(weights[0], physics_.start().vesicles[a]);
+    for (std::size_t m = 0; m < nodes_.size(); ++m) {
+      add(weights[static_cast<Index>(m) + 1], nodes_[m].vesicles[a].material);
     }
   }
   return physics_.visible_difference(moved, end);
 }
 
 VisibleDifference Collocation::derivative(int k) const {
-  const int known = static_cast<int>(nodes_.size());
+  const int known = static_cast<int>(nodes_.size()) - 1;
+  if (k <= known) return path_derivative(k);
   // One node knows too little to continue anything.
-  if (k <= known || known < 2) return polynomial_derivative(std::min(k, known));
-  return continued_derivative(k, polynomial_derivative(known));
-}
-
-VisibleDifference Collocation::continued_derivative(int k, const VisibleDifference& highest) const {
-  const int known = static_cast<int>(nodes_.size());
-  const VisibleDifference between = polynomial_derivative(known - 1), former = polynomial_derivative(known - 2);
+  if (known < 1) return path_derivative(0);
+  const VisibleDifference highest = path_derivative(known), between = path_derivative(known - 1),
+                          rate = path_derivative(0);
   // A sine and its derivatives of the other parity vanish at other times: squares of both add up.
-  const auto continued = [&](double last, double middle, double last_but_one, double largest_change) {
-    if (last_but_one <= 0.0) return 0.0;
-    const double change = std::sqrt(std::min(largest_change, last / last_but_one));
+  const auto continued = [&](double last, double middle, double first, double largest_change) {
+    if (first <= 0.0) return 0.0;
+    const double change = std::min(std::sqrt(largest_change), std::pow(last / first, 1.0 / known));
     return std::hypot(last * std::pow(change, k - known), middle * std::pow(change, k - known + 1));
   };
-  return {continued(highest.shape, between.shape, former.shape, thresholds::largest_change_of_shape),
-          continued(highest.potential, between.potential, former.potential, thresholds::largest_change_of_potential)};
+  return {continued(highest.shape, between.shape, rate.shape, thresholds::largest_change_of_shape),
+          continued(highest.potential, between.potential, rate.potential, thresholds::largest_change_of_potential)};
 }
 
 namespace {
@@ -160,24 +159,14 @@ VisibleDifference scaled(double factor, const VisibleDifference& of) {
 
 }  // namespace
 
-VisibleDifference Collocation::at_most_the_motion(const VisibleDifference& error) const {
-  VisibleDifference motion{};
-  for (std::size_t m = 0; m < last(); ++m) {
-    motion = larger_of(motion, physics_.visible_difference(nodes_[m], nodes_.back()));
-  }
-  return {std::min(error.shape, motion.shape), std::min(error.potential, motion.potential)};
-}
-
 VisibleDifference Collocation::rule_error() const {
   const int n_nodes = static_cast<int>(nodes_.size());
   if (n_nodes < 2) return {};
   const int power = 2 * n_nodes - 1;
-  const VisibleDifference highest = polynomial_derivative(n_nodes);
-  VisibleDifference error =
-      scaled(integration_error(points_of(rule_), 1.0, power), continued_derivative(power, highest));
+  VisibleDifference error = scaled(integration_error(points_of(rule_), 1.0, power), derivative(power));
   // A shape follows what drives it as fast as its tension lets it: within about a step where steps are long.
-  error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * highest.shape);
-  return at_most_the_motion(error);
+  error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * derivative(n_nodes).shape);
+  return error;
 }
 
 VisibleDifference Collocation::stage_error() const {
@@ -186,7 +175,7 @@ VisibleDifference Collocation::stage_error() const {
   for (const double node : rule_.nodes) {
     largest = std::max(largest, std::abs(integration_error(rule_.nodes, node, power)));
   }
-  return at_most_the_motion(scaled(largest, derivative(power)));
+  return scaled(largest, derivative(power));
 }
 
 VisibleDifference Collocation::rule_error(double time, int n_more) const {
@@ -194,7 +183,7 @@ VisibleDifference Collocation::rule_error(double time, int n_more) const {
   std::vector<double> points = points_of(rule_);
   for (int i = 0; i < n_more; ++i) points.push_back(place);
   const int power = static_cast<int>(points.size());
-  return at_most_the_motion(scaled(integration_error(points, place, power), derivative(power)));
+  return scaled(integration_error(points, place, power), derivative(power));
 }
 
 }  // namespace vehd

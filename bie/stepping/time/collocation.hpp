@@ -47,8 +47,9 @@ class Collocation {
   /// which this has to have become the last node.
   InstantaneousDifference change_to(const NodeSolution& end);
   /// How large derivatives of F with the time over dt are within the step, times dt: what they would move the last node
-  /// by. Where no polynomial through the rates tells, each is the last but one times the same, as in a motion that
-  /// oscillates or dies away; of motions that change by all they are within a step sweeps tell.
+  /// by. By the path through the nodes, whose rates magnify what sweeps have left of something stiff. Those that the
+  /// path does not tell follow from the others as in a motion that oscillates or dies away, each the same times the one
+  /// before; of motions that change by all they are within a step sweeps tell.
   [[nodiscard]] VisibleDifference derivative(int k) const;
   /// Estimated error of the rule itself at the last node, which no sweep takes away; nothing of rules with one node,
   /// whose sweeps change more than that.
@@ -73,13 +74,8 @@ class Collocation {
  private:
   [[nodiscard]] ImplicitSolve correction(std::size_t m, NodeEnd end) const;
   [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
-  [[nodiscard]] VisibleDifference polynomial_derivative(int k) const;
-  /// One beyond those that the polynomial through the rates has, see derivative.
-  /// @param highest  that the polynomial has
-  [[nodiscard]] VisibleDifference continued_derivative(int k, const VisibleDifference& highest) const;
-  /// An error, or how far the nodes lie apart where that is less. What relaxes in a small part of the step has rates
-  /// that are the solvers' errors over that time, and none of it is left in the nodes.
-  [[nodiscard]] VisibleDifference at_most_the_motion(const VisibleDifference& error) const;
+  /// The derivative of the polynomial through the start and the nodes, k up to their number less one.
+  [[nodiscard]] VisibleDifference path_derivative(int k) const;
   [[nodiscard]] double place_of(double time) const;
 
   StepOperations& physics_;

@@ -19,6 +19,12 @@ namespace vehd {
 
 namespace {
 
+/// −λ under which the softest disturbance of a sphere, an ellipsoidal one, is no longer resisted: 3κ_B/R²
+/// (quasi-spherical theory).
+double buckling_compression(const FlowParameters& parameters, double radius) {
+  return parameters.bending ? 3.0 * parameters.bending->modulus / (radius * radius) : 0.0;
+}
+
 FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const MembraneSpace& space, int time_order,
                          const VesicleSolution& solution, const Vector& tension) {
   const Membrane& membrane = *solution.membrane;
@@ -29,8 +35,9 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
   options.curvature.transform = space.curvature_transform();
   options.entries = space.curvature_subspace().scalars();
   if (parameters.inextensible && mobile) {
-    // A compression would soften the implicit response.
-    options.curvature.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(0.0);
+    // Under more compression than that the implicit response would push where it should resist.
+    options.curvature.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(
+        time_order == 1 ? 0.0 : -buckling_compression(parameters, membrane.radius));
   }
   return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
 }

@@ -1,0 +1,85 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "bie/stepping/evolution.hpp"
+#include "tests/support/runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+namespace {
+
+constexpr double kTolerance = 1e-3;
+
+Model stiff_shear(double modulus) {
+  Model model = shear_model();
+  model.vesicles[0].bending = BendingParameters{modulus};
+  return model;
+}
+
+/// A prolate of reduced volume 0.9 with area 4π.
+Matrix prolate_of_unit_radius(int order) {
+  const Matrix position = ellipsoid(order, {1.0, 1.0, 1.9621762549176331});
+  const double area = surface_area(make_surface({order, make_grid(2 * order)}, position));
+  return position * std::sqrt(4.0 * std::numbers::pi / area);
+}
+
+/// Inclined by 30° against z in the plane of the shear.
+Matrix inclined_prolate(int order) {
+  const Matrix3 rotation = Eigen::AngleAxisd(std::numbers::pi / 6.0, Vector3::UnitY()).toRotationMatrix();
+  return prolate_of_unit_radius(order) * rotation.transpose();
+}
+
+VesicleDiagnostics in_shear(double modulus, double end_time) {
+  EvolutionSetup setup;
+  setup.model = stiff_shear(modulus);
+  setup.settings.order = 20;
+  setup.settings.time_order = 4;
+  const Matrix position = inclined_prolate(setup.settings.order);
+  setup.symmetry = find_symmetry(setup.model, at_rest(position));
+  setup.control = {end_time, 1e-12 * end_time, kTolerance};
+  Instruments instruments;
+  Evolution evolution(setup, {StartMembrane{position}}, instruments);
+  evolution.evaluate_start();
+  while (evolution.state().time < end_time) evolution.step({{}, end_time});
+  return evolution.evaluation().diagnostics.vesicles[0];
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(stiff_membrane)
+
+// The stiffer the membrane the less the flow deforms its equilibrium, as 1/κ_B; how it turns and treads has a limit.
+BOOST_AUTO_TEST_CASE(motion_in_shear_has_the_limit_of_a_membrane_that_flow_does_not_bend) {
+  const VesicleDiagnostics soft = in_shear(1e1, 0.2), stiff = in_shear(1e2, 0.2), stiffer = in_shear(1e3, 0.2);
+  const auto difference = [](const VesicleDiagnostics& a, const VesicleDiagnostics& b) {
+    return std::max({std::abs(a.extent_x / b.extent_x - 1.0), std::abs(a.extent_z / b.extent_z - 1.0),
+                     std::abs(a.bending_energy_scaled / b.bending_energy_scaled - 1.0),
+                     std::abs(a.inclination_deg - b.inclination_deg) * std::numbers::pi / 180.0});
+  };
+  const double far = difference(soft, stiffer), near = difference(stiff, stiffer);
+  BOOST_TEST(near < 0.1 * far + 2.0 * kTolerance, far << " and " << near);
+  // The least energy of reduced volume 0.9 (docs/scenes/relaxation.toml).
+  BOOST_TEST(std::abs(stiffer.bending_energy_scaled / (4.0 * std::numbers::pi * 1.18964) - 1.0) < kTolerance);
+}
+
+// μR³/κ_B is a bending time.
+BOOST_AUTO_TEST_CASE(first_order_steps_of_a_thousand_bending_times_keep_to_the_equilibrium) {
+  const Model model = relaxation_model(1.0);
+  const Matrix position = prolate_of_unit_radius(16);
+  const Discretisation discretisation = symmetric_discretisation(model, position);
+  State state = start(model, discretisation, position, 1.0);
+  for (const double dt : {0.3, 1.0, 3.0, 10.0, 100.0}) state = run(model, discretisation, std::move(state), dt, 3);
+  state = run(model, discretisation, std::move(state), 1e3, 8, [&](const State& reached) {
+    const Evaluated now = evaluated(model, discretisation, reached);
+    BOOST_TEST(std::abs(now.diagnostics.bending_energy_scaled / (4.0 * std::numbers::pi * 1.18964) - 1.0) < 1e-4);
+    // Within ten of these steps it moves by its radius at most.
+    BOOST_TEST(now.fields.velocity.bottomRows(now.fields.velocity.rows() - 1).norm() < 1e-4);
+  });
+}
+
+BOOST_AUTO_TEST_SUITE_END()
