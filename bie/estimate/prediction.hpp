@@ -53,7 +53,7 @@ double stretch_seconds(const Knowledge& known, std::size_t index);
 
 /// The cost table's row for the tolerance of that index, without files, from the steps of a trial run with a looser
 /// one.
-/// Accuracy: with stretches within a factor of 1.5 in steps and work (tests/estimate/prediction_test.cpp)
+/// Accuracy: with stretches within a factor of 2 in steps and work (tests/estimate/prediction_test.cpp)
 CostRow predicted_row(const Knowledge& known, std::size_t index);
 
 }  // namespace vehd

@@ -38,7 +38,7 @@ constexpr int steps_of_stretch = 6;
 /// @param orders  degrees with which to begin, of each step of the trial run
 /// @param begins  asked before each whether there is time for it
 /// @returns       those that could be taken, by their step
-/// Accuracy: ten of them tell steps and work of a whole run within a factor of 1.5 (tests/estimate/prediction_test.cpp)
+/// Accuracy: ten of them tell steps and work of a whole run within a factor of 2 (tests/estimate/prediction_test.cpp)
 std::vector<Stretch> take_stretches(const Scene& scene, const TrialRun& trial, double tolerance, std::size_t count,
                                     const std::vector<int>& orders, const std::function<bool()>& begins,
                                     Deadline* deadline = nullptr);

@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_SUITE(prediction, *boost::unit_test::label("slow") * boost::unit
 
 // Two tolerances with stretches of their own, the second of another order, and one that is predicted from these: where
 // errors grow and degrees rise, where a field turns, and where a shape comes to rest.
-BOOST_AUTO_TEST_CASE(steps_and_work_are_within_a_factor_of_one_and_a_half) {
+BOOST_AUTO_TEST_CASE(steps_and_work_are_within_a_factor_of_two) {
   for (const auto& [name, end_time] :
        {std::pair("figure3", "8.0"), std::pair("ac_field", "\"1 ms\""), std::pair("relaxation", "10.0")}) {
     AfterTrial after(name, end_time);
@@ -68,8 +68,8 @@ BOOST_AUTO_TEST_CASE(steps_and_work_are_within_a_factor_of_one_and_a_half) {
       BOOST_TEST_CONTEXT(name << " at " << tolerances[index] << ": " << row.steps << " steps for " << truth.steps.size()
                               << ", degree " << row.order << " for " << truth.highest_order << ", work "
                               << row.seconds / work_of(truth)) {
-        BOOST_TEST(factor(static_cast<double>(row.steps), static_cast<double>(truth.steps.size())) < 1.5);
-        BOOST_TEST(factor(row.seconds, work_of(truth)) < 1.5);
+        BOOST_TEST(factor(static_cast<double>(row.steps), static_cast<double>(truth.steps.size())) < 2.0);
+        BOOST_TEST(factor(row.seconds, work_of(truth)) < 2.0);
       }
     }
   }

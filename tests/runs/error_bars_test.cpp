@@ -121,10 +121,12 @@ double worst_of(const vehd::HistoryTable& history, const vehd::HistoryTable& err
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(steps_of_fixed_size_know_their_error) {
+  // Degrees that leave out less than the steps do: an estimate is never below a part of what they leave out, which both
+  // runs have in common here.
   for (const std::string order : {"1", "2"}) {
     const Files run, exact;
-    run.go_on(pulsed("degree = 6\ndt = 0.01\ntime_order = " + order));
-    exact.go_on(pulsed("degree = 6\ndt = 0.01\ntime_order = 4"));
+    run.go_on(pulsed("degree = 10\ndt = 0.01\ntime_order = " + order));
+    exact.go_on(pulsed("degree = 10\ndt = 0.01\ntime_order = 4"));
     for (const char* column : {"extent_z", "bending_energy_scaled", "Vm_north"}) {
       BOOST_TEST(share_of_good(run, exact, column) >= 0.9, column << " at order " << order);
     }
@@ -208,7 +210,7 @@ BOOST_AUTO_TEST_CASE(largest_steps_of_both_make_differences) {
 BOOST_AUTO_TEST_CASE(steps_of_another_order_are_wrong_otherwise) {
   // The charging limits the steps, of one order more so much that both runs would take nearly the same.
   const Files run, exact;
-  run.go_on(shipped("two_step_pulse", 1e-3));
+  run.go_on(shipped("two_step_pulse", 1e-2));
   exact.go_on(shipped("two_step_pulse", 1e-5));
   const double every = run.history().column("time").back() / 100.0;
   const double share = share_of_good_rows(run, exact, every, every);
