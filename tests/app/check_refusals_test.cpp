@@ -47,7 +47,8 @@ BOOST_AUTO_TEST_CASE(stored_number_that_is_wrong_by_a_percent_is_noticed) {
       run_vehd({"check", file, "--quick", "--ranks", "1", "--no-plot", "--json", run.directory / "result.json"});
   BOOST_TEST(wrong.exit_code == 4);
   BOOST_TEST(wrong.errors.find("disagree in: stored lambda, stored v") != std::string::npos, wrong.errors);
-  for (const auto& [row, values] : json_of(run.directory / "result.json")["stored"].items()) {
+  const nlohmann::json result = json_of(run.directory / "result.json");
+  for (const auto& [row, values] : result["stored"].items()) {
     const bool is_damaged = row == "tension" || row == "velocity";
     BOOST_TEST((values["verdict"] == "disagree") == is_damaged, row);
   }

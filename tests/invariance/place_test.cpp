@@ -60,10 +60,12 @@ void expect_the_same_elsewhere_in_a_drift(const NamedScene& of, const ShortRun& 
     problem.model.effects.push_back(uniform_drift(random_vector(random, speed)));
   }
   const ShortRun elsewhere = short_run(problem, moved, kSteps);
-  const Deviation worst = same_iterations(base, elsewhere) || of.scene.numerics.tolerance
-                              ? largest_deviation(base, elsewhere, {}, Column::Depends::on_axes)
-                              : largest_deviation(solved_run(of.scene, kSteps), solved_run(problem, moved, kSteps), {},
-                                                  Column::Depends::on_axes);
+  Deviation worst = largest_deviation(base, elsewhere, {}, Column::Depends::on_axes);
+  if (worst.size >= bound_of(of.scene) && !of.scene.numerics.tolerance) {
+    // What solvers leave is another remainder where an iteration ends elsewhere.
+    worst = largest_deviation(solved_run(of.scene, kSteps), solved_run(problem, moved, kSteps), {},
+                              Column::Depends::on_axes);
+  }
   BOOST_TEST(worst.size < bound_of(of.scene),
              of.name << " elsewhere, in a drift: " << worst.column << " by " << worst.size);
 }

@@ -1,7 +1,5 @@
 #include "tests/invariance/short_run.hpp"
 
-#include <algorithm>
-
 #include "bie/stepping/evaluation/lab_frame_output.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
@@ -49,12 +47,6 @@ ShortRun solved_run(Problem problem, const Scene& scene, int most_steps) {
   // would depend on the processor.
   problem.settings.constraint_tolerance = usual;
   return short_run(problem, scene, most_steps);
-}
-
-bool same_iterations(const ShortRun& a, const ShortRun& b) {
-  return std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(), [](const RunRow& x, const RunRow& y) {
-    return x.step.iterations_flow == y.step.iterations_flow && x.step.iterations_electric == y.step.iterations_electric;
-  });
 }
 
 }  // namespace vehd::testing

@@ -36,8 +36,4 @@ ShortRun solved_run(const Scene& scene, int most_steps);
 /// The same of a changed problem of the scene.
 ShortRun solved_run(Problem problem, const Scene& scene, int most_steps);
 
-/// Rounding decides where an iteration ends that is at its tolerance; what is left then is another remainder below that
-/// tolerance, and with steps chosen by their error other steps follow.
-bool same_iterations(const ShortRun& a, const ShortRun& b);
-
 }  // namespace vehd::testing

@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(powers_of_two_change_no_bit_and_other_factors_nothing_but_r
     const UnitFactors factors = random_factors(random_of(of, "units"));
     const ShortRun scaled = short_run(in_units(scene, factors), kSteps);
     const double rounding = scene.numerics.tolerance ? 1e-6 : 1e-9;
-    if (same_iterations(base, scaled) && largest_deviation(base, scaled, factors).size < rounding) continue;
+    if (largest_deviation(base, scaled, factors).size < rounding) continue;
     // Rounding decides what solvers leave: none is left.
     const Deviation worst =
         largest_deviation(solved_run(scene, kSteps), solved_run(in_units(scene, factors), kSteps), factors);

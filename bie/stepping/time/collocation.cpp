@@ -115,40 +115,55 @@ NodeSolution Collocation::corrected_with_rate(const NodeSolution& y, NodeEnd end
 
 double Collocation::place_of(double time) const { return (time - physics_.start().time) / dt_; }
 
-VisibleDifference Collocation::path_derivative(int k) const {
+double Collocation::path_derivative(int k) const {
   const Vector weights = derivative_weights(points_of(rule_), k + 1);
-  const NodeSolution& end = nodes_.back();
-  NodeSolution moved = end;
+  NodeSolution moved = nodes_.back();
   for (std::size_t a = 0; a < moved.vesicles.size(); ++a) {
-    SurfaceFields& fields = moved.vesicles[a].material;
-    const auto add = [&](double weight, const SurfaceFields& there) {
-      fields.position += weight * there.position;
-      fields.transmembrane_potential += weight * there.transmembrane_potential;
-      fields.poration += weight * there.poration;
-    };
-    add(weights[0], physics_.start().vesicles[a]);
+    Matrix& position = moved.vesicles[a].material.position;
+    position += weights[0] * physics_.start().vesicles[a].position;
     for (std::size_t m = 0; m < nodes_.size(); ++m) {
-      add(weights[static_cast<Index>(m) + 1], nodes_[m].vesicles[a].material);
+      position += weights[static_cast<Index>(m) + 1] * nodes_[m].vesicles[a].material.position;
     }
   }
-  return physics_.visible_difference(moved, end);
+  return physics_.visible_difference(moved, nodes_.back()).shape;
 }
 
-VisibleDifference Collocation::derivative(int k) const {
-  const int known = static_cast<int>(nodes_.size()) - 1;
-  if (k <= known) return path_derivative(k);
+double Collocation::rate_derivative(int k) const {
+  const Vector weights = dt_ * derivative_weights(points_of(rule_), k);
+  NodeSolution moved = nodes_.back();
+  for (std::size_t a = 0; a < moved.vesicles.size(); ++a) {
+    SurfaceFields& fields = moved.vesicles[a].material;
+    for (std::size_t j = 0; j < rates_.size(); ++j) {
+      const double weight = weights[static_cast<Index>(j)];
+      const Rate::OfVesicle& rate = rates_[j].vesicles[a];
+      if (rate.potential.size() > 0) fields.transmembrane_potential += weight * rate.potential;
+      if (rate.poration.size() > 0) fields.poration += weight * rate.poration;
+    }
+  }
+  return physics_.visible_difference(moved, nodes_.back()).potential;
+}
+
+namespace {
+
+/// A derivative of which those up to `known` are known.
+template <typename Known>
+double continued(int k, int known, double largest_change, const Known& derivative) {
   // One node knows too little to continue anything.
-  if (known < 1) return path_derivative(0);
-  const VisibleDifference highest = path_derivative(known), between = path_derivative(known - 1),
-                          rate = path_derivative(0);
+  if (k <= known || known == 0) return derivative(std::min(k, known));
+  const int back = std::min(2, known);
+  const double last = derivative(known), middle = derivative(known - 1), former = derivative(known - back);
+  if (former <= 0.0) return 0.0;
+  const double change = std::min(std::sqrt(largest_change), std::pow(last / former, 1.0 / back));
   // A sine and its derivatives of the other parity vanish at other times: squares of both add up.
-  const auto continued = [&](double last, double middle, double first, double largest_change) {
-    if (first <= 0.0) return 0.0;
-    const double change = std::min(std::sqrt(largest_change), std::pow(last / first, 1.0 / known));
-    return std::hypot(last * std::pow(change, k - known), middle * std::pow(change, k - known + 1));
-  };
-  return {continued(highest.shape, between.shape, rate.shape, thresholds::largest_change_of_shape),
-          continued(highest.potential, between.potential, rate.potential, thresholds::largest_change_of_potential)};
+  return std::hypot(last * std::pow(change, k - known), middle * std::pow(change, k - known + 1));
+}
+
+}  // namespace
+
+VisibleDifference Collocation::derivative(int k) const {
+  const int n_nodes = static_cast<int>(nodes_.size());
+  return {continued(k, n_nodes - 1, thresholds::largest_change_of_shape, [&](int i) { return path_derivative(i); }),
+          continued(k, n_nodes, thresholds::largest_change_of_potential, [&](int i) { return rate_derivative(i); })};
 }
 
 namespace {

@@ -47,9 +47,9 @@ class Collocation {
   /// which this has to have become the last node.
   InstantaneousDifference change_to(const NodeSolution& end);
   /// How large derivatives of F with the time over dt are within the step, times dt: what they would move the last node
-  /// by. By the path through the nodes, whose rates magnify what sweeps have left of something stiff. Those that the
-  /// path does not tell follow from the others as in a motion that oscillates or dies away, each the same times the one
-  /// before; of motions that change by all they are within a step sweeps tell.
+  /// by. Of a shape by the path through the nodes, since rates magnify what sweeps have left of something stiff. Where
+  /// neither path nor rates tell, each is the last but one times the same, as in a motion that oscillates or dies away;
+  /// of motions that change by all they are within a step sweeps tell.
   [[nodiscard]] VisibleDifference derivative(int k) const;
   /// Estimated error of the rule itself at the last node, which no sweep takes away; nothing of rules with one node,
   /// whose sweeps change more than that.
@@ -74,8 +74,10 @@ class Collocation {
  private:
   [[nodiscard]] ImplicitSolve correction(std::size_t m, NodeEnd end) const;
   [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
-  /// The derivative of the polynomial through the start and the nodes, k up to their number less one.
-  [[nodiscard]] VisibleDifference path_derivative(int k) const;
+  /// Of the polynomial through the positions at the start and the nodes, k up to their number less one.
+  [[nodiscard]] double path_derivative(int k) const;
+  /// Of V_m by the polynomial through the rates there, k up to their number.
+  [[nodiscard]] double rate_derivative(int k) const;
   [[nodiscard]] double place_of(double time) const;
 
   StepOperations& physics_;
