@@ -36,8 +36,8 @@ PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const
   for (Eigen::Index p = 0; p < points.size(); ++p) {
     const double sigma_in = problem.conductivity_in[points.vesicle[p]];
     result.flux_in[p] = current[p] / sigma_in;
-    // Not flux_in − flux_out: that would not vanish to the last digit at equal conductivities.
-    result.charge[p] = (1.0 / sigma_in - 1.0 / sigma_out) * current[p] + jump[p] / sigma_out;
+    // Not flux_in − flux_out, nor 1/σ_i − 1/σ_e: σ_e − σ_i alone has no rounding error where both are nearly equal.
+    result.charge[p] = (sigma_out - sigma_in) / (sigma_in * sigma_out) * current[p] + jump[p] / sigma_out;
   }
 
   result.flux_in_from_gradient.resize(points.size());
@@ -64,7 +64,8 @@ PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const
       result.flux_in_from_gradient[p] = n.dot(inner.col(i));
       const int vesicle = points.vesicle[p];
       result.charge_from_gradient[p] =
-          (1.0 - problem.conductivity_in[vesicle] / sigma_out) * result.flux_in_from_gradient[p] + jump[p] / sigma_out;
+          (sigma_out - problem.conductivity_in[vesicle]) / sigma_out * result.flux_in_from_gradient[p] +
+          jump[p] / sigma_out;
       result.force.col(p) =
           normal_stress(problem.permittivity_in[vesicle], tangential(field_in), -result.flux_in[p], n) -
           normal_stress(problem.permittivity_out, tangential(field_out), -flux_out[p], n);

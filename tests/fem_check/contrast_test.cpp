@@ -11,7 +11,8 @@ BOOST_AUTO_TEST_SUITE(contrast)
 
 namespace {
 
-constexpr double kRatios[] = {1e-8, 1e-4, 1e4, 1e7, 1e8};
+/// With one so near to 1 that 1/σ_i − 1/σ_e is wrong by a hundredth.
+constexpr double kRatios[] = {1e-8, 1e-4, 1.0 - 1.01e-14, 1e4, 1e7, 1e8};
 
 /// V_m = V cos θ given on the unit sphere in a unit field along z: φ_i = −a r cos θ, φ_e = (−r + b/r²) cos θ.
 struct GivenVoltage {
@@ -21,6 +22,7 @@ struct GivenVoltage {
   [[nodiscard]] double disturbance() const { return (ratio * (1.0 - voltage) - 1.0) / (ratio + 2.0); }  // b
   [[nodiscard]] double flux_out() const { return -1.0 - 2.0 * disturbance(); }
   [[nodiscard]] double flux_in() const { return flux_out() / ratio; }
+  [[nodiscard]] double charge() const { return (1.0 - ratio) * flux_in(); }
   [[nodiscard]] Vector3 force(const Vector3& n) const {
     const Vector3 z = Vector3::UnitZ();
     const Vector3 tangential = z - n.z() * n;
@@ -51,7 +53,7 @@ BOOST_AUTO_TEST_CASE(charge_and_force_of_a_given_voltage_at_every_conductivity_r
     const Vector cosine = points.normal.row(2).transpose();
     BOOST_TEST_CONTEXT("σ_i/σ_e = " << ratio) {
       BOOST_TEST(relative_l2(points, traces.flux_in, exact.flux_in() * cosine) < 1e-4);
-      BOOST_TEST(relative_l2(points, traces.charge, (exact.flux_in() - exact.flux_out()) * cosine) < 1e-4);
+      BOOST_TEST(relative_l2(points, traces.charge, exact.charge() * cosine) < 1e-4);
       const Vectors force = sampled_vectors(points, [&](const Vector3&, const Vector3& n) { return exact.force(n); });
       BOOST_TEST(relative_l2(points, traces.force, force) < 3e-4);
     }
