@@ -13,6 +13,7 @@
 #include "bie/comparison/local_forces.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
+#include "bie/physics/porous_charging.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
@@ -69,6 +70,7 @@ class FrozenSolver {
     result.charge = fields.charge;
     result.force_electric = fields.force_electric;
     result.potential_rate = charging_rate();
+    result.rate_truncation = rate_truncation();
     const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields);
     result.potential_of_charges = fields.potential;
     result.free_charge_rate = solved_.vesicles.front().free_charge_rate;
@@ -114,6 +116,16 @@ class FrozenSolver {
     if (varies.size() == 0 || relaxes_charge(frozen_.model)) return rate;
     const Vector current = varies.cwiseProduct(Vector(membrane_.fine.synthesize(rate)));
     return membrane_.fine.analyze(current) / vesicle_of(frozen_).charging.capacitance;
+  }
+  [[nodiscard]] Vector rate_truncation() const {
+    const VesicleModel& vesicle = vesicle_of(frozen_);
+    if (!vesicle.reaction || position_.rows() != membrane_of(frozen_).position.rows()) return {};
+    const VesicleState& state = state_.vesicles.front();
+    const VesicleFields& fields = solved_.fields.vesicles.front();
+    const Vector lost = porous_conductance(*vesicle.reaction, vesicle.charging, membrane_, state.poration) -
+                        Vector(membrane_.fine.synthesize(fields.conductance));
+    const Vector potential = membrane_.fine.synthesize(transmembrane_potential(state, fields));
+    return -membrane_.fine.analyze(lost.cwiseProduct(potential)) / vesicle.charging.capacitance;
   }
   /// Values with a last column that is 1 inside and 0 outside.
   static Matrix with_sides(const Matrix& values, const std::vector<Side>& sides) {

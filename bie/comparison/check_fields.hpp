@@ -27,6 +27,9 @@ struct CheckFields {
   /// Of material points: C_m dV_m/dt over the C_m of the membrane's parameters, or with displacement currents
   /// D(q_i/C_m)/Dt.
   Vector potential_rate;
+  /// Share in potential_rate of what G_m of pores loses when it is truncated to the degree of the state; that degree
+  /// only.
+  Vector rate_truncation;
   Vector potential_of_charges;   ///< V_m that follows from free charges; with displacement currents alone
   Vector free_charge_rate;       ///< D(q_i + q_e)/Dt over C_m; with displacement currents alone
   int force_order = 0;           ///< degree of f_b and f_c: local_force_order() where `order` is not that of the state

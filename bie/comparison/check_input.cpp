@@ -160,6 +160,8 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
   field("force_electric", fields.force_electric, {"force/area", "f_E of the given V_m"});
   field("Vm_rate", fields.potential_rate,
         {"potential/time", "dV_m/dt of the given V_m, where C_m varies times it over the C_m of /physics"});
+  field("Vm_rate_truncation", fields.rate_truncation,
+        {"potential/time", "share in Vm_rate of what G_m of pores loses when it is truncated to this degree"});
   field("Vm_of_charges", fields.potential_of_charges, {"potential", "V_m of the given free charges"});
   field("free_charge_rate", fields.free_charge_rate, {"potential/time", "rate of q_i + q_e over C_m"});
   field("force_bending", fields.force_bending, {"force/area", "f_b of the shape, in the degree force_order"});

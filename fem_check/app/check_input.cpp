@@ -107,6 +107,7 @@ BieFields read_fields(const VesicleGroup& file, const std::string& group, const 
     fields.charge = of.required("q", 1);
     fields.force_electric = of.required("force_electric", 3);
     fields.potential_rate = of.required("Vm_rate", 1);
+    fields.rate_truncation = of.optional("Vm_rate_truncation", 1);
     if (input.charged_faces()) {
       fields.potential_of_charges = of.required("Vm_of_charges", 1);
       fields.free_charge_rate = of.required("free_charge_rate", 1);

@@ -30,6 +30,8 @@ struct BieFields {
   int order = 0;
   // Of x and V_m alone.
   Eigen::MatrixXd charge, force_electric, potential_rate;
+  /// Share in potential_rate of what G_m of pores loses in truncation; in the order of the state only.
+  Eigen::MatrixXd rate_truncation;
   Eigen::MatrixXd potential_of_charges, free_charge_rate;  ///< with displacement currents alone
   // In a degree of their own where `order` is not that of the state.
   Eigen::MatrixXd force_bending;    ///< f_b

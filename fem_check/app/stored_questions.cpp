@@ -33,6 +33,10 @@ FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces&
       maker.on_surface("charging_current", input.charged_faces() ? "dq_i/dt" : "C dV_m/dt", "flux_in", rate, rate,
                        physics.capacitance * input.bie_high.potential_rate, sizes.current);
   question.is_remainder = true;
+  // The run has G_m of pores as it follows from their state, the elements that of the file, which is truncated.
+  if (input.bie.rate_truncation.size() > 0) {
+    question.further_error = physics.capacitance * SurfaceSeries(input.bie.rate_truncation)(places.surface);
+  }
   const Eigen::MatrixXd leak = current_through(input, places.surface);
   question.from_level = [leak, sigma = physics.conductivity_in](const Eigen::MatrixXd& flux_in) {
     return Eigen::MatrixXd(-sigma * flux_in - leak);

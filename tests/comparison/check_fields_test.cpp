@@ -6,6 +6,8 @@
 #include "bie/comparison/check.hpp"
 #include "bie/comparison/check_samples.hpp"
 #include "bie/sphere/degrees.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -74,6 +76,32 @@ BOOST_AUTO_TEST_CASE(order_of_the_run_gives_the_numbers_of_the_run) {
     BOOST_TEST(difference(fields.velocity + fields.velocity_truncation, stored.velocity) < 1e-6);
     BOOST_TEST(fields.velocity_truncation.norm() > 1e-6 * stored.velocity.norm());
   }
+}
+
+// The elements take G_m of the file, where a membrane that conducts differently from place to place has all of it.
+BOOST_AUTO_TEST_CASE(truncation_of_the_conductance_of_pores_is_known) {
+  Frozen frozen(
+      "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\n"
+      "[membrane]\nmobile = false\ncapacitance = 0.5\nconductance = 0.3\n"
+      "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+      "[poration]\nmodel = 'pores'\ncreation_rate = 1.0\ncreation_Vm = 0.5\nrest_density = 2.0\n"
+      "pore_radius = 0.1\nmembrane_thickness = 0.2\n[numerics]\norder = 6\ndt = 0.1\nend_time = 0.0\n");
+  vehd::VesicleState& state = frozen.state.state.vesicles.front();
+  const vehd::Index n = frozen.position().rows();
+  state.transmembrane_potential = vehd::Vector::LinSpaced(n, 1.0, 0.0);
+  state.poration = vehd::Vector::LinSpaced(n, 2.0, 0.0);
+  const vehd::CheckFields of_pores = frozen.at(6);
+  BOOST_TEST(frozen.at(9).rate_truncation.size() == 0);
+  vehd::Model& model = frozen.state.model;
+  vehd::Instruments instruments;
+  const vehd::SolvedFields solved = vehd::solve_fields(
+      model, vehd::Discretisation(frozen.state.settings, frozen.state.symmetry), frozen.state.state, instruments);
+  state.material.conductance = solved.fields.vesicles.front().conductance;
+  model.vesicles.front().reaction.reset();
+  const vehd::CheckFields of_file = frozen.at(6);
+  BOOST_TEST(of_file.rate_truncation.size() == 0);
+  BOOST_TEST(difference(of_file.potential_rate + of_pores.rate_truncation, of_pores.potential_rate) < 1e-9);
+  BOOST_TEST(of_pores.rate_truncation.norm() > 1e-3 * of_pores.potential_rate.norm());
 }
 
 BOOST_AUTO_TEST_CASE(settings_of_the_run_count) {

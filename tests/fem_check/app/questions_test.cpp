@@ -1,0 +1,55 @@
+#include "fem_check/app/questions.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "fem_check/app/comparison.hpp"
+#include "tests/fem_check/cases.hpp"
+
+using namespace vehd::fem_check;
+using namespace vehd::fem_check::testing;
+
+BOOST_AUTO_TEST_SUITE(questions)
+
+namespace {
+
+/// V_m = z on the unit sphere, dV_m/dt = z by boundary integrals, of which they have `truncation` from a conductance
+/// that the file does not hold.
+CheckInput porous_sphere(double truncation) {
+  CheckInput input;
+  input.position = shapes::project(1, [](const meshes::Point& r) { return r; });
+  input.potential = input.position.col(2);
+  input.physics.capacitance = 0.5;
+  input.conductance = 3.0 * shapes::project(1, [](const meshes::Point&) { return meshes::Point::Ones(); }).col(0);
+  input.bie.potential_rate = input.bie_high.potential_rate = input.potential;
+  input.bie.rate_truncation = truncation * input.potential;
+  return input;
+}
+
+/// Of elements that have all but a share of the current that boundary integrals charge the membrane with.
+LevelSequence levels_without(double share, const CheckInput& input, const SurfacePoints& points) {
+  Level level;
+  level.n_unknowns = 1000;
+  level.surface["flux_in"] = -(input.physics.capacitance * (1.0 - share) + 3.0) * points.direction.row(2);
+  LevelSequence sequence;
+  sequence.levels = {level, level};
+  sequence.truncated = sequence.rough = level;
+  return sequence;
+}
+
+}  // namespace
+
+// Pores that open on a small part of the membrane have a conductance of higher degree than the run.
+BOOST_AUTO_TEST_CASE(conductance_of_pores_beyond_the_degree_of_the_run_is_an_error_of_the_run) {
+  const Discretisation space = discretise(unit_sphere(), {.degree = 2});
+  const ComparisonPlaces places{space.quadrature_points(6), 1.0, Vector3::Zero()};
+  const double missing = 0.01;
+  for (const double truncation : {0.0, missing}) {
+    const CheckInput input = porous_sphere(truncation);
+    const FieldQuestion question = current_questions(input, places).front();
+    const FieldComparison row = compare(question, levels_without(missing, input, places.surface), {0.02});
+    BOOST_TEST((row.verdict == (truncation > 0.0 ? Verdict::agree : Verdict::disagree)));
+    BOOST_TEST(row.bie_error() >= truncation * row.difference.l2 / missing);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
