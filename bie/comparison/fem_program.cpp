@@ -52,6 +52,9 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
     words = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(n_ranks)};
     // When mpirun is told to end, it has more to remove than its processes, and no second to spend on them.
     words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "0"});
+  } else {
+    // A process alone needs no daemon of Open MPI's beside it.
+    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   }
   words.push_back(path_.string());
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <ctime>
 
+#include "bie/support/carried_programs.hpp"
+
 namespace vehd {
 namespace {
 
@@ -24,6 +26,7 @@ constexpr int connection_to_owner = STDERR_FILENO + 1;
 
 /// Prepared before the fork: the child of a process with several threads must not take memory.
 struct Start {
+  const char* file;  ///< a path, or a name to look for in PATH
   char* const* words;
   const char* output;  ///< null: none of its own
   const char* folder;  ///< null: none of its own
@@ -53,7 +56,7 @@ ChildEnd end_of(int status) {
     ::dup2(::open(start.output, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666), STDOUT_FILENO);
     ::dup2(STDOUT_FILENO, STDERR_FILENO);
   }
-  if (start.folder == nullptr || ::chdir(start.folder) == 0) ::execvp(start.words[0], start.words);
+  if (start.folder == nullptr || ::chdir(start.folder) == 0) ::execvp(start.file, start.words);
   report({.start_problem = errno});
   ::_exit(1);
 }
@@ -133,7 +136,9 @@ ChildEnd run_child(const ChildProgram& program) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const auto path_or_null = [](const std::filesystem::path& path) { return path.empty() ? nullptr : path.c_str(); };
-  const Start start{pointers.data(), path_or_null(program.output), path_or_null(program.folder)};
+  // Open MPI takes another path in its first word for a wish to run its daemons from there: the words stay as they are.
+  const std::filesystem::path file = place_of_program(program.words[0]);
+  const Start start{file.c_str(), pointers.data(), path_or_null(program.output), path_or_null(program.folder)};
   std::array<int, 2> connection{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, connection.data()) != 0) return {.start_problem = errno};
   // What this program has printed so far comes first.

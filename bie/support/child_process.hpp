@@ -8,7 +8,7 @@ namespace vehd {
 
 /// A program to start. It has no input.
 struct ChildProgram {
-  std::vector<std::string> words;  ///< its name, looked for in PATH, and its arguments
+  std::vector<std::string> words;  ///< its name, looked for by place_of_program(), and its arguments
   std::filesystem::path output;    ///< takes its standard output and error; empty: they go where those of this one go
   std::filesystem::path folder{};  ///< its working directory; empty: that of this one
 };
