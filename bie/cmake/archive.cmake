@@ -1,0 +1,272 @@
+# Makes archives of a build, in BUILD/archive, that run without a package manager: vehd-VERSION-x86_64-linux.tar.xz, and one
+# with "plain" in its name that leaves the finite elements out, with all that only they need:
+#   cmake -DBUILD=build-archive -P bie/cmake/archive.cmake
+# Before -P: -DONLY=plain or -DONLY=full makes one of them, -DXZ=-1 compresses less and sooner.
+#
+# An archive is what cmake --install makes, and beside that files of this Debian, each where Debian has it below /usr: the
+# libraries, Python with numpy, gnuplot with a font, Open MPI. The C library is that of the system where it is unpacked.
+cmake_minimum_required(VERSION 3.25)
+
+if(NOT DEFINED XZ)
+  set(XZ "--x86 --lzma2=preset=9e,dict=64MiB")
+endif()
+get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
+get_filename_component(BUILD "${BUILD}" ABSOLUTE)
+file(STRINGS "${BUILD}/CMakeCache.txt" version REGEX "^CMAKE_PROJECT_VERSION:")
+string(REGEX REPLACE ".*=" "" version "${version}")
+set(debian_libraries lib/x86_64-linux-gnu)
+# What is not carried, as vehd never calls it, although libraries that it needs name it: pictures of other formats, for which
+# gnuplot brings video codecs, and files that HDF5 reads from the network. Each would double an archive.
+set(left_out libgd.so.3 libcurl.so.4 libcrypto.so.3)
+# Parts of Python and numpy that are not carried: tests, tools of developers, and what needs libraries that are left out.
+set(left_out_of_python
+    "/(test|tests|idlelib|tkinter|lib2to3|distutils|f2py|ensurepip|turtledemo|pydoc_data|__pycache__|_pyinstaller)/"
+    "/lib-dynload/(_ssl|_hashlib|_sqlite3|_curses|_curses_panel|_dbm|_gdbm|_tkinter|nis|_test|_ctypes_test|_xxtest|xx)"
+    "/python3\\.[0-9]+/dist-packages/" "/numpy/core/_simd\\." "/sitecustomize\\.py$" "\\.a$")
+# Plugins of Open MPI that are not carried: networks and schedulers of clusters, as the check runs on one machine, and
+# OpenSHMEM.
+set(left_out_of_mpi "_(rsh|ucx|ofi|openib|psm2?|flux|jsm|slurm|gridengine|memheap.*|spml.*|scoll.*|sshmem.*|atomic.*)\\.so$|dbg_msgq")
+# Packages of headers alone, which are compiled into vehd.
+set(header_packages libeigen3-dev libcli11-dev nlohmann-json3-dev pybind11-dev)
+
+function(run)
+  cmake_parse_arguments(run "" "OUTPUT" "" ${ARGN})
+  execute_process(COMMAND ${run_UNPARSED_ARGUMENTS} OUTPUT_VARIABLE text ERROR_VARIABLE problem RESULT_VARIABLE status
+                  OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(NOT status EQUAL 0)
+    list(JOIN run_UNPARSED_ARGUMENTS " " command)
+    message(FATAL_ERROR "failed (${status}): ${command}\n${problem}")
+  endif()
+  if(run_OUTPUT)
+    set(${run_OUTPUT} "${text}" PARENT_SCOPE)
+  endif()
+endfunction()
+
+# Copies a file of this system into the archive, what a link leads to in its place, and notes it for the licences.
+function(carry file place)
+  file(REAL_PATH "${file}" real)
+  get_filename_component(folder "${stage}/${place}" DIRECTORY)
+  file(MAKE_DIRECTORY "${folder}")
+  file(COPY_FILE "${real}" "${stage}/${place}")
+  set_property(GLOBAL APPEND PROPERTY carried "${real}")
+endfunction()
+
+# Files of Debian packages below a folder, except those that match one of the patterns after it.
+function(files_of_packages result packages folder)
+  run(dpkg -L ${packages} OUTPUT text)
+  string(REGEX REPLACE "\n" ";" files "${text}")
+  list(FILTER files INCLUDE REGEX "^${folder}")
+  foreach(pattern IN LISTS ARGN)
+    list(FILTER files EXCLUDE REGEX "${pattern}")
+  endforeach()
+  set(found)
+  foreach(file IN LISTS files)
+    if(EXISTS "${file}" AND NOT IS_DIRECTORY "${file}")
+      list(APPEND found "${file}")
+    endif()
+  endforeach()
+  set(${result} "${found}" PARENT_SCOPE)
+endfunction()
+
+# The symbols of libraries and programs, each with its version.
+function(symbols_of result kind)
+  run(nm -D ${kind} ${ARGN} OUTPUT text)
+  string(REGEX MATCHALL " [A-Za-z] [^\n]+" symbols "${text}")
+  list(TRANSFORM symbols REPLACE "^ . " "")
+  list(TRANSFORM symbols REPLACE "@@" "@")
+  list(REMOVE_DUPLICATES symbols)
+  set(${result} "${symbols}" PARENT_SCOPE)
+endfunction()
+
+# Puts a library in the place of one that is left out: what others name of it is there, and ends the program if called.
+function(replace_library name)
+  execute_process(COMMAND grep -rlF ${name} "${stage}/${debian_libraries}" "${stage}/lib/vehd/programs" OUTPUT_VARIABLE users
+                  OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(NOT users)
+    return()
+  endif()
+  string(REPLACE "\n" ";" users "${users}")
+  # Not those alone that they miss: of variables they have copies, to be filled from the library.
+  symbols_of(wanted --format=bsd ${users})
+  symbols_of(known --defined-only /usr/${debian_libraries}/${name})
+  set(code "#include <stdio.h>\n#include <stdlib.h>\nvoid absent(void) {\n\
+  fputs(\"${name} is no part of the archive of vehd\\n\", stderr);\n  abort();\n}\n")
+  set(node)
+  foreach(symbol IN LISTS wanted)
+    if(symbol IN_LIST known AND NOT symbol MATCHES "^_")
+      string(REGEX MATCH "^[^@]+" function "${symbol}")
+      string(APPEND code "void ${function}(void) __attribute__((alias(\"absent\")));\n")
+      if(symbol MATCHES "@(.+)$")
+        set(node "${CMAKE_MATCH_1}")
+      endif()
+    endif()
+  endforeach()
+  set(options)
+  if(node)
+    file(WRITE "${work}/${name}.map" "${node} { *; };\n")
+    set(options "-Wl,--version-script=${work}/${name}.map")
+  endif()
+  file(WRITE "${work}/${name}.c" "${code}")
+  run(cc -shared -fPIC -O1 -fno-builtin -w "-Wl,-soname,${name}" ${options} -s -o "${stage}/${debian_libraries}/${name}"
+      "${work}/${name}.c")
+endfunction()
+
+# Libraries that the programs and modules in the archive need, but for those of the C library, which must be that of the
+# system, and for those left out.
+function(carry_libraries)
+  file(GLOB_RECURSE programs "${stage}/bin/*" "${stage}/lib/vehd/programs/*")
+  file(GLOB_RECURSE modules "${stage}/lib/*.so" "${stage}/lib/vehd/*.so.*")
+  list(TRANSFORM left_out REPLACE "\\." "\\\\." OUTPUT_VARIABLE excluded)
+  file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} MODULES ${modules} RESOLVED_DEPENDENCIES_VAR libraries
+       PRE_EXCLUDE_REGEXES ${excluded} "^libvehd_" POST_EXCLUDE_REGEXES "^${stage}"
+       CONFLICTING_DEPENDENCIES_PREFIX conflicting)
+  files_of_packages(c_library libc6 /)
+  list(TRANSFORM c_library REPLACE ".*/" "")
+  foreach(name IN LISTS conflicting_FILENAMES)
+    # The same file by two paths.
+    list(GET conflicting_${name} 0 path)
+    list(APPEND libraries "${path}")
+  endforeach()
+  foreach(library IN LISTS libraries)
+    get_filename_component(name "${library}" NAME)
+    if(NOT name IN_LIST c_library)
+      carry("${library}" ${debian_libraries}/${name})
+    endif()
+  endforeach()
+endfunction()
+
+function(carry_python)
+  file(GLOB core "${stage}/lib/python3/dist-packages/vehd/_core.cpython-*.so")
+  if(NOT core)
+    return()
+  endif()
+  string(REGEX REPLACE ".*/_core\\.cpython-3([0-9]+)-.*" "python3.\\1" python "${core}")
+  files_of_packages(files "${python}-minimal;lib${python}-minimal;lib${python}-stdlib;python3-numpy" /usr/lib/python3
+                    ${left_out_of_python})
+  foreach(file IN LISTS files)
+    string(REPLACE "/usr/" "" place "${file}")
+    carry("${file}" "${place}")
+  endforeach()
+  carry(/usr/bin/${python} bin/vehd-python)
+endfunction()
+
+function(carry_gnuplot)
+  find_program(gnuplot NAMES gnuplot-nox gnuplot REQUIRED NO_CACHE)
+  carry("${gnuplot}" lib/vehd/programs/gnuplot)
+  carry(/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf share/fonts/truetype/dejavu/DejaVuSans.ttf)
+  file(WRITE "${stage}/share/vehd/fonts.conf" [=[
+<?xml version="1.0"?>
+<!DOCTYPE fontconfig SYSTEM "fonts.dtd">
+<fontconfig>
+  <dir prefix="relative">../fonts</dir>
+  <cachedir prefix="xdg">fontconfig</cachedir>
+</fontconfig>
+]=])
+endfunction()
+
+function(carry_mpi)
+  carry(/usr/bin/orterun lib/vehd/programs/mpirun)
+  foreach(folder IN ITEMS ${debian_libraries}/openmpi/lib/openmpi3 ${debian_libraries}/pmix2/lib/pmix
+                          ${debian_libraries}/pmix2/share share/openmpi)
+    file(GLOB_RECURSE files "/usr/${folder}/*.so" "/usr/${folder}/*.txt")
+    list(FILTER files EXCLUDE REGEX "${left_out_of_mpi}")
+    foreach(file IN LISTS files)
+      string(REPLACE "/usr/" "" place "${file}")
+      carry("${file}" "${place}")
+    endforeach()
+  endforeach()
+endfunction()
+
+# Programs and modules of Python look for libraries by their own place first, whatever LD_LIBRARY_PATH a cluster sets; this
+# counts for the libraries that they load as well, so these lose what Debian has set.
+function(set_run_paths)
+  file(GLOB_RECURSE programs "${stage}/bin/*" "${stage}/lib/vehd/programs/*")
+  file(GLOB_RECURSE own "${stage}/lib/vehd/*.so.*")
+  file(GLOB_RECURSE modules "${stage}/lib/python3/*.so")
+  foreach(file IN LISTS programs own modules)
+    if(NOT IS_SYMLINK "${file}")
+      get_filename_component(folder "${file}" DIRECTORY)
+      file(RELATIVE_PATH to_own "${folder}" "${stage}/lib/vehd")
+      file(RELATIVE_PATH to_debian "${folder}" "${stage}/${debian_libraries}")
+      run(patchelf --force-rpath --set-rpath "$ORIGIN/${to_own}:$ORIGIN/${to_debian}" "${file}")
+    endif()
+  endforeach()
+  file(GLOB_RECURSE libraries "${stage}/${debian_libraries}/*.so*")
+  foreach(file IN LISTS libraries)
+    run(patchelf --print-rpath "${file}" OUTPUT path)
+    if(path)
+      run(patchelf --remove-rpath "${file}")
+    endif()
+  endforeach()
+endfunction()
+
+# The copyright file of every package of which something is carried, the texts that these name, and the versions, by which
+# Debian has the sources.
+function(write_licences)
+  get_property(files GLOBAL PROPERTY carried)
+  list(REMOVE_DUPLICATES files)
+  # Debian's list names some files without the /usr that is before them.
+  list(TRANSFORM files REPLACE "^/usr/lib/x" "/lib/x" OUTPUT_VARIABLE other_names)
+  execute_process(COMMAND dpkg -S ${files} ${other_names} OUTPUT_VARIABLE owners ERROR_QUIET)
+  string(REGEX MATCHALL "(^|\n)[^ \n]+: [^\n]+" lines "${owners}")
+  set(packages ${header_packages})
+  set(owned)
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^\n?([^ ]+): (.*)$")
+      list(APPEND packages "${CMAKE_MATCH_1}")
+      list(APPEND owned "${CMAKE_MATCH_2}")
+    endif()
+  endforeach()
+  list(TRANSFORM owned REPLACE "^/lib/" "/usr/lib/")
+  list(REMOVE_ITEM files ${owned})
+  if(files)
+    message(FATAL_ERROR "no package of Debian has these files, so their licences are not known: ${files}")
+  endif()
+  list(REMOVE_DUPLICATES packages)
+  foreach(package IN LISTS packages)
+    string(REGEX REPLACE ":.*" "" name "${package}")
+    configure_file(/usr/share/doc/${name}/copyright "${stage}/licences/${name}.txt" COPYONLY)
+  endforeach()
+  file(COPY /usr/share/common-licenses DESTINATION "${stage}/licences" FOLLOW_SYMLINK_CHAIN)
+  run(dpkg-query -W -f "\${Package} \${Version} of \${source:Package} \${source:Version}\\n" ${packages} OUTPUT versions)
+  file(WRITE "${stage}/licences/packages" "\
+Files of these packages of Debian are in this archive, or compiled into its programs. Debian has their sources.\n\n${versions}\n")
+endfunction()
+
+function(make_archive name with_elements)
+  set(work "${BUILD}/archive")
+  set(stage "${work}/${name}")
+  file(REMOVE_RECURSE "${stage}")
+  set_property(GLOBAL PROPERTY carried "")
+  run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${stage}" --strip)
+  file(REMOVE_RECURSE "${stage}/include" "${stage}/lib/cmake" "${stage}/share/doc")
+  file(COPY "${source}/README.md" "${source}/CHANGELOG.md" "${source}/CITATION.cff" "${source}/LICENSE"
+            "${source}/docs/containers/Containerfile" "${source}/docs/containers/vehd.def" DESTINATION "${stage}")
+  if(with_elements)
+    carry_mpi()
+  else()
+    file(REMOVE "${stage}/bin/vehd_fem")
+  endif()
+  carry_gnuplot()
+  carry_python()
+  carry_libraries()
+  foreach(library IN LISTS left_out)
+    replace_library(${library})
+  endforeach()
+  set_run_paths()
+  write_licences()
+  execute_process(COMMAND git -C "${source}" log -1 --format=%ct OUTPUT_VARIABLE time OUTPUT_STRIP_TRAILING_WHITESPACE)
+  run(tar -C "${work}" --sort=name --owner=0 --group=0 --numeric-owner --mode=go=u-w "--mtime=@${time}" -I "xz -T1 ${XZ}" -cf
+      "${stage}.tar.xz" ${name})
+  file(SIZE "${stage}.tar.xz" size)
+  math(EXPR tenths "(${size} + 50000) / 100000")
+  string(REGEX REPLACE "(.)$" ".\\1" megabytes "${tenths}")
+  message(STATUS "${stage}.tar.xz: ${megabytes} MB")
+endfunction()
+
+if(NOT ONLY STREQUAL "full")
+  make_archive(vehd-${version}-plain-x86_64-linux OFF)
+endif()
+if(NOT ONLY STREQUAL "plain" AND EXISTS "${BUILD}/vehd_fem")
+  make_archive(vehd-${version}-x86_64-linux ON)
+endif()
