@@ -21,12 +21,16 @@
 #                                          compiles nothing
 #   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64, in build-levels, lets lintian read
 #                                             it and tries it
+#   cmake -DSTEP=archive -P bie/setup.cmake   builds archives for every x86-64 that need no package manager, one with the
+#                                             finite elements and one without, in build-archive, and tries them
 # Before -P, for every step:
 #   -DINSTALL=OFF                   installs nothing: says what is missing, and goes on where it can do without
-#   -DVEHD_FEM_CHECK=OFF            test leaves out the finite-element check, and what it needs. With ON build and docs
-#                                   include it and install what it needs; without either, where deal.II and gmsh are there
-#   -DVEHD_PYTHON=OFF               test and package leave out the module of Python, and what it needs. With ON build and docs
-#                                   include it and install what it needs; without either, where pybind11 and numpy are there
+#   -DVEHD_FEM_CHECK=OFF            test and archive leave out the finite-element check, and what it needs. With ON build and
+#                                   docs include it and install what it needs; without either, where deal.II and gmsh are
+#                                   there
+#   -DVEHD_PYTHON=OFF               test, package and archive leave out the module of Python, and what it needs. With ON build
+#                                   and docs include it and install what it needs; without either, where pybind11 and numpy
+#                                   are there
 #   -DVEHD_MPI=ON                   builds a vehd that runs on several processes, and installs what it needs
 #   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of that of this machine;
 #                                   levels: for every x86-64, the numerical libraries for its newer levels as well
@@ -38,7 +42,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
-set(steps run test build check python package callgrind faults slurm sanitize fuzz docs site)
+set(steps run test build check python package callgrind faults slurm sanitize fuzz docs site archive)
 if(NOT DEFINED STEP)
   set(STEP run)
 endif()
@@ -58,7 +62,7 @@ endif()
 
 if(NOT DEFINED VEHD_FEM_CHECK)
   set(VEHD_FEM_CHECK OFF)
-  if(STEP STREQUAL "test")
+  if(STEP MATCHES "^(test|archive)$")
     set(VEHD_FEM_CHECK ON)
   elseif(STEP MATCHES "^(build|docs)$")
     set(VEHD_FEM_CHECK AUTO)
@@ -68,7 +72,7 @@ if(STEP STREQUAL "check")
   set(VEHD_FEM_CHECK ON)
 endif()
 
-if(STEP MATCHES "^(test|python|package)$" AND NOT DEFINED VEHD_PYTHON)
+if(STEP MATCHES "^(test|python|package|archive)$" AND NOT DEFINED VEHD_PYTHON)
   set(VEHD_PYTHON ON)
 elseif(NOT DEFINED VEHD_PYTHON)
   set(VEHD_PYTHON OFF)
@@ -79,7 +83,7 @@ endif()
 
 # A folder for each instruction set: none is compiled again because another was in between.
 set(build "${source}/build")
-if(STEP STREQUAL "package")
+if(STEP MATCHES "^(package|archive)$")
   set(VEHD_ARCHITECTURE levels)
 elseif(NOT DEFINED VEHD_ARCHITECTURE)
   set(VEHD_ARCHITECTURE native)
@@ -87,7 +91,10 @@ endif()
 if(NOT VEHD_ARCHITECTURE STREQUAL "native")
   set(build "${source}/build-${VEHD_ARCHITECTURE}")
 endif()
-if(STEP STREQUAL "callgrind")
+if(STEP STREQUAL "archive")
+  # The package is built without finite elements, unless asked for.
+  set(build "${source}/build-archive")
+elseif(STEP STREQUAL "callgrind")
   # Valgrind does not know the instructions of every new processor: those that the compiler takes by itself.
   set(VEHD_ARCHITECTURE "")
   set(build "${source}/build-callgrind")
@@ -165,6 +172,16 @@ if(STEP MATCHES "^(test|sanitize|package)$")
   need_program(help2man help2man)
   need_program(dpkg-dev dpkg-shlibdeps)
   need_program(lintian lintian)
+endif()
+if(STEP STREQUAL "archive" OR (STEP STREQUAL "test" AND EXTENDED))
+  # An archive of the build is made, and tried in a bare system.
+  need_program(patchelf patchelf)
+  need_program(xz-utils xz)
+  need_program(mmdebstrap mmdebstrap)
+endif()
+if(STEP STREQUAL "archive")
+  # The container of the archive is built.
+  need_program(buildah buildah)
 endif()
 if(STEP STREQUAL "callgrind")
   need_program(valgrind valgrind)
@@ -253,11 +270,11 @@ foreach(option IN ITEMS CMAKE_COMPILE_WARNING_AS_ERROR VEHD_TEST_LEVEL VEHD_MPI)
     list(APPEND options "-D${option}=${${option}}")
   endif()
 endforeach()
-if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|docs)$")
+if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|archive|docs)$")
   # The other steps leave a build with the check as it is.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
 endif()
-if(VEHD_PYTHON OR STEP MATCHES "^(test|build|package|docs|sanitize)$")
+if(VEHD_PYTHON OR STEP MATCHES "^(test|build|package|archive|docs|sanitize)$")
   list(APPEND options -DVEHD_PYTHON=${VEHD_PYTHON})
 endif()
 set(configure "${CMAKE_COMMAND}")
@@ -304,7 +321,7 @@ else()
     list(TRANSFORM fuzzers PREPEND fuzz_ OUTPUT_VARIABLE targets)
   elseif(STEP STREQUAL "python")
     list(APPEND targets vehd_python_example)
-  elseif(STEP MATCHES "^(build|docs|check|package)$")
+  elseif(STEP MATCHES "^(build|docs|check|package|archive)$")
     set(targets all)
   endif()
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs} --target ${targets})
@@ -335,6 +352,16 @@ if(STEP STREQUAL "package")
               "${source}/tests/installed/package.cmake")
   file(GLOB packages "${build}/package/*.deb")
   message(STATUS "Install it with: apt-get install ${packages}")
+endif()
+if(STEP STREQUAL "archive")
+  set(python)
+  if(VEHD_PYTHON STREQUAL "ON")
+    set(python -DPYTHON=/usr/bin/python3)
+  endif()
+  file(REMOVE_RECURSE "${build}/archive")
+  run_or_stop("${CMAKE_COMMAND}" "-DBUILD=${build}" -P "${source}/bie/cmake/archive.cmake")
+  run_or_stop("${CMAKE_COMMAND}" "-DBUILD=${build}" "-DSOURCE=${source}" "-DFOLDER=${build}/unpacked" ${python} -P
+              "${source}/tests/installed/archive.cmake")
 endif()
 if(STEP STREQUAL "check")
   run_or_stop("${build}/vehd" check docs/scenes/figure2.toml --quick -o out/figure2_check)

@@ -1,7 +1,7 @@
 # Makes archives of a build, in BUILD/archive, that run without a package manager: vehd-VERSION-x86_64-linux.tar.xz, and one
 # with "plain" in its name that leaves the finite elements out, with all that only they need:
 #   cmake -DBUILD=build-archive -P bie/cmake/archive.cmake
-# Before -P: -DONLY=plain or -DONLY=full makes one of them, -DXZ=-1 compresses less and sooner.
+# Before -P: -DXZ=-1 compresses less, in a tenth of the time.
 #
 # An archive is what cmake --install makes, and beside that files of this Debian, each where Debian has it below /usr: the
 # libraries, Python with numpy, gnuplot with a font, Open MPI. The C library is that of the system where it is unpacked.
@@ -15,8 +15,8 @@ get_filename_component(BUILD "${BUILD}" ABSOLUTE)
 file(STRINGS "${BUILD}/CMakeCache.txt" version REGEX "^CMAKE_PROJECT_VERSION:")
 string(REGEX REPLACE ".*=" "" version "${version}")
 set(debian_libraries lib/x86_64-linux-gnu)
-# What is not carried, as vehd never calls it, although libraries that it needs name it: pictures of other formats, for which
-# gnuplot brings video codecs, and files that HDF5 reads from the network. Each would double an archive.
+# What is not carried, as vehd never calls it, although libraries that it needs name it: pictures of other formats, for
+# which gnuplot brings video codecs, and files that HDF5 reads from the network. An archive would be twice as large.
 set(left_out libgd.so.3 libcurl.so.4 libcrypto.so.3)
 # Parts of Python and numpy that are not carried: tests, tools of developers, and what needs libraries that are left out.
 set(left_out_of_python
@@ -25,7 +25,8 @@ set(left_out_of_python
     "/python3\\.[0-9]+/dist-packages/" "/numpy/core/_simd\\." "/sitecustomize\\.py$" "\\.a$")
 # Plugins of Open MPI that are not carried: networks and schedulers of clusters, as the check runs on one machine, and
 # OpenSHMEM.
-set(left_out_of_mpi "_(rsh|ucx|ofi|openib|psm2?|flux|jsm|slurm|gridengine|memheap.*|spml.*|scoll.*|sshmem.*|atomic.*)\\.so$|dbg_msgq")
+set(left_out_of_mpi "_(rsh|ucx|ofi|openib|psm2?|flux|jsm|slurm|gridengine)\\.so$" "/mca_(memheap|spml|scoll|sshmem|atomic)_"
+    "dbg_msgq")
 # Packages of headers alone, which are compiled into vehd.
 set(header_packages libeigen3-dev libcli11-dev nlohmann-json3-dev pybind11-dev)
 
@@ -169,7 +170,9 @@ function(carry_mpi)
   foreach(folder IN ITEMS ${debian_libraries}/openmpi/lib/openmpi3 ${debian_libraries}/pmix2/lib/pmix
                           ${debian_libraries}/pmix2/share share/openmpi)
     file(GLOB_RECURSE files "/usr/${folder}/*.so" "/usr/${folder}/*.txt")
-    list(FILTER files EXCLUDE REGEX "${left_out_of_mpi}")
+    foreach(pattern IN LISTS left_out_of_mpi)
+      list(FILTER files EXCLUDE REGEX "${pattern}")
+    endforeach()
     foreach(file IN LISTS files)
       string(REPLACE "/usr/" "" place "${file}")
       carry("${file}" "${place}")
@@ -256,6 +259,9 @@ function(make_archive name with_elements)
   set_run_paths()
   write_licences()
   execute_process(COMMAND git -C "${source}" log -1 --format=%ct OUTPUT_VARIABLE time OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(time STREQUAL "")
+    set(time 0)
+  endif()
   run(tar -C "${work}" --sort=name --owner=0 --group=0 --numeric-owner --mode=go=u-w "--mtime=@${time}" -I "xz -T1 ${XZ}" -cf
       "${stage}.tar.xz" ${name})
   file(SIZE "${stage}.tar.xz" size)
@@ -264,9 +270,7 @@ function(make_archive name with_elements)
   message(STATUS "${stage}.tar.xz: ${megabytes} MB")
 endfunction()
 
-if(NOT ONLY STREQUAL "full")
-  make_archive(vehd-${version}-plain-x86_64-linux OFF)
-endif()
-if(NOT ONLY STREQUAL "plain" AND EXISTS "${BUILD}/vehd_fem")
+make_archive(vehd-${version}-plain-x86_64-linux OFF)
+if(EXISTS "${BUILD}/vehd_fem")
   make_archive(vehd-${version}-x86_64-linux ON)
 endif()

@@ -32,10 +32,10 @@ FemProgram::FemProgram() : FemProgram(folder_of_this_program()) {}
 
 FemProgram::FemProgram(const std::filesystem::path& folder) : path_(folder / fem_name) {
   if (is_program(path_)) return;
-  throw InputError(
-      fmt::format("{}: the finite-element program is not built; configure with VEHD_FEM_CHECK=ON "
-                  "(cmake -DSTEP=check -P bie/setup.cmake)",
-                  path_.string()));
+  throw InputError(fmt::format(
+      "{}: the finite-element program is not there; a build is configured with VEHD_FEM_CHECK=ON "
+      "(cmake -DSTEP=check -P bie/setup.cmake), and of archives the one without \"plain\" in its name has it",
+      path_.string()));
 }
 
 FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ranks) const {
