@@ -55,7 +55,8 @@ class CopyCheck {
   }
 
   static bool is_field(const std::string& path) {
-    return std::ranges::find(snapshot_fields, path.substr(path.rfind('/') + 1)) != snapshot_fields.end();
+    static const std::vector<SnapshotField> fields = snapshot_fields();
+    return std::ranges::find(fields, path.substr(path.rfind('/') + 1), &SnapshotField::name) != fields.end();
   }
 
   void compare(const std::string& path) const {

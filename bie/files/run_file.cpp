@@ -6,37 +6,19 @@
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/surface_mesh.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/support/complex_columns.hpp"
 
 namespace vehd {
 namespace {
 
-const DatasetLabel position_label{"length", "membrane position x"};
-const DatasetLabel velocity_label{"velocity", "membrane velocity dx/dt"};
-const DatasetLabel bending_label{"force/area", "bending force f_b on the fluid"};
-const DatasetLabel tension_force_label{"force/area", "tension force f_lambda on the fluid"};
-const DatasetLabel electric_label{"force/area", "electric force f_E = [[n . Sigma_el]]; f = f_b + f_lambda - f_E"};
-const DatasetLabel contact_label{"force/area", "force of the contact potential on the fluid"};
-const DatasetLabel potential_label{"potential", "transmembrane potential V_m = [[phi]], interior minus exterior"};
-const DatasetLabel charge_label{"potential/length", "q = [[d phi/d n]], interior minus exterior"};
-const DatasetLabel inner_charge_label{"charge/area", "free charge of the inner face, C_m V_m - epsilon_i E_i"};
-const DatasetLabel outer_charge_label{"charge/area", "free charge of the outer face, epsilon_e E_e - C_m V_m"};
 const DatasetLabel potential_amplitude_label{"potential", "magnitude of the amplitude of V_m in an averaged ac field"};
 const DatasetLabel potential_part_label{"potential", "part of the amplitude z of V_m, which is Re(z exp(i omega t))"};
 const DatasetLabel phase_label{"1", "phase of V_m against the field in degrees, 0 where there is no V_m"};
 const DatasetLabel charge_amplitude_label{"potential/length",
                                           "magnitude of the amplitude of q in an averaged ac field"};
 const DatasetLabel charge_part_label{"potential/length", "part of the amplitude z of q, which is Re(z exp(i omega t))"};
-const DatasetLabel poration_label{"1", "state of poration: porosity X, or ln(N/N_0) of a density N of pores"};
-const DatasetLabel conductance_label{"conductance/area", "conductance G_m where it varies"};
-const DatasetLabel capacitance_label{"capacitance/area", "capacitance C_m where it varies"};
-const DatasetLabel pump_label{"current/area", "pump current J_p, outwards, where its waveform is 1"};
-const DatasetLabel modulus_label{"energy", "bending modulus kappa_B where it or c varies"};
-const DatasetLabel curvature_label{"1/length", "spontaneous curvature c where it or kappa_B varies"};
-const DatasetLabel tension_label{"force/length", "membrane tension lambda"};
-const DatasetLabel strain_label{"1", "area strain W/W_ref - 1 of the material"};
-
 /// With the SI unit of its dimension.
 DatasetLabel labelled(DatasetLabel label, const SiUnits& si_units) {
   const SiUnit unit = si_units(label.dimension);
@@ -147,34 +129,19 @@ void write_amplitudes(VesicleWriter& writer, const Matrix& potential, const Matr
   writer.field("q_imaginary", charge.col(1), charge_part_label);
 }
 
-void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, const VesicleState& vesicle,
-                   const VesicleFields& f) {
-  writer.field("x", vesicle.position, position_label);
-  writer.field("velocity", f.velocity, velocity_label);
-  writer.field("force_bending", f.force_bending, bending_label);
-  writer.field("force_tension", f.force_tension, tension_force_label);
-  writer.field("force_electric", f.force_electric, electric_label);
-  writer.field("force_contact", f.force_contact, contact_label);
-  writer.field("Vm", transmembrane_potential(vesicle, f), potential_label);
-  writer.field("q", f.charge, charge_label);
-  writer.field("free_charge_in", f.free_charge_in, inner_charge_label);
-  writer.field("free_charge_out", f.free_charge_out, outer_charge_label);
-  write_amplitudes(writer, f.potential_amplitude, f.charge_amplitude);
-  writer.field("poration", vesicle.poration, poration_label);
-  const MembraneMaterial& material = vesicle.material;
-  writer.field("conductance", f.conductance.size() > 0 ? f.conductance : material.conductance, conductance_label);
-  writer.field("tension", f.tension, tension_label);
-  if (vesicle.area_strain.size() == vesicle.position.rows()) {
-    writer.field("area_strain", vesicle.area_strain, strain_label);
-  } else if (vesicle.area_strain.size() == transform.grid().n_points()) {
-    writer.grid_field("area_strain", vesicle.area_strain, strain_label);
-  }
-  writer.grid_field("area_element", area_element(transform, vesicle.position),
+void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, SurfaceFields state,
+                   const VesicleFields& fields) {
+  state.transmembrane_potential = transmembrane_potential(state, fields);
+  if (fields.conductance.size() > 0) state.material.conductance = fields.conductance;
+  const auto write = [&](const FieldRow& row, const auto& field) {
+    if (!row.dataset.empty())
+      writer.field(std::string(row.dataset), field, {std::string(row.dimension), std::string(row.description)});
+  };
+  for_each_field(write, state);
+  for_each_field(write, fields);
+  write_amplitudes(writer, fields.potential_amplitude, fields.charge_amplitude);
+  writer.grid_field("area_element", area_element(transform, state.position),
                     {"length^2", "W/sin(theta): area per solid angle of the parameter sphere"});
-  writer.field("capacitance", material.capacitance, capacitance_label);
-  writer.field("pump_current", material.pump_current, pump_label);
-  writer.field("bending_modulus", material.bending_modulus, modulus_label);
-  writer.field("spontaneous_curvature", material.spontaneous_curvature, curvature_label);
 }
 
 }  // namespace

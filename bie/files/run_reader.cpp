@@ -8,6 +8,7 @@
 
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/support/checksum.hpp"
 #include "bie/support/errors.hpp"
 
@@ -18,6 +19,22 @@ namespace {
 constexpr double time_tolerance = 1e-9;
 
 }  // namespace
+
+std::vector<SnapshotField> snapshot_fields() {
+  std::vector<SnapshotField> result;
+  const auto add = [&](const FieldRow& row, const auto&) {
+    if (!row.dataset.empty()) result.push_back({std::string(row.dataset), row.kind == FieldKind::vector});
+  };
+  const SurfaceFields state;
+  const VesicleFields fields;
+  for_each_field(add, state);
+  for_each_field(add, fields);
+  for (const char* name : {"Vm_amplitude", "Vm_phase_deg", "Vm_real", "Vm_imaginary", "q_amplitude", "q_real",
+                           "q_imaginary", "area_element"}) {
+    result.push_back({name});
+  }
+  return result;
+}
 
 void require_run_schema(const Hdf5Reader& file) {
   const std::int64_t version = file.integer_attribute("/", "schema_version");

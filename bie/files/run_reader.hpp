@@ -16,33 +16,14 @@ namespace vehd {
 /// Version of the layout of run.h5 that this program reads and writes.
 constexpr std::int64_t run_schema_version = 1;
 
-/// Datasets that a snapshot may have; each on the grid, in coefficients/ and in surface/.
-constexpr std::array<std::string_view, 26> snapshot_fields = {"x",
-                                                              "velocity",
-                                                              "force_bending",
-                                                              "force_tension",
-                                                              "force_electric",
-                                                              "force_contact",
-                                                              "Vm",
-                                                              "q",
-                                                              "free_charge_in",
-                                                              "free_charge_out",
-                                                              "Vm_amplitude",
-                                                              "Vm_phase_deg",
-                                                              "Vm_real",
-                                                              "Vm_imaginary",
-                                                              "q_amplitude",
-                                                              "q_real",
-                                                              "q_imaginary",
-                                                              "poration",
-                                                              "conductance",
-                                                              "tension",
-                                                              "area_strain",
-                                                              "area_element",
-                                                              "capacitance",
-                                                              "pump_current",
-                                                              "bending_modulus",
-                                                              "spontaneous_curvature"};
+struct SnapshotField {
+  std::string name;
+  bool is_vector = false;
+};
+
+/// Datasets that a snapshot may have of a vesicle: the fields of the table, and what is made of amplitudes and the
+/// shape.
+std::vector<SnapshotField> snapshot_fields();
 /// Where a snapshot has each of them.
 constexpr std::array<std::string_view, 3> snapshot_parts = {"", "coefficients/", "surface/"};
 

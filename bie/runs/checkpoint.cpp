@@ -12,6 +12,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/state/unknowns.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/time_rule.hpp"
@@ -50,17 +51,7 @@ void visit_time(StateType& state, Visitor&& visit) {
 template <typename VesicleType, typename Visitor>
 void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("quadrature_level", vesicle.quadrature_level);
-  visit("position", vesicle.position);
-  visit("transmembrane_potential", vesicle.transmembrane_potential);
-  visit("free_charge", vesicle.free_charge);
-  visit("tension", vesicle.tension);
-  visit("poration", vesicle.poration);
-  visit("capacitance", vesicle.material.capacitance);
-  visit("conductance", vesicle.material.conductance);
-  visit("pump_current", vesicle.material.pump_current);
-  visit("bending_modulus", vesicle.material.bending_modulus);
-  visit("spontaneous_curvature", vesicle.material.spontaneous_curvature);
-  visit("area_strain", vesicle.area_strain);
+  for_each_field([&](const FieldRow& row, auto& field) { visit(row.name, field); }, vesicle);
   visit("reference_area", vesicle.reference_area);
   visit("reference_volume", vesicle.reference_volume);
   visit("crossing", vesicle.crossing);
@@ -265,16 +256,12 @@ class SoundCheck {
     } catch (const ShapeError&) {
       require(false, "/state/position");
     }
-    const auto check_scalar = [&](const Vector& values) {
-      require((values.size() == 0 || values.size() == vesicle.position.rows()) && values.allFinite(), "/state");
-    };
-    for (const Vector* values :
-         {&vesicle.transmembrane_potential, &vesicle.free_charge, &vesicle.tension, &vesicle.poration}) {
-      check_scalar(*values);
-    }
-    for_each_property(vesicle.material, check_scalar);
+    for_each_field(
+        [&](const FieldRow& row, const auto& values) {
+          require((values.size() == 0 || values.rows() == vesicle.position.rows()) && values.allFinite(), row.name);
+        },
+        vesicle);
     require(vesicle.material.bending_modulus.size() == vesicle.material.spontaneous_curvature.size(), "/state");
-    require(vesicle.area_strain.allFinite(), "/state/area_strain");
     for (const auto& known : {vesicle.recycled.tension, vesicle.recycled.flow}) {
       if (!known) continue;
       const char* name = "/state, what its solves know,";

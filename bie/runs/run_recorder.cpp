@@ -51,16 +51,12 @@ SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Ch
                                       si_units}](Hdf5Writer& file) { write_run_header(file, output, header); };
 }
 
-/// Lists the fields of the snapshots. @param has  whether they have the field of this name
+/// Lists the fields of the snapshots. @param has  whether they have a dataset
 template <typename Predicate>
 void name_fields(XdmfSeries& series, const Predicate& has) {
-  for (const char* name :
-       {"Vm", "q", "free_charge_in", "free_charge_out", "Vm_amplitude", "Vm_phase_deg", "q_amplitude", "poration",
-        "conductance", "capacitance", "pump_current", "bending_modulus", "spontaneous_curvature", "tension"}) {
-    if (has(name)) series.scalars.emplace_back(name);
-  }
-  for (const char* name : {"velocity", "force_bending", "force_tension", "force_electric", "force_contact"}) {
-    if (has(name)) series.vectors.emplace_back(name);
+  for (const auto& [name, is_vector] : snapshot_fields()) {
+    // The surface is x already.
+    if (name != "x" && has("surface/" + name)) (is_vector ? series.vectors : series.scalars).push_back(name);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "bie/runs/snapshot_copy.hpp"
 
 #include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/state/resized.hpp"
 
 namespace vehd {
@@ -9,35 +10,19 @@ namespace {
 
 /// @param number  of the vesicle
 void read_vesicle(const RunSnapshot& source, std::size_t number, VesicleState& vesicle, VesicleFields& fields) {
-  const auto read = [&](const char* field, Index components) {
+  const auto read = [&](const std::string& field, Index components) {
     return source.has_field(field, number) ? source.coefficients(field, components, number) : Matrix();
   };
-  const auto matrix = [&](const char* field) { return read(field, 3); };
-  const auto vector = [&](const char* field) -> Vector { return read(field, 1).reshaped(); };
   const auto amplitude = [&](const char* real, const char* imaginary) {
     Matrix parts(vesicle.position.rows(), 2);
     parts << source.coefficients(real, 1, number), source.coefficients(imaginary, 1, number);
     return parts;
   };
-  vesicle.position = source.coefficients("x", 3, number);
-  vesicle.transmembrane_potential = vector("Vm");
-  vesicle.area_strain = vector("area_strain");
-  vesicle.poration = vector("poration");
-  // Of pores, or of the place.
-  (vesicle.poration.size() > 0 ? fields.conductance : vesicle.material.conductance) = vector("conductance");
-  vesicle.material.capacitance = vector("capacitance");
-  vesicle.material.pump_current = vector("pump_current");
-  vesicle.material.bending_modulus = vector("bending_modulus");
-  vesicle.material.spontaneous_curvature = vector("spontaneous_curvature");
-  fields.velocity = matrix("velocity");
-  fields.force_bending = matrix("force_bending");
-  fields.force_tension = matrix("force_tension");
-  fields.force_electric = matrix("force_electric");
-  fields.force_contact = matrix("force_contact");
-  fields.tension = vector("tension");
-  fields.charge = vector("q");
-  fields.free_charge_in = vector("free_charge_in");
-  fields.free_charge_out = vector("free_charge_out");
+  const auto read_into = [&](const FieldRow& row, auto& field) {
+    if (!row.dataset.empty()) field = read(std::string(row.dataset), row.kind == FieldKind::vector ? 3 : 1);
+  };
+  for_each_field(read_into, vesicle);
+  for_each_field(read_into, fields);
   if (source.has_field("Vm_real", number)) {
     fields.potential_amplitude = amplitude("Vm_real", "Vm_imaginary");
     fields.charge_amplitude = amplitude("q_real", "q_imaginary");

@@ -15,9 +15,9 @@ std::vector<std::pair<std::string, vehd::Vector>> snapshot_data(const std::strin
     const std::string group = "/snapshots/" + name;
     data.emplace_back(group, vehd::Vector::Constant(1, file.number_attribute(group, "time")));
     for (const std::string& vesicle : vehd::vesicle_groups(file, group)) {
-      for (const std::string_view field : vehd::snapshot_fields) {
+      for (const vehd::SnapshotField& field : vehd::snapshot_fields()) {
         for (const std::string_view part : vehd::snapshot_parts) {
-          const std::string dataset = vesicle + "/" + std::string(part) + std::string(field);
+          const std::string dataset = vesicle + "/" + std::string(part) + field.name;
           if (file.has(dataset)) data.emplace_back(dataset, file.vector(dataset));
         }
       }

@@ -35,14 +35,13 @@ void refuse_or_read(Reader reader) {
 }
 
 void read_snapshot(const vehd::RunSnapshot& snapshot) {
-  for (const std::string_view field : vehd::snapshot_fields) {
-    const std::string name(field);
+  for (const auto& [name, is_vector] : vehd::snapshot_fields()) {
     if (!snapshot.has_field(name)) continue;
     refuse_or_read([&] {
       const vehd::Matrix values = snapshot.coefficients(name);
       if (!values.allFinite()) throw std::logic_error("accepted values that are not finite");
     });
-    refuse_or_read([&] { (void)snapshot.coefficients(name, name == "Vm" ? 1 : 3); });
+    refuse_or_read([&] { (void)snapshot.coefficients(name, 3); });
   }
 }
 

@@ -1,5 +1,7 @@
 #include "bie/stepping/evaluation/gather_solution.hpp"
 
+#include "bie/stepping/state/exchange.hpp"
+
 namespace vehd {
 
 namespace {
@@ -12,27 +14,8 @@ struct SolvedVesicle {
 
 template <MaybeConst<SolvedVesicle> Vesicle, typename Visit>
 void visit_members(Vesicle& vesicle, Visit& visit) {
-  auto& [velocity, bending, of_tension, electric, contact, tension, charge, conductance, potential, potential_amplitude,
-         charge_amplitude, free_charge_in, free_charge_out] = vesicle.fields;
-  visit(velocity, bending, of_tension, electric, contact, tension, charge, conductance, potential, potential_amplitude,
-        charge_amplitude, free_charge_in, free_charge_out);
+  visit(vesicle.fields);
   visit(vesicle.potential_rate, vesicle.poration_rate, vesicle.free_charge_rate);
-}
-
-VesicleFields image_of(const ImageOfFields& image, const VesicleFields& of_original) {
-  VesicleFields fields = of_original;
-  for (Matrix* vector : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric,
-                         &fields.force_contact}) {
-    *vector = image.vector(*vector);
-  }
-  for (Vector* scalar : {&fields.tension, &fields.conductance}) *scalar = image.scalar(*scalar);
-  for (Vector* potential : {&fields.charge, &fields.potential, &fields.free_charge_in, &fields.free_charge_out}) {
-    *potential = image.potential(*potential);
-  }
-  for (Matrix* amplitude : {&fields.potential_amplitude, &fields.charge_amplitude}) {
-    *amplitude = image.potential(*amplitude);
-  }
-  return fields;
 }
 
 }  // namespace

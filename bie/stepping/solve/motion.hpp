@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "bie/stepping/state/surface_fields.hpp"
+#include "bie/stepping/state/field_table.hpp"
 
 namespace vehd {
 

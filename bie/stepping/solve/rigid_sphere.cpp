@@ -10,6 +10,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/neighbourhood.hpp"
 #include "bie/stepping/space/remap.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/neighbourhood.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
@@ -155,11 +156,15 @@ Matrix GridMove::carried(const Matrix& columns) const { return carried_to(fine_,
 /// All together cost little more than one of them.
 SurfaceFields GridMove::carried(const SurfaceFields& fields) const {
   SurfaceFields result = fields;
-  const Matrix columns =
-      carried(columns_of(fields, [](const auto& of, const auto& visit) { for_each_scalar(of, visit); }));
-  result.position = columns.leftCols(3);
-  Index column = 3;
-  for_each_scalar(result, [&](Vector& scalar) { scalar = columns.col(column++); });
+  const Matrix columns = carried(columns_of(fields, [](const FieldRow&) { return true; }));
+  Index column = 0;
+  for_each_field(
+      [&](const FieldRow&, auto& field) {
+        if (field.size() == 0) return;
+        field = columns.middleCols(column, field.cols());
+        column += field.cols();
+      },
+      result);
   return result;
 }
 

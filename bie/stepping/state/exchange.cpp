@@ -24,7 +24,7 @@ std::optional<Exchange::Map> exchange_under(const ImageOfFields& of_fields, cons
   Exchange::Map map{of_fields, {}};
   const std::size_t n = state.vesicles.size();
   for (std::size_t a = 0; a < n; ++a) {
-    const SurfaceFields image = image_of(of_fields, state.vesicles[a]);
+    const SurfaceFields image = image_of<SurfaceFields>(of_fields, state.vesicles[a]);
     std::size_t b = 0;
     while (b < n && !(are_alike(model.vesicles[a], model.vesicles[b]) && are_same(image, state.vesicles[b]))) ++b;
     if (b == n) return std::nullopt;
@@ -95,23 +95,12 @@ Exchange find_exchange(const Model& model, const State& state) {
   return best;
 }
 
-SurfaceFields image_of(const ImageOfFields& image, const SurfaceFields& fields) {
-  SurfaceFields result = fields;
-  result.position = image.vector(fields.position);
-  for_each_scalar(result, [&](Vector& scalar) { scalar = image.scalar(scalar); });
-  // V_m, and what drives it, may change their sign.
-  for (Vector* potential : {&result.transmembrane_potential, &result.free_charge, &result.material.pump_current}) {
-    *potential *= image.potential_sign;
-  }
-  return result;
-}
-
 State with_images(const Exchange& exchange, State state) {
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     if (!exchange.is_image(a)) continue;
     const VesicleState& original = state.vesicles[exchange.original(a)];
     VesicleState& vesicle = state.vesicles[a];
-    static_cast<SurfaceFields&>(vesicle) = image_of(exchange.image(a), original);
+    static_cast<SurfaceFields&>(vesicle) = image_of<SurfaceFields>(exchange.image(a), original);
     vesicle.reference_area = original.reference_area;
     vesicle.reference_volume = original.reference_volume;
     vesicle.quadrature_level = original.quadrature_level;

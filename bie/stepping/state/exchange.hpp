@@ -1,6 +1,9 @@
 #pragma once
 
+#include <type_traits>
+
 #include "bie/sphere/exchange.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
@@ -13,8 +16,20 @@ namespace vehd {
 /// (tests/stepping/exchange_test.cpp)
 Exchange find_exchange(const Model& model, const State& state);
 
-/// What rides on an image of a membrane.
-SurfaceFields image_of(const ImageOfFields& image, const SurfaceFields& fields);
+/// The fields of an image of a membrane, those of a state or those at one time.
+template <typename Fields>
+Fields image_of(const ImageOfFields& image, Fields fields) {
+  for_each_field(
+      [&](const FieldRow& row, auto& field) {
+        if (row.kind == FieldKind::potential) field = image.potential(field);
+        if (row.kind == FieldKind::scalar) field = image.scalar(field);
+        if constexpr (std::is_same_v<decltype(field), Matrix&>) {
+          if (row.kind == FieldKind::vector) field = image.vector(field);
+        }
+      },
+      fields);
+  return fields;
+}
 
 /// The state with its images made anew from their originals: what rounding breaks of a symmetry an instability would
 /// feed on. Degrees and quadrature are those of the originals as well.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bie/stepping/state/composition.hpp"
+#include "bie/stepping/state/field_table.hpp"
 
 namespace vehd {
 
@@ -13,18 +14,6 @@ constexpr double kRounding = 1e-12;
 template <typename Difference, typename Field>
 bool is_small(const Eigen::MatrixBase<Difference>& difference, const Eigen::MatrixBase<Field>& field) {
   return difference.cwiseAbs().maxCoeff() <= kRounding * field.cwiseAbs().maxCoeff();
-}
-
-std::vector<const Vector*> properties_of(const MembraneMaterial& material) {
-  std::vector<const Vector*> properties;
-  for_each_property(material, [&](const Vector& property) { properties.push_back(&property); });
-  return properties;
-}
-
-bool are_same(const MembraneMaterial& image, const MembraneMaterial& material) {
-  return std::ranges::equal(properties_of(image), properties_of(material), [](const Vector* a, const Vector* b) {
-    return a->size() == b->size() && is_small(*a - *b, *b);
-  });
 }
 
 }  // namespace
@@ -48,14 +37,18 @@ bool is_invariant_under_rotations(const Model& model) {
 }
 
 bool are_same(const SurfaceFields& image, const SurfaceFields& fields) {
-  if (image.position.rows() != fields.position.rows()) return false;
-  const Matrix shape = fields.position.bottomRows(fields.position.rows() - 1);
-  if (!is_small(image.position - fields.position, shape)) return false;
-  if ((image.area_strain - fields.area_strain).cwiseAbs().maxCoeff() > kRounding) return false;
-  const Vector& potential = fields.transmembrane_potential;
-  if (image.transmembrane_potential.size() != potential.size()) return false;
-  if (potential.size() > 0 && !is_small(image.transmembrane_potential - potential, potential)) return false;
-  return are_same(image.material, fields.material);
+  bool result = true;
+  const auto compare = [&](const FieldRow& row, const auto& a, const auto& b) {
+    if (!result || row.role == FieldRole::guess || (a.size() == 0 && b.size() == 0)) return;
+    result = a.rows() == b.rows();
+    if (!result) return;
+    // A place counts by the size of the shape, and what has no unit by 1.
+    double size = row.dimension == "1" ? 1.0 : b.cwiseAbs().maxCoeff();
+    if (row.kind == FieldKind::vector) size = b.bottomRows(b.rows() - 1).cwiseAbs().maxCoeff();
+    result = (a - b).cwiseAbs().maxCoeff() <= kRounding * size;
+  };
+  for_each_field(compare, image, fields);
+  return result;
 }
 
 }  // namespace vehd

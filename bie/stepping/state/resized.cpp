@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/state/field_table.hpp"
 
 namespace vehd {
 
@@ -14,25 +15,22 @@ Matrix resized(const Matrix& coefficients, int order) {
   return coefficients.size() == 0 ? coefficients : resize_order(coefficients, order);
 }
 
+template <typename Fields>
+void resize(Fields& fields, int order) {
+  for_each_field([&](const FieldRow&, auto& field) { field = resized(Matrix(field), order); }, fields);
+}
+
 }  // namespace
 
 VesicleState resized(VesicleState vesicle, int order) {
   if (n_coefficients(order) != vesicle.position.rows()) vesicle.recycled = {};
-  vesicle.position = resized(vesicle.position, order);
-  for_each_scalar(vesicle, [&](Vector& scalar) { scalar = resized(Matrix(scalar), order); });
+  resize(vesicle, order);
   vesicle.past = resized(vesicle.past, order);
   return vesicle;
 }
 
 VesicleFields resized(VesicleFields fields, int order) {
-  for (Matrix* field : {&fields.velocity, &fields.force_bending, &fields.force_tension, &fields.force_electric,
-                        &fields.force_contact, &fields.potential_amplitude, &fields.charge_amplitude}) {
-    *field = resized(*field, order);
-  }
-  for (Vector* field : {&fields.charge, &fields.potential, &fields.tension, &fields.conductance, &fields.free_charge_in,
-                        &fields.free_charge_out}) {
-    *field = resized(Matrix(*field), order);
-  }
+  resize(fields, order);
   return fields;
 }
 

@@ -2,25 +2,23 @@
 
 #include "bie/physics/rotated.hpp"
 #include "bie/sphere/rotation.hpp"
+#include "bie/stepping/state/field_table.hpp"
 
 namespace vehd {
 
 namespace {
 
-Matrix rotated_vectors(const Matrix3& rotation, const Matrix& coefficients) {
-  if (coefficients.size() == 0) return coefficients;
-  return rotated_fields(coefficients, rotation) * rotation.transpose();
-}
-
-/// Every column by itself.
-Matrix rotated_scalars(const Matrix3& rotation, const Matrix& coefficients) {
-  if (coefficients.size() == 0) return coefficients;
-  return rotated_fields(coefficients, rotation);
-}
-
-Vector rotated_scalar(const Matrix3& rotation, const Vector& coefficients) {
-  if (coefficients.size() == 0) return coefficients;
-  return rotated_fields(coefficients, rotation);
+template <typename Fields>
+void turn(Fields& fields, const Matrix3& rotation) {
+  for_each_field(
+      [&](const FieldRow& row, auto& field) {
+        if (field.size() == 0) return;
+        field = rotated_fields(field, rotation);
+        if constexpr (std::is_same_v<decltype(field), Matrix&>) {
+          if (row.kind == FieldKind::vector) field = (field * rotation.transpose()).eval();
+        }
+      },
+      fields);
 }
 
 }  // namespace
@@ -38,8 +36,7 @@ Model rotated(const Matrix3& rotation, Model model) {
 State rotated(const Matrix3& rotation, State state) {
   if (rotation.isIdentity(0.0)) return state;
   for (VesicleState& vesicle : state.vesicles) {
-    vesicle.position = rotated_vectors(rotation, vesicle.position);
-    for_each_scalar(vesicle, [&](Vector& scalar) { scalar = rotated_scalar(rotation, scalar); });
+    turn(vesicle, rotation);
     if (vesicle.crossing) vesicle.crossing->place = rotation * vesicle.crossing->place;
     // In the coefficients of other axes, with another symmetry: solves there learn anew.
     vesicle.recycled = {};
@@ -49,19 +46,7 @@ State rotated(const Matrix3& rotation, State state) {
 
 Fields rotated(const Matrix3& rotation, Fields fields) {
   if (rotation.isIdentity(0.0)) return fields;
-  for (VesicleFields& f : fields.vesicles) {
-    for (Matrix* vectors : {&f.velocity, &f.force_bending, &f.force_tension, &f.force_electric, &f.force_contact}) {
-      *vectors = rotated_vectors(rotation, *vectors);
-    }
-    f.tension = rotated_scalar(rotation, f.tension);
-    f.charge = rotated_scalar(rotation, f.charge);
-    f.potential = rotated_scalar(rotation, f.potential);
-    f.conductance = rotated_scalar(rotation, f.conductance);
-    f.free_charge_in = rotated_scalar(rotation, f.free_charge_in);
-    f.free_charge_out = rotated_scalar(rotation, f.free_charge_out);
-    f.potential_amplitude = rotated_scalars(rotation, f.potential_amplitude);
-    f.charge_amplitude = rotated_scalars(rotation, f.charge_amplitude);
-  }
+  for (VesicleFields& vesicle : fields.vesicles) turn(vesicle, rotation);
   return fields;
 }
 

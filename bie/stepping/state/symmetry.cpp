@@ -8,6 +8,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/state/exchange.hpp"
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/state/invariance.hpp"
 
 namespace vehd {
@@ -46,23 +47,17 @@ int find_fold(const Model& model, const State& state) {
 
 SurfaceFields symmetric_part(const SymmetrySubspace& subspace, SurfaceFields fields) {
   if (!subspace.symmetry().any()) return fields;
-  fields.position = subspace.symmetric_vector(fields.position);
-  fields.area_strain = subspace.symmetric_scalar(fields.area_strain);
-  if (fields.tension.size() > 0) fields.tension = subspace.symmetric_scalar(fields.tension);
-  if (fields.transmembrane_potential.size() > 0) {
-    fields.transmembrane_potential = subspace.symmetric_potential(fields.transmembrane_potential);
-  }
-  if (fields.free_charge.size() > 0) {
-    fields.free_charge = subspace.symmetric_potential(fields.free_charge);
-  }
-  // V_m counts by its size alone.
-  if (fields.poration.size() > 0) fields.poration = subspace.symmetric_scalar(fields.poration);
-  // The pump drives V_m, and changes its sign with it.
-  Vector pump = std::move(fields.material.pump_current);
-  fields.material.pump_current = Vector();
-  for_each_property(fields.material, [&](Vector& property) { property = subspace.symmetric_scalar(property); });
-  if (pump.size() > 0) pump = subspace.symmetric_potential(pump);
-  fields.material.pump_current = std::move(pump);
+  for_each_field(
+      [&](const FieldRow& row, auto& field) {
+        if (field.size() == 0) return;
+        if constexpr (std::is_same_v<decltype(field), Matrix&>) {
+          field = subspace.symmetric_vector(field);
+        } else {
+          field =
+              row.kind == FieldKind::potential ? subspace.symmetric_potential(field) : subspace.symmetric_scalar(field);
+        }
+      },
+      fields);
   return fields;
 }
 

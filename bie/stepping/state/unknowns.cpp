@@ -1,27 +1,22 @@
 #include "bie/stepping/state/unknowns.hpp"
 
+#include "bie/stepping/state/field_table.hpp"
+
 namespace vehd {
 
-namespace {
-
-/// The scalars among them that are there, one after the other.
-template <typename Fields, typename Visit>
-void for_each_unknown_scalar(Fields& fields, const Visit& visit) {
-  for (auto* scalar : {&fields.transmembrane_potential, &fields.free_charge, &fields.poration}) {
-    if (scalar->size() > 0) visit(*scalar);
-  }
-}
-
-}  // namespace
-
 Matrix unknowns(const SurfaceFields& fields) {
-  return columns_of(fields, [](const auto& of, const auto& visit) { for_each_unknown_scalar(of, visit); });
+  return columns_of(fields, [](const FieldRow& row) { return row.role == FieldRole::unknown; });
 }
 
 void add_unknowns(const Eigen::Ref<const Matrix>& columns, double weight, SurfaceFields& fields) {
-  fields.position += weight * columns.leftCols(3);
-  Index column = 3;
-  for_each_unknown_scalar(fields, [&](Vector& scalar) { scalar += weight * columns.col(column++); });
+  Index column = 0;
+  for_each_field(
+      [&](const FieldRow& row, auto& field) {
+        if (field.size() == 0 || row.role != FieldRole::unknown) return;
+        field += weight * columns.middleCols(column, field.cols());
+        column += field.cols();
+      },
+      fields);
 }
 
 }  // namespace vehd

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bie/stepping/state/field_table.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
 
