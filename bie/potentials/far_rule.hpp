@@ -20,9 +20,10 @@ class FarRule {
   /// A density at the nodes times their weights. @param density  [n_coefficients x fields] @return [n x fields]
   [[nodiscard]] Matrix charges(const Matrix& density) const;
 
-  /// Sums over the nodes for targets with normals N there, prefactors included: S, N·∇S of J f; D, N·∇D of f.
-  /// @param points, normals  [n_targets x 3]
-  /// @param charges          of J f or f
+  /// Sums over the nodes for targets with normals N there, [n_targets x 3], prefactors included: S, N·∇S of J f; D,
+  /// N·∇D of f.
+  /// @param points   targets, [n_targets x 3]
+  /// @param charges  of J f or f
   [[nodiscard]] Vector laplace_single(const Matrix& points, const Matrix& charges) const;
   [[nodiscard]] Vector laplace_single_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const;
   [[nodiscard]] Vector laplace_double(const Matrix& points, const Matrix& charges) const;

@@ -174,6 +174,14 @@ VisibleDifference scaled(double factor, const VisibleDifference& of) {
 
 }  // namespace
 
+VisibleDifference Collocation::at_most_the_motion(const VisibleDifference& error) const {
+  VisibleDifference motion{};
+  for (std::size_t m = 0; m < last(); ++m) {
+    motion = larger_of(motion, physics_.visible_difference(nodes_[m], nodes_.back()));
+  }
+  return {std::min(error.shape, motion.shape), std::min(error.potential, motion.potential)};
+}
+
 VisibleDifference Collocation::rule_error() const {
   const int n_nodes = static_cast<int>(nodes_.size());
   if (n_nodes < 2) return {};
@@ -181,7 +189,7 @@ VisibleDifference Collocation::rule_error() const {
   VisibleDifference error = scaled(integration_error(points_of(rule_), 1.0, power), derivative(power));
   // A shape follows what drives it as fast as its tension lets it: within about a step where steps are long.
   error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * derivative(n_nodes).shape);
-  return error;
+  return at_most_the_motion(error);
 }
 
 VisibleDifference Collocation::stage_error() const {
@@ -190,7 +198,7 @@ VisibleDifference Collocation::stage_error() const {
   for (const double node : rule_.nodes) {
     largest = std::max(largest, std::abs(integration_error(rule_.nodes, node, power)));
   }
-  return scaled(largest, derivative(power));
+  return at_most_the_motion(scaled(largest, derivative(power)));
 }
 
 VisibleDifference Collocation::rule_error(double time, int n_more) const {
@@ -198,7 +206,7 @@ VisibleDifference Collocation::rule_error(double time, int n_more) const {
   std::vector<double> points = points_of(rule_);
   for (int i = 0; i < n_more; ++i) points.push_back(place);
   const int power = static_cast<int>(points.size());
-  return scaled(integration_error(points, place, power), derivative(power));
+  return at_most_the_motion(scaled(integration_error(points, place, power), derivative(power)));
 }
 
 }  // namespace vehd

@@ -78,6 +78,9 @@ class Collocation {
   [[nodiscard]] double path_derivative(int k) const;
   /// Of V_m by the polynomial through the rates there, k up to their number.
   [[nodiscard]] double rate_derivative(int k) const;
+  /// An error, or how far the nodes lie apart where that is less: of what relaxes in a small part of the step the rates
+  /// are the solvers' errors over that time, and none of it is left in the nodes.
+  [[nodiscard]] VisibleDifference at_most_the_motion(const VisibleDifference& error) const;
   [[nodiscard]] double place_of(double time) const;
 
   StepOperations& physics_;
