@@ -15,8 +15,8 @@ get_filename_component(BUILD "${BUILD}" ABSOLUTE)
 file(STRINGS "${BUILD}/CMakeCache.txt" version REGEX "^CMAKE_PROJECT_VERSION:")
 string(REGEX REPLACE ".*=" "" version "${version}")
 set(debian_libraries lib/x86_64-linux-gnu)
-# What is not carried, as vehd never calls it, although libraries that it needs name it: pictures of other formats, for
-# which gnuplot brings video codecs, and files that HDF5 reads from the network. An archive would be twice as large.
+# Libraries that others name although vehd never calls them: gnuplot's for other formats, which bring video codecs, and
+# HDF5's for files on the network. With them an archive would be twice as large.
 set(left_out libgd.so.3 libcurl.so.4 libcrypto.so.3)
 # Parts of Python and numpy that are not carried: tests, tools of developers, and what needs libraries that are left out.
 set(left_out_of_python

@@ -10,7 +10,7 @@ namespace vehd {
 /// find fonts and plugins of the archive are set. Elsewhere it is the name, which stands for a program of PATH.
 std::filesystem::path place_of_program(const std::string& name);
 
-/// The same where the libraries of vehd are in another folder.
+/// @param libraries  folder that has the libraries of vehd
 std::filesystem::path place_of_program(const std::string& name, const std::filesystem::path& libraries);
 
 }  // namespace vehd
