@@ -19,6 +19,7 @@ const DatasetLabel phase_label{"1", "phase of V_m against the field in degrees, 
 const DatasetLabel charge_amplitude_label{"potential/length",
                                           "magnitude of the amplitude of q in an averaged ac field"};
 const DatasetLabel charge_part_label{"potential/length", "part of the amplitude z of q, which is Re(z exp(i omega t))"};
+
 /// With the SI unit of its dimension.
 DatasetLabel labelled(DatasetLabel label, const SiUnits& si_units) {
   const SiUnit unit = si_units(label.dimension);
@@ -134,8 +135,8 @@ void write_vesicle(VesicleWriter& writer, const SphereTransform& transform, Surf
   state.transmembrane_potential = transmembrane_potential(state, fields);
   if (fields.conductance.size() > 0) state.material.conductance = fields.conductance;
   const auto write = [&](const FieldRow& row, const auto& field) {
-    if (!row.dataset.empty())
-      writer.field(std::string(row.dataset), field, {std::string(row.dimension), std::string(row.description)});
+    if (row.dataset.empty()) return;
+    writer.field(std::string(row.dataset), field, {std::string(row.dimension), std::string(row.description)});
   };
   for_each_field(write, state);
   for_each_field(write, fields);

@@ -11,7 +11,9 @@ namespace {
 /// @param number  of the vesicle
 void read_vesicle(const RunSnapshot& source, std::size_t number, VesicleState& vesicle, VesicleFields& fields) {
   const auto read = [&](const std::string& field, Index components) {
-    return source.has_field(field, number) ? source.coefficients(field, components, number) : Matrix();
+    // An effect may be absent, a shape is not.
+    const bool is_there = field == "x" || source.has_field(field, number);
+    return is_there ? source.coefficients(field, components, number) : Matrix();
   };
   const auto amplitude = [&](const char* real, const char* imaginary) {
     Matrix parts(vesicle.position.rows(), 2);

@@ -7,6 +7,7 @@
 # Containerfile is built where buildah is there.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
 
 unset(ENV{LD_LIBRARY_PATH})
 execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -56,35 +57,6 @@ function(make_libc_root root)
   file(COPY_FILE "${loader}" "${root}/usr/lib64/ld-linux-x86-64.so.2")
 endfunction()
 
-# A Debian 13 that has nothing beside apt, made once, as a tar file; empty where it cannot be made.
-function(make_bare_debian result)
-  set(cache "$ENV{XDG_CACHE_HOME}")
-  if(cache STREQUAL "")
-    set(cache "$ENV{HOME}/.cache")
-  endif()
-  set(tar "${cache}/vehd/bare_trixie.tar")
-  set(${result} "${tar}" PARENT_SCOPE)
-  if(EXISTS "${tar}")
-    return()
-  endif()
-  file(MAKE_DIRECTORY "${cache}/vehd")
-  find_program(mmdebstrap mmdebstrap NO_CACHE)
-  set(status 1)
-  if(mmdebstrap)
-    # From where this system has its own packages.
-    execute_process(COMMAND apt-get indextargets --format "$(REPO_URI)" "Component: main" "ShortDesc: Packages"
-                            "Origin: Debian" OUTPUT_VARIABLE mirrors ERROR_QUIET)
-    string(REGEX MATCH "^[^\n]*" mirror "${mirrors}")
-    execute_process(COMMAND "${mmdebstrap}" --quiet --variant=apt trixie "${tar}.new.tar" ${mirror} RESULT_VARIABLE status)
-  endif()
-  if(status EQUAL 0)
-    file(RENAME "${tar}.new.tar" "${tar}")
-  else()
-    message(STATUS "not tried in Debian 13: it needs mmdebstrap and a mirror of Debian")
-    set(${result} "" PARENT_SCOPE)
-  endif()
-endfunction()
-
 # Runs a program within a root, in its folder /work, without a shell. /proc, /dev and /sys end with it.
 function(within root pattern)
   expect("${pattern}" "${unshare}" --mount --pid --fork sh -c
@@ -125,7 +97,13 @@ function(try_in root name archive)
 endfunction()
 
 set(bare "${FOLDER}/bare")
-make_bare_debian(debian)
+cache_folder(cache)
+set(debian "${cache}/bare_trixie.tar")
+make_bare_debian(problem trixie "${debian}")
+if(problem)
+  message(STATUS "not tried in Debian 13: ${problem}")
+  set(debian "")
+endif()
 foreach(archive IN LISTS archives)
   set(root "${FOLDER}/libc")
   file(REMOVE_RECURSE "${root}")

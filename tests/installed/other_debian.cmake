@@ -4,6 +4,7 @@
 # Before -P: -DRELEASE=trixie for another release, -DTESTS=REGEX for other tests than those of Python and the notebooks,
 # "." for all. It needs root, mmdebstrap, git and the network; where the system cannot be made it says so and ends.
 cmake_minimum_required(VERSION 3.25)
+include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
 
 if(NOT DEFINED TESTS)
   set(TESTS "^(python/|notebooks)")
@@ -15,34 +16,17 @@ if(NOT DEFINED RELEASE)
     set(RELEASE bookworm)
   endif()
 endif()
-if(NOT "$ENV{XDG_CACHE_HOME}" STREQUAL "")
-  set(root "$ENV{XDG_CACHE_HOME}/vehd/${RELEASE}")
-else()
-  set(root "$ENV{HOME}/.cache/vehd/${RELEASE}")
-endif()
-
-find_program(mmdebstrap mmdebstrap NO_CACHE)
 execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
-if(NOT user EQUAL 0 OR NOT mmdebstrap)
-  message(STATUS "skipped: a system of Debian ${RELEASE} needs root and mmdebstrap (a Debian package)")
+if(NOT user EQUAL 0)
+  message(STATUS "skipped: a system of Debian ${RELEASE} needs root")
   return()
 endif()
-if(NOT EXISTS "${root}")
-  # From where this system has its own packages.
-  execute_process(COMMAND apt-get indextargets --format "$(REPO_URI)" "Component: main" "ShortDesc: Packages" "Origin: Debian"
-                  OUTPUT_VARIABLE mirrors ERROR_QUIET)
-  string(REGEX MATCH "^[^\n]*" mirror "${mirrors}")
-  file(REMOVE_RECURSE "${root}.new")
-  get_filename_component(cache "${root}" DIRECTORY)
-  file(MAKE_DIRECTORY "${cache}")
-  execute_process(COMMAND "${mmdebstrap}" --quiet --variant=apt --include=ca-certificates,cmake,g++,git "${RELEASE}"
-                          "${root}.new" ${mirror}
-                  RESULT_VARIABLE status)
-  if(NOT status EQUAL 0)
-    message(STATUS "skipped: mmdebstrap cannot make a system of Debian ${RELEASE} (${status})")
-    return()
-  endif()
-  file(RENAME "${root}.new" "${root}")
+cache_folder(cache)
+set(root "${cache}/${RELEASE}")
+make_bare_debian(problem "${RELEASE}" "${root}" --include=ca-certificates,cmake,g++,git)
+if(problem)
+  message(STATUS "skipped: ${problem}")
+  return()
 endif()
 
 function(run)

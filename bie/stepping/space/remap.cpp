@@ -156,15 +156,9 @@ Matrix GridMove::carried(const Matrix& columns) const { return carried_to(fine_,
 /// All together cost little more than one of them.
 SurfaceFields GridMove::carried(const SurfaceFields& fields) const {
   SurfaceFields result = fields;
-  const Matrix columns = carried(columns_of(fields, [](const FieldRow&) { return true; }));
-  Index column = 0;
-  for_each_field(
-      [&](const FieldRow&, auto& field) {
-        if (field.size() == 0) return;
-        field = columns.middleCols(column, field.cols());
-        column += field.cols();
-      },
-      result);
+  const auto all = [](const FieldRow&) { return true; };
+  const Matrix columns = carried(columns_of(fields, all));
+  for_each_block(result, all, [&](auto& field, Index first) { field = columns.middleCols(first, field.cols()); });
   return result;
 }
 

@@ -126,24 +126,27 @@ void visit_members(Fields& fields, Visit& visit) {
   for_each_field([&](const FieldRow&, auto& field) { visit(field); }, fields);
 }
 
-/// What `takes(row)` of the fields that are there, one behind the other, [n_coefficients x 3 …].
-template <typename Takes>
-Matrix columns_of(const SurfaceFields& fields, const Takes& takes) {
-  Index n = 0;
-  for_each_field(
-      [&](const FieldRow& row, const auto& field) {
-        if (takes(row)) n += field.cols() * (field.size() > 0);
-      },
-      fields);
-  Matrix columns(fields.position.rows(), n);
+/// Where columns_of() has those of the fields that are there and that `takes(row)`: visit(field, first column).
+/// @return the number of all columns
+template <OfSurface Fields, typename Takes, typename Visit>
+Index for_each_block(Fields& fields, const Takes& takes, const Visit& visit) {
   Index column = 0;
   for_each_field(
-      [&](const FieldRow& row, const auto& field) {
+      [&](const FieldRow& row, auto& field) {
         if (field.size() == 0 || !takes(row)) return;
-        columns.middleCols(column, field.cols()) = field;
+        visit(field, column);
         column += field.cols();
       },
       fields);
+  return column;
+}
+
+/// Such fields one behind the other, [n_coefficients x 3 …].
+template <typename Takes>
+Matrix columns_of(const SurfaceFields& fields, const Takes& takes) {
+  Matrix columns(fields.position.rows(), for_each_block(fields, takes, [](const auto&, Index) {}));
+  for_each_block(fields, takes,
+                 [&](const auto& field, Index first) { columns.middleCols(first, field.cols()) = field; });
   return columns;
 }
 

@@ -4,19 +4,17 @@
 
 namespace vehd {
 
-Matrix unknowns(const SurfaceFields& fields) {
-  return columns_of(fields, [](const FieldRow& row) { return row.role == FieldRole::unknown; });
-}
+namespace {
+
+bool is_unknown(const FieldRow& row) { return row.role == FieldRole::unknown; }
+
+}  // namespace
+
+Matrix unknowns(const SurfaceFields& fields) { return columns_of(fields, is_unknown); }
 
 void add_unknowns(const Eigen::Ref<const Matrix>& columns, double weight, SurfaceFields& fields) {
-  Index column = 0;
-  for_each_field(
-      [&](const FieldRow& row, auto& field) {
-        if (field.size() == 0 || row.role != FieldRole::unknown) return;
-        field += weight * columns.middleCols(column, field.cols());
-        column += field.cols();
-      },
-      fields);
+  for_each_block(fields, is_unknown,
+                 [&](auto& field, Index first) { field += weight * columns.middleCols(first, field.cols()); });
 }
 
 }  // namespace vehd

@@ -115,58 +115,54 @@ NodeSolution Collocation::corrected_with_rate(const NodeSolution& y, NodeEnd end
 
 double Collocation::place_of(double time) const { return (time - physics_.start().time) / dt_; }
 
-double Collocation::path_derivative(int k) const {
-  const Vector weights = derivative_weights(points_of(rule_), k + 1);
-  NodeSolution moved = nodes_.back();
-  for (std::size_t a = 0; a < moved.vesicles.size(); ++a) {
-    Matrix& position = moved.vesicles[a].material.position;
-    position += weights[0] * physics_.start().vesicles[a].position;
-    for (std::size_t m = 0; m < nodes_.size(); ++m) {
-      position += weights[static_cast<Index>(m) + 1] * nodes_[m].vesicles[a].material.position;
+std::vector<VisibleDifference> Collocation::known_derivatives() const {
+  const std::vector<double> points = points_of(rule_);
+  std::vector<VisibleDifference> known;
+  for (int k = 0; k < static_cast<int>(points.size()); ++k) {
+    const Vector of_path = derivative_weights(points, k + 1), of_rates = dt_ * derivative_weights(points, k);
+    NodeSolution moved = nodes_.back();
+    for (std::size_t a = 0; a < moved.vesicles.size(); ++a) {
+      SurfaceFields& fields = moved.vesicles[a].material;
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        const auto index = static_cast<Index>(j);
+        const SurfaceFields& there = j == 0 ? physics_.start().vesicles[a] : nodes_[j - 1].vesicles[a].material;
+        fields.position += of_path[index] * there.position;
+        const Rate::OfVesicle& rate = rates_[j].vesicles[a];
+        if (rate.potential.size() > 0) fields.transmembrane_potential += of_rates[index] * rate.potential;
+        if (rate.poration.size() > 0) fields.poration += of_rates[index] * rate.poration;
+      }
     }
+    known.push_back(physics_.visible_difference(moved, nodes_.back()));
   }
-  return physics_.visible_difference(moved, nodes_.back()).shape;
-}
-
-double Collocation::rate_derivative(int k) const {
-  const Vector weights = dt_ * derivative_weights(points_of(rule_), k);
-  NodeSolution moved = nodes_.back();
-  for (std::size_t a = 0; a < moved.vesicles.size(); ++a) {
-    SurfaceFields& fields = moved.vesicles[a].material;
-    for (std::size_t j = 0; j < rates_.size(); ++j) {
-      const double weight = weights[static_cast<Index>(j)];
-      const Rate::OfVesicle& rate = rates_[j].vesicles[a];
-      if (rate.potential.size() > 0) fields.transmembrane_potential += weight * rate.potential;
-      if (rate.poration.size() > 0) fields.poration += weight * rate.poration;
-    }
-  }
-  return physics_.visible_difference(moved, nodes_.back()).potential;
+  return known;
 }
 
 namespace {
 
-/// A derivative of which those up to `known` are known.
-template <typename Known>
-double continued(int k, int known, double largest_change, const Known& derivative) {
+/// @param last  of those that are known
+double continued(int k, int last, const std::vector<VisibleDifference>& known, double VisibleDifference::*of,
+                 double largest_change) {
+  const auto derivative = [&](int i) { return known[static_cast<std::size_t>(i)].*of; };
   // One node knows too little to continue anything.
-  if (k <= known || known == 0) return derivative(std::min(k, known));
-  const int back = std::min(2, known);
-  const double last = derivative(known), middle = derivative(known - 1), former = derivative(known - back);
-  if (former <= 0.0) return 0.0;
-  const double change = std::min(std::sqrt(largest_change), std::pow(last / former, 1.0 / back));
+  if (k <= last || last == 0) return derivative(std::min(k, last));
+  const int back = std::min(2, last);
+  if (derivative(last - back) <= 0.0) return 0.0;
+  const double change =
+      std::min(std::sqrt(largest_change), std::pow(derivative(last) / derivative(last - back), 1.0 / back));
   // A sine and its derivatives of the other parity vanish at other times: squares of both add up.
-  return std::hypot(last * std::pow(change, k - known), middle * std::pow(change, k - known + 1));
+  return std::hypot(derivative(last) * std::pow(change, k - last),
+                    derivative(last - 1) * std::pow(change, k - last + 1));
 }
 
-}  // namespace
-
-VisibleDifference Collocation::derivative(int k) const {
-  const int n_nodes = static_cast<int>(nodes_.size());
-  return {continued(k, n_nodes - 1, thresholds::largest_change_of_shape, [&](int i) { return path_derivative(i); }),
-          continued(k, n_nodes, thresholds::largest_change_of_potential, [&](int i) { return rate_derivative(i); })};
+/// How large a derivative of F with the time over dt is within the step, times dt: what it would move the last node by.
+/// Where nothing tells, each is the last but one times the same, as in a motion that oscillates or dies away; of
+/// motions that change by all they are within a step sweeps tell.
+/// @param known  see known_derivatives
+VisibleDifference derivative(int k, const std::vector<VisibleDifference>& known) {
+  const int last = static_cast<int>(known.size()) - 1;
+  return {continued(k, last - 1, known, &VisibleDifference::shape, thresholds::largest_change_of_shape),
+          continued(k, last, known, &VisibleDifference::potential, thresholds::largest_change_of_potential)};
 }
-
-namespace {
 
 VisibleDifference scaled(double factor, const VisibleDifference& of) {
   return {std::abs(factor) * of.shape, std::abs(factor) * of.potential};
@@ -186,9 +182,10 @@ VisibleDifference Collocation::rule_error() const {
   const int n_nodes = static_cast<int>(nodes_.size());
   if (n_nodes < 2) return {};
   const int power = 2 * n_nodes - 1;
-  VisibleDifference error = scaled(integration_error(points_of(rule_), 1.0, power), derivative(power));
+  const std::vector<VisibleDifference> known = known_derivatives();
+  VisibleDifference error = scaled(integration_error(points_of(rule_), 1.0, power), derivative(power, known));
   // A shape follows what drives it as fast as its tension lets it: within about a step where steps are long.
-  error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * derivative(n_nodes).shape);
+  error.shape = std::hypot(error.shape, following_error(rule_, 1.0) * derivative(n_nodes, known).shape);
   return at_most_the_motion(error);
 }
 
@@ -198,7 +195,7 @@ VisibleDifference Collocation::stage_error() const {
   for (const double node : rule_.nodes) {
     largest = std::max(largest, std::abs(integration_error(rule_.nodes, node, power)));
   }
-  return at_most_the_motion(scaled(largest, derivative(power)));
+  return at_most_the_motion(scaled(largest, derivative(power, known_derivatives())));
 }
 
 VisibleDifference Collocation::rule_error(double time, int n_more) const {
@@ -206,7 +203,7 @@ VisibleDifference Collocation::rule_error(double time, int n_more) const {
   std::vector<double> points = points_of(rule_);
   for (int i = 0; i < n_more; ++i) points.push_back(place);
   const int power = static_cast<int>(points.size());
-  return at_most_the_motion(scaled(integration_error(points, place, power), derivative(power)));
+  return at_most_the_motion(scaled(integration_error(points, place, power), derivative(power, known_derivatives())));
 }
 
 }  // namespace vehd

@@ -46,11 +46,6 @@ class Collocation {
   /// How the rate at a correction of the last node differs from that before it. It serves the next evaluation, for
   /// which this has to have become the last node.
   InstantaneousDifference change_to(const NodeSolution& end);
-  /// How large derivatives of F with the time over dt are within the step, times dt: what they would move the last node
-  /// by. Of a shape by the path through the nodes, since rates magnify what sweeps have left of something stiff. Where
-  /// neither path nor rates tell, each is the last but one times the same, as in a motion that oscillates or dies away;
-  /// of motions that change by all they are within a step sweeps tell.
-  [[nodiscard]] VisibleDifference derivative(int k) const;
   /// Estimated error of the rule itself at the last node, which no sweep takes away; nothing of rules with one node,
   /// whose sweeps change more than that.
   /// Accuracy: within a factor of 2 of a charge in an alternating field (tests/stepping/alternating_charge_test.cpp)
@@ -74,10 +69,10 @@ class Collocation {
  private:
   [[nodiscard]] ImplicitSolve correction(std::size_t m, NodeEnd end) const;
   [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
-  /// Of the polynomial through the positions at the start and the nodes, k up to their number less one.
-  [[nodiscard]] double path_derivative(int k) const;
-  /// Of V_m by the polynomial through the rates there, k up to their number.
-  [[nodiscard]] double rate_derivative(int k) const;
+  /// Derivatives 0, 1, … of F with the time over dt, times dt: what they would move the last node by. Of V_m by the
+  /// polynomial through the rates. Of a shape by the path through the start and the nodes, which knows all but the
+  /// last, since rates magnify what sweeps have left of something stiff.
+  [[nodiscard]] std::vector<VisibleDifference> known_derivatives() const;
   /// An error, or how far the nodes lie apart where that is less: of what relaxes in a small part of the step the rates
   /// are the solvers' errors over that time, and none of it is left in the nodes.
   [[nodiscard]] VisibleDifference at_most_the_motion(const VisibleDifference& error) const;
