@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "bie/estimate/cost_model.hpp"
 #include "bie/estimate/file_cost.hpp"
@@ -16,7 +15,6 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/deadline.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -95,13 +93,10 @@ class BudgetLeft {
     constexpr double kShare = 0.2;
     return budget_.steps ? steps() > 0 : seconds_of_start < kShare * seconds();
   }
-  /// How many stretches there is time for at each of some tolerances.
-  /// @param seconds_of_each  of one stretch with each of them
-  [[nodiscard]] std::size_t stretches(const std::vector<double>& seconds_of_each) const {
+  /// How many stretches there is time for.
+  [[nodiscard]] std::size_t stretches(double seconds_of_each) const {
     constexpr double kMost = 12.0;
-    const double of_all = std::accumulate(seconds_of_each.begin(), seconds_of_each.end(), 0.0);
-    const double n =
-        budget_.steps ? double(steps()) / (steps_of_stretch * double(seconds_of_each.size())) : seconds() / of_all;
+    const double n = budget_.steps ? double(steps()) / steps_of_stretch : seconds() / seconds_of_each;
     return static_cast<std::size_t>(std::clamp(n, 0.0, kMost));
   }
   void take(std::size_t steps) { taken_ += static_cast<std::int64_t>(steps); }
@@ -119,25 +114,16 @@ class BudgetLeft {
   std::int64_t taken_ = 0;
 };
 
-int time_order_of(double tolerance) { return accuracy_defaults(tolerance).time_order; }
-
-/// How many stretches there is time for if tolerances from that index to the first of the highest time order are to
-/// have as many; if that is none, the fewest that tell anything where this one alone may have them.
+/// How many stretches there is time for at the tolerance of that index; none where these would be too few to tell.
 std::size_t stretches_in_budget(const Knowledge& known, std::size_t index, const BudgetLeft& left) {
   constexpr std::size_t kFewest = 2;
-  std::vector<double> seconds;
-  for (std::size_t i = index; i < known.tolerances.size(); ++i) {
-    seconds.push_back(stretch_seconds(known, i));
-    if (time_order_of(known.tolerances[i]) == highest_time_order) break;
-  }
-  const std::size_t shared = left.stretches(seconds);
-  if (shared >= kFewest) return shared;
-  return left.stretches({seconds.front()}) >= kFewest ? kFewest : 0;
+  const std::size_t count = left.stretches(stretch_seconds(known, index));
+  return count >= kFewest ? count : 0;
 }
 
-/// Finds out what a run with the tolerance of that index begins with, and takes stretches with it. Tighter tolerances
-/// than one of the highest time order are better predicted from its stretches than from their own, which are fewer and
-/// farther from the trial run.
+/// Finds out what a run with the tolerance of that index begins with, and takes stretches with it where none were taken
+/// before. Tighter tolerances are better predicted from these than from their own, which are fewer and farther from the
+/// trial run.
 void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft& left) {
   const double tolerance = known.tolerances[index];
   known.expect_start(tolerance);
@@ -151,7 +137,7 @@ void sample(const Scene& scene, std::size_t index, Knowledge& known, BudgetLeft&
       // Likewise.
     }
   }
-  if (!known.stretches.empty() && time_order_of(known.sampled) == highest_time_order) return;
+  if (!known.stretches.empty()) return;
   const std::size_t count = stretches_in_budget(known, index, left);
   if (count == 0) return;
   const auto begins = [&left] {
@@ -181,7 +167,7 @@ class CostTable {
     }
     for (CostRow& row : rows_) {
       if (!row.stops.empty() || !row.unknown.empty()) continue;
-      row.file_seconds = file_seconds(scene_, row.steps, accuracy_defaults(row.tolerance).order);
+      row.file_seconds = file_seconds(scene_, row.steps, default_order(row.tolerance));
       row.seconds += row.file_seconds;
     }
     return std::move(rows_);

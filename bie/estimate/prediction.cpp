@@ -8,6 +8,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
+#include "bie/stepping/time/time_rule.hpp"
 
 namespace vehd {
 namespace {
@@ -27,14 +28,14 @@ int degrees_per_digit(const CostRow& first, const TrialRun& trial) {
   return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(first.tolerance / trial.tolerance))));
 }
 
-/// Order in dt of two trial runs of one time order, as their steps tell: k where each digit takes 10^(1/k) times as
+/// Order in dt of two trial runs, as their steps tell: k where each digit takes 10^(1/k) times as
 /// many.
 std::optional<double> order_between(const TrialRun& trial, const TrialRun& next) {
   constexpr double kLeastRatio = 1.3;
   const double more = static_cast<double>(next.steps.size()) / static_cast<double>(trial.steps.size());
-  if (trial.time_order != next.time_order || more < kLeastRatio) return std::nullopt;
+  if (more < kLeastRatio) return std::nullopt;
   return std::clamp(std::log(trial.tolerance / next.tolerance) / std::log(more), 1.0,
-                    static_cast<double>(next.time_order));
+                    static_cast<double>(highest_time_order));
 }
 
 /// How the time of a trial run is passed with another tolerance.
@@ -43,25 +44,18 @@ struct Pace {
   double evaluations = 0.0;  ///< of a step, without those at snapshots
 };
 
-/// Steps with k sweeps make more evaluations as the order of the scheme allows more sweeps.
-double more_evaluations(int order, int time_order) {
-  return static_cast<double>(evaluations_per_step(order)) / evaluations_per_step(time_order);
-}
-
 /// From a step of the trial run alone.
 Pace pace_of(const Knowledge& known, const TrialStep& step, double tolerance) {
   constexpr double kLongest = 4.0;  // beyond that an error estimate says nothing any more
   const TrialRun& trial = known.trial;
-  const int time_order = accuracy_defaults(tolerance).time_order;
-  Pace pace{1.0, (step.evaluations - step.moments) * more_evaluations(time_order, trial.time_order)};
+  Pace pace{1.0, static_cast<double>(step.evaluations - step.moments)};
   if (known.trend.order) {
     // Stiff motions follow their steps with a lower order than that of the scheme.
-    pace.steps_for_one =
-        std::pow(trial.tolerance / tolerance, 1.0 / (*known.trend.order + time_order - trial.time_order));
+    pace.steps_for_one = std::pow(trial.tolerance / tolerance, 1.0 / *known.trend.order);
     return pace;
   }
   const double room =
-      step.error_estimate > 0.0 ? std::pow(tolerance / step.error_estimate, 1.0 / time_order) : kLongest;
+      step.error_estimate > 0.0 ? std::pow(tolerance / step.error_estimate, 1.0 / highest_time_order) : kLongest;
   pace.steps_for_one = 1.0 / (thresholds::step_safety * std::min(room, kLongest));
   return pace;
 }
@@ -74,13 +68,12 @@ double tries_per_step(const TrialRun& trial) {
 }
 
 /// From a stretch with that tolerance or a looser one. A step of j sweeps has order j + 1, and one that begins with the
-/// past that of its nodes more, see next_step.
+/// past that of its nodes more, see controlled_sweeps.
 Pace pace_of(const Knowledge& known, const Stretch& stretch, double tolerance) {
-  const int sampled_order = accuracy_defaults(known.sampled).time_order;
-  const int time_order = accuracy_defaults(tolerance).time_order;
-  const double of_sweep = (evaluations_per_step(time_order) - 1.0) / (time_order - 1.0);
-  Pace pace{stretch.steps_for_one, stretch.evaluations * more_evaluations(time_order, sampled_order)};
-  const double order = std::clamp(1.0 + (pace.evaluations - 1.0) / of_sweep, 1.0, static_cast<double>(time_order));
+  const double of_sweep = (evaluations_per_step(highest_time_order) - 1.0) / (highest_time_order - 1.0);
+  Pace pace{stretch.steps_for_one, stretch.evaluations};
+  const double order =
+      std::clamp(1.0 + (pace.evaluations - 1.0) / of_sweep, 1.0, static_cast<double>(highest_time_order));
   const double of_past = stretch.share_with_past * of_sweep;
   pace.steps_for_one *= std::pow(known.sampled / tolerance, 1.0 / (order + of_past));
   pace.evaluations *= tries_per_step(known.trial);
@@ -117,7 +110,7 @@ void Knowledge::expect_start(double tolerance) {
       (known_start - first) * std::log(trial.tolerance / tolerance) / std::log(trial.tolerance / start_tolerance);
   // Degrees that runs choose are even.
   const int order = first + 2 * static_cast<int>(std::ceil(std::max(more, 0.0) / 2.0 - kRounding));
-  starting_order = std::min(order, accuracy_defaults(tolerance).order);
+  starting_order = std::min(order, default_order(tolerance));
 }
 
 void Knowledge::learn_start(double tolerance, int order) {
@@ -142,32 +135,31 @@ std::vector<int> predicted_orders(const Knowledge& known, std::size_t index) {
   const TrialRun& trial = known.trial;
   const double tolerance = known.tolerances[index];
   const double digits = std::log10(trial.tolerance / tolerance);
-  const int most = accuracy_defaults(tolerance).order;
+  const int most = default_order(tolerance);
   const int highest =
       std::min(trial.highest_order + static_cast<int>(std::lround(digits * known.trend.degrees_per_digit)), most);
   const auto own =
       static_cast<std::size_t>(std::ranges::find(known.tolerances, trial.tolerance) - known.tolerances.begin());
-  int order = known.starting_order, trial_order = 0, of_growth = 0;
+  int order = known.starting_order, trial_order = 0;
   std::vector<int> orders;
   for (const TrialStep& step : trial.steps) {
     // Runs lower their degree only where it has long been idle, at other tolerances about where the trial run did.
     if (step.order < trial_order) order = 0;
-    // Growth that is expected asks for more than the spectrum does. A degree that was needed earlier tells nothing.
-    const int beyond = std::max(0, step.order - step.orders[own]);
-    of_growth = step.order > trial_order ? beyond : std::min(of_growth, beyond);
     trial_order = step.order;
-    const int idle = std::max(step.order, step.idle_orders[index] + of_growth);
+    const int idle = std::max(step.order, step.idle_orders[index]);
     if (idle <= order - thresholds::worthwhile_degrees) order = idle;
     // The first step leaves more in the highest degrees than they hold later; what it asks for may be known.
     const bool is_known = orders.empty() && order > 0;
-    order = std::max({order, step.order, is_known ? 0 : std::min(step.orders[index] + of_growth, highest)});
+    // As many more or fewer than its spectrum asks for as the trial run had.
+    const int needed = step.order + step.orders[index] - step.orders[own];
+    order = std::max({order, step.order, is_known ? 0 : std::min(needed, highest)});
     orders.push_back(std::min(order, most));
   }
   return orders;
 }
 
 double start_seconds(const Knowledge& known, std::size_t index) {
-  const int evaluations = evaluations_per_step(accuracy_defaults(known.tolerances[index]).time_order);
+  const int evaluations = evaluations_per_step(highest_time_order);
   // Degrees that rise to it are evaluated as well.
   constexpr double kOfStart = 4.0;
   return known.ratio * known.model.seconds_per_shape(predicted_orders(known, index).front()) * (kOfStart + evaluations);
@@ -181,7 +173,7 @@ double stretch_seconds(const Knowledge& known, std::size_t index) {
     evaluations += known.trial.steps[i].evaluations / static_cast<double>(orders.size());
   }
   // Each of the two evolutions evaluates its start.
-  const int tight = evaluations_per_step(accuracy_defaults(known.tolerances[index]).time_order);
+  const int tight = evaluations_per_step(highest_time_order);
   return known.ratio * per_shape * (2.0 + evaluations + (steps_of_stretch - 1) * tight);
 }
 
@@ -190,7 +182,7 @@ CostRow predicted_row(const Knowledge& known, std::size_t index) {
   CostRow row;
   row.tolerance = known.tolerances[index];
   const double largest = step_control_of(at_tolerance(known.scene, row.tolerance)).largest;
-  const int most = accuracy_defaults(row.tolerance).order;
+  const int most = default_order(row.tolerance);
   const std::vector<int> orders = predicted_orders(known, index);
   double steps = 0.0, seconds = 0.0;
   for (std::size_t i = 0; i < trial.steps.size(); ++i) {

@@ -114,7 +114,7 @@ std::vector<TightStep> take_tight_steps(Evolution& evolution, const EventTimes& 
   const double begin = evolution.state().time;
   while (std::ssize(steps) + 1 < steps_of_stretch && evolution.state().time < events.end_time) {
     TightStep taken{.begin = evolution.state().time - begin,
-                    .begins_with_past = evolution.state().past.is_continued == 1};
+                    .begins_with_past = evolution.state().past_times.size() > 0};
     const auto start = std::chrono::steady_clock::now();
     const StepAttempt step = evolution.step(events);
     taken.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

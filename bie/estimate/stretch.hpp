@@ -21,7 +21,7 @@ struct Stretch {
   std::size_t step = 0;                   ///< of the trial run in whose place they begin; 0: at the scene's own start
   double steps_for_one = 1.0;             ///< that take the place of one of the trial run there
   double evaluations = 0.0;               ///< of new shapes by one try at one of them, without snapshots
-  double share_with_past = 0.0;           ///< of them that begin with it, see Past
+  double share_with_past = 0.0;           ///< of them that begin with the extrapolation of the step before
   int more_degrees = 0;                   ///< than those with which it began, at most
   std::vector<TimedEvaluations> timed{};  ///< of those that tell
 };

@@ -17,9 +17,11 @@ namespace vehd {
 
 namespace {
 
-std::vector<Resolution> resolutions_of(const Problem& problem, const State& state) {
+std::vector<Resolution> resolutions_of(const Evolution& evolution) {
   std::vector<Resolution> resolutions;
-  for (const VesicleState& vesicle : state.vesicles) resolutions.emplace_back(problem.model, vesicle);
+  for (std::size_t a = 0; a < evolution.state().vesicles.size(); ++a) {
+    resolutions.push_back(evolution.resolution(evolution.state(), a));
+  }
   return resolutions;
 }
 
@@ -28,8 +30,7 @@ std::vector<Resolution> resolutions_of(const Problem& problem, const State& stat
 int order_for(double tolerance, double share, const std::vector<Resolution>& resolutions) {
   int order = 0;
   for (const Resolution& resolution : resolutions) {
-    order = std::max(
-        order, resolution.order_for(share * tolerance, lowest_adaptive_order, accuracy_defaults(tolerance).order));
+    order = std::max(order, resolution.order_for(share * tolerance, lowest_adaptive_order, default_order(tolerance)));
   }
   return order;
 }
@@ -99,11 +100,11 @@ void take_steps(const Scene& scene, const std::vector<double>& tolerances, const
                      {},
                      {}};
     trial.highest_order = std::max(trial.highest_order, highest_order_of(evolution.state()));
-    const std::vector<Resolution> resolutions = resolutions_of(problem, evolution.state());
+    const std::vector<Resolution> resolutions = resolutions_of(evolution);
     for (const double wanted : tolerances) {
-      constexpr double kIdle = thresholds::idle_truncation * thresholds::truncation_share;
-      record.orders.push_back(order_for(wanted, thresholds::truncation_share, resolutions));
-      record.idle_orders.push_back(order_for(wanted, kIdle, resolutions));
+      const double share = thresholds::truncation_share / evolution.growth();
+      record.orders.push_back(order_for(wanted, share, resolutions));
+      record.idle_orders.push_back(order_for(wanted, thresholds::idle_truncation * share, resolutions));
     }
     trial.steps.push_back(std::move(record));
   }
@@ -119,7 +120,6 @@ TrialRun run_trial(const Scene& scene, double tolerance, const std::vector<doubl
   const Scene asked = at_tolerance(scene, tolerance);
   TrialRun trial;
   trial.tolerance = tolerance;
-  trial.time_order = asked.numerics.time_order;
   const auto in_budget = [&] { return std::ssize(trial.steps) < budget.steps && spent() < budget.seconds; };
   try {
     take_steps(asked, tolerances, in_budget, budget.deadline, trial);

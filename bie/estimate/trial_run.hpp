@@ -34,7 +34,6 @@ struct TrialState {
 /// A run with one tolerance, without files.
 struct TrialRun {
   double tolerance = 0.0;
-  int time_order = 0;
   int highest_order = 0;
   bool completed = false;  ///< reached the end of the scene
   std::string stops;       ///< why no further step could be taken; empty where that is not what ended it

@@ -41,10 +41,7 @@ void visit_time(StateType& state, Visitor&& visit) {
   visit("step", state.step);
   visit("dt_next", state.dt_next);
   visit("dt_found", state.dt_found);
-  visit("past_times", state.past.times);
-  visit("past_is_continued", state.past.is_continued);
-  visit("afresh_dt", state.past.afresh_dt);
-  visit("afresh_errors", state.past.afresh_errors);
+  visit("past_times", state.past_times);
 }
 
 /// Those of one vesicle.
@@ -229,23 +226,15 @@ class SoundCheck {
   void check(const State& state) const {
     for (const VesicleState& vesicle : state.vesicles) check(vesicle);
     require(std::isfinite(state.time) && std::isfinite(state.dt_next) && std::isfinite(state.dt_found), state_of_run);
-    check(state.past);
+    require(state.past_times.size() < highest_time_order && state.past_times.allFinite(), "/state/past_times");
+    for (const double time : state.past_times) require(time < 0.0, "/state/past_times");
     for (const VesicleState& vesicle : state.vesicles) {
       const Matrix& past = vesicle.past;
-      require(past.size() == 0 || (past.rows() == vesicle.position.rows() && state.past.times.size() > 0 &&
-                                   past.cols() == state.past.times.size() * unknowns(vesicle).cols()),
+      require(past.size() == 0 || (past.rows() == vesicle.position.rows() && state.past_times.size() > 0 &&
+                                   past.cols() == state.past_times.size() * unknowns(vesicle).cols()),
               "/state/past");
       require(past.allFinite(), "/state/past");
     }
-  }
-
-  void check(const Past& past) const {
-    const char* name = "/state, its past,";
-    require(past.times.size() < highest_time_order && past.times.allFinite(), name);
-    for (const double time : past.times) require(time < 0.0, name);
-    require(past.is_continued == 0 || past.is_continued == 1, name);
-    require(std::isfinite(past.afresh_dt) && past.afresh_errors.allFinite(), name);
-    require(past.afresh_errors.size() == 0 || past.afresh_dt > 0.0, name);
   }
 
   void check(const VesicleState& vesicle) const {

@@ -18,10 +18,11 @@ namespace {
 /// How much larger the tolerance of the companion is: a digit. More makes it cheaper, but what the motion makes of its
 /// errors then differs from what it makes of those of the run. Measured (docs/run_files.md).
 constexpr double companion_looseness = 10.0;
-/// How much lower the order of its steps is: of the same order they may be nearly those of the run, and as wrong.
-constexpr int lower_order = 1;
+/// Order of its steps, or one less than those of the run: of the same order they may be nearly those of the run, and as
+/// wrong. Not lower than the second, which estimates errors.
+constexpr int order_of_companion = 3;
 constexpr int lowest_estimating_order = 2;
-/// Degrees that the companion does without: those of a digit, see accuracy_defaults.
+/// Degrees that the companion does without: those of a digit, see default_order.
 constexpr int companion_degrees = 8;
 /// How much larger the largest steps of the companion are. Where the period of the forcing limits the steps of both,
 /// those of the same size would be wrong by the same; two of eight in a period leave four.
@@ -56,8 +57,8 @@ Scene scene_of_companion(Scene scene) {
   NumericsScene& numerics = scene.numerics;
   if (numerics.tolerance) {
     *numerics.tolerance *= companion_looseness;
-    numerics.time_order =
-        std::max(std::min(numerics.time_order, lowest_estimating_order), numerics.time_order - lower_order);
+    const int lower = std::min(order_of_companion, numerics.time_order - 1);
+    numerics.time_order = std::max(std::min(numerics.time_order, lowest_estimating_order), lower);
     numerics.order = std::max(std::min(numerics.order, lowest_adaptive_order), numerics.order - companion_degrees);
   } else {
     *numerics.dt *= companion_steps;

@@ -4,16 +4,11 @@
 
 namespace vehd {
 
-/// What a tolerance makes the default of [numerics].
-struct AccuracyDefaults {
-  int order;       ///< highest degree
-  int time_order;  ///< order of a step
-};
-
+/// Highest degree of a run with a tolerance where the scene names none. Its steps have the highest time order.
 /// @param tolerance  > 0, relative
 /// Accuracy: chosen so that runs deliver the tolerance (docs/digits.md; tests/stepping/adaptive_evolution_test.cpp
 /// holds three times it)
-AccuracyDefaults accuracy_defaults(double tolerance);
+int default_order(double tolerance);
 
 /// The scene at a tolerance: degree and time order are those of the tolerance. A dt stays where it bounds the steps of
 /// a tolerance; where it was the accuracy of the scene it is dropped.

@@ -260,7 +260,7 @@ void add_numerics_keys(KeyTable& table) {
       "time_order", {1, highest_time_order},
       {"", "1",
        "order of a step in Δt: 1 the paper's scheme; 2 … 5 its deferred correction at 2, 5, 10, 13 times the work; "
-       "with a tolerance at least 2, by default 4 down to 1e-4, 5 below"},
+       "with a tolerance at least 2, by default 5"},
       numerics, &NumericsScene::time_order);
   table
       .add("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone"}, numerics,

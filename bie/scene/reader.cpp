@@ -171,9 +171,8 @@ void require_keys(const Scene& scene, const toml::table& file, const std::string
 void apply_tolerance(NumericsScene& numerics, const toml::table& file) {
   if (!numerics.tolerance) return;
   const toml::table& table = *find_table(file, "numerics");
-  const AccuracyDefaults defaults = accuracy_defaults(*numerics.tolerance);
-  if (!has_key(table, *find_key("numerics", "time_order"))) numerics.time_order = defaults.time_order;
-  if (!has_key(table, *find_key("numerics", "degree"))) numerics.order = defaults.order;
+  if (!has_key(table, *find_key("numerics", "time_order"))) numerics.time_order = highest_time_order;
+  if (!has_key(table, *find_key("numerics", "degree"))) numerics.order = default_order(*numerics.tolerance);
 }
 
 /// Nothing but the tables that a scene may have.

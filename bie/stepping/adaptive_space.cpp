@@ -14,7 +14,7 @@ namespace vehd {
 int Evolution::lowest_order() const { return std::min(lowest_adaptive_order, setup_.settings.order); }
 
 double Evolution::truncation_target() const {
-  return thresholds::truncation_share * setup_.control.tolerance / growth_.degrees;
+  return thresholds::truncation_share * setup_.control.tolerance / growth_;
 }
 
 void Evolution::lower_quadrature_if_idle(std::size_t a) {
@@ -28,15 +28,6 @@ void Evolution::lower_quadrature_if_idle(std::size_t a) {
 /// Does the degree leave out little enough, or is there no higher one?
 bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
   return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target();
-}
-
-/// Is the state resolved, or is what it lacks nothing that more degrees give? A spectrum that goes on as it was is what
-/// the solves of the step leave at every degree, and where errors grow those of more degrees grow faster.
-bool Evolution::has_enough(const Resolution& reached, std::size_t a, const std::vector<Raise>& raised) const {
-  if (resolves(reached, a)) return true;
-  const auto last =
-      std::find_if(raised.rbegin(), raised.rend(), [a](const Raise& raise) { return raise.vesicle == a; });
-  return last != raised.rend() && reached.remainder() > std::sqrt(last->left_out * last->promised);
 }
 
 /// The least even degree for what is in the narrowest gap, of the two that it is between and of their images.
@@ -53,7 +44,7 @@ int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
 }
 
 /// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
-Evolution::Raise Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
+void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
   try {
     change_space(a, enough, state_.vesicles[a].quadrature_level);
   } catch (const ConvergenceError& error) {
@@ -61,22 +52,26 @@ Evolution::Raise Evolution::raise_order(std::size_t a, const Resolution& reached
         "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
         setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(), enough, error.what()));
   }
-  return {a, reached.remainder(), reached.remainder_at(enough)};
 }
 
+/// @param raised  vesicles whose degree has risen for this step; once is enough: what needs more gets it at the next
+/// one
 /// @returns whether any was too low
-bool Evolution::raise_orders_for(const State& reached, std::vector<Raise>& raised) {
-  const std::size_t before = raised.size();
-  const SmallestGap gap = adapts() ? find_smallest_gap(reached) : SmallestGap{};
-  for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-    if (setup_.symmetry.exchange.is_image(a)) continue;
-    const Resolution found = resolution(reached, a);
+bool Evolution::raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised) {
+  if (!adapts()) return false;
+  const SmallestGap gap = find_smallest_gap(attempt.state);
+  bool any = false;
+  for (std::size_t a = 0; a < raised.size(); ++a) {
+    if (raised[a] || setup_.symmetry.exchange.is_image(a) || order(a) >= setup_.settings.order) continue;
+    const Resolution found = resolution(attempt.state, a);
     const int of_gap = order_of_gap(gap, a);
-    const bool enough = has_enough(found, a, raised);
+    // A degree that does not hold the same surface on another grid leaves out too much as well.
+    const bool enough = resolves(found, a) && attempt.arrival_shifts[a] <= truncation_target();
     if (enough && order(a) >= of_gap) continue;
-    raised.push_back(raise_order(a, found, std::max(enough ? 0 : raised_order(found, a), of_gap)));
+    raise_order(a, found, std::max(enough ? 0 : raised_order(found, a), of_gap));
+    raised[a] = any = true;
   }
-  return raised.size() > before;
+  return any;
 }
 
 void Evolution::lower_order_if_idle(std::size_t a) {

@@ -80,11 +80,22 @@ void Evolution::set_time_order(int order) {
   discretisation_ = discretisation_.with_time_order(order);
 }
 
-void Evolution::expect_growth(double until) {
-  if (!adapts()) return;
-  const double delay = state_.dt_next > 0.0 ? state_.dt_next : first_step(setup_, evaluation_, state_);
-  const Outlook outlook = look_ahead(setup_.model, discretisation_, state_, evaluation_, until, delay, instruments_);
-  growth_ = expected_growth(setup_.model, discretisation_, state_, evaluation_, outlook);
+/// Of the tension that there is, and of that after the next jump of the forcing before `end`: it may compress what is
+/// drawn now, and what is cut off until then no later degree brings back.
+void Evolution::expect_growth(double end) {
+  if (!adapts() || !setup_.model.mobile) return;
+  growth_ = growth_of_wrinkles(setup_.model, discretisation_, state_, evaluation_);
+  const std::optional<double> jump = next_discontinuity(setup_.model, state_.time);
+  if (!jump || *jump >= end) return;
+  State there = state_;
+  there.time = *jump;
+  try {
+    const SolvedFields after = solve_fields(setup_.model, discretisation_, there, instruments_, &evaluation_,
+                                            Limit::after, Shapes::of_previous);
+    growth_ = std::max(growth_, growth_of_wrinkles(setup_.model, discretisation_, there, after));
+  } catch (const ConvergenceError&) {
+    // Nothing is known of it then.
+  }
 }
 
 double Evolution::truncation(const State& state) const {
@@ -194,38 +205,9 @@ void Evolution::arrive(State state) {
   before_jump_ = std::move(before);
 }
 
-StepGoal Evolution::goal_for(const EventTimes& events, const std::vector<Raise>& raised) const {
-  StepGoal goal;
-  goal.tolerance = setup_.control.tolerance;
-  goal.growth = growth_.steps;
-  goal.memory = memory_of_shapes(setup_.model, state_, evaluation_, events.end_time);
-  goal.truncation = truncation_target();
-  // Beyond the highest degree the shape is not known to what growth and memory ask for, and no step is small enough to
-  // change that: it need not leave less than the degree leaves out, which the verdict tells of.
-  const double left_out = truncation(state_);
-  if (left_out > goal.truncation) {
-    goal.most_weight = std::max(1.0, thresholds::step_share * goal.tolerance / left_out);
-  }
-  goal.too_coarse = [this, &raised](const State& reached) {
-    std::vector<std::size_t> result;
-    for (std::size_t a = 0; a < reached.vesicles.size(); ++a) {
-      if (setup_.symmetry.exchange.is_image(a)) continue;
-      const Resolution found = resolution(reached, a);
-      // The first-order step leaves errors at all degrees, of which sweeps take most. Where high degrees grow, asking
-      // for more because of them lets them grow: what growth asks for is judged at the end of the step.
-      if (found.remainder() > growth_.degrees * truncation_target() && !has_enough(found, a, raised)) {
-        result.push_back(a);
-      }
-    }
-    return result;
-  };
-  goal.times_before = [this, &events](double end) { return events.snapshots.between(state_.time, end); };
-  return goal;
-}
-
 /// @param former  tries of the same step, which count with this one
 StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const StepAttempt& former,
-                                   const StepGoal& goal) {
+                                   const SnapshotTimes& snapshots) {
   // Steps that are shorter would not change the time at the end.
   if (!(std::min(wanted, setup_.control.largest) >= setup_.control.smallest)) {
     throw ConvergenceError(fmt::format(
@@ -235,10 +217,11 @@ StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const St
   State from = state_;
   // Equal up to rounding: the step must end on the event, not just before it.
   from.dt_next = plan.reaches_event ? std::max(wanted, plan.dt_limit) : wanted;
+  const StepGoal goal{setup_.control.tolerance, snapshots};
   StepAttempt attempt = controlled_step(setup_.model, discretisation_, from, evaluation_, setup_.control, plan.dt_limit,
                                         instruments_, adapts() ? &goal : nullptr);
   attempt.add_work_of(former);
-  if (!attempt.accepted && attempt.too_coarse.empty()) {
+  if (!attempt.accepted) {
     throw ConvergenceError(
         fmt::format("no acceptable step from time {}: {}", setup_.time_text(state_.time), attempt.reason));
   }
@@ -276,23 +259,15 @@ double Evolution::reach(const EventTimes& events) const {
 StepAttempt Evolution::step(const EventTimes& events) {
   StepPlan plan = plan_towards(events);
   expect_growth(events.end_time);
-  std::vector<Raise> raised;
-  const StepGoal goal = goal_for(events, raised);
+  std::vector<bool> raised(state_.vesicles.size(), false);
   double wanted = state_.dt_next;
   const double from = state_.time;
   StepAttempt attempt;
   for (;;) {
-    attempt = step_within(plan, wanted, attempt, goal);
+    attempt = step_within(plan, wanted, attempt, events.snapshots);
     const bool at_event = plan.reaches_event && attempt.dt == plan.dt_limit;
     try {
-      if (!attempt.too_coarse.empty()) {
-        for (const std::size_t a : attempt.too_coarse) {
-          const Resolution reached = resolution(attempt.state, a);
-          raised.push_back(raise_order(a, reached, raised_order(reached, a)));
-        }
-        continue;
-      }
-      if (raise_orders_for(attempt.state, raised)) {
+      if (raise_orders_for(attempt, raised)) {
         ++attempt.rejected;
         continue;
       }
@@ -317,9 +292,6 @@ StepAttempt Evolution::step(const EventTimes& events) {
     attempt.at_snapshot = is_due || (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
     // Nothing is idle where the forcing has just changed.
     if (before_jump_) return attempt;
-    // What the first-order step asked for may be more than the step needs, and degrees that are not needed do harm
-    // where their errors grow.
-    for (const Raise& raise : raised) try_economy(&Evolution::lower_order_if_idle, raise.vesicle);
     economise();
     return attempt;
   }

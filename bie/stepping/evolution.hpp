@@ -37,8 +37,8 @@ struct EvolutionSetup {
 using KeepFormer = std::function<void(State&&, Evaluation&&)>;
 
 /// Vesicles on their way through time. With a tolerance the degree of each follows the spectrum of its state: it rises,
-/// and the step is taken again, where the degrees left out would matter, and falls where they have long ceased to.
-/// Where a membrane is compressed errors of steps and of degrees may be so much smaller as they are expected to grow.
+/// and the step is taken again, once at most, where the degrees left out would matter, and falls where they have long
+/// ceased to. Where a membrane is compressed they may leave so much less as wrinkles are expected to grow.
 /// The singular quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves,
 /// parts of a membrane much closer to each other than the grid spacing, ends the way. So does contact of two vesicles,
 /// see require_gap; with a tolerance degrees rise with the inverse root of the gap. Vesicles that are images of others
@@ -94,10 +94,14 @@ class Evolution {
   [[nodiscard]] const std::vector<Moment>& passed() const { return passed_; }
   /// Degree of a vesicle at present.
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
+  /// See growth_of_wrinkles: at the beginning of the last step; 1 without a tolerance.
+  [[nodiscard]] double growth() const { return growth_; }
   /// Estimated share of what the degrees leave out, see Resolution; of the vesicle that loses most.
   [[nodiscard]] double truncation() const { return truncation(state_); }
   /// The same of another state of this run.
   [[nodiscard]] double truncation(const State& state) const;
+  /// Of a vesicle of a state of this run, by what can be seen of it with a tolerance.
+  [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   /// The two vesicles that are nearest to each other.
   [[nodiscard]] const SmallestGap& gap() const { return gap_; }
 
@@ -106,16 +110,8 @@ class Evolution {
   [[nodiscard]] int lowest_order() const;
   [[nodiscard]] double truncation_target() const;
   [[nodiscard]] StepPlan plan_towards(const EventTimes& events) const;
-  void expect_growth(double until);
-  [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
+  void expect_growth(double end);
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
-  /// A degree that has risen within a step.
-  struct Raise {
-    std::size_t vesicle = 0;
-    double left_out = 0.0;  ///< by the degree before
-    double promised = 0.0;  ///< by the higher one, of the same state
-  };
-  [[nodiscard]] bool has_enough(const Resolution& reached, std::size_t vesicle, const std::vector<Raise>& raised) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
@@ -126,11 +122,11 @@ class Evolution {
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);
   void replace(State state, Evaluation evaluation);
-  [[nodiscard]] StepGoal goal_for(const EventTimes& events, const std::vector<Raise>& raised) const;
-  StepAttempt step_within(const StepPlan& plan, double wanted, const StepAttempt& former, const StepGoal& goal);
-  Raise raise_order(std::size_t vesicle, const Resolution& reached, int enough);
+  StepAttempt step_within(const StepPlan& plan, double wanted, const StepAttempt& former,
+                          const SnapshotTimes& snapshots);
+  void raise_order(std::size_t vesicle, const Resolution& reached, int enough);
   [[nodiscard]] std::vector<Moment> evaluated(const std::vector<State>& passed, StepAttempt& attempt);
-  bool raise_orders_for(const State& reached, std::vector<Raise>& raised);
+  bool raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised);
   void lower_order_if_idle(std::size_t vesicle);
   void lower_quadrature_if_idle(std::size_t vesicle);
   using Economy = void (Evolution::*)(std::size_t vesicle);
@@ -143,7 +139,7 @@ class Evolution {
   State state_;
   SmallestGap gap_;
   Evaluation evaluation_;
-  ErrorGrowth growth_;                // expected of what is wrong now, with a tolerance
+  double growth_ = 1.0;               // of wrinkles, see growth_of_wrinkles, with a tolerance
   std::vector<StartMembrane> start_;  // until it is evaluated
   std::optional<Evaluation> before_jump_;
   std::vector<Moment> passed_;

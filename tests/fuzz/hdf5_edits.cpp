@@ -53,11 +53,9 @@ constexpr std::array paths = {"/",
                               "/state/flow_arguments",
                               "/state/flow_responses",
                               "/state/past",
-                              "/state/past_times",
-                              "/state/afresh_errors"};
-constexpr std::array attributes = {"schema_version",    "time",     "step",     "checksum", "n_rows",
-                                   "threads",           "dt_next",  "dt_found", "pause",    "unaided_iterations",
-                                   "past_is_continued", "afresh_dt"};
+                              "/state/past_times"};
+constexpr std::array attributes = {"schema_version", "time",    "step",     "checksum", "n_rows",
+                                   "threads",        "dt_next", "dt_found", "pause",    "unaided_iterations"};
 constexpr std::array<double, 8> written_values = {0.0,    1.0,
                                                   -1.0,   0.25,
                                                   1e300,  std::numeric_limits<double>::infinity(),

@@ -92,8 +92,8 @@ BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit_from_each_of_its_steps) {
     const vehd::State& state = states[n - 1];
     const bool jumps = std::abs(state.time - 0.6) < 1e-12 || std::abs(state.time - 1.0) < 1e-12;
     n_jumps += jumps ? 1 : 0;
-    n_with_past += state.past.times.size() > 0 ? 1 : 0;
-    BOOST_TEST((jumps && state.past.times.size() > 0) == false);
+    n_with_past += state.past_times.size() > 0 ? 1 : 0;
+    BOOST_TEST((jumps && state.past_times.size() > 0) == false);
     const Directory stopped;
     {
       vehd::RecordedRun run({scene, stopped.paths, none});

@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(tolerance_sets_what_the_scene_leaves_open) {
   const vehd::Scene scene = parsed(with_numerics("tolerance = 1e-3\n"));
   BOOST_TEST(*scene.numerics.tolerance == 1e-3);
   BOOST_TEST(scene.numerics.order == 32);
-  BOOST_TEST(scene.numerics.time_order == 4);
+  BOOST_TEST(scene.numerics.time_order == 5);
   const vehd::StepControl control = vehd::step_control_of(scene);
   BOOST_TEST(control.tolerance == 1e-3);
   BOOST_TEST(control.largest == 10.0);

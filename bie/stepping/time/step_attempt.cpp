@@ -33,14 +33,13 @@ void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& ph
   ControlledSweeps sweeps = controlled_sweeps(physics, dt, order, goal);
   attempt.error_estimate = sweeps.excess * goal.tolerance;
   attempt.factor = sweeps.factor;
-  attempt.next_beginning = sweeps.next_beginning;
-  attempt.too_coarse = std::move(sweeps.too_coarse);
   attempt.state = std::move(sweeps.state);
   attempt.passed = std::move(sweeps.passed);
   attempt.accepted = sweeps.end.has_value();
   if (attempt.accepted) {
     attempt.raw_area = raw_area_of(*sweeps.end);
-  } else if (attempt.too_coarse.empty()) {
+    for (const Motion& vesicle : sweeps.end->vesicles) attempt.arrival_shifts.push_back(vesicle.arrival_shift);
+  } else {
     attempt.reason = fmt::format("a step is wrong by {:.1e} over its share of the tolerance; accepted: {:.1e}",
                                  attempt.error_estimate, goal.tolerance);
   }

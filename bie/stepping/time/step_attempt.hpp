@@ -19,15 +19,12 @@ struct StepAttempt {
   double error_estimate = 0.0;
   /// Relative area error that the step would have left without its constraint: a drift of the step's order.
   double raw_area = 0.0;
-  /// Rejected, and so would be smaller ones: of which vesicles a higher degree is needed. `state` is then a guess at
-  /// the end.
-  std::vector<std::size_t> too_coarse;
-  std::vector<State> passed;                     ///< at the times asked for within the step
-  double factor = 1.0;                           ///< of the size that suits a tolerance best, over this one
-  Beginning next_beginning = Beginning::afresh;  ///< how a try of that size begins
-  int evaluations = 0;                           ///< of new shapes, of all tries and with that of its end
-  int rejected = 0;                              ///< tries that were thrown away before it
-  int iterations_flow = 0;  ///< of all tries; once the step is taken with those of the evaluation at its end
+  std::vector<double> arrival_shifts;  ///< Motion::arrival_shift of each vesicle at its end, when accepted
+  std::vector<State> passed;           ///< at the times asked for within the step
+  double factor = 1.0;                 ///< of the size that suits a tolerance best, over this one
+  int evaluations = 0;                 ///< of new shapes, of all tries and with that of its end
+  int rejected = 0;                    ///< tries that were thrown away before it
+  int iterations_flow = 0;             ///< of all tries; once the step is taken with those of the evaluation at its end
   int iterations_electric = 0;
   bool at_snapshot = false;  ///< a snapshot is due at its end
 

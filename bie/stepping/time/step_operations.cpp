@@ -341,8 +341,4 @@ InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, 
   return largest;
 }
 
-bool StepOperations::may_rise(std::size_t a) const {
-  return discretisation_.vesicle(a).order() < discretisation_.settings().order;
-}
-
 }  // namespace vehd

@@ -71,7 +71,7 @@ struct ImplicitSolve {
 /// - projection: each solve is repeated for what it leaves until area elements, areas and volumes hold;
 /// - remap: the end of the step on nodes that keep the grid good.
 ///
-/// Beside them a step may begin with how the past goes on, for which nothing is solved, and leaves a past of its own.
+/// Beside them a step may begin with the extrapolation of the one before, for which nothing is solved.
 ///
 /// L knows each membrane's bending and tension on itself, and the charging of all on all: what membranes do to each
 /// other in the flow is smooth and enters through F.
@@ -104,12 +104,12 @@ class StepOperations {
   /// Accuracy: first order in dt (tests/stepping/time/time_order_test.cpp)
   std::vector<NodeSolution> first_order_steps(const std::vector<FirstOrderStep>& steps);
   NodeSolution first_order_step(const FirstOrderStep& step) { return std::move(first_order_steps({step}).front()); }
-  /// How the past goes on: the polynomial through it and the start, at a time within twice as long. Nothing is solved
-  /// for, and no constraint holds but for what its error leaves. Only where `knows_past`.
+  /// The polynomial through the nodes of the last step and the start, at a time after it. Nothing is solved for, and no
+  /// constraint holds but for what its error leaves. Only where `can_extrapolate`.
   /// Accuracy: of order one more than there are times in the past (tests/stepping/time/past_test.cpp)
-  [[nodiscard]] NodeSolution continued(double time) const;
-  /// Whether a step of this size can begin with the past continued.
-  [[nodiscard]] bool knows_past(double dt) const;
+  [[nodiscard]] NodeSolution extrapolated(double time) const;
+  /// Whether a step of this size is short enough for that: longest_continuation times the last one.
+  [[nodiscard]] bool can_extrapolate(double dt) const;
   /// Makes the start and the nodes before the last the past of the state at the last one; collective. A rigid sphere
   /// turns on the spot, which no polynomial follows as exactly as its own motion: with one there is no past.
   /// @param nodes  the last one remapped
@@ -129,8 +129,6 @@ class StepOperations {
   /// Tensions and charges that are small against those of the bending modulus and of the field count as if they were
   /// larger.
   [[nodiscard]] InstantaneousDifference instantaneous_difference(const Rate& a, const Rate& b) const;
-  /// Whether the degree of a vesicle is below the highest that the run may take.
-  [[nodiscard]] bool may_rise(std::size_t vesicle) const;
 
   /// Evaluations of new shapes so far.
   [[nodiscard]] int evaluations() const { return evaluations_; }

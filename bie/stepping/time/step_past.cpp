@@ -28,13 +28,13 @@ void visit_members(Sent& sent, Visit& visit) {
 
 }  // namespace
 
-bool StepOperations::knows_past(double dt) const {
-  const Vector& times = start_.past.times;
+bool StepOperations::can_extrapolate(double dt) const {
+  const Vector& times = start_.past_times;
   return times.size() > 0 && dt <= -thresholds::longest_continuation * times[0];
 }
 
-NodeSolution StepOperations::continued(double time) const {
-  const Vector weights = weights_from_zero(start_.past.times, time - start_.time);
+NodeSolution StepOperations::extrapolated(double time) const {
+  const Vector weights = weights_from_zero(start_.past_times, time - start_.time);
   NodeSolution result{time, std::vector<Motion>(start_.vesicles.size())};
   const Exchange& exchange = discretisation_.symmetry().exchange;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
@@ -59,7 +59,7 @@ NodeSolution StepOperations::continued(double time) const {
 
 void StepOperations::remember(const std::vector<NodeSolution>& nodes, State& state) const {
   const NodeSolution& end = nodes.back();
-  state.past.times = {};
+  state.past_times = {};
   if (std::ranges::any_of(at_start_.vesicles, &VesicleSolution::is_sphere)) return;
   const auto n_times = std::ssize(nodes);
   Vector times(n_times);
@@ -81,7 +81,7 @@ void StepOperations::remember(const std::vector<NodeSolution>& nodes, State& sta
   // Images have that of their originals.
   shares().gather(all, [](const SentPast&, std::size_t) { return SentPast{}; });
   for (std::size_t a = 0; a < all.size(); ++a) state.vesicles[a].past = std::move(all[a].past);
-  state.past.times = std::move(times);
+  state.past_times = std::move(times);
 }
 
 }  // namespace vehd

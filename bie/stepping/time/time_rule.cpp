@@ -50,10 +50,10 @@ Vector integration_weights(const std::vector<double>& points, double c) {
   return weights_of_moments(points, integrals);
 }
 
-Vector weights_from_zero(const Vector& places, double x, int power) {
+Vector weights_from_zero(const Vector& places, double x) {
   Vector weights(places.size());
   for (Index i = 0; i < places.size(); ++i) {
-    double weight = std::pow(x / places[i], power);
+    double weight = x / places[i];
     for (Index j = 0; j < places.size(); ++j) {
       if (j != i) weight *= (x - places[j]) / (places[i] - places[j]);
     }
@@ -69,16 +69,6 @@ double integration_error(const std::vector<double>& points, double c, int power)
     lacks -= weights[static_cast<Index>(j)] * power_of(points[j], power);
   }
   return lacks / std::tgamma(power + 1.0);
-}
-
-double following_error(const TimeRule& rule, double relaxation) {
-  const auto n = static_cast<Index>(rule.nodes.size());
-  Vector lacks(n);
-  for (Index i = 0; i < n; ++i) {
-    lacks[i] = integration_error(rule.nodes, rule.nodes[static_cast<std::size_t>(i)], static_cast<int>(n));
-  }
-  const Matrix system = Matrix::Identity(n, n) + relaxation * rule.weights.rightCols(n);
-  return std::abs(system.partialPivLu().solve(lacks)[n - 1]);
 }
 
 Vector derivative_weights(const std::vector<double>& points, int derivative) {

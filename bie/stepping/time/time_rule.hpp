@@ -30,22 +30,13 @@ std::vector<double> points_of(const TimeRule& rule);
 /// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
 Vector integration_weights(const std::vector<double>& points, double c);
 
-/// Weights at x of values at these places for the polynomial through them that is zero at x = 0: Lagrange's, times
-/// x/place to this power, with which it vanishes there like x^power, [number of places].
+/// Weights at x of values at these places for the polynomial through them that is zero at x = 0, [number of places].
 /// @param places  not zero
 /// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
-Vector weights_from_zero(const Vector& places, double x, int power = 1);
+Vector weights_from_zero(const Vector& places, double x);
 
 /// What an integral with integration_weights lacks of that of x^k/k!, the factor of f^(k) in its error.
 double integration_error(const std::vector<double>& points, double c, int power);
-
-/// |Error| at the end of a step of y' = φ' − r (y − φ)/Δt from y = φ, over Δt^(M+1) φ^(M+1), with M nodes: where a
-/// motion follows another one as fast as r, the rule is of order M + 1 alone. None for r = 0 and for r → ∞; 1.2e-4 with
-/// three nodes and r = 1, five times that at most.
-/// @param relaxation  r
-/// Accuracy: 1e-12 (tests/stepping/time/time_rules_test.cpp)
-/// Source: the problem of Prothero and Robinson, Hairer and Wanner 1996
-double following_error(const TimeRule& rule, double relaxation);
 
 /// Weights of values at these points for a derivative of the polynomial through them, at the mean of the points,
 /// where the highest two are most exact, [number of points].

@@ -47,11 +47,11 @@ class ConvergedStep {
   [[nodiscard]] double error_of_past() const {
     double largest = 0.0;
     for (const NodeSolution& node : y_.nodes()) {
-      largest = std::max(largest, physics_.difference(physics_.continued(node.time), node));
+      largest = std::max(largest, physics_.difference(physics_.extrapolated(node.time), node));
     }
     return largest;
   }
-  [[nodiscard]] bool knows_past(double dt) const { return physics_.knows_past(dt); }
+  [[nodiscard]] bool can_extrapolate(double dt) const { return physics_.can_extrapolate(dt); }
 
  private:
   Instruments instruments_;
@@ -76,11 +76,11 @@ BOOST_AUTO_TEST_CASE(past_goes_on_with_one_order_more_than_it_has_times) {
   const State begun = run(model, discretisation, start(model, discretisation, position, 0.05), 0.05, 8);
   for (const double dt : {0.16, 0.08, 0.04}) {
     const State state = ConvergedStep(model, discretisation, begun, dt).end();
-    BOOST_TEST_REQUIRE(state.past.times.size() == 3);
-    BOOST_TEST(state.past.times[0] == -dt, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST_REQUIRE(state.past_times.size() == 3);
+    BOOST_TEST(state.past_times[0] == -dt, boost::test_tools::tolerance(1e-12));
     const ConvergedStep next(model, discretisation, state, dt);
-    BOOST_TEST(next.knows_past(1.9 * dt));
-    BOOST_TEST(!next.knows_past(2.1 * dt));
+    BOOST_TEST(next.can_extrapolate(1.9 * dt));
+    BOOST_TEST(!next.can_extrapolate(2.1 * dt));
     errors.push_back(next.error_of_past());
     BOOST_TEST_MESSAGE("dt " << dt << ": " << errors.back());
   }
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(rigid_spheres_have_no_past) {
   const Discretisation discretisation = discretisation_of(8);
   const State begun = start(model, discretisation, sphere(8, 1.3), 0.05);
   const State state = ConvergedStep(model, discretisation, begun, 0.05).end();
-  BOOST_TEST(state.past.times.size() == 0);
+  BOOST_TEST(state.past_times.size() == 0);
   BOOST_TEST(state.vesicles[0].past.size() == 0);
 }
 

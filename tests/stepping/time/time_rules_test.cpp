@@ -40,13 +40,11 @@ BOOST_AUTO_TEST_CASE(weights_integrate_polynomials_through_all_points_to_any_tim
 
 BOOST_AUTO_TEST_CASE(weights_from_zero_continue_polynomials_that_vanish_there) {
   const Vector places{{-1.0, -0.8, -0.3}};
-  for (const int power : {1, 2}) {
-    for (const double x : {-0.5, 0.4, 1.0, 2.0}) {
-      const Vector weights = weights_from_zero(places, x, power);
-      for (int degree = power; degree < power + 3; ++degree) {
-        const double value = weights.dot(Vector(places.array().pow(degree)));
-        BOOST_TEST(std::abs(value - std::pow(x, degree)) < 1e-12, x << " " << degree);
-      }
+  for (const double x : {-0.5, 0.4, 1.0, 2.0}) {
+    const Vector weights = weights_from_zero(places, x);
+    for (int degree = 1; degree < 4; ++degree) {
+      const double value = weights.dot(Vector(places.array().pow(degree)));
+      BOOST_TEST(std::abs(value - std::pow(x, degree)) < 1e-12, x << " " << degree);
     }
   }
 }
@@ -66,30 +64,6 @@ BOOST_AUTO_TEST_CASE(what_an_integral_lacks_is_known_of_the_first_powers_it_is_n
   }
   // Radau IIA with three nodes: s/2 ((s - 1)!)⁴ / ((2s - 1)!)³ for s = 3 points.
   BOOST_TEST(integration_error(points_of(time_rule(5)), 1.0, 5) == -1.0 / 72000.0, boost::test_tools::tolerance(1e-9));
-}
-
-BOOST_AUTO_TEST_CASE(what_a_step_leaves_of_a_motion_that_follows_another_is_that_of_the_rule) {
-  for (const int order : {3, 4, 5}) {
-    const TimeRule rule = time_rule(order);
-    const auto n = static_cast<Index>(rule.nodes.size());
-    // φ = t^(M+1)/(M+1)!
-    Vector followed(n), its_rate(n);
-    for (Index i = 0; i < n; ++i) {
-      const double c = rule.nodes[static_cast<std::size_t>(i)], k = static_cast<double>(n);
-      followed[i] = std::pow(c, k + 1.0) / std::tgamma(k + 2.0);
-      its_rate[i] = std::pow(c, k) / std::tgamma(k + 1.0);
-    }
-    const Matrix weights = rule.weights.rightCols(n);
-    for (const double relaxation : {0.1, 1.0, 7.0}) {
-      const Matrix system = Matrix::Identity(n, n) + relaxation * weights;
-      const Vector y = system.partialPivLu().solve(weights * (its_rate + relaxation * followed));
-      BOOST_TEST(following_error(rule, relaxation) == std::abs(y[n - 1] - followed[n - 1]),
-                 boost::test_tools::tolerance(1e-9));
-    }
-    BOOST_TEST(following_error(rule, 0.0) < 1e-15);
-    BOOST_TEST(following_error(rule, 1e9) < 1e-9);
-  }
-  BOOST_TEST(following_error(time_rule(5), 1.0) == 1.18e-4, boost::test_tools::tolerance(0.01));
 }
 
 BOOST_AUTO_TEST_CASE(derivatives_of_polynomials_are_exact_at_the_mean_of_the_points) {
