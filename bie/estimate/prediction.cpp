@@ -28,8 +28,7 @@ int degrees_per_digit(const CostRow& first, const TrialRun& trial) {
   return static_cast<int>(std::ceil(std::max(kLeast, more / std::log10(first.tolerance / trial.tolerance))));
 }
 
-/// Order in dt of two trial runs, as their steps tell: k where each digit takes 10^(1/k) times as
-/// many.
+/// Order in dt of two trial runs, as their steps tell: k where each digit takes 10^(1/k) times as many.
 std::optional<double> order_between(const TrialRun& trial, const TrialRun& next) {
   constexpr double kLeastRatio = 1.3;
   const double more = static_cast<double>(next.steps.size()) / static_cast<double>(trial.steps.size());

@@ -84,7 +84,7 @@ void Evolution::set_time_order(int order) {
 /// drawn now, and what is cut off until then no later degree brings back.
 void Evolution::expect_growth(double end) {
   if (!adapts() || !setup_.model.mobile) return;
-  growth_ = growth_of_wrinkles(setup_.model, discretisation_, state_, evaluation_);
+  growth_ = growth_of_wrinkles(setup_.model, state_, evaluation_);
   const std::optional<double> jump = next_discontinuity(setup_.model, state_.time);
   if (!jump || *jump >= end) return;
   State there = state_;
@@ -92,7 +92,7 @@ void Evolution::expect_growth(double end) {
   try {
     const SolvedFields after = solve_fields(setup_.model, discretisation_, there, instruments_, &evaluation_,
                                             Limit::after, Shapes::of_previous);
-    growth_ = std::max(growth_, growth_of_wrinkles(setup_.model, discretisation_, there, after));
+    growth_ = std::max(growth_, growth_of_wrinkles(setup_.model, there, after));
   } catch (const ConvergenceError&) {
     // Nothing is known of it then.
   }

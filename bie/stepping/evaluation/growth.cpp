@@ -11,37 +11,24 @@
 
 namespace vehd {
 
-namespace {
-
-/// Largest velocity along the normal but for that of degree 0, which changes nothing of a membrane.
-double normal_speed(const SphereTransform& fine, const Matrix& position, Matrix velocity) {
-  velocity.row(0).setZero();
-  const SphereDerivatives there = fine.synthesize_gradient(position);
-  const Matrix moved = fine.synthesize(velocity);
-  double largest = 0.0;
-  for (Index i = 0; i < moved.rows(); ++i) {
-    const Vector3 across = Vector3(there.d1.row(i)).cross(Vector3(there.d2.row(i)));
-    largest = std::max(largest, std::abs(across.dot(Vector3(moved.row(i)))) / across.norm());
-  }
-  return largest;
-}
-
-}  // namespace
-
-double growth_of_wrinkles(const Model& model, const Discretisation& discretisation, const State& state,
-                          const SolvedFields& solved) {
+double growth_of_wrinkles(const Model& model, const State& state, const SolvedFields& solved) {
   double largest = 1.0;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    const VesicleSolution& solution = solved.vesicles[a];
+    const VesicleState& vesicle = state.vesicles[a];
     const VesicleFields& fields = solved.fields.vesicles[a];
     // A sphere leaves its tension open.
-    if (!model.mobile || fields.tension.size() == 0 || solution.is_sphere) continue;
-    const Vector& weights = solution.membrane->surface.quadrature;
-    const double tension = weights.dot(Vector(solution.membrane->fine.synthesize(fields.tension))) / weights.sum();
-    const double radius = std::sqrt(state.vesicles[a].reference_area / (4.0 * std::numbers::pi));
-    const MembraneSpace& space = discretisation.vesicle(a);
-    const double rate = wrinkling_rate(flow_parameters(model, model.vesicles[a]), tension, radius, space.order());
-    const double speed = normal_speed(space.fine_transform(), state.vesicles[a].position, fields.velocity);
+    if (!model.mobile || fields.tension.size() == 0 || solved.vesicles[a].is_sphere) continue;
+    const Membrane& membrane = *solved.vesicles[a].membrane;
+    const Vector& weights = membrane.surface.quadrature;
+    const double tension = weights.dot(Vector(membrane.fine.synthesize(fields.tension))) / weights.sum();
+    const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
+    const double rate =
+        wrinkling_rate(flow_parameters(model, model.vesicles[a]), tension, radius, order_of(vesicle.position.rows()));
+    // Degree 0 of the velocity changes nothing of a membrane.
+    Matrix moving = fields.velocity;
+    moving.row(0).setZero();
+    const double speed =
+        membrane.fine.synthesize(moving).cwiseProduct(membrane.surface.normal).rowwise().sum().cwiseAbs().maxCoeff();
     if (rate > 0.0) largest = std::max(largest, std::exp(rate * radius / speed));
   }
   return std::min(largest, thresholds::most_growth);

@@ -10,7 +10,6 @@ namespace vehd {
 /// @param solved  of the state
 /// @return        1 where nothing is compressed, at most thresholds::most_growth
 /// Accuracy: an estimate
-double growth_of_wrinkles(const Model& model, const Discretisation& discretisation, const State& state,
-                          const SolvedFields& solved);
+double growth_of_wrinkles(const Model& model, const State& state, const SolvedFields& solved);
 
 }  // namespace vehd

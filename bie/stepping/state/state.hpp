@@ -30,7 +30,7 @@ struct State {
   Vector past_times{};  ///< of the nodes of the last step before its end, less `time`: ascending; empty: not known
 };
 
-/// The same without what it knows of the step before: the next one begins with Euler steps.
+/// The same without the nodes of the last step: the next one begins with first-order steps.
 inline State without_past(State state) {
   state.past_times = {};
   for (VesicleState& vesicle : state.vesicles) vesicle.past = {};

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "bie/stepping/state/unknowns.hpp"
 #include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
-
-VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference& b) {
-  return {std::max(a.shape, b.shape), std::max(a.potential, b.potential)};
-}
 
 Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end, Predictor predictor)
     : physics_(physics), rule_(rule), dt_(dt), predictor_(predictor) {

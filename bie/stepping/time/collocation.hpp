@@ -9,9 +9,6 @@
 
 namespace vehd {
 
-/// Of each of the two what is larger.
-VisibleDifference larger_of(const VisibleDifference& a, const VisibleDifference& b);
-
 /// What the nodes of a step are before its sweeps: first-order steps, or the extrapolation of the step before.
 enum class Predictor { euler, extrapolation };
 
@@ -25,7 +22,6 @@ class Collocation {
   Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end,
               Predictor predictor = Predictor::euler);
 
-  [[nodiscard]] Predictor predictor() const { return predictor_; }
   [[nodiscard]] std::size_t last() const { return nodes_.size() - 1; }
   [[nodiscard]] const NodeSolution& node(std::size_t m) const { return nodes_[m]; }
   NodeSolution& node(std::size_t m) { return nodes_[m]; }
@@ -76,7 +72,7 @@ class Collocation {
 /// Accuracy: within a factor of 2 of a charge in an alternating field (tests/stepping/alternating_charge_test.cpp)
 double rule_error(const TimeRule& rule, const std::vector<VisibleDifference>& derivatives);
 
-/// The same of a solution within the step, corrected with the rates at these points.
+/// Estimated error of a solution within the step that was corrected with the rates at these points, of shape or V_m.
 /// @param place  its time after the start, over dt
 double rule_error(const std::vector<double>& points, double place, const std::vector<VisibleDifference>& derivatives);
 

@@ -25,14 +25,13 @@ struct ControlledSweeps {
 
 /// One step by deferred correction that stops where its error is small enough.
 ///
-/// - Predictor: the extrapolation of the last step where there is one that is long enough, Euler steps otherwise.
+/// - Predictor: the extrapolation of the last step where that was long enough, first-order steps otherwise.
 /// - What counts: the change of the shape along its normal, n·δx over the radius, and that of V_m at material points
 ///   over its size; points that slide within the membrane are no error. And ∫λ dA and q, which follow from both and
 ///   may magnify what is wrong with them.
 /// - Error of the sweeps: of each of these the sum of the geometric series of the corrections to come, see Corrections.
 /// - Error of the rule that the sweeps converge to: from the derivatives of the rates, see rule_error. No sweep takes
-/// it
-///   away: where it is too large the step is given up.
+///   it away: where it is too large the step is given up.
 /// - Share: a membrane forgets the errors of all but its last few steps, whatever the time units and however long the
 ///   run, so each step may leave a fixed share of the tolerance.
 /// - Size: the error after sweep j falls like dt^(j+1), with an extrapolation through M nodes like dt^(j+1+M). The next

@@ -20,7 +20,7 @@ double growth_at_start(const Model& model, const Matrix& position) {
   Instruments instruments;
   const Discretisation discretisation = discretisation_of(kCompressedOrder);
   const State state = start(model, discretisation, position, 0.1);
-  return growth_of_wrinkles(model, discretisation, state, evaluate(model, discretisation, state, instruments));
+  return growth_of_wrinkles(model, state, evaluate(model, discretisation, state, instruments));
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_of_a_compressed_membrane_grow_until_its_shape_has_
   const Membrane& membrane = *found.vesicles[0].membrane;
   const Matrix velocity = membrane.fine.synthesize(found.fields.vesicles[0].velocity);
   const double speed = velocity.cwiseProduct(membrane.surface.normal).rowwise().sum().cwiseAbs().maxCoeff();
-  const double growth = growth_of_wrinkles(model, discretisation, state, found);
+  const double growth = growth_of_wrinkles(model, state, found);
   BOOST_TEST(growth > 1.02);
   BOOST_TEST(growth < thresholds::most_growth);
   BOOST_TEST(growth == std::exp(rate * radius / speed), boost::test_tools::tolerance(1e-6));
