@@ -235,7 +235,7 @@ double ErrorBars::ratio_of_steps(double difference) const {
   }
   if (n_steps == 0 || !(companion_looseness * of_companion > difference)) return companion_looseness;
   const double ratio = of_companion / std::exp(sum / n_steps);
-  return std::sqrt(companion_looseness * std::clamp(ratio, 1.0, companion_looseness));
+  return std::sqrt(companion_looseness * std::max(ratio, 1.0));
 }
 
 /// Error of the run over its differences to the companion.
