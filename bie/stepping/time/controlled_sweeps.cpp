@@ -153,7 +153,8 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   // Before what is solved for within the step can be recycled.
   result.state = physics.end_state(y.node(y.last()));
   if (!pass_moments({physics, rule, dt, y, errors, derivatives}, goal, result)) return result;
-  physics.remember(y.nodes(), result.state);
+  // What sweeps hardly correct an extrapolation would carry on from step to step.
+  if (errors.visible.converge()) physics.remember(y.nodes(), result.state);
   result.end = std::move(y.node(y.last()));
   return result;
 }

@@ -25,7 +25,8 @@ struct ControlledSweeps {
 
 /// One step by deferred correction that stops where its error is small enough.
 ///
-/// - Predictor: the extrapolation of the last step where that was long enough, first-order steps otherwise.
+/// - Predictor: the extrapolation of the last step where that was long enough and its sweeps converged, first-order
+///   steps otherwise: these damp what is stiff, an extrapolation magnifies it.
 /// - What counts: the change of the shape along its normal, n·δx over the radius, and that of V_m at material points
 ///   over its size; points that slide within the membrane are no error. And ∫λ dA and q, which follow from both and
 ///   may magnify what is wrong with them.

@@ -8,8 +8,8 @@ namespace vehd {
 /// How much one thing was changed by each of several corrections, and what that says of the error that is left.
 ///
 /// Correction k changes it by δ_k. If each makes changes smaller by ρ = δ_k/δ_{k−1}, those to come add up to
-/// δ_k ρ/(1−ρ), the sum of a geometric series: the error after correction k. Where ρ ≥ 1/2 the series says little, and
-/// δ_k, the error of the correction before, is taken.
+/// δ_k ρ/(1−ρ), the sum of a geometric series: the error after correction k. Where ρ ≥ 1/2 they hardly converge; the
+/// series says little then, and δ_k, the error of the correction before, is taken.
 class Corrections {
  public:
   void add(double change) { changes_.push_back(change); }
@@ -26,6 +26,8 @@ class Corrections {
   [[nodiscard]] double contraction() const;
   /// ρ as it was measured, 1 as long as it is not known.
   [[nodiscard]] double measured_contraction() const;
+  /// Whether each correction is less than half of the one before.
+  [[nodiscard]] bool converge() const { return contraction() < 0.5; }
 
  private:
   std::vector<double> changes_;
