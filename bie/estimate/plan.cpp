@@ -175,7 +175,7 @@ void count_steps(const Scene& scene, RunPlan& plan) {
       if (next) events.discontinuity = std::min(*next, events.discontinuity.value_or(*next));
     }
     const StepPlan step = plan_step(time, fixed ? *scene.numerics.dt : end, events);
-    if (fixed) plan.n_steps += std::llround((step.event_time - time) / step.dt_limit);
+    if (fixed) plan.n_steps += std::llround((step.event_time - time) / step.dt);
     time = step.event_time;
     if (std::ranges::any_of(waveforms, [=](const Waveform& waveform) { return waveform.jumps_at(time); })) {
       ++plan.n_jumps;

@@ -48,9 +48,8 @@ void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough
   try {
     change_space(a, enough, state_.vesicles[a].quadrature_level);
   } catch (const ConvergenceError& error) {
-    throw ConvergenceError(fmt::format(
-        "no acceptable step from time {}: degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
-        setup_.time_text(state_.time), order(a), reached.remainder(), truncation_target(), enough, error.what()));
+    throw ConvergenceError(fmt::format("degree {} leaves out {:.1e}, accepted: {:.1e}, and degree {} fails: {}",
+                                       order(a), reached.remainder(), truncation_target(), enough, error.what()));
   }
 }
 

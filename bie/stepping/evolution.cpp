@@ -205,29 +205,6 @@ void Evolution::arrive(State state) {
   before_jump_ = std::move(before);
 }
 
-/// @param former  tries of the same step, which count with this one
-StepAttempt Evolution::step_within(const StepPlan& plan, double wanted, const StepAttempt& former,
-                                   const SnapshotTimes& snapshots) {
-  // Steps that are shorter would not change the time at the end.
-  if (!(std::min(wanted, setup_.control.largest) >= setup_.control.smallest)) {
-    throw ConvergenceError(fmt::format(
-        "no acceptable step from time {}: one of {} is needed, but all below {} are lost in the rounding of end_time",
-        setup_.time_text(state_.time), setup_.time_text(wanted), setup_.time_text(setup_.control.smallest)));
-  }
-  State from = state_;
-  // Equal up to rounding: the step must end on the event, not just before it.
-  from.dt_next = plan.reaches_event ? std::max(wanted, plan.dt_limit) : wanted;
-  const StepGoal goal{setup_.control.tolerance, snapshots};
-  StepAttempt attempt = controlled_step(setup_.model, discretisation_, from, evaluation_, setup_.control, plan.dt_limit,
-                                        instruments_, adapts() ? &goal : nullptr);
-  attempt.add_work_of(former);
-  if (!attempt.accepted) {
-    throw ConvergenceError(
-        fmt::format("no acceptable step from time {}: {}", setup_.time_text(state_.time), attempt.reason));
-  }
-  return attempt;
-}
-
 std::vector<Evolution::Moment> Evolution::evaluated(const std::vector<State>& passed, StepAttempt& attempt) {
   std::vector<Moment> moments(passed.size());
   attempt.evaluations += static_cast<int>(passed.size());
@@ -242,59 +219,83 @@ std::vector<Evolution::Moment> Evolution::evaluated(const std::vector<State>& pa
   return moments;
 }
 
-StepPlan Evolution::plan_towards(const EventTimes& events) const {
+StepPlan Evolution::plan_towards(const EventTimes& events, double wanted) const {
   EventTimes ends = events;
   // With a tolerance snapshots are taken from within the steps.
   if (adapts()) ends.snapshots = {};
   const std::optional<double> discontinuity = next_discontinuity(setup_.model, state_.time);
   if (discontinuity) ends.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
-  return plan_step(state_.time, state_.dt_next, ends);
+  return plan_step(state_.time, std::min(wanted, setup_.control.largest), ends);
 }
 
 double Evolution::reach(const EventTimes& events) const {
-  const StepPlan plan = plan_towards(events);
-  return plan.reaches_event ? plan.event_time : state_.time + plan.dt_limit;
+  const StepPlan plan = plan_towards(events, state_.dt_next);
+  return plan.reaches_event ? plan.event_time : state_.time + plan.dt;
+}
+
+/// @param former  tries of the same step, which count with this one
+/// @throws ConvergenceError where the step has become too small
+StepAttempt Evolution::attempted(const StepPlan& plan, const SnapshotTimes& snapshots,
+                                 const StepAttempt& former) const {
+  const StepControl& control = setup_.control;
+  if (!(plan.wanted >= control.smallest)) {
+    const std::string rounding =
+        fmt::format("one of {} is needed, but all below {} are lost in the rounding of end_time",
+                    setup_.time_text(plan.wanted), setup_.time_text(control.smallest));
+    throw ConvergenceError(fmt::format("no acceptable step from time {}: {}", setup_.time_text(state_.time),
+                                       former.reason.empty() ? rounding : former.reason));
+  }
+  const StepGoal goal{control.tolerance, snapshots};
+  StepAttempt attempt = attempt_step(setup_.model, discretisation_, state_, evaluation_, plan.dt, instruments_,
+                                     adapts() ? &goal : nullptr);
+  attempt.add_work_of(former);
+  return attempt;
+}
+
+/// Of a try that is accepted the end is the state from now on.
+/// @param raised  vesicles whose degree has risen for this step
+Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan, std::vector<bool>& raised) {
+  if (!attempt.accepted) return Reaction::repeat_smaller;
+  try {
+    if (raise_orders_for(attempt, raised)) return Reaction::repeat_in_higher_degree;
+    if (plan.reaches_event) attempt.state.time = plan.event_time;
+    set_next_size(setup_.control, state_, plan, attempt);
+    std::vector<Moment> passed = evaluated(attempt.passed, attempt);
+    arrive(attempt.state);
+    for (Moment& moment : passed) tell_crossings(state_, moment.state.time, moment.evaluation);
+    passed_ = std::move(passed);
+    return Reaction::accept;
+  } catch (const ConvergenceError& error) {
+    // What cannot be solved for after this step may be after a smaller one.
+    attempt.reject(error.what());
+    return Reaction::repeat_smaller;
+  }
 }
 
 StepAttempt Evolution::step(const EventTimes& events) {
-  StepPlan plan = plan_towards(events);
   expect_growth(events.end_time);
-  std::vector<bool> raised(state_.vesicles.size(), false);
-  double wanted = state_.dt_next;
   const double from = state_.time;
+  std::vector<bool> raised(state_.vesicles.size(), false);
+  StepPlan plan = plan_towards(events, state_.dt_next);
   StepAttempt attempt;
   for (;;) {
-    attempt = step_within(plan, wanted, attempt, events.snapshots);
-    const bool at_event = plan.reaches_event && attempt.dt == plan.dt_limit;
-    try {
-      if (raise_orders_for(attempt, raised)) {
-        ++attempt.rejected;
-        continue;
-      }
-      if (at_event) attempt.state.time = plan.event_time;
-      std::vector<Moment> passed = evaluated(attempt.passed, attempt);
-      arrive(attempt.state);
-      for (Moment& moment : passed) tell_crossings(state_, moment.state.time, moment.evaluation);
-      passed_ = std::move(passed);
-    } catch (const ConvergenceError&) {
-      // What cannot be solved for after this step may be after a smaller one.
-      ++attempt.rejected;
-      wanted = plan.dt_limit = attempt.dt / 2.0;
-      plan.reaches_event = false;
-      if (plan.dt_limit < setup_.control.smallest) throw;
-      continue;
-    }
-    const Evaluation& arrival = before_jump_ ? *before_jump_ : evaluation_;
-    ++attempt.evaluations;
-    attempt.iterations_flow += arrival.iterations_flow;
-    attempt.iterations_electric += arrival.iterations_electric;
-    const bool is_due = at_event && plan.is_snapshot;
-    attempt.at_snapshot = is_due || (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
-    // Nothing is idle where the forcing has just changed.
-    if (before_jump_) return attempt;
-    economise();
-    return attempt;
+    attempt = attempted(plan, events.snapshots, attempt);
+    const Reaction reaction = react(attempt, plan, raised);
+    if (reaction == Reaction::accept) break;
+    ++attempt.rejected;
+    // What repeated tries do not get over may be the extrapolation.
+    if (attempt.rejected == thresholds::most_tries_from_past) state_ = without_past(std::move(state_));
+    if (reaction == Reaction::repeat_smaller) plan = plan_towards(events, smaller_size(attempt));
   }
+  const Evaluation& arrival = before_jump_ ? *before_jump_ : evaluation_;
+  ++attempt.evaluations;
+  attempt.iterations_flow += arrival.iterations_flow;
+  attempt.iterations_electric += arrival.iterations_electric;
+  attempt.at_snapshot = (plan.reaches_event && plan.is_snapshot) ||
+                        (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
+  // Nothing is idle where the forcing has just changed.
+  if (!before_jump_) economise();
+  return attempt;
 }
 
 }  // namespace vehd

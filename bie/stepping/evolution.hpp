@@ -109,7 +109,7 @@ class Evolution {
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
   [[nodiscard]] int lowest_order() const;
   [[nodiscard]] double truncation_target() const;
-  [[nodiscard]] StepPlan plan_towards(const EventTimes& events) const;
+  [[nodiscard]] StepPlan plan_towards(const EventTimes& events, double wanted) const;
   void expect_growth(double end);
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
@@ -122,8 +122,11 @@ class Evolution {
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);
   void replace(State state, Evaluation evaluation);
-  StepAttempt step_within(const StepPlan& plan, double wanted, const StepAttempt& former,
-                          const SnapshotTimes& snapshots);
+  [[nodiscard]] StepAttempt attempted(const StepPlan& plan, const SnapshotTimes& snapshots,
+                                      const StepAttempt& former) const;
+  /// What follows from a try at a step.
+  enum class Reaction { accept, repeat_smaller, repeat_in_higher_degree };
+  Reaction react(StepAttempt& attempt, const StepPlan& plan, std::vector<bool>& raised);
   void raise_order(std::size_t vesicle, const Resolution& reached, int enough);
   [[nodiscard]] std::vector<Moment> evaluated(const std::vector<State>& passed, StepAttempt& attempt);
   bool raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised);

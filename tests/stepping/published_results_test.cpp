@@ -38,7 +38,7 @@ Matrix unit_prolate(int order, double reduced_volume, int axis) {
   return ellipsoid(order, {axes[0], axes[1], axes[2]});
 }
 
-/// A run as the program makes it: with the symmetry that there is, in steps of dt, halved where one is rejected.
+/// A run as the program makes it: with the symmetry that there is, in steps of dt.
 VesicleDiagnostics result_of(const Model& model, const Matrix& position, double dt, double end_time) {
   const Discretisation discretisation = symmetric_discretisation(model, position);
   State state = start(model, discretisation, position, dt);
@@ -46,7 +46,7 @@ VesicleDiagnostics result_of(const Model& model, const Matrix& position, double 
   while (state.time < end_time - 1e-9) {
     const SolvedFields fields = solve_fields(model, discretisation, state, instruments);
     const StepAttempt advanced =
-        controlled_step(model, discretisation, state, fields, fixed_steps(dt), end_time - state.time, instruments);
+        attempt_step(model, discretisation, state, fields, std::min(dt, end_time - state.time), instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     state = advanced.state;
   }

@@ -18,6 +18,12 @@ void StepAttempt::add_work_of(const StepAttempt& former) {
   iterations_electric += former.iterations_electric;
 }
 
+void StepAttempt::reject(const std::string& why) {
+  accepted = false;
+  factor = 0.5;
+  reason = why;
+}
+
 namespace {
 
 /// Largest relative area error of the motions, signed.
@@ -74,9 +80,7 @@ StepAttempt attempt_step(const Model& model, const Discretisation& discretisatio
     if (attempt.accepted && !is_finite(attempt.state))
       throw ConvergenceError("the state behind the step is not finite");
   } catch (const ConvergenceError& error) {
-    attempt.accepted = false;
-    attempt.factor = 0.5;
-    attempt.reason = error.what();
+    attempt.reject(error.what());
   }
   attempt.evaluations = physics.evaluations();
   attempt.iterations_flow = physics.iterations_flow();

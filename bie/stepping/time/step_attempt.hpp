@@ -30,6 +30,8 @@ struct StepAttempt {
 
   /// Counts the tries before this one.
   void add_work_of(const StepAttempt& former);
+  /// Of one that fails, for which half the size is the next to try.
+  void reject(const std::string& why);
 };
 
 /// One try of size dt and of the order that the settings ask for, from a state and what was solved there.

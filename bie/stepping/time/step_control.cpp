@@ -11,38 +11,21 @@ StepControl fixed_steps(double dt) {
   return {dt, kSmallestFraction * dt, 0.0};
 }
 
-StepAttempt controlled_step(const Model& model, const Discretisation& discretisation, const State& state,
-                            const SolvedFields& at_start, const StepControl& control, double dt_limit,
-                            Instruments& instruments, const StepGoal* goal) {
-  constexpr double kRounding = 1e-9;
-  const bool adapts = goal != nullptr;
-  StepAttempt result;
-  State from = state;
-  double wanted = std::min(state.dt_next, control.largest);
-  while (wanted >= control.smallest) {
-    // A limit that is the wanted step up to rounding is taken exactly: the caller has an appointment there.
-    const double dt = dt_limit <= wanted * (1.0 + kRounding) ? dt_limit : wanted;
-    const StepAttempt former = std::move(result);
-    result = attempt_step(model, discretisation, from, at_start, dt, instruments, goal);
-    result.add_work_of(former);
-    if (result.accepted) {
-      const double found = dt * result.factor;
-      // Sizes that fall go on falling: predictive control, Gustafsson (Hairer and Wanner 1996, IV.8).
-      const double trend = state.dt_found > 0.0 ? std::min(1.0, found / state.dt_found) : 1.0;
-      // A step cut short by an appointment says little against the size that was wanted before.
-      const double next = adapts                 ? std::max(trend * found, found > dt ? wanted : 0.0)
-                          : result.rejected == 0 ? 2.0 * wanted
-                                                 : wanted;
-      result.state.dt_next = std::min(control.largest, next);
-      result.state.dt_found = adapts ? found : 0.0;
-      return result;
-    }
-    ++result.rejected;
-    // What repeated tries do not get over may be the extrapolation.
-    if (result.rejected == thresholds::most_tries_from_past) from = without_past(std::move(from));
-    wanted = adapts ? dt * std::min(result.factor, thresholds::most_after_rejection) : 0.5 * dt;
+double smaller_size(const StepAttempt& rejected) {
+  return rejected.dt * std::min(rejected.factor, thresholds::most_after_rejection);
+}
+
+void set_next_size(const StepControl& control, const State& start, const StepPlan& plan, StepAttempt& accepted) {
+  double next = accepted.rejected == 0 ? 2.0 * plan.wanted : plan.wanted;
+  double found = 0.0;
+  if (control.tolerance > 0.0) {
+    found = accepted.dt * accepted.factor;
+    const double trend = start.dt_found > 0.0 ? std::min(1.0, found / start.dt_found) : 1.0;
+    // A step cut short by an event says little against the size that was wanted before.
+    next = std::max(trend * found, found > accepted.dt ? plan.wanted : 0.0);
   }
-  return result;
+  accepted.state.dt_next = std::min(control.largest, next);
+  accepted.state.dt_found = found;
 }
 
 }  // namespace vehd

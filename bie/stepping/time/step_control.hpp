@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bie/stepping/time/step_attempt.hpp"
+#include "bie/stepping/time/step_plan.hpp"
 
 namespace vehd {
 
@@ -14,13 +15,13 @@ struct StepControl {
 /// Steps of size dt, halved ten times at most where they fail.
 StepControl fixed_steps(double dt);
 
-/// One accepted step of size at most dt_limit, with dt_next set, or the reason why there is none. Tries
-/// min(state.dt_next, dt_limit); halves after every failure. With a tolerance, an attempt that leaves more than the
-/// goal allows is repeated in a smaller size, and dt_next is what gets on at the least cost; without one, dt_next
-/// doubles back towards the largest after every success.
-/// @param goal  of a tolerance; null without one
-StepAttempt controlled_step(const Model& model, const Discretisation& discretisation, const State& state,
-                            const SolvedFields& at_start, const StepControl& control, double dt_limit,
-                            Instruments& instruments, const StepGoal* goal = nullptr);
+/// The size to repeat a step with that was not accepted: half where a solve has failed, with a tolerance what suits it.
+double smaller_size(const StepAttempt& rejected);
+
+/// Sets the size of the next step in the state of an accepted one. With a tolerance it is what gets on at the least
+/// cost, and sizes that fall go on falling: predictive control, Gustafsson (Hairer and Wanner 1996, IV.8). Without one
+/// it doubles back towards the largest after every step that was accepted at once.
+/// @param start  of the step
+void set_next_size(const StepControl& control, const State& start, const StepPlan& plan, StepAttempt& accepted);
 
 }  // namespace vehd

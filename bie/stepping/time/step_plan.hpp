@@ -13,17 +13,18 @@ struct EventTimes {
   std::optional<double> discontinuity = std::nullopt;  ///< where the forcing changes abruptly; no snapshot is due there
 };
 
-/// How far the next step may go.
+/// How far the next step goes.
 struct StepPlan {
-  double event_time = 0.0;  ///< next snapshot, discontinuity or the end
-  double dt_limit = 0.0;
-  bool reaches_event = false;  ///< a step of size dt_limit ends at event_time
+  double wanted = 0.0;         ///< its size if there were no events
+  double dt = 0.0;             ///< its size
+  double event_time = 0.0;     ///< next snapshot, discontinuity or the end
+  bool reaches_event = false;  ///< the step ends at event_time
   bool is_snapshot = true;     ///< a snapshot is due at event_time
 };
 
-/// The way to the next event in equal steps no longer than dt, so that no sliver is left before it. A remainder
+/// The way to the next event in equal steps no longer than is wanted, so that no sliver is left before it. A remainder
 /// within 1e-9 of a whole number of steps counts as whole.
 /// Accuracy: steps end on every event to rounding (tests/stepping/time/step_plan_test.cpp)
-StepPlan plan_step(double time, double dt, const EventTimes& events);
+StepPlan plan_step(double time, double wanted, const EventTimes& events);
 
 }  // namespace vehd

@@ -25,15 +25,14 @@ struct Steps {
   }
 };
 
-/// n steps of size dt at most.
+/// n steps of size dt.
 Steps steps_of(const Model& model, const Matrix& position, double dt, int n) {
   const Discretisation discretisation = symmetric_discretisation(model, position);
   Instruments instruments;
   Steps steps{start(model, discretisation, position, dt), {}};
   Evaluation evaluation = evaluate(model, discretisation, steps.end, instruments);
   for (int i = 0; i < n; ++i) {
-    const StepAttempt next =
-        controlled_step(model, discretisation, steps.end, evaluation, fixed_steps(dt), dt, instruments);
+    const StepAttempt next = attempt_step(model, discretisation, steps.end, evaluation, dt, instruments);
     BOOST_TEST_REQUIRE(next.accepted, next.reason);
     steps.end = next.state;
     evaluation = evaluate(model, discretisation, steps.end, instruments);

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "bie/geometry/surface.hpp"
+#include "bie/stepping/evolution.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -15,11 +17,13 @@ namespace {
 
 Matrix example_3_shape(int order) { return ellipsoid(order, {2.0, 1.0, 1.0}); }
 
-StepAttempt advanced(const Model& model, const Discretisation& discretisation, const State& state, double dt_nominal,
-                     double dt_limit) {
-  Instruments instruments;
-  return controlled_step(model, discretisation, state, evaluate(model, discretisation, state, instruments),
-                         fixed_steps(dt_nominal), dt_limit, instruments);
+EvolutionSetup in_shear(const Matrix& position, double dt) {
+  EvolutionSetup setup;
+  setup.model = shear_model();
+  setup.settings.order = order_of(position.rows());
+  setup.symmetry = find_symmetry(setup.model, at_rest(position));
+  setup.control = fixed_steps(dt);
+  return setup;
 }
 
 }  // namespace
@@ -91,75 +95,84 @@ BOOST_AUTO_TEST_CASE(absurd_step_is_rejected_with_a_reason) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(control_halves_until_the_step_is_good_and_recovers) {
-  const Discretisation discretisation = discretisation_of(8);
-  const Model model = shear_model();
-  const double nominal = 32.0;
-  const State state = start(model, discretisation, example_3_shape(8), nominal);
-  const StepAttempt first = advanced(model, discretisation, state, nominal, nominal);
-  BOOST_REQUIRE(first.accepted);
+BOOST_AUTO_TEST_CASE(steps_are_halved_until_they_are_good_and_recover) {
+  constexpr double kNominal = 32.0;
+  const Matrix position = example_3_shape(8);
+  Instruments instruments;
+  Evolution evolution(in_shear(position, kNominal), {StartMembrane{position}}, instruments);
+  evolution.evaluate_start();
+  const StepAttempt first = evolution.step({{}, kNominal});
   BOOST_TEST(first.rejected > 0);
-  BOOST_TEST(first.dt == nominal / (1 << first.rejected));
-  BOOST_TEST(first.state.time == first.dt);
-  BOOST_TEST(first.state.dt_next == first.dt);
-  // A good step at once doubles what is tried next, up to the nominal size.
-  State easy = start(model, discretisation, example_3_shape(8), 0.05);
-  const StepAttempt second = advanced(model, discretisation, easy, 0.08, 0.08);
-  BOOST_TEST(second.rejected == 0);
-  BOOST_TEST(second.dt == 0.05);
-  BOOST_TEST(second.state.dt_next == 0.08);
+  BOOST_TEST(first.dt == kNominal / (1 << first.rejected));
+  BOOST_TEST(evolution.state().time == first.dt);
+  BOOST_TEST(evolution.state().dt_next == first.dt);
 }
 
-BOOST_AUTO_TEST_CASE(step_cut_by_the_limit_does_not_shorten_those_that_follow) {
-  const Discretisation discretisation = discretisation_of(8);
-  const Model model = shear_model();
-  const State state = start(model, discretisation, example_3_shape(8), 0.1);
-  const StepAttempt result = advanced(model, discretisation, state, 0.1, 0.003);
-  BOOST_TEST(result.dt == 0.003);
-  BOOST_TEST(result.state.dt_next == 0.1);
+BOOST_AUTO_TEST_CASE(size_of_fixed_steps_doubles_back_to_the_nominal_one) {
+  const StepControl control = fixed_steps(0.08);
+  State start;
+  start.dt_next = 0.02;
+  StepAttempt accepted;
+  accepted.dt = 0.02;
+  set_next_size(control, start, {.wanted = 0.02, .dt = 0.02}, accepted);
+  BOOST_TEST(accepted.state.dt_next == 0.04);
+  set_next_size(control, start, {.wanted = 0.05, .dt = 0.05}, accepted);
+  BOOST_TEST(accepted.state.dt_next == 0.08);
+  // One that an event cuts short does not shorten those that follow.
+  accepted.dt = 0.003;
+  set_next_size(control, start, {.wanted = 0.08, .dt = 0.003}, accepted);
+  BOOST_TEST(accepted.state.dt_next == 0.08);
+  accepted.rejected = 1;
+  set_next_size(control, start, {.wanted = 0.04, .dt = 0.04}, accepted);
+  BOOST_TEST(accepted.state.dt_next == 0.04);
 }
 
 BOOST_AUTO_TEST_CASE(sizes_that_fall_go_on_falling) {
-  NumericalSettings settings;
-  settings.order = 8;
-  settings.time_order = highest_time_order;
-  const Discretisation discretisation(settings);
-  const Model model = shear_model();
-  constexpr double kSize = 0.02;
-  const State first = start(model, discretisation, example_3_shape(8), kSize);
-  Instruments instruments;
-  const Evaluation at_start = evaluate(model, discretisation, first, instruments);
-  const StepGoal goal{1e-5};
-  const auto next = [&](double dt_found) {
-    State state = first;
-    state.dt_found = dt_found;
-    const StepAttempt result =
-        controlled_step(model, discretisation, state, at_start, {1.0, 1e-6, goal.tolerance}, kSize, instruments, &goal);
-    BOOST_TEST_REQUIRE(result.accepted);
-    return result.state;
+  const StepControl control{1.0, 1e-6, 1e-5};
+  State start;
+  StepAttempt accepted;
+  accepted.dt = 0.02;
+  const auto next = [&](double dt_found, double factor) {
+    start.dt_found = dt_found;
+    accepted.factor = factor;
+    set_next_size(control, start, {.wanted = 0.03, .dt = 0.02}, accepted);
+    BOOST_TEST(accepted.state.dt_found == factor * 0.02);
+    return accepted.state.dt_next;
   };
-  const State unknown = next(0.0);
-  BOOST_TEST(unknown.dt_next == std::max(unknown.dt_found, unknown.dt_found > kSize ? kSize : 0.0));
-  for (const double falls_by : {0.5, 0.9, 1.0, 2.0}) {
-    const State state = next(unknown.dt_found / falls_by);
-    BOOST_TEST(state.dt_found == unknown.dt_found);
-    const double expected = std::min(1.0, falls_by) * unknown.dt_found;
-    BOOST_TEST(state.dt_next == std::max(expected, unknown.dt_found > kSize ? kSize : 0.0),
-               boost::test_tools::tolerance(1e-12));
-  }
+  const auto rounding = boost::test_tools::tolerance(1e-14);
+  BOOST_TEST(next(0.0, 0.5) == 0.01, rounding);
+  BOOST_TEST(next(0.01, 0.5) == 0.01, rounding);
+  BOOST_TEST(next(0.02, 0.5) == 0.005, rounding);
+  BOOST_TEST(next(0.005, 0.5) == 0.01, rounding);
+  BOOST_TEST(next(0.02, 4.0) == 0.08, rounding);
+  // Cut short by an event, and found to be too short.
+  BOOST_TEST(next(0.02, 1.2) == 0.03, rounding);
+  BOOST_TEST(next(0.0, 100.0) == 1.0, rounding);
 }
 
-BOOST_AUTO_TEST_CASE(control_gives_up_with_the_reason_when_no_step_is_good) {
-  const Discretisation discretisation = discretisation_of(8);
-  const Model model = shear_model();
-  State state = start(model, discretisation, example_3_shape(8), 0.1);
+BOOST_AUTO_TEST_CASE(a_rejected_step_is_repeated_in_a_smaller_size) {
+  StepAttempt rejected;
+  rejected.dt = 0.2;
+  rejected.factor = 1.5;
+  BOOST_TEST(smaller_size(rejected) < rejected.dt);
+  rejected.reject("it does not converge");
+  BOOST_TEST(smaller_size(rejected) == 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(way_ends_with_the_reason_where_no_step_is_good) {
+  const Matrix position = example_3_shape(8);
+  const EvolutionSetup setup = in_shear(position, 0.1);
+  State state = start(setup.model, Discretisation(setup.settings, setup.symmetry), position, 0.1);
   // No motion at this area reaches twice the volume.
   state.vesicles[0].reference_volume *= 2.0;
-  StepAttempt result;
-  BOOST_CHECK_NO_THROW(result = advanced(model, discretisation, state, 0.1, 0.1));
-  BOOST_TEST(!result.accepted);
-  BOOST_TEST(!result.reason.empty());
-  BOOST_TEST(result.rejected >= 10);
+  Instruments instruments;
+  Evolution evolution(setup, state, instruments);
+  evolution.evaluate_start();
+  BOOST_CHECK_EXCEPTION(evolution.step({{}, 1.0}), ConvergenceError, [](const ConvergenceError& error) {
+    const std::string text = error.what();
+    return text.starts_with("no acceptable step from time 0: ") && text.find("rounding") == std::string::npos;
+  });
+  BOOST_TEST(evolution.state().time == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(initial_state_starts_where_it_is_told) {

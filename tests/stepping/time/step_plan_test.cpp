@@ -13,9 +13,9 @@ BOOST_AUTO_TEST_CASE(steps_end_exactly_on_every_snapshot) {
     int snapshots = 0;
     while (time < events.end_time) {
       const vehd::StepPlan plan = vehd::plan_step(time, dt, events);
-      BOOST_TEST_REQUIRE(plan.dt_limit > 0.0);
-      BOOST_TEST_REQUIRE(plan.dt_limit <= dt * (1.0 + 1e-9));
-      time = plan.reaches_event ? plan.event_time : time + plan.dt_limit;
+      BOOST_TEST_REQUIRE(plan.dt > 0.0);
+      BOOST_TEST_REQUIRE(plan.dt <= dt * (1.0 + 1e-9));
+      time = plan.reaches_event ? plan.event_time : time + plan.dt;
       if (!plan.reaches_event) continue;
       ++snapshots;
       BOOST_TEST_REQUIRE((time == snapshots * 0.1 || time == events.end_time));
@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(steps_end_exactly_on_every_snapshot) {
 
 BOOST_AUTO_TEST_CASE(no_sliver_is_left) {
   const vehd::StepPlan plan = vehd::plan_step(0.0, 0.3, {{}, 1.0});
-  BOOST_TEST(plan.dt_limit == 0.25);
+  BOOST_TEST(plan.dt == 0.25);
   BOOST_TEST(!plan.reaches_event);
   // One rounding error more than dt is still one step.
   BOOST_TEST(vehd::plan_step(0.0, 0.1, {{}, 0.1 * (1.0 + 1e-12)}).reaches_event);
@@ -47,8 +47,8 @@ std::vector<double> snapshots_of(const vehd::EventTimes& events, double dt, doub
   double time = 0.0;
   while (time < events.end_time) {
     const vehd::StepPlan plan = vehd::plan_step(time, dt, events);
-    if (most != nullptr) *most = std::max(*most, plan.dt_limit);
-    time = plan.reaches_event ? plan.event_time : time + plan.dt_limit;
+    if (most != nullptr) *most = std::max(*most, plan.dt);
+    time = plan.reaches_event ? plan.event_time : time + plan.dt;
     if (plan.reaches_event) moments.push_back(time);
   }
   return moments;
@@ -82,10 +82,10 @@ BOOST_AUTO_TEST_CASE(steps_are_no_shorter_than_their_snapshots_need) {
   snapshots_of(events, 0.5, &longest);
   BOOST_TEST(longest == 0.5);
   // Before the window, in it and after it.
-  BOOST_TEST(vehd::plan_step(0.0, 0.5, events).dt_limit == 0.5);
-  BOOST_TEST(vehd::plan_step(1.0, 0.5, events).dt_limit == 0.01, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(vehd::plan_step(1.1, 0.5, events).dt_limit == 0.45, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(vehd::plan_step(2.0, 0.5, events).dt_limit == 0.5);
+  BOOST_TEST(vehd::plan_step(0.0, 0.5, events).dt == 0.5);
+  BOOST_TEST(vehd::plan_step(1.0, 0.5, events).dt == 0.01, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(vehd::plan_step(1.1, 0.5, events).dt == 0.45, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(vehd::plan_step(2.0, 0.5, events).dt == 0.5);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
