@@ -84,9 +84,11 @@ class FrozenSolver {
 
   void solve_steady() {
     const ChargingParameters& charging = vesicle_of(frozen_).charging;
+    std::vector<Vector> potentials(1);
     require_converged(
-        steady_potential(electric_, charging, membrane_, settings_.electric_tolerance, result.steady_potential),
+        steady_potentials({{{electric_, membrane_}, charging}}, nullptr, settings_.electric_tolerance, potentials),
         "steady membrane potential");
+    result.steady_potential = std::move(potentials.front());
     result.steady_charge = membrane_.fine.analyze(
         electric_traces(electric_, membrane_, result.steady_potential, charge_density(result.steady_potential)).charge);
     if (charging.conductance == 0.0) remove_mean(result.steady_potential);

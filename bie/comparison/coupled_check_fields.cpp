@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "bie/comparison/local_forces.hpp"
-#include "bie/physics/coupled_charging.hpp"
+#include "bie/physics/coupled_electric.hpp"
 #include "bie/physics/coupled_flow.hpp"
+#include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
@@ -73,10 +74,12 @@ class CoupledFrozenSolver {
 
   void solve_steady() {
     const Interaction& interaction = *solved_.interaction;
-    std::vector<ChargingParameters> charging;
+    std::vector<ChargingMembrane> membranes;
     std::vector<Vector> potentials(results.size());
-    for (const VesicleModel& vesicle : frozen_.model.vesicles) charging.push_back(vesicle.charging);
-    require_converged(steady_potentials(in_field_, interaction, charging, settings_.electric_tolerance, potentials),
+    for (std::size_t a = 0; a < results.size(); ++a) {
+      membranes.push_back({in_field_[a], frozen_.model.vesicles[a].charging});
+    }
+    require_converged(steady_potentials(membranes, &interaction, settings_.electric_tolerance, potentials),
                       "steady membrane potentials");
     const CoupledDensities densities = solve_second_kind(
         in_field_, interaction, weighted_fluxes(in_field_, interaction, potentials), settings_.electric_tolerance);
@@ -90,7 +93,7 @@ class CoupledFrozenSolver {
     }
     interaction.gather_potentials(charges);
     for (std::size_t a = 0; a < results.size(); ++a) {
-      if (charging[a].conductance == 0.0) remove_mean(membrane(a), potentials[a]);
+      if (membranes[a].charging.conductance == 0.0) remove_mean(membrane(a), potentials[a]);
       results[a].steady_charge = std::move(charges[a]);
       results[a].steady_potential = std::move(potentials[a]);
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bie/physics/coupled_charging.hpp"
+#include "bie/physics/membrane_charging.hpp"
 
 namespace vehd {
 
@@ -39,31 +39,32 @@ class PorousIteration {
       driven_.field.setZero();
       driven_.pump = 0.0;
     }
-    intact_ = membrane_current(driven_, of.charging.charging, membrane);
-    storage_ = capacitance_of(of.charging.charging, membrane) / step.dt;
+    intact_ = membrane_current(driven());
     base_ = step.lacks ? from : Vector(Vector::Zero(from.size()));
     about_ = from;
     // What goes through the membrane already where a correction begins.
     known_current_ = Vector::Zero(from.size());
-    if (step.lacks) known_current_ = porous_current(of.reaction, of.charging.charging, membrane, step.from);
+    if (step.lacks) {
+      known_current_ =
+          porous_conductance(of.reaction, of.charging.charging, membrane, step.from.reaction).cwiseProduct(from);
+    }
     linearise();
   }
 
-  /// The problem without a field where a correction is asked for.
-  [[nodiscard]] ElectricMembrane in_field() const { return {driven_, of_.charging.in_field.membrane}; }
+  /// The membrane without a field where a correction is asked for.
+  [[nodiscard]] ChargingMembrane driven() const {
+    return {{driven_, of_.charging.in_field.membrane}, of_.charging.charging};
+  }
   [[nodiscard]] Vector start() const {
     const Vector& from = of_.step.from.potential;
     return of_.step.lacks ? Vector(Vector::Zero(from.size())) : from;
   }
 
-  /// (C_m/dt + slope) w − b, with all that does not depend on w in b.
-  [[nodiscard]] ChargingStep charging() const {
-    const Vector& starts = of_.step.lacks ? of_.step.lacks->potential : of_.step.from.potential;
-    const Vector given = storage_.cwiseProduct(Vector(fine().synthesize(starts))) + known_current_;
-    return {(at_.slope.array() + storage_.array()).matrix(),
-            given - at_.current + at_.slope.cwiseProduct(about_ - base_)};
+  /// V that w starts from.
+  [[nodiscard]] const Vector& before() const {
+    return of_.step.lacks ? of_.step.lacks->potential : of_.step.from.potential;
   }
-  /// The current of w in it.
+  /// The current of w.
   [[nodiscard]] MembraneCurrent current() const {
     return {at_.slope, at_.current - known_current_ - at_.slope.cwiseProduct(about_ - base_)};
   }
@@ -107,22 +108,28 @@ class PorousIteration {
   ElectricParameters driven_;
   Vector known_;  // of s
   MembraneCurrent intact_;
-  Vector storage_;               // C_m/dt
   Vector base_, known_current_;  // V and the current through the membrane at which w is zero
   Vector about_;                 // V at which the slopes are taken
   Linearised at_;
 };
 
 /// Newton's method for all membranes together.
-/// @param solve      solves what the iterations ask for: solve(solutions)
+/// @param law_of     the law of membrane a under the current of its w: law_of(a, current)
+/// @param laws       the last ones on output
 /// @param solutions  w of each on output
-template <typename Solve>
-SolveReport iterate(std::vector<PorousIteration>& iterations, const Solve& solve, double tolerance,
-                    std::vector<Vector>& solutions) {
-  for (const PorousIteration& iteration : iterations) solutions.push_back(iteration.start());
+template <typename LawOf>
+SolveReport iterate(std::vector<PorousIteration>& iterations, const Interaction* interaction, const LawOf& law_of,
+                    double tolerance, std::vector<CurrentLaw>& laws, std::vector<Vector>& solutions) {
+  std::vector<ElectricMembrane> in_field;
+  for (const PorousIteration& iteration : iterations) {
+    in_field.push_back(iteration.driven().in_field);
+    solutions.push_back(iteration.start());
+  }
   SolveReport report{SolveEnd::out_of_iterations, 0, 0.0};
   for (int i = 0; i < kMostNewtonSteps; ++i) {
-    const SolveReport one = solve(solutions);
+    laws.clear();
+    for (std::size_t a = 0; a < iterations.size(); ++a) laws.push_back(law_of(a, iterations[a].current()));
+    const SolveReport one = solve_laws(in_field, interaction, laws, tolerance, solutions);
     report.iterations += one.iterations;
     report.residual = one.residual;
     if (!one.converged()) return report;
@@ -160,12 +167,6 @@ Vector porous_conductance(const PorationReaction& reaction, const ChargingParame
          Vector(membrane.fine.synthesize(state)).unaryExpr([&](double s) { return reaction.conductance(s).value; });
 }
 
-Vector porous_current(const PorationReaction& reaction, const ChargingParameters& charging, const Membrane& membrane,
-                      const PorousState& state) {
-  return porous_conductance(reaction, charging, membrane, state.reaction)
-      .cwiseProduct(Vector(membrane.fine.synthesize(state.potential)));
-}
-
 Vector reaction_rate(const PorationReaction& reaction, const Membrane& membrane, const PorousState& state) {
   const Vector s = membrane.fine.synthesize(state.reaction);
   const Vector potential = membrane.fine.synthesize(state.potential);
@@ -176,20 +177,12 @@ Vector reaction_rate(const PorationReaction& reaction, const Membrane& membrane,
 SolveReport charge_porous_membranes(const std::vector<PorousMembrane>& membranes, const Interaction* interaction,
                                     double tolerance, std::vector<PorousState>& states) {
   std::vector<PorousIteration> iterations = iterations_of(membranes);
-  std::vector<ElectricMembrane> in_field;
-  for (const PorousIteration& iteration : iterations) in_field.push_back(iteration.in_field());
-  const auto solve = [&](std::vector<Vector>& solutions) {
-    if (interaction == nullptr) {
-      const ChargingStep step = iterations.front().charging();
-      return solve_varying_charging(in_field.front().electric, in_field.front().membrane, step.a, step.b, tolerance,
-                                    solutions.front());
-    }
-    std::vector<ChargingStep> steps;
-    for (const PorousIteration& iteration : iterations) steps.push_back(iteration.charging());
-    return solve_varying_charging(in_field, *interaction, std::move(steps), tolerance, solutions);
+  const auto law_of = [&](std::size_t a, const MembraneCurrent& current) {
+    return law_of_charging(iterations[a].driven(), current, membranes[a].step.dt, iterations[a].before());
   };
+  std::vector<CurrentLaw> laws;
   std::vector<Vector> solutions;
-  const SolveReport report = iterate(iterations, solve, tolerance, solutions);
+  const SolveReport report = iterate(iterations, interaction, law_of, tolerance, laws, solutions);
   states = states_of(iterations, solutions);
   return report;
 }
@@ -198,21 +191,15 @@ SolveReport relax_porous_membranes(const std::vector<PorousMembrane>& membranes,
                                    double tolerance, std::vector<FaceCharges>& charges,
                                    std::vector<PorousState>& states) {
   std::vector<PorousIteration> iterations = iterations_of(membranes);
-  std::vector<ChargingMembrane> driven;
-  for (std::size_t a = 0; a < membranes.size(); ++a) {
-    driven.push_back({iterations[a].in_field(), membranes[a].charging.charging});
-  }
-  std::vector<FaceLaw> laws(membranes.size());
-  const auto solve = [&](std::vector<Vector>& solutions) {
-    for (std::size_t a = 0; a < laws.size(); ++a) {
-      laws[a] = law_of_step(driven[a], iterations[a].current(), membranes[a].step.dt, charges[a]);
-    }
-    return interaction == nullptr ? solve_law(driven.front().in_field, laws.front(), tolerance, solutions.front())
-                                  : solve_laws(driven, *interaction, laws, tolerance, solutions);
+  const auto law_of = [&](std::size_t a, const MembraneCurrent& current) {
+    return law_of_step(iterations[a].driven(), current, membranes[a].step.dt, charges[a]);
   };
+  std::vector<CurrentLaw> laws;
   std::vector<Vector> solutions;
-  const SolveReport report = iterate(iterations, solve, tolerance, solutions);
-  for (std::size_t a = 0; a < laws.size(); ++a) charges[a] = charges_after(driven[a], laws[a], solutions[a]);
+  const SolveReport report = iterate(iterations, interaction, law_of, tolerance, laws, solutions);
+  for (std::size_t a = 0; a < laws.size(); ++a) {
+    charges[a] = charges_after(iterations[a].driven(), laws[a], solutions[a]);
+  }
   states = states_of(iterations, solutions);
   return report;
 }

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "bie/physics/coupled_relaxation.hpp"
+#include "bie/physics/charge_relaxation.hpp"
 #include "bie/physics/poration_reaction.hpp"
 
 namespace vehd {
@@ -13,10 +13,6 @@ struct PorousState {
   Vector potential;
   Vector reaction;
 };
-
-/// (G_m + g(s)) V, the current through the membrane; values on the upsampled grid.
-Vector porous_current(const PorationReaction& reaction, const ChargingParameters& charging, const Membrane& membrane,
-                      const PorousState& state);
 
 /// G_m + g(s), values on the upsampled grid.
 Vector porous_conductance(const PorationReaction& reaction, const ChargingParameters& charging,

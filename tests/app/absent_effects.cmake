@@ -40,7 +40,7 @@ string(REPLACE "," "" total "${total}")
 
 # The scene's own structs and keys are called electric as well; they are read, not run.
 file(STRINGS "${FOLDER}/functions" electric
-     REGEX "${line_start}vehd::[A-Za-z_:]*(electric_|charge|charging|hypersingular|second_kind|steady_potential|laplace)")
+     REGEX "${line_start}vehd::[A-Za-z_:]*(electric_|charge|charging|hypersingular|second_kind|solve_laws|steady_potential|laplace)")
 if(electric)
   list(JOIN electric "\n" electric)
   message(FATAL_ERROR "electric code ran in a scene without electricity:\n${electric}")

@@ -16,6 +16,20 @@ namespace {
 
 constexpr double kTight = 1e-13;
 
+/// Rates of these charges.
+FaceCharges rates_of(const ChargingMembrane& of, const FaceCharges& charges) {
+  const RelaxingField found = fields_of_charges({of}, nullptr, {charges}, kTight, {Vector()}).front();
+  require_converged(found.report, "V_m");
+  return charge_rates(of, found, current_through(of.in_field.membrane, membrane_current(of), found.potential));
+}
+
+/// After a step of backward Euler.
+void relax(const ChargingMembrane& of, double dt, FaceCharges& charges) {
+  std::vector<FaceCharges> all{charges};
+  require_converged(relax_charges({of}, nullptr, dt, kTight, all), "charges");
+  charges = all[0];
+}
+
 struct RelaxingSphere {
   Space space{6};
   double radius = 1.3;
@@ -36,9 +50,7 @@ struct RelaxingSphere {
   [[nodiscard]] Eigen::Vector2d rates(double inner, double sum, double field) const {
     ElectricParameters now = electric;
     now.field.z() = field;
-    const RelaxingField found = field_of_charges(now, charging, membrane, {dipole(inner), dipole(sum)}, kTight);
-    require_converged(found.report, "V_m");
-    const FaceCharges rates = charge_rates(now, charging, membrane, found);
+    const FaceCharges rates = rates_of({{now, membrane}, charging}, {dipole(inner), dipole(sum)});
     return {amplitude(rates.inner), amplitude(rates.sum)};
   }
   [[nodiscard]] Eigen::Matrix2d matrix() const {
@@ -76,16 +88,17 @@ BOOST_FIXTURE_TEST_CASE(each_step_is_backward_euler_exactly, RelaxingSphere) {
   FaceCharges charges{dipole(exact[0]), dipole(exact[1])};
   for (int i = 0; i < 3; ++i) {
     exact = (Eigen::Matrix2d::Identity() - dt * matrix()).inverse() * (exact + dt * drive);
-    require_converged(relax_charges(electric, charging, membrane, dt, kTight, charges), "charges");
+    relax({{electric, membrane}, charging}, dt, charges);
   }
   BOOST_TEST(max_difference(charges.inner, dipole(exact[0])) < 1e-10);
   BOOST_TEST(max_difference(charges.sum, dipole(exact[1])) < 1e-10);
 }
 
 BOOST_FIXTURE_TEST_CASE(steady_charges_do_not_change, RelaxingSphere) {
-  Vector potential;
-  require_converged(steady_potential(electric, charging, membrane, kTight, potential), "steady V_m");
-  const FaceCharges charges = steady_charges(electric, charging, membrane, potential);
+  const ChargingMembrane of{{electric, membrane}, charging};
+  std::vector<Vector> potentials(1);
+  require_converged(steady_potentials({of}, nullptr, kTight, potentials), "steady V_m");
+  const FaceCharges charges = steady_charges(of, potentials[0]);
   const Eigen::Vector2d rate = rates(amplitude(charges.inner), amplitude(charges.sum), electric.field.z());
   BOOST_TEST(rate.norm() < 1e-10);
 }
@@ -95,11 +108,12 @@ BOOST_AUTO_TEST_CASE(small_permittivity_is_the_leaky_dielectric_on_any_shape) {
   const Membrane membrane = make_membrane(space, asymmetric_shape(8), kLaplaceLayers);
   ElectricParameters electric{{0.4, -0.3, 1.1}, 0.6, 1.7, 1e-7, 0.5};
   const ChargingParameters charging{0.8, 0.3};
-  Vector leaky = Vector::Zero(n_coefficients(8));
-  require_converged(charge_membrane(electric, charging, membrane, 0.3, kTight, leaky), "charging");
+  std::vector<Vector> potentials{Vector::Zero(n_coefficients(8))};
+  require_converged(charge_membranes({{{electric, membrane}, charging}}, nullptr, 0.3, kTight, potentials), "charging");
+  const Vector& leaky = potentials[0];
   electric.displacement_current = true;
   FaceCharges charges{Vector::Zero(leaky.size()), Vector::Zero(leaky.size())};
-  require_converged(relax_charges(electric, charging, membrane, 0.3, kTight, charges), "charges");
+  relax({{electric, membrane}, charging}, 0.3, charges);
   BOOST_TEST(max_difference(charges.inner, leaky) < 1e-5 * leaky.norm());
 }
 
@@ -112,9 +126,8 @@ BOOST_AUTO_TEST_CASE(a_step_ends_in_charges_whose_field_makes_that_step) {
   const ChargingParameters charging{0.8, 0.3};
   const double dt = 0.3;
   FaceCharges charges{Vector::Zero(n_coefficients(12)), Vector::Zero(n_coefficients(12))};
-  require_converged(relax_charges(electric, charging, membrane, dt, kTight, charges), "charges");
-  const RelaxingField field = field_of_charges(electric, charging, membrane, charges, kTight);
-  const FaceCharges rates = charge_rates(electric, charging, membrane, field);
+  relax({{electric, membrane}, charging}, dt, charges);
+  const FaceCharges rates = rates_of({{electric, membrane}, charging}, charges);
   BOOST_TEST(max_difference(dt * rates.inner, charges.inner) < 1e-3 * charges.inner.norm());
   BOOST_TEST(max_difference(dt * rates.sum, charges.sum) < 3e-3 * charges.sum.norm());
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bie/physics/coupled_charging.hpp"
+#include "bie/physics/membrane_charging.hpp"
 #include "tests/physics/coupled_spheres.hpp"
 #include "tests/support/electric.hpp"
 #include "tests/support/several.hpp"
@@ -105,8 +105,8 @@ BOOST_AUTO_TEST_CASE(steady_membranes_act_as_insulators) {
     for (const double ratio : {0.3, 10.0}) {
       const ElectricParameters electric = with_ratio({0.0, 0.0, 1.0}, ratio);
       std::vector<Vector> potentials(2);
-      const SolveReport report = steady_potentials(spheres.in_field(electric), spheres.interaction,
-                                                   {{1.0, 0.0}, {1.0, 0.0}}, 1e-12, potentials);
+      const SolveReport report = steady_potentials(spheres.charging(electric, {{1.0, 0.0}, {1.0, 0.0}}),
+                                                   &spheres.interaction, 1e-12, potentials);
       require_converged(report, "steady potentials");
       const double found = attraction(electric_forces(spheres, electric, potentials));
       BOOST_TEST(std::abs(found - exact.along) < 1e-8, "gap " << gap << " ratio " << ratio);
@@ -119,11 +119,10 @@ BOOST_AUTO_TEST_CASE(steady_membranes_act_as_insulators) {
 BOOST_AUTO_TEST_CASE(two_spheres_charge_in_steps_as_their_multipoles_do) {
   const SeveralMembranes spheres = two_spheres(16, 0.5);
   const ElectricParameters electric = with_ratio({0.0, 0.0, 1.0}, 4.0);
-  const std::vector<ElectricMembrane> members = spheres.in_field(electric);
-  const std::vector<ChargingParameters> charging(2, {0.8, 0.3});
+  const std::vector<ChargingMembrane> members = spheres.charging(electric, {{0.8, 0.3}, {0.8, 0.3}});
   for (const double dt : {1e-3, 0.2, 10.0}) {
     std::vector<Vector> potentials = spheres.zeros();
-    const SolveReport report = charge_membranes(members, spheres.interaction, charging, dt, 1e-12, potentials);
+    const SolveReport report = charge_membranes(members, &spheres.interaction, dt, 1e-12, potentials);
     BOOST_TEST(report.converged());
     BOOST_TEST(report.iterations <= 25);
     const SphereForces exact = charged_sphere_forces(0.5, 4.0, 0.8 / dt + 0.3);
@@ -135,12 +134,11 @@ BOOST_AUTO_TEST_CASE(steady_potentials_stay_as_they_are) {
   const Matrix one = asymmetric_shape(10), other = translated(ellipsoid(10, {0.6, 0.5, 0.8}), {2.4, 0.1, 0.7});
   const SeveralMembranes pair(10, {one, other}, kLaplaceLayers, kLaplacePairs);
   const ElectricParameters electric{{0.4, -0.6, 1.0}, 5.0, 1.0, 1.0};
-  const std::vector<ElectricMembrane> members = pair.in_field(electric);
-  const std::vector<ChargingParameters> charging{{0.8, 0.3}, {0.5, 0.0}};
+  const std::vector<ChargingMembrane> members = pair.charging(electric, {{0.8, 0.3}, {0.5, 0.0}});
   std::vector<Vector> potentials(2);
-  require_converged(steady_potentials(members, pair.interaction, charging, 1e-12, potentials), "steady potentials");
+  require_converged(steady_potentials(members, &pair.interaction, 1e-12, potentials), "steady potentials");
   std::vector<Vector> later = potentials;
-  require_converged(charge_membranes(members, pair.interaction, charging, 0.2, 1e-12, later), "charging");
+  require_converged(charge_membranes(members, &pair.interaction, 0.2, 1e-12, later), "charging");
   for (const std::size_t a : {0, 1}) BOOST_TEST(relative_difference(later[a], potentials[a]) < 1e-10);
 }
 

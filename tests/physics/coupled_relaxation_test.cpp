@@ -1,11 +1,10 @@
-#include "bie/physics/coupled_relaxation.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "bie/physics/averaged_field.hpp"
+#include "bie/physics/charge_relaxation.hpp"
 #include "bie/support/complex_columns.hpp"
 #include "tests/physics/coupled_spheres.hpp"
 #include "tests/support/electric.hpp"
@@ -35,9 +34,12 @@ SeveralMembranes spheres_above_each_other(int order, double distance) {
 }
 
 std::vector<ChargingMembrane> charging_in(const SeveralMembranes& several, const ElectricParameters& electric) {
-  std::vector<ChargingMembrane> all;
-  for (const Membrane& membrane : several.membranes) all.push_back({{electric, membrane}, kMembrane});
-  return all;
+  return several.charging(electric, std::vector<ChargingParameters>(several.count(), kMembrane));
+}
+
+/// Their rates where nothing but leaks and pumps conducts through the membrane.
+FaceCharges rates_of(const ChargingMembrane& of, const RelaxingField& field) {
+  return charge_rates(of, field, current_through(of.in_field.membrane, membrane_current(of), field.potential));
 }
 
 std::vector<FaceCharges> no_charges(const SeveralMembranes& several) {
@@ -49,7 +51,7 @@ std::vector<FaceCharges> no_charges(const SeveralMembranes& several) {
 std::vector<RelaxingField> fields(const std::vector<ChargingMembrane>& membranes, const SeveralMembranes& several,
                                   const std::vector<FaceCharges>& charges) {
   std::vector<RelaxingField> found =
-      fields_of_charges(membranes, several.interaction, charges, kTight, several.zeros());
+      fields_of_charges(membranes, &several.interaction, charges, kTight, several.zeros());
   require_converged(found.front().report, "V_m");
   return found;
 }
@@ -82,7 +84,7 @@ BOOST_AUTO_TEST_CASE(one_step_of_two_spheres_is_that_of_their_multipoles) {
   const std::vector<ChargingMembrane> membranes = charging_in(spheres, electric);
   for (const double dt : {1e-3, 0.2, 10.0}) {
     std::vector<FaceCharges> charges = no_charges(spheres);
-    require_converged(relax_charges(membranes, spheres.interaction, dt, kTight, charges), "charges");
+    require_converged(relax_charges(membranes, &spheres.interaction, dt, kTight, charges), "charges");
     const double k_in = 6.0 + 0.2 / dt, k_out = 1.7 + 0.4 / dt;
     const SphereForces exact = charged_sphere_forces(0.5, k_in / k_out, (0.8 / dt + 0.3) / k_out);
     const double found = attraction(spheres, electric, fields(membranes, spheres, charges));
@@ -116,11 +118,11 @@ BOOST_AUTO_TEST_CASE(a_sphere_far_away_counts_with_the_third_power_of_its_distan
   for (const double distance : {8.0, 16.0, 32.0}) {
     const SeveralMembranes spheres = spheres_above_each_other(6, distance);
     std::vector<FaceCharges> charges = no_charges(spheres);
-    require_converged(relax_charges(charging_in(spheres, electric), spheres.interaction, dt, kTight, charges), "pair");
-    FaceCharges alone = no_charges(spheres).front();
-    require_converged(relax_charges(electric, kMembrane, spheres.membranes[0], dt, kTight, alone), "alone");
+    require_converged(relax_charges(charging_in(spheres, electric), &spheres.interaction, dt, kTight, charges), "pair");
+    std::vector<FaceCharges> alone{no_charges(spheres).front()};
+    require_converged(relax_charges({charging_in(spheres, electric).front()}, nullptr, dt, kTight, alone), "alone");
     const Index along = coefficient_index(1, 0);
-    const double growth = charges[0].inner[along] / alone.inner[along] - 1.0;
+    const double growth = charges[0].inner[along] / alone[0].inner[along] - 1.0;
     const double expected = -2.0 * dipole / std::pow(distance, 3);
     // The dipoles that the dipoles make are the next term.
     BOOST_TEST(std::abs(growth - expected) < 2.0 * expected * expected + 1e-11, growth << ", " << expected);
@@ -156,8 +158,7 @@ BOOST_AUTO_TEST_CASE(charges_of_two_membranes_change_as_their_amplitudes_alterna
   for (std::size_t a = 0; a < 2; ++a) {
     const Vector potential = solved.membranes[a].potential.col(0);
     BOOST_TEST(max_difference(now[a].potential, potential) < 1e-3 * potential.norm());
-    const auto& [electric, membrane] = membranes[a].in_field;
-    const FaceCharges rates = charge_rates(electric, membranes[a].charging, membrane, now[a]);
+    const FaceCharges rates = rates_of(membranes[a], now[a]);
     // A quarter of a period later the alternation has minus the imaginary part.
     BOOST_TEST(max_difference(rates.inner, -omega * inner[a].col(1)) < 3e-3 * omega * inner[a].norm());
     BOOST_TEST(max_difference(rates.sum, -omega * sum[a].col(1)) < 3e-3 * omega * sum[a].norm());
@@ -175,11 +176,10 @@ BOOST_AUTO_TEST_CASE(a_step_of_two_membranes_ends_in_charges_whose_field_makes_i
   std::vector<FaceCharges> charges = no_charges(two);
   for (int step = 0; step < 2; ++step) {
     const std::vector<FaceCharges> before = charges;
-    require_converged(relax_charges(membranes, two.interaction, dt, kTight, charges), "charges");
+    require_converged(relax_charges(membranes, &two.interaction, dt, kTight, charges), "charges");
     const std::vector<RelaxingField> now = fields(membranes, two, charges);
     for (std::size_t a = 0; a < 2; ++a) {
-      const auto& [electric, membrane] = membranes[a].in_field;
-      const FaceCharges rates = charge_rates(electric, membranes[a].charging, membrane, now[a]);
+      const FaceCharges rates = rates_of(membranes[a], now[a]);
       BOOST_TEST(max_difference(dt * rates.inner, charges[a].inner - before[a].inner) < 1e-4 * charges[a].inner.norm());
       BOOST_TEST(max_difference(dt * rates.sum, charges[a].sum - before[a].sum) < 1e-4 * charges[a].sum.norm());
     }
@@ -193,14 +193,14 @@ BOOST_AUTO_TEST_CASE(copies_far_apart_are_each_alone) {
   const ElectricParameters electric = relaxing({0.4, -0.3, 1.1});
   const std::vector<ChargingMembrane> membranes = charging_in(three, electric);
   std::vector<FaceCharges> charges = no_charges(three);
-  require_converged(relax_charges(membranes, three.interaction, 0.3, kTight, charges), "charges");
-  FaceCharges alone = no_charges(three).front();
-  require_converged(relax_charges(electric, kMembrane, three.membranes[0], 0.3, kTight, alone), "alone");
-  const RelaxingField of_one = field_of_charges(electric, kMembrane, three.membranes[0], alone, kTight);
+  require_converged(relax_charges(membranes, &three.interaction, 0.3, kTight, charges), "charges");
+  std::vector<FaceCharges> alone{no_charges(three).front()};
+  require_converged(relax_charges({membranes.front()}, nullptr, 0.3, kTight, alone), "alone");
+  const RelaxingField of_one = fields_of_charges({membranes.front()}, nullptr, alone, kTight, {Vector()}).front();
   const std::vector<RelaxingField> of_all = fields(membranes, three, charges);
   for (std::size_t a = 0; a < 3; ++a) {
-    BOOST_TEST(max_difference(charges[a].inner, alone.inner) < 1e-10);
-    BOOST_TEST(max_difference(charges[a].sum, alone.sum) < 1e-10);
+    BOOST_TEST(max_difference(charges[a].inner, alone[0].inner) < 1e-10);
+    BOOST_TEST(max_difference(charges[a].sum, alone[0].sum) < 1e-10);
     BOOST_TEST(max_difference(of_all[a].potential, of_one.potential) < 1e-10);
     BOOST_TEST(max_difference(of_all[a].traces.flux_in, of_one.traces.flux_in) < 1e-9);
     BOOST_TEST(max_difference(of_all[a].traces.charge, of_one.traces.charge) < 1e-9);

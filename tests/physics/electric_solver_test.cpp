@@ -32,8 +32,9 @@ BOOST_AUTO_TEST_CASE(charging_iterations_are_bounded_for_any_time_constant_on_sh
   for (const double ratio : {1e-8, 0.5, 1.0, 2.0, 1e8}) {
     for (const double capacitance : {1e-6, 1.0, 1e6}) {
       const ElectricParameters electric{{0.4, -0.6, 1.0}, ratio, 1.0, 1.0};
-      Vector v = smooth_coefficients(12, 4, 1, 96);
-      const SolveReport report = charge_membrane(electric, {capacitance, 0.0}, membrane, 0.5, 1e-10, v);
+      std::vector<Vector> potentials{smooth_coefficients(12, 4, 1, 96)};
+      const SolveReport report =
+          charge_membranes({{{electric, membrane}, {capacitance, 0.0}}}, nullptr, 0.5, 1e-10, potentials);
       BOOST_TEST_CONTEXT("conductivity ratio " << ratio << ", capacitance " << capacitance) {
         BOOST_TEST(report.converged());
         BOOST_TEST(report.iterations <= 30);

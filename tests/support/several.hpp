@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bie/physics/coupled_electric.hpp"
+#include "bie/physics/current_law.hpp"
 #include "tests/support/membrane.hpp"
 
 namespace vehd::testing {
@@ -23,6 +24,14 @@ struct SeveralMembranes {
   [[nodiscard]] std::vector<ElectricMembrane> in_field(const ElectricParameters& electric) const {
     std::vector<ElectricMembrane> all;
     for (const Membrane& membrane : membranes) all.push_back({electric, membrane});
+    return all;
+  }
+
+  /// The same where membranes charge.
+  [[nodiscard]] std::vector<ChargingMembrane> charging(const ElectricParameters& electric,
+                                                       const std::vector<ChargingParameters>& of_each) const {
+    std::vector<ChargingMembrane> all;
+    for (std::size_t a = 0; a < count(); ++a) all.push_back({{electric, membranes[a]}, of_each[a]});
     return all;
   }
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "bie/physics/charge_relaxation.hpp"
-#include "bie/physics/coupled_charging.hpp"
+#include "bie/physics/coupled_electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
@@ -36,49 +37,42 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
   return fields;
 }
 
-constexpr LayerSelection kElectricLayers{true, true, true, false};
-
-/// With displacement currents the steady V_m stands for the charges of both faces.
-void take_steady_charges(const Model& model, const VesicleModel& vesicle, const Membrane& membrane,
-                         VesicleState& state) {
-  if (!relaxes_charge(model)) return;
-  FaceCharges charges =
-      steady_charges(electric_parameters(model, vesicle), vesicle.charging, membrane, state.transmembrane_potential);
-  state.transmembrane_potential = std::move(charges.inner);
-  state.free_charge = std::move(charges.sum);
-}
-
-/// V_m of several vesicles whose steady state is one.
+/// V_m of all vesicles in their steady state; with displacement currents it stands for the charges of both faces.
 void find_steady_potentials(const Model& model, const Discretisation& discretisation, State& state,
                             Instruments& instruments) {
-  const Shares& shares = discretisation.shares();
+  // One alone is solved for on every rank.
+  const bool interacts = state.vesicles.size() > 1;
+  const Shares shares = interacts ? discretisation.shares() : Shares();
   std::vector<Membrane> frozen;
+  frozen.reserve(state.vesicles.size());
   std::vector<InteractingMembrane> interacting;
-  std::vector<ElectricParameters> electric;
+  std::vector<ChargingMembrane> membranes;
+  std::vector<Vector> potentials;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    const VesicleModel& vesicle = model.vesicles[a];
     const MembraneSpace& space = discretisation.vesicle(a);
     const Matrix& position = state.vesicles[a].position;
-    electric.push_back(electric_parameters(model, model.vesicles[a]));
-    const LayerSelection layers = shares.owns(a) ? kElectricLayers : LayerSelection{};
+    const LayerSelection layers = shares.owns(a) ? LayerSelection{true, true, true, false} : LayerSelection{};
     frozen.push_back(membrane_at(space, position, layers, 1.0, instruments));
     frozen.back().material = material_at(space, state.vesicles[a].material);
-    interacting.push_back({position, space.targets(), electric_pair_selection(electric.back())});
-  }
-  const Interaction interaction(interacting, {}, instruments, shares, discretisation.symmetry().exchange);
-  std::vector<ElectricMembrane> membranes;
-  std::vector<ChargingParameters> charging;
-  std::vector<Vector> potentials;
-  for (std::size_t a = 0; a < frozen.size(); ++a) {
-    membranes.push_back({electric[a], frozen[a]});
-    charging.push_back(model.vesicles[a].charging);
+    membranes.push_back({{electric_parameters(model, vesicle), frozen.back()}, vesicle.charging});
+    interacting.push_back({position, space.targets(), electric_pair_selection(membranes.back().in_field.electric)});
     potentials.push_back(state.vesicles[a].transmembrane_potential);
   }
-  require_converged(
-      steady_potentials(membranes, interaction, charging, discretisation.settings().electric_tolerance, potentials),
-      "steady membrane potentials");
+  std::optional<Interaction> interaction;
+  if (interacts) {
+    interaction.emplace(interacting, PairSettings{}, instruments, shares, discretisation.symmetry().exchange);
+  }
+  require_converged(steady_potentials(membranes, interaction ? &*interaction : nullptr,
+                                      discretisation.settings().electric_tolerance, potentials),
+                    "steady membrane potential");
   for (std::size_t a = 0; a < frozen.size(); ++a) {
-    state.vesicles[a].transmembrane_potential = std::move(potentials[a]);
-    take_steady_charges(model, model.vesicles[a], frozen[a], state.vesicles[a]);
+    VesicleState& vesicle = state.vesicles[a];
+    vesicle.transmembrane_potential = std::move(potentials[a]);
+    if (!relaxes_charge(model)) continue;
+    FaceCharges charges = steady_charges(membranes[a], vesicle.transmembrane_potential);
+    vesicle.transmembrane_potential = std::move(charges.inner);
+    vesicle.free_charge = std::move(charges.sum);
   }
 }
 
@@ -98,17 +92,9 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     start.reference_area = surface_area(surface);
     start.reference_volume = enclosed_volume(surface);
     if (vesicle.criterion) start.crossing.emplace();
-    if (model.electric && membranes[a].potential.steady && membranes.size() == 1) {
-      Membrane membrane = membrane_at(space, position, kElectricLayers, 1.0, instruments);
-      membrane.material = material_at(space, start.material);
-      require_converged(steady_potential(electric_parameters(model, vesicle), vesicle.charging, membrane,
-                                         discretisation.settings().electric_tolerance, start.transmembrane_potential),
-                        "steady membrane potential");
-      take_steady_charges(model, vesicle, membrane, start);
-    }
   }
   const auto is_steady = [](const StartMembrane& membrane) { return membrane.potential.steady; };
-  if (model.electric && membranes.size() > 1 && std::any_of(membranes.begin(), membranes.end(), is_steady)) {
+  if (model.electric && std::any_of(membranes.begin(), membranes.end(), is_steady)) {
     if (!std::all_of(membranes.begin(), membranes.end(), is_steady)) {
       throw InputError("some vesicles start with a steady V_m, others do not; accepted: all of them or none");
     }

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "bie/physics/coupled_relaxation.hpp"
+#include "bie/physics/charge_relaxation.hpp"
 
 namespace vehd {
 
@@ -15,7 +15,6 @@ void take_charges(const VesicleTask& task) {
   task.fields.free_charge_out = capacitance * (task.state.free_charge - inner);
 }
 
-/// Of one vesicle or of several.
 std::vector<RelaxingField> solved_fields(const std::vector<VesicleTask>& tasks,
                                          const std::vector<ChargingMembrane>& membranes,
                                          const Interaction* interaction) {
@@ -26,9 +25,7 @@ std::vector<RelaxingField> solved_fields(const std::vector<VesicleTask>& tasks,
     charges.push_back({task.state.transmembrane_potential, task.state.free_charge});
     start.push_back(task.state.transmembrane_potential);
   }
-  if (interaction != nullptr) return fields_of_charges(membranes, *interaction, charges, tolerance, std::move(start));
-  const auto& [in_field, charging] = membranes.front();
-  return {field_of_charges(in_field.electric, charging, in_field.membrane, charges.front(), tolerance, start.front())};
+  return fields_of_charges(membranes, interaction, charges, tolerance, std::move(start));
 }
 
 }  // namespace
@@ -48,11 +45,7 @@ std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks, dou
   for (const std::size_t a : shares.own(tasks.size())) {
     const VesicleTask& task = tasks[a];
     const ElectricParameters& electric = membranes[a].in_field.electric;
-    Vector through = Vector::Zero(task.membrane.surface.n_points());
-    FaceCharges rates = add_varying_current(task, electric, fields[a].potential, through)
-                            ? charge_rates(electric, task.vesicle.charging, task.membrane, fields[a],
-                                           task.membrane.fine.analyze(through))
-                            : charge_rates(electric, task.vesicle.charging, task.membrane, fields[a]);
+    FaceCharges rates = charge_rates(membranes[a], fields[a], current_through(task, electric, fields[a].potential));
     task.solution.potential_rate = std::move(rates.inner);
     task.solution.free_charge_rate = std::move(rates.sum);
     take_charges(task);

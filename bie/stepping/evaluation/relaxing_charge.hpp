@@ -7,7 +7,7 @@
 namespace vehd {
 
 /// f_E of the free charges of each vesicle, with V_m, q and the rates of the charges as by-products, see
-/// field_of_charges and fields_of_charges.
+/// fields_of_charges.
 /// @param limit   which value of the field counts where it jumps
 /// @param solved  with the interaction of several vesicles
 /// @return  values on the upsampled grids; of vesicles of other ranks all stay empty

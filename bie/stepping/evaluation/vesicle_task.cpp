@@ -1,8 +1,8 @@
 #include "bie/stepping/evaluation/vesicle_task.hpp"
 
 #include "bie/physics/bending.hpp"
+#include "bie/physics/current_law.hpp"
 #include "bie/physics/elasticity_by_place.hpp"
-#include "bie/physics/membrane_charging.hpp"
 #include "bie/physics/porous_charging.hpp"
 #include "bie/stepping/state/composition.hpp"
 
@@ -14,27 +14,18 @@ Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric
   const Vector& area = membrane.surface.quadrature;
   Vector current = electric.conductivity_in * traces.flux_in;
   current.array() -= current.dot(area) / area.sum();
-  if (add_varying_current(task, electric, task.state.transmembrane_potential, current)) {
-    if (!charges_by_place(membrane)) return membrane.fine.analyze(current) / -charging.capacitance;
-    return -membrane.fine.analyze(current.cwiseQuotient(capacitance_of(charging, membrane)));
-  }
-  return -(membrane.fine.analyze(current) + charging.conductance * task.state.transmembrane_potential) /
-         charging.capacitance;
+  current += current_through(task, electric, task.state.transmembrane_potential);
+  return -membrane.fine.analyze(Vector(current.cwiseQuotient(capacitance_of(charging, membrane))));
 }
 
-bool add_varying_current(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential,
-                         Vector& current) {
+Vector current_through(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential) {
   const Membrane& membrane = task.membrane;
-  const ChargingParameters& charging = task.vesicle.charging;
-  if (!task.vesicle.reaction && !charges_by_place(membrane)) return false;
+  MembraneCurrent current = membrane_current({{electric, membrane}, task.vesicle.charging});
   if (task.vesicle.reaction) {
-    current += porous_current(*task.vesicle.reaction, charging, membrane, {potential, task.state.poration});
-  } else {
-    current += conductance_of(charging, membrane).cwiseProduct(Vector(membrane.fine.synthesize(potential)));
+    current.conductance =
+        porous_conductance(*task.vesicle.reaction, task.vesicle.charging, membrane, task.state.poration);
   }
-  const Vector& pump = membrane.material.pump_current;
-  if (pump.size() > 0) current += electric.pump * pump;
-  return true;
+  return current_through(membrane, current, potential);
 }
 
 void add_poration(const VesicleTask& task) {

@@ -17,14 +17,12 @@ struct VesicleTask {
   VesicleSolution& solution;
 };
 
-/// dV_m/dt = −(σ_i ∂φ_i/∂n + G_m V_m)/C_m, Eq. (4e), coefficients. No net current leaves a closed membrane, which the
+/// dV_m/dt = −(σ_i ∂φ_i/∂n + I)/C_m with the current I of current_through, Eq. (4e), coefficients. No net current leaves a closed membrane, which the
 /// quadrature sees only up to its error.
 Vector charging_rate(const VesicleTask& task, const ElectricParameters& electric, const ElectricTraces& traces);
 
-/// Adds the current through the membrane, outwards, where it is not G_m V with one G_m. Whether it is not.
-/// @param current  values on the upsampled grid
-bool add_varying_current(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential,
-                         Vector& current);
+/// The current through the membrane with its pores and pump under this V_m, outwards, values on the upsampled grid.
+Vector current_through(const VesicleTask& task, const ElectricParameters& electric, const Vector& potential);
 
 /// With V_m known: what a membrane that porates conducts, which becomes one of the task's fields, and how fast that
 /// changes.

@@ -13,7 +13,7 @@ struct Charge {
   Vector potential, free, poration{};
 };
 
-/// One implicit step of the charging of all membranes, see charge_membrane, charge_membranes and relax_charges.
+/// One implicit step of the charging of all membranes, see charge_membranes and relax_charges.
 /// @param at_start  membranes and their interaction
 /// @param electric  of each vesicle at the end of the step
 /// @param charges   before the step on input, after it on output

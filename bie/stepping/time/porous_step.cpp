@@ -80,14 +80,14 @@ class Step {
 
   /// V_m that goes with the charges that the step starts from.
   SolveReport find_potentials(std::vector<Vector>& potentials) const {
-    std::vector<FaceLaw> laws;
+    std::vector<CurrentLaw> laws;
+    std::vector<ElectricMembrane> in_field;
     for (std::size_t a = 0; a < from_.size(); ++a) {
       laws.push_back(law_of_charges(charging_[a], {from_[a].potential, from_[a].free}));
+      in_field.push_back(charging_[a].in_field);
       potentials.push_back(at_start_.fields.vesicles[a].potential);
     }
-    return interaction() == nullptr
-               ? solve_law(charging_.front().in_field, laws.front(), tolerance_, potentials.front())
-               : solve_laws(charging_, *interaction(), laws, tolerance_, potentials);
+    return solve_laws(in_field, interaction(), laws, tolerance_, potentials);
   }
 
   const Model& model_;

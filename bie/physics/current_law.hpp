@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/physics/electric.hpp"
+#include "bie/physics/interaction.hpp"
+
+namespace vehd {
+
+/// A membrane in a field that charges.
+struct ChargingMembrane {
+  ElectricMembrane in_field;
+  ChargingParameters charging;
+};
+
+/// C_m on the upsampled grid.
+Vector capacitance_of(const ChargingParameters& charging, const Membrane& membrane);
+/// G_m on the upsampled grid.
+Vector conductance_of(const ChargingParameters& charging, const Membrane& membrane);
+
+/// The current through a membrane at every point, outwards and linear in V there: G V + J, values on the upsampled
+/// grid.
+struct MembraneCurrent {
+  Vector conductance, constant;
+};
+/// G_m V + J_p.
+MembraneCurrent membrane_current(const ChargingMembrane& of);
+/// Under this V, values on the upsampled grid. @param potential  coefficients
+Vector current_through(const Membrane& membrane, const MembraneCurrent& current, const Vector& potential);
+
+/// What the faces of one membrane hold and let through for a V: E_i = (aV − s_i)/k_i inside and E_e = (aV + s_e)/k_e
+/// outside, with E_k = −∂φ_k/∂n. Values on the upsampled grid.
+struct CurrentLaw {
+  Vector a;                        ///< ≥ 0
+  double k_in = 1.0, k_out = 1.0;  ///< of the fluids: what conducts, or is displaced; not both zero
+  Vector s_in, s_out;
+};
+
+/// Solves for V of all membranes with both fields given by V,
+///   ½(E_i + E_e)_a + Σ_b S′_ab[(E_e − E_i)_b] − Σ_b D′_ab[V_b] = E·n on every membrane a,
+/// times κ = k_i k_e/(k_i + k_e), so that either k may be zero. With η = (k_i − k_e)/(k_i + k_e) that is, of one
+/// membrane,
+///   (½ + ηS′)aV − κD′[V] = κE·n + ½(w_i s_i − w_e s_e) − S′[w_i s_i + w_e s_e],  w_k = κ/k_k.
+/// No net current leaves a membrane: degree 0 holds ∫(aV − s_i) dA = 0, and where a = 0 that V has no mean. The
+/// unknowns are V/R, what a field of one size makes of membranes of any size; each equation is divided by the mean of
+/// a + κ/R and preconditioned with its inverse on a sphere.
+///
+/// Collective where membranes are those of several ranks, see Interaction; all ranks get the potentials of all.
+/// @param interaction  of the membranes; null where there is one
+/// @param potentials   coefficients of degree p; first guesses on input, V of each on output
+/// @param tolerance    of the preconditioned residual, relative
+/// @throws InputError  if one of several membranes that carries charge lies between fluids of which one insulates: the
+///     charge is not known from V there
+/// Accuracy: that of the layers (tests/physics/charging_test.cpp, tests/physics/coupled_electric_test.cpp)
+/// Source: paper Eqs. (12)–(14), (29), (30), without the inverse; docs/theory/electric.md
+SolveReport solve_laws(const std::vector<ElectricMembrane>& membranes, const Interaction* interaction,
+                       const std::vector<CurrentLaw>& laws, double tolerance, std::vector<Vector>& potentials);
+
+}  // namespace vehd
