@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
+#include <utility>
 
 #include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
@@ -23,6 +25,27 @@ std::filesystem::path folder_of_this_program() {
 }
 
 bool is_program(const std::filesystem::path& path) { return ::access(path.c_str(), X_OK) == 0; }
+
+/// Sets options of mpirun by variables: options on its command line differ between Open MPI 4 and 5, and neither knows
+/// the variables of the other.
+void prepare_mpirun() {
+  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{
+           // Containers often have the user root alone, and fewer slots than ranks.
+           {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+           {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+           {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+           {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},
+           // Ranks that spin while they wait slow down those that work when anything else runs on the machine.
+           {"OMPI_MCA_mpi_yield_when_idle", "1"},
+           // An mpirun that is told to end removes its processes at once.
+           {"OMPI_MCA_odls_base_sigkill_timeout", "0"},
+           {"PRTE_MCA_odls_base_sigkill_timeout", "0"},
+           // Messages of its own beside those of the program; version 5 has no such variable.
+           {"OMPI_MCA_orte_execute_quiet", "1"},
+       }) {
+    ::setenv(name, value, 0);
+  }
+}
 
 }  // namespace
 
@@ -44,14 +67,8 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
   arguments.insert(arguments.end(), {"--json", json.string()});
   std::vector<std::string> words;
   if (n_ranks > 1) {
-    // Containers have root alone, and often fewer slots than Open MPI wants to see.
-    ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
-    ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
-    // Ranks that spin while they wait take the time of those that work as soon as anything else runs on the machine.
-    ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-    words = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(n_ranks)};
-    // When mpirun is told to end, it has more to remove than its processes, and no second to spend on them.
-    words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "0"});
+    prepare_mpirun();
+    words = {"mpirun", "-n", std::to_string(n_ranks)};
   } else {
     // A process alone needs no daemon of Open MPI's beside it.
     ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
@@ -67,6 +84,8 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
   if (end.signal != 0) throw std::runtime_error(fmt::format("{} was ended by signal {}", words[0], end.signal));
   FemProgram::Result result{static_cast<ExitCode>(end.exit_code), {}};
   if (std::filesystem::exists(json)) result.json = nlohmann::json::parse(text_of_file(json));
+  const bool holds = !result.json.contains("verdict") || result.json["verdict"] == "agree";
+  if (result.code == ExitCode::done && !holds) result.code = ExitCode::does_not_hold;
   return result;
 }
 

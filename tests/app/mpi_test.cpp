@@ -30,15 +30,19 @@ struct AnyContainer {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+    ::setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 1);
+    // An mpirun that is told to end removes its processes at once.
+    ::setenv("OMPI_MCA_odls_base_sigkill_timeout", "0", 1);
+    ::setenv("PRTE_MCA_odls_base_sigkill_timeout", "0", 1);
+    ::setenv("OMPI_MCA_orte_execute_quiet", "1", 1);
     // Ranks that wait leave the processors to other tests.
     ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
   }
 };
 
-/// Tests run beside others, and what mpirun is told to end it ends at once.
+/// Tests run beside others.
 std::vector<std::string> on_ranks(const std::string& n, const std::vector<std::string>& arguments) {
-  std::vector<std::string> command = {"mpirun", "-q", "--bind-to", "none", "-n", n};
-  command.insert(command.end(), {"--mca", "odls_base_sigkill_timeout", "0", VEHD_MPI_PROGRAM});
+  std::vector<std::string> command = {"mpirun", "--bind-to", "none", "-n", n, VEHD_MPI_PROGRAM};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return command;
 }
