@@ -15,9 +15,12 @@ namespace vehd::meshes {
 ///
 /// F the derivative of x by undistorted places X. The first term is 1 for a similarity and grows with every other
 /// change of form, the second keeps volumes; both are infinite where det F is 0. Whatever is no larger than the energy
-/// of a valid mesh is a valid mesh. Accuracy: Gauss–Lobatto quadrature with two points per direction more than the
-/// degree, ends included; det F > 0 is asked for at these points. The gradient is that of the sum
-/// (tests/meshes/relaxation_test.cpp) Source: Garanzha et al. 2021
+/// of a valid mesh is a valid mesh.
+///
+/// Accuracy: Gauss–Lobatto quadrature with two points per direction more than the degree, ends included; det F > 0 is
+/// asked for at these points. The gradient is that of the sum (tests/meshes/relaxation_test.cpp)
+///
+/// Source: Garanzha et al. 2021
 class Distortion {
  public:
   /// @param undistorted  X at the nodes, [3 x n_nodes]

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-/// What decides in the solvers with recycling, each with where it comes from: derived, or measured
+/// Numbers that decide something in the solvers with recycling, each with its origin: derived, or measured
 /// (docs/thresholds.md).
 namespace vehd::thresholds {
 

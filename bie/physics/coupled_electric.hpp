@@ -28,13 +28,16 @@ struct CoupledDensities {
 /// @param weighted_rhs  J rhs on the upsampled grid of each of this rank; likewise the values of the densities, whose
 ///     coefficients are those of all
 /// Accuracy: forces between two spheres along and across the field, insulating and conducting, at a gap of half a
-/// radius to 1e-9 at p = 20 (tests/physics/coupled_electric_test.cpp) Source: paper Eq. (12), the layers being those of
-/// all membranes
+/// radius to 1e-9 at p = 20 (tests/physics/coupled_electric_test.cpp)
+///
+/// Source: paper Eq. (12), the layers being those of all membranes
 CoupledDensities solve_second_kind(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                                    const std::vector<Vector>& weighted_rhs, double tolerance);
 
 /// What charges and V_m of all other membranes make of the potential on each of this rank: Σ_{b≠a} S_ab[q_b] −
-/// D_ab[V_b], coefficients; for electric_traces. Source: paper Eq. (7)
+/// D_ab[V_b], coefficients; for electric_traces.
+///
+/// Source: paper Eq. (7)
 std::vector<Vector> potentials_of_others(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,
                                          const std::vector<Vector>& potentials,
                                          const std::vector<SecondKindSolution>& densities);

@@ -25,8 +25,10 @@ PairSelection flow_pair_selection(const FlowParameters& parameters);
 ///   (1 + Λ_a)/2 v_a − (1 − Λ_a) D_aa[v_a] − Σ_{b≠a} (1 − Λ_b) D_ab[v_b] = v_∞ + Σ_b S_ab[f_b]/μ,
 /// Λ the ratios of the viscosities. Where all are 1 it is explicit; elsewhere the double layers between the membranes
 /// are iterated with each membrane's own inverse as preconditioner, and directions that one application has found serve
-/// the next. Accuracy: a flow common to fluids of other viscosities to 1e-7 at p = 14, spheres along their line of
-/// centres to 1e-8 (tests/stepping/solve/coupled_tension_test.cpp)
+/// the next.
+///
+/// Accuracy: a flow common to fluids of other viscosities to 1e-7 at p = 14, spheres along their line of centres to
+/// 1e-8 (tests/stepping/solve/coupled_tension_test.cpp)
 /// Source: paper Eq. (5); Pozrikidis 1992
 class CoupledFlow {
  public:

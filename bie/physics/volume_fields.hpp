@@ -30,8 +30,8 @@ struct PotentialSamples {
 /// @param points    [n_points x 3], inside and outside at any distance
 /// @param side      limit taken at points on the membrane; its principal value is the mean of both
 /// @throws ConvergenceError if the quadrature is not resolved at some point
-/// Accuracy: docs/near_membrane.md
-/// Potential and field around a sphere to 1e-9, inside a 2:1 prolate to 1e-8 (tests/physics/volume_fields_test.cpp)
+/// Accuracy: docs/near_membrane.md Potential and field around a sphere to 1e-9, inside a 2:1 prolate to 1e-8
+/// (tests/physics/volume_fields_test.cpp)
 /// Source: paper Eq. (7)
 PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& position, const PotentialSources& sources,
                               const OffSurfaceSettings& settings, Instruments& instruments);
@@ -62,8 +62,9 @@ struct VelocitySamples {
 /// @param points    [n_points x 3]
 /// @param position  coefficients of the membrane, [n_coefficients x 3]
 /// Accuracy: that of the densities at degree p; around a translating sphere to 1e-10, around a 2:1 prolate to 1e-7, a
-/// flow common to two fluids to 1e-5 at p = 24 (tests/physics/volume_fields_test.cpp) Source: paper Eq. (5); two
-/// viscosities: Pozrikidis 1992
+/// flow common to two fluids to 1e-5 at p = 24 (tests/physics/volume_fields_test.cpp)
+///
+/// Source: paper Eq. (5); two viscosities: Pozrikidis 1992
 VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const VelocitySources& sources,
                             const OffSurfaceSettings& settings, Instruments& instruments);
 

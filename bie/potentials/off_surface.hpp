@@ -47,9 +47,12 @@ struct OffSurfaceValues {
 ///   D[f] = D[f − f(y0)] + f(y0) D[1], D[1] = −1 inside, 0 outside, −½ on the membrane,
 ///   ∇D[f] = ∫ ∇G × (n×∇_γ f) dA,
 /// the Stokes double layer like D, in place of the strongly singular forms. Every target goes through rules of rising
-/// size until two agree. Accuracy: that of the densities and of the surface at degree p, whatever the distance
-/// (docs/near_membrane.md). Layers of harmonics on a sphere to 1e-9 at every distance on either side
-/// (tests/potentials/off_surface_test.cpp). Source: paper Eqs. (6), (8), (9); D[1] of Gauss's theorem
+/// size until two agree.
+///
+/// Accuracy: that of the densities and of the surface at degree p, whatever the distance (docs/near_membrane.md).
+/// Layers of harmonics on a sphere to 1e-9 at every distance on either side (tests/potentials/off_surface_test.cpp).
+///
+/// Source: paper Eqs. (6), (8), (9); D[1] of Gauss's theorem
 class OffSurfaceLayers {
  public:
   /// @param position  coefficients of the membrane, [n_coefficients x 3]

@@ -38,9 +38,12 @@ void prepare_pair_transforms(int order, SharedTransforms& transforms);
 /// many times. Far targets take the smooth rule of a grid as coarse as their distance allows, near ones the rule about
 /// the nearest point (near_rows), which becomes a row over the coefficients of the density, by the adjoint of the
 /// rule. Where no layer is selected the targets are sorted alone. Applications are sums in fixed order: the same bits
-/// for any count of threads. Accuracy: the tolerance, times the density, at every gap; layers of given densities on two
-/// shapes without symmetry at gaps from 1e-3 to 10 to 1e-9 (tests/potentials/pair_layers_test.cpp) Source: paper Eqs.
-/// (6), (8), (9) with source and target on different membranes
+/// for any count of threads.
+///
+/// Accuracy: the tolerance, times the density, at every gap; layers of given densities on two shapes without symmetry
+/// at gaps from 1e-3 to 10 to 1e-9 (tests/potentials/pair_layers_test.cpp)
+///
+/// Source: paper Eqs. (6), (8), (9) with source and target on different membranes
 class PairLayers {
  public:
   /// @param source   coefficients of the source membrane, [n_coefficients x 3]

@@ -53,9 +53,10 @@ struct TargetContext {
 /// equal up to signs, so that one half of the nodes is enough. Latitudes θ and π − θ of the rotated grid share their
 /// Legendre sums, four azimuths their Fourier sums, and the nodes of one latitude go from coefficients of the shape to
 /// those of the kernels before the next one is begun, so that they stay in cache. Where x and all wanted entries have
-/// odd degrees alone, x(−s) = −x(s), opposite nodes share all sums. Source: Gimbutas and Veerapaneni 2013 for phase
-/// shift, rotation and synthesis; here the same chain runs backwards as well, so that a kernel row becomes a row over
-/// coefficients
+/// odd degrees alone, x(−s) = −x(s), opposite nodes share all sums.
+///
+/// Source: Gimbutas and Veerapaneni 2013 for phase shift, rotation and synthesis; here the same chain runs backwards as
+/// well, so that a kernel row becomes a row over coefficients
 class TargetRows {
  public:
   /// @param places  must outlive the rows

@@ -12,7 +12,9 @@ struct InitialMembrane {
 };
 
 /// The membrane of a scene of one vesicle at time 0, placed and in units of the scene. @throws InputError if the shape
-/// file cannot be used Accuracy: shapes are truncated to the order of the scene (tests/scene/initial_shape_test.cpp)
+/// file cannot be used
+///
+/// Accuracy: shapes are truncated to the order of the scene (tests/scene/initial_shape_test.cpp)
 InitialMembrane initial_membrane(const Scene& scene);
 
 /// Its position alone.

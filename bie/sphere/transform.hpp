@@ -15,8 +15,11 @@ struct SphereDerivatives {
 
 /// Spherical-harmonic transform between coefficients of degree ≤ order and a grid, as products of small matrices over
 /// one octant. Immutable after construction; every call may run concurrently. Copies share their tables, which live as
-/// long as the last of them. Cost O(order² n_theta) a field. Accuracy: rounding; round trips to 2e-13 up to degree 64
-/// (tests/sphere/transform_test.cpp) Source: paper Eqs. (16), (17), (21)
+/// long as the last of them. Cost O(order² n_theta) a field.
+///
+/// Accuracy: rounding; round trips to 2e-13 up to degree 64 (tests/sphere/transform_test.cpp)
+///
+/// Source: paper Eqs. (16), (17), (21)
 class SphereTransform {
  public:
   /// @throws ShapeError if the grid is too coarse for the order

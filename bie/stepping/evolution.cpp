@@ -80,8 +80,8 @@ void Evolution::set_time_order(int order) {
   discretisation_ = discretisation_.with_time_order(order);
 }
 
-/// Of the tension that there is, and of that after the next jump of the forcing before `end`: it may compress what is
-/// drawn now, and what is cut off until then no later degree brings back.
+/// Growth under the present tension and under that after the next discontinuity of the forcing before `end`: a membrane
+/// that is elongated now may be compressed then, and no later degree restores what was truncated before.
 void Evolution::expect_growth(double end) {
   if (!adapts() || !setup_.model.mobile) return;
   growth_ = growth_of_wrinkles(setup_.model, state_, evaluation_);
@@ -94,7 +94,7 @@ void Evolution::expect_growth(double end) {
                                             Limit::after, Shapes::of_previous);
     growth_ = std::max(growth_, growth_of_wrinkles(setup_.model, there, after));
   } catch (const ConvergenceError&) {
-    // Nothing is known of it then.
+    // Without a solution there the present growth has to do.
   }
 }
 
@@ -233,7 +233,7 @@ double Evolution::reach(const EventTimes& events) const {
   return plan.reaches_event ? plan.event_time : state_.time + plan.dt;
 }
 
-/// @param former  tries of the same step, which count with this one
+/// @param former  attempts at the same step, whose work counts with this one
 /// @throws ConvergenceError where the step has become too small
 StepAttempt Evolution::attempted(const StepPlan& plan, const SnapshotTimes& snapshots,
                                  const StepAttempt& former) const {
@@ -252,7 +252,7 @@ StepAttempt Evolution::attempted(const StepPlan& plan, const SnapshotTimes& snap
   return attempt;
 }
 
-/// Of a try that is accepted the end is the state from now on.
+/// Judges an attempt; the end of an accepted one becomes the state.
 /// @param raised  vesicles whose degree has risen for this step
 Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan, std::vector<bool>& raised) {
   if (!attempt.accepted) return Reaction::repeat_smaller;
@@ -266,7 +266,7 @@ Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan,
     passed_ = std::move(passed);
     return Reaction::accept;
   } catch (const ConvergenceError& error) {
-    // What cannot be solved for after this step may be after a smaller one.
+    // After a smaller step the solves may converge.
     attempt.reject(error.what());
     return Reaction::repeat_smaller;
   }
@@ -283,7 +283,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
     const Reaction reaction = react(attempt, plan, raised);
     if (reaction == Reaction::accept) break;
     ++attempt.rejected;
-    // What repeated tries do not get over may be the extrapolation.
+    // The extrapolation may be the reason for repeated failures.
     if (attempt.rejected == thresholds::most_tries_from_past) state_ = without_past(std::move(state_));
     if (reaction == Reaction::repeat_smaller) plan = plan_towards(events, smaller_size(attempt));
   }

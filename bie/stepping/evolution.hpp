@@ -20,7 +20,7 @@ namespace vehd {
 /// Degree below which a run with a tolerance does not go, unless it may not go that high.
 constexpr int lowest_adaptive_order = 8;
 
-/// What a run needs to know but for its start.
+/// All inputs of a run but its start.
 struct EvolutionSetup {
   Model model;
   NumericalSettings settings;  ///< the degree is the highest that a run with a tolerance may take
@@ -33,19 +33,24 @@ struct EvolutionSetup {
   std::function<std::string(double)> time_text = [](double time) { return fmt::format("{:g}", time); };
 };
 
-/// Takes over what is about to be given up for another state, with all that it points to.
+/// Receives the former state and evaluation when another state replaces them.
 using KeepFormer = std::function<void(State&&, Evaluation&&)>;
 
-/// Vesicles on their way through time. With a tolerance the degree of each follows the spectrum of its state: it rises,
-/// and the step is taken again, once at most, where the degrees left out would matter, and falls where they have long
-/// ceased to. Where a membrane is compressed they may leave so much less as wrinkles are expected to grow.
-/// The singular quadrature becomes finer where the layers are no longer exact enough. What no quadrature resolves,
-/// parts of a membrane much closer to each other than the grid spacing, ends the way. So does contact of two vesicles,
-/// see require_gap; with a tolerance degrees rise with the inverse root of the gap. Vesicles that are images of others
-/// under the symmetry have the degree and the quadrature of these.
+/// Time integration of vesicles, one accepted step at a time.
 ///
-/// A lower degree or coarser quadrature that cannot be solved for is left aside. Where a higher degree is needed and
-/// cannot be solved for, the step is taken again with half the size, and the way ends where that becomes too small.
+/// With a tolerance the degree of each vesicle follows the spectrum of its state. If the state at the end of a step has
+/// significant coefficients beyond the degree, the degree rises and the step is repeated, at most once; a degree that
+/// is too high falls. The truncation error of a compressed membrane is limited to the tolerance over the expected
+/// growth of wrinkles. With a tolerance the degree also rises with the inverse root of the gap between two vesicles.
+///
+/// The singular quadrature is refined where the layers lose accuracy. No quadrature resolves parts of a membrane much
+/// closer to each other than the grid spacing: the run ends there, and where two vesicles come too near, see
+/// require_gap. Vesicles that are images of others under the symmetry have the degree and the quadrature of their
+/// originals.
+///
+/// A lower degree or coarser quadrature whose solves fail is not used. If the solves of a higher degree fail, the step
+/// is repeated with half the size, and the run ends where the size becomes too small.
+///
 /// Accuracy: with a tolerance, extents, energy, ∫λ dA and V_m of a field-driven prolate within three times the
 /// tolerance (tests/stepping/adaptive_evolution_test.cpp); with steps of fixed size that of deferred_correction
 class Evolution {
@@ -72,13 +77,13 @@ class Evolution {
   /// Steps to come have this order, 1 … highest_time_order.
   void set_time_order(int order);
 
-  /// Whoever looks at state and evaluation without a copy can keep them alive: called before either changes. May be
-  /// empty.
+  /// Called before state and evaluation change, so that callers who view them without a copy can keep them alive. May
+  /// be empty.
   void keep_former(KeepFormer keep) { keep_former_ = std::move(keep); }
 
   /// The last accepted state.
   [[nodiscard]] const State& state() const { return state_; }
-  /// What was solved there.
+  /// Fields and operators there.
   [[nodiscard]] const Evaluation& evaluation() const { return evaluation_; }
   /// Where the forcing jumps at the time of the state and a step has led there: the evaluation just before the jump,
   /// without operators. The other one is that just after it.
@@ -124,7 +129,7 @@ class Evolution {
   void replace(State state, Evaluation evaluation);
   [[nodiscard]] StepAttempt attempted(const StepPlan& plan, const SnapshotTimes& snapshots,
                                       const StepAttempt& former) const;
-  /// What follows from a try at a step.
+  /// Consequence of an attempt at a step.
   enum class Reaction { accept, repeat_smaller, repeat_in_higher_degree };
   Reaction react(StepAttempt& attempt, const StepPlan& plan, std::vector<bool>& raised);
   void raise_order(std::size_t vesicle, const Resolution& reached, int enough);

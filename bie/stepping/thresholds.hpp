@@ -6,8 +6,7 @@
 
 #include "bie/support/types.hpp"
 
-/// What decides in a step, each with where it comes from: derived, or measured (docs/thresholds.md shows what
-/// other values do to the iterations).
+/// Numbers that decide something in a step, each with its origin: derived, or measured (docs/thresholds.md).
 namespace vehd::thresholds {
 
 // Recycling between steps, see RecycledSubspaces.

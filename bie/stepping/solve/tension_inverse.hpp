@@ -19,9 +19,12 @@ struct TensionGrid {
 /// Approximate inverse of λ ↦ J ∇_γ·u of one membrane, u the velocity that λ makes alone: by its matrix −Fᵀ U F with
 /// F from λ to J f_λ and U from J f to u, for ∫λ ∇_γ·u dA = −∫f_λ·u dA. Products are formed on the grid of degree p,
 /// where they alias; a preconditioner can do with that. Close to a sphere, where a uniform tension does next to
-/// nothing, its response is taken to be larger. Accuracy: a coupled solve of fifty prolates takes half as many
-/// iterations as with the inverse of a sphere (tests/stepping/solve/coupled_tension_test.cpp) Source: paper Eqs. (2),
-/// (27b)
+/// nothing, its response is taken to be larger.
+///
+/// Accuracy: a coupled solve of fifty prolates takes half as many iterations as with the inverse of a sphere
+/// (tests/stepping/solve/coupled_tension_test.cpp)
+///
+/// Source: paper Eqs. (2), (27b)
 class TensionInverse {
  public:
   /// @param one            not a sphere

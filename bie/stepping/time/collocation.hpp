@@ -9,13 +9,14 @@
 
 namespace vehd {
 
-/// What the nodes of a step are before its sweeps: first-order steps, or the extrapolation of the step before.
+/// The nodes of a step before its sweeps: first-order steps, or the extrapolation of the step before.
 enum class Predictor { euler, extrapolation };
 
-/// Approximations of y at the nodes of one step and F there: what the sweeps of a deferred correction work on.
+/// Approximations of y at the nodes of one step and the rates F there, on which the sweeps of a deferred correction
+/// work.
 class Collocation {
  public:
-  /// Initial approximations at every node. Nodes do not hear of each other within a sweep.
+  /// Initial approximations at every node. Nodes are independent within a sweep.
   /// @param physics  must outlive it
   /// @param end      of the last node of an Euler step; an extrapolation stays with the material
   /// @throws ConvergenceError naming the solve that failed, as all others
@@ -32,18 +33,18 @@ class Collocation {
   void evaluate_rates();
   /// How the last two rates of the last node differ; nothing before there are two.
   [[nodiscard]] std::optional<InstantaneousDifference> change_at_last() const;
-  /// Derivatives 1 … M of F with the time over dt, times dt, as far as the implicit part of F lets the last node follow
-  /// them: (1 − d_M dt L)⁻¹ dt d^kF, from the polynomial through the rates. Rates magnify what sweeps have left of
-  /// something stiff; none of it is left in the nodes.
+  /// Derivatives 1 … M of F with respect to t/dt, times dt, filtered by the implicit solve of the last node:
+  /// (1 − d_M dt L)⁻¹ dt d^kF, from the polynomial through the rates. Unfiltered, errors of stiff components would
+  /// dominate them, although the solution hardly has these errors.
   [[nodiscard]] std::vector<VisibleDifference> derivatives() const;
   /// Node m after a correction with the rates as they are: y + (1 − d_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F_j − y).
   [[nodiscard]] NodeSolution corrected(std::size_t m, NodeEnd end) const;
   /// The same of all nodes.
   /// @param end  of the last one
   [[nodiscard]] std::vector<NodeSolution> all_corrected(NodeEnd end) const;
-  /// y at any time within the step, on its material points, before a correction: what the predictor makes of it and the
-  /// polynomial through what the corrections have changed of the nodes. What is stiff and dies away within the step is
-  /// in first-order steps; a polynomial through the start would carry it on to the end.
+  /// y at any time within the step, on its material points, before a correction: the predictor at this time and the
+  /// polynomial through the corrections of the nodes so far. First-order steps follow stiff components that decay
+  /// within the step; a polynomial through the start would carry them to the end.
   [[nodiscard]] NodeSolution within(double time) const;
   /// A solution at any time within the step after a correction with these rates: y + (1 − d dt L)⁻¹ (y_0 + ∫F dt − y),
   /// F being the polynomial through the rates at the start and at every node, and d that of the last node.
@@ -66,8 +67,8 @@ class Collocation {
   std::vector<Rate> rates_, former_rates_;
 };
 
-/// Estimated error of the rule itself at the end of a step, which no sweep takes away, of shape or V_m; 0 of rules with
-/// one node, whose sweeps change more than that.
+/// Estimated error of shape or V_m at the end of a step that converged sweeps leave, that of the rule itself; 0 for
+/// rules with one node, whose corrections are larger than this error.
 /// @param derivatives  see Collocation
 /// Accuracy: within a factor of 2 of a charge in an alternating field (tests/stepping/alternating_charge_test.cpp)
 double rule_error(const TimeRule& rule, const std::vector<VisibleDifference>& derivatives);

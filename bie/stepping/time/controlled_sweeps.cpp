@@ -13,11 +13,11 @@ namespace vehd {
 
 namespace {
 
-/// Sweeps that tell how they contract: one tells nothing.
+/// Sweeps before a step may end: with one the contraction is not known.
 int fewest_sweeps(int order) { return std::min(2, order - 1); }
 
-/// A step so many times as large leaves what it may, if its error falls like dt^power.
-/// @param excess  of the error over what it may leave
+/// Size with the allowed error over the present one, if the error is proportional to dt^power.
+/// @param excess  error over the allowed error
 double size_factor(double excess, int power) {
   if (excess <= 0.0) return thresholds::most_step_factor;
   const double factor = thresholds::step_safety * std::pow(excess, -1.0 / power);
@@ -26,23 +26,23 @@ double size_factor(double excess, int power) {
 
 double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
 
-/// What sweeps have changed.
+/// Corrections of all sweeps so far.
 struct SweepErrors {
   Corrections visible;  // shape and V_m
   Corrections derived;  // tension and charge, known one sweep later
 
-  /// How many times as wrong as shape and V_m tension and charge are, by the last sweep of which both are known.
+  /// Relative error of tension and charge over that of shape and V_m, by the last sweep of which both are known.
   [[nodiscard]] double magnification() const {
     const std::size_t k = derived.count();
     return k > 0 && visible.change(k) > 0.0 ? std::max(1.0, derived.change(k) / visible.change(k)) : 1.0;
   }
-  /// Error after sweep j, whether it was made or not.
+  /// Estimated error after sweep j, made or yet to be made.
   [[nodiscard]] double after(int sweep) const {
     return magnification() * visible.error_after(static_cast<std::size_t>(sweep));
   }
 };
 
-/// Of the step, by its sweeps alone, see ControlledSweeps.
+/// ControlledSweeps::factor by the sweeps alone.
 double cheapest_factor(const SweepErrors& errors, double allowed, int order, int n_nodes, Predictor predictor) {
   double best = thresholds::least_step_factor, least_cost = std::numeric_limits<double>::infinity();
   for (int j = fewest_sweeps(order); j < order; ++j) {
@@ -58,7 +58,7 @@ double cheapest_factor(const SweepErrors& errors, double allowed, int order, int
 }
 
 double largest_change(const StepOperations& physics, const Collocation& y, const std::vector<NodeSolution>& corrected) {
-  // What changes the last node little by chance changes the others.
+  // The correction of one node may pass through zero by chance.
   double largest = 0.0;
   for (std::size_t m = 0; m < corrected.size(); ++m) {
     largest = std::max(largest, largest_of(physics.visible_difference(y.node(m), corrected[m])));
@@ -72,7 +72,7 @@ struct Moment {
   double error = 0.0;
 };
 
-/// What sweeps have come to.
+/// A step after its sweeps.
 struct SweptStep {
   StepOperations& physics;
   const TimeRule& rule;
@@ -81,7 +81,8 @@ struct SweptStep {
   const SweepErrors& errors;
   const std::vector<VisibleDifference>& derivatives;  // of the rates
 
-  /// What the rates at the nodes tell of a time; where that is not enough, with the rate there.
+  /// The solution at a time within the step, with the rates at the nodes and, where the error is too large, the rate
+  /// there.
   [[nodiscard]] Moment at(double time, double allowed) const {
     std::vector<double> points = points_of(rule);
     const double place = (time - physics.start().time) / dt;
@@ -131,7 +132,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   for (int sweep = 1;; ++sweep) {
     y.evaluate_rates();
     if (const auto change = y.change_at_last()) errors.derived.add(std::max(change->tension, change->charge));
-    // Where this sweep is likely to be the last it ends on new nodes at once.
+    // If this sweep is likely to be the last, its end is remapped at once.
     const bool likely = sweep == order - 1 || (sweep > 1 && errors.after(sweep) <= allowed);
     std::vector<NodeSolution> corrected = y.all_corrected(likely ? NodeEnd::remapped : NodeEnd::material);
     errors.visible.add(largest_change(physics, y, corrected));
@@ -150,10 +151,10 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     }
     y.replace(std::move(corrected));
   }
-  // Before what is solved for within the step can be recycled.
+  // Solves for states within the step must not change the subspaces that the next step recycles.
   result.state = physics.end_state(y.node(y.last()));
   if (!pass_moments({physics, rule, dt, y, errors, derivatives}, goal, result)) return result;
-  // What sweeps hardly correct an extrapolation would carry on from step to step.
+  // Otherwise extrapolations would amplify stiff errors from step to step.
   if (errors.visible.converge()) physics.remember(y.nodes(), result.state);
   result.end = std::move(y.node(y.last()));
   return result;

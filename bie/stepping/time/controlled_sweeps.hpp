@@ -8,37 +8,39 @@
 
 namespace vehd {
 
-/// What a step with a tolerance is to deliver.
+/// Requirements of a step with a tolerance.
 struct StepGoal {
   double tolerance = 0.0;
-  SnapshotTimes moments{};  ///< at which states within the step are wanted
+  SnapshotTimes moments{};  ///< at which states within the step are needed
 };
 
-/// What became of a step whose sweeps are counted by what they leave.
+/// Result of a step with a tolerance.
 struct ControlledSweeps {
   std::optional<NodeSolution> end;  ///< where the step is good enough
   State state;                      ///< at that end
   std::vector<State> passed;        ///< at the moments of the goal before it
-  double excess = 0.0;              ///< estimated error over what the step may leave
-  double factor = 1.0;              ///< the size that gets on at the least cost, over that of this step
+  double excess = 0.0;              ///< estimated error over the error that is allowed
+  double factor = 1.0;              ///< size with the least work for a unit of time, over the size of this step
 };
 
 /// One step by deferred correction that stops where its error is small enough.
 ///
 /// - Predictor: the extrapolation of the last step where that was long enough and its sweeps converged, first-order
-///   steps otherwise: these damp what is stiff, an extrapolation magnifies it.
-/// - What counts: the change of the shape along its normal, n·δx over the radius, and that of V_m at material points
-///   over its size; points that slide within the membrane are no error. And ∫λ dA and q, which follow from both and
-///   may magnify what is wrong with them.
-/// - Error of the sweeps: of each of these the sum of the geometric series of the corrections to come, see Corrections.
-/// - Error of the rule that the sweeps converge to: from the derivatives of the rates, see rule_error. No sweep takes
-///   it away: where it is too large the step is given up.
-/// - Share: a membrane forgets the errors of all but its last few steps, whatever the time units and however long the
-///   run, so each step may leave a fixed share of the tolerance.
+///   steps otherwise: they damp stiff components, which an extrapolation amplifies.
+/// - Measure of errors: n·δx over the radius, so that points that slide within the membrane do not count, and the error
+///   of V_m at material points over its size. Both are multiplied by how much larger the relative changes of ∫λ dA and
+///   q are, which follow from shape and V_m.
+/// - Error of the sweeps: the sum of the geometric series of the corrections to come, see Corrections.
+/// - Error of the rule that the sweeps converge to: from the derivatives of the rates, see rule_error. Where it is too
+///   large the step is rejected.
+/// - Allowed error: a fixed share of the tolerance for each step, since a membrane relaxes: of the errors of earlier
+/// steps
+///   only those of the last few are left.
 /// - Size: the error after sweep j falls like dt^(j+1), with an extrapolation through M nodes like dt^(j+1+M). The next
-///   step has the size for which (1 + M j)/dt, the evaluations for a unit of time, is least.
-/// - Moments: what polynomials tell of a time within the step, corrected by the rates at the nodes, and where that is
-///   not enough with the rate there. Where that is not enough either the step is given up.
+///   step has the size with the least (1 + M j)/dt, evaluations for a unit of time.
+/// - States within the step: interpolated, then corrected with the rates at the nodes; where the error is still too
+/// large
+///   corrected once more with the rate at that time; the step is rejected where that does not suffice.
 ///
 /// @param order  sweeps are order − 1 at most
 /// @throws ConvergenceError naming the solve that failed

@@ -8,7 +8,7 @@
 
 namespace vehd {
 
-/// What became of one try at a step, and of the tries before it.
+/// Result of one attempt at a step, with the work of the attempts before it.
 struct StepAttempt {
   bool accepted = false;
   std::string reason;  ///< why it was rejected; empty when accepted
@@ -21,21 +21,21 @@ struct StepAttempt {
   double raw_area = 0.0;
   std::vector<double> arrival_shifts;  ///< Motion::arrival_shift of each vesicle at its end, when accepted
   std::vector<State> passed;           ///< at the times asked for within the step
-  double factor = 1.0;                 ///< of the size that suits a tolerance best, over this one
-  int evaluations = 0;                 ///< of new shapes, of all tries and with that of its end
-  int rejected = 0;                    ///< tries that were thrown away before it
-  int iterations_flow = 0;             ///< of all tries; once the step is taken with those of the evaluation at its end
+  double factor = 1.0;                 ///< best size over this one, see ControlledSweeps
+  int evaluations = 0;                 ///< of new shapes, in all attempts and at its end
+  int rejected = 0;                    ///< attempts before it
+  int iterations_flow = 0;             ///< of all attempts; once the step is accepted with the evaluation at its end
   int iterations_electric = 0;
   bool at_snapshot = false;  ///< a snapshot is due at its end
 
-  /// Counts the tries before this one.
+  /// Adds the work of the attempts before this one.
   void add_work_of(const StepAttempt& former);
-  /// Of one that fails, for which half the size is the next to try.
+  /// Rejects it; the next attempt has half the size.
   void reject(const std::string& why);
 };
 
-/// One try of size dt and of the order that the settings ask for, from a state and what was solved there.
-/// @param goal  of a run with a tolerance: null for one with fixed steps
+/// One attempt of size dt and of the order of the settings, from a state and its solved fields.
+/// @param goal  null without a tolerance
 /// Accuracy: order time_order in dt (tests/stepping/time/time_order_test.cpp); nothing is thrown where a solve fails:
 /// the attempt says why
 StepAttempt attempt_step(const Model& model, const Discretisation& discretisation, const State& state,

@@ -5,22 +5,23 @@
 
 namespace vehd {
 
-/// What rules the size of steps.
+/// Limits of the size of steps.
 struct StepControl {
   double largest = 0.0;    ///< step size
   double smallest = 0.0;   ///< below it no more attempts are made
-  double tolerance = 0.0;  ///< of the error estimate; 0: the largest steps, smaller ones only where they fail
+  double tolerance = 0.0;  ///< of the error estimate; 0: the largest size, smaller ones only after failures
 };
 
 /// Steps of size dt, halved ten times at most where they fail.
 StepControl fixed_steps(double dt);
 
-/// The size to repeat a step with that was not accepted: half where a solve has failed, with a tolerance what suits it.
+/// Size of the next attempt after a rejected one: half if a solve failed, the best size by its error estimate
+/// otherwise.
 double smaller_size(const StepAttempt& rejected);
 
-/// Sets the size of the next step in the state of an accepted one. With a tolerance it is what gets on at the least
-/// cost, and sizes that fall go on falling: predictive control, Gustafsson (Hairer and Wanner 1996, IV.8). Without one
-/// it doubles back towards the largest after every step that was accepted at once.
+/// Sets the size of the next step in the state of an accepted one. With a tolerance: the size with the least work,
+/// times the ratio of the last two such sizes where that is below 1 (predictive control, Gustafsson; Hairer and Wanner
+/// 1996, IV.8). Without: twice the size after a step that was accepted at once, up to the largest.
 /// @param start  of the step
 void set_next_size(const StepControl& control, const State& start, const StepPlan& plan, StepAttempt& accepted);
 

@@ -73,15 +73,15 @@ struct ImplicitSolve {
 ///
 /// Beside them a step may begin with the extrapolation of the one before, for which nothing is solved.
 ///
-/// L knows each membrane's bending and tension on itself, and the charging of all on all: what membranes do to each
-/// other in the flow is smooth and enters through F.
+/// L contains each membrane's bending and tension on itself, and the charging of all on all: the hydrodynamic
+/// interaction of membranes is smooth and enters through F.
 ///
-/// Solving and projecting are one iteration, since what a remap does to area and volume is projected out as well: see
-/// constrained_motion. A solve that fails throws ConvergenceError and ends the attempt; the iterations count all the
-/// same.
+/// Solving and projecting are one iteration, since errors of area and volume that a remap causes are projected out as
+/// well: see constrained_motion. A solve that fails throws ConvergenceError and ends the attempt; its iterations count.
 ///
-/// Nodes do not hear of each other within one of these, so that what is asked of several is done on threads, with the
-/// same bits for any number of them.
+/// Nodes are independent within each operation, so that several nodes are evaluated on threads; results are
+/// bit-identical for any number of threads.
+///
 /// Source: paper Eqs. (27)–(31)
 class StepOperations {
  public:
