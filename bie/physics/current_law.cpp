@@ -55,8 +55,7 @@ class LawEquation {
     double mean = potential[0];
     if (stores()) {
       const Vector stored = weighted(of_potential(potential)) / size_;
-      result = 0.5 * stored;
-      if (contrast() != 0.0) result += contrast() * membrane_.layers.laplace_adjoint.apply(stored);
+      result = second_kind_operator(membrane_, contrast(), stored);
       mean = stored[0];
     }
     if (kappa_ > 0.0) {
@@ -91,12 +90,12 @@ class LawEquation {
     return rhs;
   }
 
-  /// J (E_e − E_i) where no s is given; empty where it is zero.
+  /// J (E_e − E_i) for s = 0; empty where it is zero.
   [[nodiscard]] Vector weighted_jump_of(const Vector& potential) const {
     if (contrast() == 0.0 || !stores()) return {};
     return weighted((contrast() / kappa_) * of_potential(potential));
   }
-  /// The same where V is zero.
+  /// J (E_e − E_i) for V = 0; empty where it is zero.
   [[nodiscard]] Vector weighted_jump_given() const {
     const Vector given = given_jump();
     return given.isZero(0.0) ? Vector() : weighted(given / kappa_);
@@ -105,7 +104,7 @@ class LawEquation {
  private:
   /// η.
   [[nodiscard]] double contrast() const { return share_out_ - share_in_; }
-  /// κ(E_e − E_i) where V is zero.
+  /// κ(E_e − E_i) for V = 0.
   [[nodiscard]] Vector given_jump() const { return share_in_ * law_.s_in + share_out_ * law_.s_out; }
   /// aV.
   [[nodiscard]] Vector of_potential(const Vector& potential) const {
