@@ -11,9 +11,8 @@
 #include <utility>
 
 #include "bie/comparison/local_forces.hpp"
-#include "bie/physics/electric.hpp"
+#include "bie/physics/charge_density.hpp"
 #include "bie/physics/membrane_charging.hpp"
-#include "bie/physics/porous_charging.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
@@ -73,7 +72,7 @@ class FrozenSolver {
     result.rate_truncation = rate_truncation();
     const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields);
     result.potential_of_charges = fields.potential;
-    result.free_charge_rate = solved_.vesicles.front().free_charge_rate;
+    result.free_charge_rate = solved_.vesicles.front().rate.free_charge;
     const PotentialSources sources{electric_.field, potential, weighted_charge(potential)};
     keep_samples(result.sample_potential, where_possible(samples, 2, [&](const Matrix& points) {
                    const PotentialSamples at =
@@ -86,7 +85,7 @@ class FrozenSolver {
     const ChargingParameters& charging = vesicle_of(frozen_).charging;
     std::vector<Vector> potentials(1);
     require_converged(
-        steady_potentials({{{electric_, membrane_}, charging}}, nullptr, settings_.electric_tolerance, potentials),
+        steady_potentials({{{electric_, membrane_}, charging}}, {}, settings_.electric_tolerance, potentials),
         "steady membrane potential");
     result.steady_potential = std::move(potentials.front());
     result.steady_charge = membrane_.fine.analyze(
@@ -113,7 +112,7 @@ class FrozenSolver {
 
  private:
   [[nodiscard]] Vector charging_rate() const {
-    const Vector& rate = solved_.vesicles.front().potential_rate;
+    const Vector& rate = solved_.vesicles.front().rate.transmembrane_potential;
     const Vector& varies = membrane_.material.capacitance;
     if (varies.size() == 0 || relaxes_charge(frozen_.model)) return rate;
     const Vector current = varies.cwiseProduct(Vector(membrane_.fine.synthesize(rate)));
@@ -124,8 +123,9 @@ class FrozenSolver {
     if (!vesicle.reaction || position_.rows() != membrane_of(frozen_).position.rows()) return {};
     const VesicleState& state = state_.vesicles.front();
     const VesicleFields& fields = solved_.fields.vesicles.front();
-    const Vector lost = porous_conductance(*vesicle.reaction, vesicle.charging, membrane_, state.poration) -
-                        Vector(membrane_.fine.synthesize(fields.conductance));
+    const ChargingMembrane porous{{electric_, membrane_}, vesicle.charging, vesicle.reaction.get()};
+    const Vector lost =
+        membrane_current(porous, state.poration).conductance - Vector(membrane_.fine.synthesize(fields.conductance));
     const Vector potential = membrane_.fine.synthesize(transmembrane_potential(state, fields));
     return -membrane_.fine.analyze(lost.cwiseProduct(potential)) / vesicle.charging.capacitance;
   }
@@ -170,7 +170,7 @@ class FrozenSolver {
     SecondKindSolution density = solve_second_kind(
         membrane_, conductivity_contrast(electric_),
         weighted_field_flux(membrane_, electric_.field) + weighted_hypersingular(membrane_, potential),
-        settings_.electric_tolerance, {});
+        settings_.electric_tolerance);
     require_converged(density.report, "charge density, Eq. (12)");
     return density;
   }

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "bie/comparison/local_forces.hpp"
-#include "bie/physics/coupled_electric.hpp"
-#include "bie/physics/coupled_flow.hpp"
+#include "bie/physics/charge_density.hpp"
 #include "bie/physics/membrane_charging.hpp"
+#include "bie/physics/membrane_flow.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
@@ -68,7 +68,7 @@ class CoupledFrozenSolver {
       const VesicleFields& fields = solved_.fields.vesicles[a];
       results[a].charge = fields.charge;
       results[a].force_electric = fields.force_electric;
-      results[a].potential_rate = solved_.vesicles[a].potential_rate;
+      results[a].potential_rate = solved_.vesicles[a].rate.transmembrane_potential;
     }
   }
 
@@ -79,16 +79,16 @@ class CoupledFrozenSolver {
     for (std::size_t a = 0; a < results.size(); ++a) {
       membranes.push_back({in_field_[a], frozen_.model.vesicles[a].charging});
     }
-    require_converged(steady_potentials(membranes, &interaction, settings_.electric_tolerance, potentials),
+    require_converged(steady_potentials(membranes, interaction, settings_.electric_tolerance, potentials),
                       "steady membrane potentials");
-    const CoupledDensities densities = solve_second_kind(
+    const std::vector<SecondKindSolution> densities = solve_second_kind(
         in_field_, interaction, weighted_fluxes(in_field_, interaction, potentials), settings_.electric_tolerance);
-    require_converged(densities.report, "charge densities, Eq. (12)");
-    const std::vector<Vector> of_others = potentials_of_others(in_field_, interaction, potentials, densities.membranes);
+    require_converged(densities.front().report, "charge densities, Eq. (12)");
+    const std::vector<Vector> of_others = potentials_of_others(in_field_, interaction, potentials, densities);
     std::vector<Vector> charges(results.size());
     for (const std::size_t a : interaction.shares().own(results.size())) {
       const ElectricTraces traces =
-          electric_traces(in_field_[a].electric, membrane(a), potentials[a], densities.membranes[a], of_others[a]);
+          electric_traces(in_field_[a].electric, membrane(a), potentials[a], densities[a], of_others[a]);
       charges[a] = membrane(a).fine.analyze(traces.charge);
     }
     interaction.gather_potentials(charges);
@@ -100,7 +100,7 @@ class CoupledFrozenSolver {
   }
 
   void solve_flow(const std::vector<Matrix>& forces) {
-    CoupledFlow flow(in_flow_, *solved_.interaction);
+    MembraneFlow flow(in_flow_, *solved_.interaction);
     std::vector<Matrix> given, own;
     for (std::size_t a = 0; a < results.size(); ++a) {
       const VesicleFields& fields = solved_.fields.vesicles[a];
@@ -129,7 +129,7 @@ class CoupledFrozenSolver {
   [[nodiscard]] const Membrane& membrane(std::size_t a) const { return *solved_.vesicles[a].membrane; }
 
   /// Of the background flow and forces, coefficients; those of images follow from their originals.
-  [[nodiscard]] std::vector<Matrix> velocities_of(CoupledFlow& flow, const std::vector<Matrix>& forces) const {
+  [[nodiscard]] std::vector<Matrix> velocities_of(MembraneFlow& flow, const std::vector<Matrix>& forces) const {
     std::vector<Matrix> weighted, background;
     for (std::size_t a = 0; a < results.size(); ++a) {
       weighted.push_back(membrane(a).weighted(membrane(a).fine.synthesize(forces[a])));
@@ -141,7 +141,7 @@ class CoupledFrozenSolver {
   }
 
   /// In the degrees of the state alone.
-  void find_truncation(CoupledFlow& flow) {
+  void find_truncation(MembraneFlow& flow) {
     std::vector<Matrix> truncated;
     for (std::size_t a = 0; a < results.size(); ++a) {
       if (state_.vesicles[a].position.rows() != frozen_.state.vesicles[a].position.rows()) return;

@@ -13,7 +13,7 @@
 #include "bie/scene/vesicles.hpp"
 #include "bie/scene/waveforms.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/evaluation/interacting_fields.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"

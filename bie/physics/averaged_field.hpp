@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-#include "bie/physics/coupled_electric.hpp"
+#include "bie/physics/current_law.hpp"
 
 namespace vehd {
 
@@ -42,14 +42,12 @@ struct AveragedFields {
 /// the layers being those of all membranes and y that of every point where C_m or G_m differ from place to place, and
 /// takes the mean of the force over a period,
 ///   ⟨f_E⟩ = [[½ ε Re(E* (E·n)) − ¼ ε |E|² n]].
-/// @param membranes    each with the averaged frequency
-/// @param interaction  of the membranes; null where there is one
+/// @param membranes  each with the averaged frequency
 /// @throws InputError where several membranes lie beside a fluid that lets no current through
 /// Accuracy: spectral; V_m, q and the force on a sphere to 1e-10 from 10² to 10⁸ Hz, on a shape without symmetry the
 /// steady state of the time-stepped equations (tests/physics/averaged_field_test.cpp)
 /// Source: paper Eqs. (3), (11)–(15) at one frequency; Vlahovska et al. 2009 for the sphere
-AveragedFields solve_averaged_fields(const std::vector<ElectricMembrane>& membranes,
-                                     const std::vector<ChargingParameters>& charging, const Interaction* interaction,
+AveragedFields solve_averaged_fields(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
                                      double tolerance);
 
 }  // namespace vehd

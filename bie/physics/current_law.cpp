@@ -2,6 +2,7 @@
 
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
+#include "bie/physics/real_maps.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
@@ -18,11 +19,16 @@ Vector conductance_of(const ChargingParameters& charging, const Membrane& membra
   return varies.size() > 0 ? varies : Vector(Vector::Constant(membrane.surface.n_points(), charging.conductance));
 }
 
-MembraneCurrent membrane_current(const ChargingMembrane& of) {
+MembraneCurrent membrane_current(const ChargingMembrane& of, const Vector& poration) {
   const auto& [electric, membrane] = of.in_field;
-  const Vector& pump = membrane.material.pump_current;
-  return {conductance_of(of.charging, membrane),
-          pump.size() > 0 ? Vector(electric.pump * pump) : Vector(Vector::Zero(membrane.surface.n_points()))};
+  MembraneCurrent current{conductance_of(of.charging, membrane), Vector::Zero(membrane.surface.n_points())};
+  if (of.reaction != nullptr && poration.size() > 0) {
+    current.conductance += Vector(membrane.fine.synthesize(poration)).unaryExpr([&](double s) {
+      return of.reaction->conductance(s).value;
+    });
+  }
+  if (membrane.material.pump_current.size() > 0) current.constant = electric.pump * membrane.material.pump_current;
+  return current;
 }
 
 Vector current_through(const Membrane& membrane, const MembraneCurrent& current, const Vector& potential) {
@@ -31,212 +37,254 @@ Vector current_through(const Membrane& membrane, const MembraneCurrent& current,
 
 namespace {
 
-/// The equation of one membrane, weighted by J and divided by the mean of a + κ/R. Coefficients of degree p.
+/// The equation of one membrane, weighted by J and divided by the mean of |a| + |κ|/R. Coefficients of degree p.
+template <typename Scalar>
 class LawEquation {
  public:
+  using Field = FieldOf<Scalar>;
+
   /// Both must outlive it.
-  LawEquation(const ElectricMembrane& of, const CurrentLaw& law)
-      : membrane_(of.membrane), field_(of.electric.field), law_(law) {
-    share_in_ = law.k_out / (law.k_in + law.k_out);
-    share_out_ = law.k_in / (law.k_in + law.k_out);
-    kappa_ = law.k_in * share_in_;
+  LawEquation(const ElectricMembrane& of, const CurrentLaw<Scalar>& law) : of_(of), membrane_(of.membrane), law_(law) {
     const Vector& area = membrane_.surface.quadrature;
-    const double mean = law.a.dot(area) / area.sum();
-    size_ = mean + kappa_ / membrane_.radius;
+    const Scalar mean = law.a.cwiseProduct(area.cast<Scalar>()).sum() / area.sum();
+    size_ = std::abs(mean) + std::abs(law.series()) / membrane_.radius;
     storage_ = mean / size_;
+    conduction_ = law.series() / size_;
   }
 
-  [[nodiscard]] double conduction() const { return kappa_ / size_; }
-  [[nodiscard]] bool stores() const { return storage_ > 0.0; }
+  /// κ over the size.
+  [[nodiscard]] Scalar conduction() const { return conduction_; }
+  [[nodiscard]] bool stores() const { return storage_ != 0.0; }
 
   /// What V does on its own membrane.
-  [[nodiscard]] Vector own(const Vector& potential) const {
-    Vector result = Vector::Zero(potential.size());
-    double mean = potential[0];
+  [[nodiscard]] Field own(const Field& potential) const {
+    Field result = Field::Zero(potential.size());
+    Scalar mean = potential[0];
     if (stores()) {
-      const Vector stored = weighted(of_potential(potential)) / size_;
-      result = second_kind_operator(membrane_, contrast(), stored);
+      const Field stored = weighted<Scalar>(membrane_, of_potential(potential)) / size_;
+      result = 0.5 * stored;
+      if (law_.contrast() != 0.0) result += law_.contrast() * adjoint<Scalar>(membrane_, stored);
       mean = stored[0];
     }
-    if (kappa_ > 0.0) {
-      result -= conduction() * membrane_.fine.analyze(weighted_hypersingular(membrane_, potential));
+    if (conduction_ != 0.0) {
+      result -= conduction_ * coefficients_of<Scalar>(membrane_, hypersingular<Scalar>(membrane_, potential));
     }
     result[0] = mean;
     return result;
   }
 
   /// Inverse of `own` on the sphere of the same area with the mean of a.
-  [[nodiscard]] Vector sphere_inverse(const Vector& residual) const {
+  [[nodiscard]] Field sphere_inverse(const Field& residual) const {
     const double radius = membrane_.radius;
-    Vector result(residual.size());
+    Field result(residual.size());
     for (int n = 0; n <= membrane_.fine.order(); ++n) {
       const double odd = 2.0 * n + 1.0;
-      const double second_kind = n == 0 ? 1.0 : 0.5 - contrast() / (2.0 * odd);
-      double eigenvalue = storage_ * radius * radius * second_kind + conduction() * radius * n * (n + 1.0) / odd;
+      const Scalar second_kind = n == 0 ? Scalar(1.0) : 0.5 - law_.contrast() / (2.0 * odd);
+      Scalar eigenvalue = storage_ * radius * radius * second_kind + conduction_ * (radius * n * (n + 1.0) / odd);
       if (eigenvalue == 0.0) eigenvalue = 1.0;
-      for (Index i = coefficient_index(n, -n); i <= coefficient_index(n, n); ++i) result[i] = residual[i] / eigenvalue;
+      const Index first = coefficient_index(n, -n), count = 2 * n + 1;
+      result.segment(first, count) = residual.segment(first, count) / eigenvalue;
     }
     return result;
   }
 
   /// Of the field and of what the faces hold.
-  [[nodiscard]] Vector right_side() const {
-    Vector rhs = conduction() * membrane_.fine.analyze(weighted_field_flux(membrane_, field_));
-    const Vector uneven = share_in_ * law_.s_in - share_out_ * law_.s_out;
-    if (!uneven.isZero(0.0)) rhs += (0.5 / size_) * weighted(uneven);
-    const Vector given = given_jump();
-    if (!given.isZero(0.0)) rhs -= membrane_.layers.laplace_adjoint.apply(weighted(given) / size_);
-    rhs[0] = stores() ? weighted(law_.s_in)[0] / size_ : 0.0;
+  [[nodiscard]] Field right_side() const {
+    Field rhs = conduction_ * coefficients_of<Scalar>(membrane_, applied_flux<Scalar>(of_));
+    const Field uneven = law_.share_in() * law_.s_in - law_.share_out() * law_.s_out;
+    if (!uneven.isZero(0.0)) rhs += (0.5 / size_) * weighted<Scalar>(membrane_, uneven);
+    const Field given = given_jump();
+    if (!given.isZero(0.0)) rhs -= adjoint<Scalar>(membrane_, weighted<Scalar>(membrane_, given) / size_);
+    rhs[0] = stores() ? weighted<Scalar>(membrane_, law_.s_in)[0] / size_ : Scalar(0.0);
     return rhs;
   }
 
   /// J (E_e − E_i) for s = 0; empty where it is zero.
-  [[nodiscard]] Vector weighted_jump_of(const Vector& potential) const {
-    if (contrast() == 0.0 || !stores()) return {};
-    return weighted((contrast() / kappa_) * of_potential(potential));
+  [[nodiscard]] Field weighted_jump_of(const Field& potential) const {
+    if (law_.contrast() == 0.0 || !stores()) return {};
+    return weighted<Scalar>(membrane_, (law_.contrast() / law_.series()) * of_potential(potential));
   }
   /// J (E_e − E_i) for V = 0; empty where it is zero.
-  [[nodiscard]] Vector weighted_jump_given() const {
-    const Vector given = given_jump();
-    return given.isZero(0.0) ? Vector() : weighted(given / kappa_);
+  [[nodiscard]] Field weighted_jump_given() const {
+    const Field given = given_jump();
+    if (given.isZero(0.0)) return {};
+    return weighted<Scalar>(membrane_, given / law_.series());
   }
 
  private:
-  /// η.
-  [[nodiscard]] double contrast() const { return share_out_ - share_in_; }
   /// κ(E_e − E_i) for V = 0.
-  [[nodiscard]] Vector given_jump() const { return share_in_ * law_.s_in + share_out_ * law_.s_out; }
+  [[nodiscard]] Field given_jump() const { return law_.share_in() * law_.s_in + law_.share_out() * law_.s_out; }
   /// aV.
-  [[nodiscard]] Vector of_potential(const Vector& potential) const {
-    return law_.a.cwiseProduct(Vector(membrane_.fine.synthesize(potential)));
+  [[nodiscard]] Field of_potential(const Field& potential) const {
+    return law_.a.cwiseProduct(values_of<Scalar>(membrane_, potential));
   }
-  [[nodiscard]] Vector weighted(const Vector& values) const { return membrane_.weighted(values); }
 
+  const ElectricMembrane& of_;
   const Membrane& membrane_;
-  const Vector3& field_;
-  const CurrentLaw& law_;
-  double share_in_, share_out_;  // w_i, w_e
-  double kappa_, size_, storage_;
+  const CurrentLaw<Scalar>& law_;
+  double size_ = 1.0;
+  Scalar storage_, conduction_;
 };
 
 /// The equations of all membranes.
+template <typename Scalar>
 class LawEquations {
  public:
-  LawEquations(const std::vector<ElectricMembrane>& membranes, const Interaction* interaction,
-               const std::vector<CurrentLaw>& laws)
-      : interaction_(interaction),
-        owned_((interaction != nullptr ? interaction->shares() : Shares()).own(laws.size())) {
+  using Field = FieldOf<Scalar>;
+
+  LawEquations(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
+               const std::vector<CurrentLaw<Scalar>>& laws)
+      : interaction_(interaction), owned_(interaction.shares().own(laws.size())) {
     for (std::size_t b = 0; b < membranes.size(); ++b) {
-      const LawEquation& one = of_each_.emplace_back(membranes[b], laws[b]);
-      if (interaction_ != nullptr && one.conduction() == 0.0 && one.stores()) {
+      const LawEquation<Scalar>& one = of_each_.emplace_back(membranes[b].in_field, laws[b]);
+      if (membranes.size() > 1 && one.conduction() == 0.0 && one.stores()) {
         throw InputError("several membranes charge between fluids that both conduct; one conductivity is zero");
       }
     }
   }
 
-  [[nodiscard]] std::vector<Vector> left_side(const std::vector<Vector>& potentials) const {
-    std::vector<Vector> result(potentials.size());
-    if (interaction_ != nullptr) {
-      const std::vector<Vector> jumps =
-          of_owned([&](std::size_t b) { return of_each_[b].weighted_jump_of(potentials[b]); });
-      result = interaction_->weighted_single_flux(jumps);
-      const std::vector<Vector> of_potentials = interaction_->weighted_double_flux(potentials);
-      for (const std::size_t a : owned_) result[a] = of_each_[a].conduction() * (result[a] - of_potentials[a]);
-    }
-    for_each_member(owned_, [&](std::size_t a) { add(of_each_[a].own(potentials[a]), result[a]); });
-    return gathered(std::move(result));
+  [[nodiscard]] std::vector<Field> left_side(const std::vector<Field>& potentials) const {
+    std::vector<Field> result(potentials.size());
+    for_each_member(owned_, [&](std::size_t a) { result[a] = of_each_[a].own(potentials[a]); });
+    if (interaction_.is_empty()) return result;
+    const std::vector<Field> jumps =
+        of_owned([&](std::size_t b) { return of_each_[b].weighted_jump_of(potentials[b]); });
+    const std::vector<Field> of_jumps = of_others<Scalar>(interaction_, &Interaction::weighted_single_flux, jumps);
+    const std::vector<Field> of_potentials =
+        of_others<Scalar>(interaction_, &Interaction::weighted_double_flux, potentials);
+    for (const std::size_t a : owned_) result[a] += of_each_[a].conduction() * (of_jumps[a] - of_potentials[a]);
+    gather<Scalar>(interaction_, result);
+    return result;
   }
 
-  [[nodiscard]] std::vector<Vector> right_side() const {
-    std::vector<Vector> result = of_owned([&](std::size_t a) { return of_each_[a].right_side(); });
-    if (interaction_ != nullptr) {
-      const std::vector<Vector> of_others = interaction_->weighted_single_flux(
-          of_owned([&](std::size_t b) { return of_each_[b].weighted_jump_given(); }));
-      for (const std::size_t a : owned_) result[a] -= of_each_[a].conduction() * of_others[a];
-    }
-    return gathered(std::move(result));
+  [[nodiscard]] std::vector<Field> right_side() const {
+    std::vector<Field> result = of_owned([&](std::size_t a) { return of_each_[a].right_side(); });
+    if (interaction_.is_empty()) return result;
+    const std::vector<Field> of_jumps =
+        of_others<Scalar>(interaction_, &Interaction::weighted_single_flux,
+                          of_owned([&](std::size_t b) { return of_each_[b].weighted_jump_given(); }));
+    for (const std::size_t a : owned_) result[a] -= of_each_[a].conduction() * of_jumps[a];
+    gather<Scalar>(interaction_, result);
+    return result;
   }
 
-  [[nodiscard]] std::vector<Vector> sphere_inverse(std::vector<Vector> residuals) const {
+  [[nodiscard]] std::vector<Field> sphere_inverse(std::vector<Field> residuals) const {
     for (std::size_t a = 0; a < residuals.size(); ++a) residuals[a] = of_each_[a].sphere_inverse(residuals[a]);
     return residuals;
   }
 
  private:
-  static void add(Vector of_own, Vector& sum) {
-    if (sum.size() > 0) of_own += sum;
-    sum = std::move(of_own);
-  }
-
   template <typename Make>
-  [[nodiscard]] std::vector<Vector> of_owned(const Make& make) const {
-    std::vector<Vector> result(of_each_.size());
+  [[nodiscard]] std::vector<Field> of_owned(const Make& make) const {
+    std::vector<Field> result(of_each_.size());
     for (const std::size_t a : owned_) result[a] = make(a);
     return result;
   }
 
-  [[nodiscard]] std::vector<Vector> gathered(std::vector<Vector> fields) const {
-    if (interaction_ != nullptr) interaction_->gather_potentials(fields);
-    return fields;
-  }
-
-  const Interaction* interaction_;
+  const Interaction& interaction_;
   std::vector<std::size_t> owned_;  // membranes of this rank
-  std::vector<LawEquation> of_each_;
+  std::vector<LawEquation<Scalar>> of_each_;
 };
 
-/// V/R of all membranes, one behind the other.
-struct StackedPotentials {
-  StackedEntries entries;
-  Vector radius;  // of each entry
+/// V/R of all membranes as one real vector.
+template <typename Scalar>
+class StackedPotentials {
+ public:
+  using Field = FieldOf<Scalar>;
 
-  explicit StackedPotentials(const std::vector<ElectricMembrane>& membranes) : entries(entries_of(membranes)) {
+  explicit StackedPotentials(const std::vector<ChargingMembrane>& membranes) : entries_(entries_of(membranes)) {
     std::vector<double> radii;
-    for (const ElectricMembrane& one : membranes) radii.push_back(one.membrane.radius);
-    radius = entries.spread(radii);
+    for (const ChargingMembrane& one : membranes) radii.insert(radii.end(), kParts, one.in_field.membrane.radius);
+    radius_ = entries_.spread(radii);
   }
 
-  static StackedEntries entries_of(const std::vector<ElectricMembrane>& membranes) {
+  [[nodiscard]] Index size() const { return entries_.size(); }
+
+  [[nodiscard]] Vector stack(const std::vector<Field>& fields) const {
+    std::vector<Vector> parts;
+    for (const Field& field : fields) {
+      const Matrix of_one = parts_of(field);
+      for (Index part = 0; part < of_one.cols(); ++part) parts.emplace_back(of_one.col(part));
+    }
+    return entries_.stack(parts);
+  }
+
+  [[nodiscard]] std::vector<Field> fields(const Vector& stacked) const {
+    const std::vector<Vector> parts = entries_.parts(stacked);
+    std::vector<Field> result;
+    for (std::size_t i = 0; i < parts.size(); i += kParts) {
+      Matrix of_one(parts[i].size(), static_cast<Index>(kParts));
+      for (std::size_t part = 0; part < kParts; ++part) of_one.col(static_cast<Index>(part)) = parts[i + part];
+      result.push_back(from_parts<Scalar>(of_one));
+    }
+    return result;
+  }
+
+  [[nodiscard]] Vector over_radius(const std::vector<Field>& potentials) const {
+    return stack(potentials).cwiseQuotient(radius_);
+  }
+  [[nodiscard]] std::vector<Field> potentials(const Vector& unknowns) const {
+    return fields(unknowns.cwiseProduct(radius_));
+  }
+
+ private:
+  static constexpr std::size_t kParts = std::is_same_v<Scalar, double> ? 1 : 2;
+
+  static StackedEntries entries_of(const std::vector<ChargingMembrane>& membranes) {
     std::vector<Index> sizes;
     std::vector<std::vector<Index>> entries;
-    for (const ElectricMembrane& one : membranes) {
-      sizes.push_back(n_coefficients(one.membrane.fine.order()));
-      entries.push_back(one.membrane.subspace.potentials());
+    for (const ChargingMembrane& one : membranes) {
+      const Membrane& membrane = one.in_field.membrane;
+      sizes.insert(sizes.end(), kParts, n_coefficients(membrane.fine.order()));
+      entries.insert(entries.end(), kParts, membrane.subspace.potentials());
     }
     return {std::move(sizes), std::move(entries)};
   }
 
-  [[nodiscard]] Vector over_radius(const std::vector<Vector>& potentials) const {
-    return entries.stack(potentials).cwiseQuotient(radius);
-  }
-  [[nodiscard]] std::vector<Vector> potentials(const Vector& unknowns) const {
-    return entries.parts(unknowns.cwiseProduct(radius));
-  }
+  StackedEntries entries_;
+  Vector radius_;  // of each entry
 };
 
 }  // namespace
 
-SolveReport solve_laws(const std::vector<ElectricMembrane>& membranes, const Interaction* interaction,
-                       const std::vector<CurrentLaw>& laws, double tolerance, std::vector<Vector>& potentials) {
+template <typename Scalar>
+FieldsAtFaces<Scalar> fields_of(const CurrentLaw<Scalar>& law, const Membrane& membrane,
+                                const FieldOf<Scalar>& potential) {
+  const FieldOf<Scalar> stored = law.a.cwiseProduct(values_of<Scalar>(membrane, potential));
+  return {(stored - law.s_in) / law.k_in, (stored + law.s_out) / law.k_out};
+}
+
+template <typename Scalar>
+SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
+                       const std::vector<CurrentLaw<Scalar>>& laws, double tolerance,
+                       std::vector<FieldOf<Scalar>>& potentials) {
   // The inverse on a sphere knows the mean of a alone, which may take twice as many iterations.
   constexpr int kMostIterations = 120;
-  const LawEquations equations(membranes, interaction, laws);
-  const StackedPotentials stacked(membranes);
+  const LawEquations<Scalar> equations(membranes, interaction, laws);
+  const StackedPotentials<Scalar> stacked(membranes);
   for (std::size_t a = 0; a < membranes.size(); ++a) {
-    const Index n = n_coefficients(membranes[a].membrane.fine.order());
-    if (potentials[a].size() != n) potentials[a] = Vector::Zero(n);
+    const Index n = n_coefficients(membranes[a].in_field.membrane.fine.order());
+    if (potentials[a].size() != n) potentials[a] = FieldOf<Scalar>::Zero(n);
   }
   const LinearMap map = [&](const Vector& unknowns) {
-    return stacked.entries.stack(equations.left_side(stacked.potentials(unknowns)));
+    return stacked.stack(equations.left_side(stacked.potentials(unknowns)));
   };
   const LinearMap preconditioner = [&](const Vector& residual) {
-    return stacked.over_radius(equations.sphere_inverse(stacked.entries.parts(residual)));
+    return stacked.over_radius(equations.sphere_inverse(stacked.fields(residual)));
   };
-  RecycledGcr solver(map, preconditioner, stacked.entries.size());
-  const RecycledGcr::Solution solution = solver.solve(stacked.entries.stack(equations.right_side()),
+  RecycledGcr solver(map, preconditioner, stacked.size());
+  const RecycledGcr::Solution solution = solver.solve(stacked.stack(equations.right_side()),
                                                       stacked.over_radius(potentials), {tolerance, kMostIterations});
   potentials = stacked.potentials(solution.x);
   return solution.report;
 }
+
+using Complex = std::complex<double>;
+template FieldsAtFaces<double> fields_of(const CurrentLaw<double>&, const Membrane&, const FieldOf<double>&);
+template FieldsAtFaces<Complex> fields_of(const CurrentLaw<Complex>&, const Membrane&, const FieldOf<Complex>&);
+template SolveReport solve_laws(const std::vector<ChargingMembrane>&, const Interaction&,
+                                const std::vector<CurrentLaw<double>>&, double, std::vector<FieldOf<double>>&);
+template SolveReport solve_laws(const std::vector<ChargingMembrane>&, const Interaction&,
+                                const std::vector<CurrentLaw<Complex>>&, double, std::vector<FieldOf<Complex>>&);
 
 }  // namespace vehd

@@ -4,6 +4,8 @@
 
 #include "bie/physics/electric.hpp"
 #include "bie/physics/interaction.hpp"
+#include "bie/physics/poration_reaction.hpp"
+#include "bie/support/complex_columns.hpp"
 
 namespace vehd {
 
@@ -11,6 +13,7 @@ namespace vehd {
 struct ChargingMembrane {
   ElectricMembrane in_field;
   ChargingParameters charging;
+  const PorationReaction* reaction = nullptr;  ///< null: the membrane does not porate
 };
 
 /// C_m on the upsampled grid.
@@ -23,18 +26,38 @@ Vector conductance_of(const ChargingParameters& charging, const Membrane& membra
 struct MembraneCurrent {
   Vector conductance, constant;
 };
-/// G_m V + J_p.
-MembraneCurrent membrane_current(const ChargingMembrane& of);
+/// (G_m + g(s)) V + J_p.
+/// @param poration  s of a membrane that porates, coefficients; empty: the intact membrane
+MembraneCurrent membrane_current(const ChargingMembrane& of, const Vector& poration = {});
 /// Under this V, values on the upsampled grid. @param potential  coefficients
 Vector current_through(const Membrane& membrane, const MembraneCurrent& current, const Vector& potential);
 
 /// What the faces of one membrane hold and let through for a V: E_i = (aV − s_i)/k_i inside and E_e = (aV + s_e)/k_e
-/// outside, with E_k = −∂φ_k/∂n. Values on the upsampled grid.
+/// outside, with E_k = −∂φ_k/∂n. Values on the upsampled grid; complex for amplitudes.
+template <typename Scalar>
 struct CurrentLaw {
-  Vector a;                        ///< ≥ 0
-  double k_in = 1.0, k_out = 1.0;  ///< of the fluids: what conducts, or is displaced; not both zero
-  Vector s_in, s_out;
+  FieldOf<Scalar> a;               ///< real ones are ≥ 0
+  Scalar k_in = 1.0, k_out = 1.0;  ///< of the fluids: what conducts, or is displaced; not both zero
+  FieldOf<Scalar> s_in, s_out;
+
+  /// w_k = κ/k_k.
+  [[nodiscard]] Scalar share_in() const { return k_out / (k_in + k_out); }
+  [[nodiscard]] Scalar share_out() const { return k_in / (k_in + k_out); }
+  /// (k_i − k_e)/(k_i + k_e), as η of Eq. (11).
+  [[nodiscard]] Scalar contrast() const { return share_out() - share_in(); }
+  /// κ = k_i k_e/(k_i + k_e), as the prefactor of Eq. (14).
+  [[nodiscard]] Scalar series() const { return k_in * share_in(); }
 };
+
+/// E_i and E_e, values on the upsampled grid.
+template <typename Scalar>
+struct FieldsAtFaces {
+  FieldOf<Scalar> in, out;
+};
+/// Those that go with a V. @param potential  coefficients
+template <typename Scalar>
+FieldsAtFaces<Scalar> fields_of(const CurrentLaw<Scalar>& law, const Membrane& membrane,
+                                const FieldOf<Scalar>& potential);
 
 /// Solves for V of all membranes with both fields given by V,
 ///   ½(E_i + E_e)_a + Σ_b S′_ab[(E_e − E_i)_b] − Σ_b D′_ab[V_b] = E·n on every membrane a,
@@ -46,14 +69,15 @@ struct CurrentLaw {
 /// a + κ/R and preconditioned with its inverse on a sphere.
 ///
 /// Collective where membranes are those of several ranks, see Interaction; all ranks get the potentials of all.
-/// @param interaction  of the membranes; null where there is one
 /// @param potentials   coefficients of degree p; first guesses on input, V of each on output
 /// @param tolerance    of the preconditioned residual, relative
-/// @throws InputError  if one of several membranes that carries charge lies between fluids of which one insulates: the
+/// @throws InputError  if one of several membranes that charges lies between fluids of which one insulates: the
 ///     charge is not known from V there
-/// Accuracy: that of the layers (tests/physics/charging_test.cpp, tests/physics/coupled_electric_test.cpp)
+/// Accuracy: that of the layers (tests/physics/charging_test.cpp, tests/physics/charge_density_test.cpp)
 /// Source: paper Eqs. (12)–(14), (29), (30), without the inverse; docs/theory/electric.md
-SolveReport solve_laws(const std::vector<ElectricMembrane>& membranes, const Interaction* interaction,
-                       const std::vector<CurrentLaw>& laws, double tolerance, std::vector<Vector>& potentials);
+template <typename Scalar>
+SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
+                       const std::vector<CurrentLaw<Scalar>>& laws, double tolerance,
+                       std::vector<FieldOf<Scalar>>& potentials);
 
 }  // namespace vehd

@@ -2,9 +2,6 @@
 
 #include <cmath>
 
-#include "bie/linear/subspace_solve.hpp"
-#include "bie/sphere/harmonics.hpp"
-
 namespace vehd {
 
 namespace {
@@ -12,18 +9,6 @@ namespace {
 /// J n×∇_γ f = f_1 x_2 − f_2 x_1, [n_points x 3].
 Matrix weighted_rotated_gradient(const Surface& s, const SphereDerivatives& f) {
   return f.d1.col(0).asDiagonal() * s.tangent_2 - f.d2.col(0).asDiagonal() * s.tangent_1;
-}
-
-/// Divides each degree by the eigenvalue that the operator has on the sphere.
-template <typename Eigenvalue>
-Vector divide_by_degree(const Vector& x, const Eigenvalue& eigenvalue) {
-  const int order = order_of(x.size());
-  Vector result(x.size());
-  for (int n = 0; n <= order; ++n) {
-    const double divisor = eigenvalue(n);
-    for (Index i = coefficient_index(n, -n); i <= coefficient_index(n, n); ++i) result[i] = x[i] / divisor;
-  }
-  return result;
 }
 
 }  // namespace
@@ -43,28 +28,6 @@ bool carries_charge(const ElectricParameters& electric) {
          (electric.displacement_current && (!electric.averaged_frequency || electric.permittivity_ratio != 1.0));
 }
 
-Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density) {
-  Vector result = 0.5 * weighted_density;
-  if (eta != 0.0) result += eta * membrane.layers.laplace_adjoint.apply(weighted_density);
-  result[0] = 0.5 * (1.0 - eta) * weighted_density[0];
-  return result;
-}
-
-Vector second_kind_sphere_inverse(double eta, const Vector& weighted) {
-  // At η = 1 the mean of the density is free and the right-hand side has none: any number but zero will do.
-  const double mean_eigenvalue = eta < 1.0 ? 0.5 * (1.0 - eta) : 1.0;
-  return divide_by_degree(weighted,
-                          [&](int n) { return n == 0 ? mean_eigenvalue : 0.5 - eta / (2.0 * (2.0 * n + 1.0)); });
-}
-
-Vector second_kind_right_side(const Membrane& membrane, const Vector& weighted_values) {
-  Vector rhs = membrane.fine.analyze(weighted_values);
-  // The eigenvalue ½(1 − η) of the mean would turn rounding into a net charge at large contrast.
-  constexpr double kRounding = 1e-13;
-  if (std::abs(rhs[0]) < kRounding * rhs.norm()) rhs[0] = 0.0;
-  return rhs;
-}
-
 Vector weighted_hypersingular(const Membrane& membrane, const Vector& potential) {
   const Surface& s = membrane.surface;
   const Matrix density =
@@ -75,27 +38,6 @@ Vector weighted_hypersingular(const Membrane& membrane, const Vector& potential)
 
 Vector weighted_field_flux(const Membrane& membrane, const Vector3& field) {
   return membrane.surface.area_element.cwiseProduct(membrane.surface.normal * field);
-}
-
-SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const Vector& weighted_rhs, double tolerance,
-                                     const Vector& start) {
-  // Equal conductivities: the membrane carries no charge layer that S′ could act on.
-  if (eta == 0.0) {
-    const Vector weighted = 2.0 * weighted_rhs;
-    return {membrane.fine.analyze(weighted),
-            weighted.cwiseQuotient(membrane.surface.area_element),
-            {SolveEnd::converged, 0, 0.0}};
-  }
-  const LinearMap map = [&](const Vector& g) { return second_kind_operator(membrane, eta, g); };
-  const LinearMap preconditioner = [&](const Vector& r) { return second_kind_sphere_inverse(eta, r); };
-  const Vector rhs = second_kind_right_side(membrane, weighted_rhs);
-  SecondKindSolution solution;
-  solution.weighted = start.size() == rhs.size() ? start : Vector::Zero(rhs.size());
-  solution.report =
-      solve_within(membrane.subspace.potentials(), map, preconditioner, rhs, solution.weighted, {tolerance, 60});
-  const Vector smoothed = membrane.fine.synthesize(membrane.layers.laplace_adjoint.apply(solution.weighted));
-  solution.values = (2.0 * (weighted_rhs - eta * smoothed)).cwiseQuotient(membrane.surface.area_element);
-  return solution;
 }
 
 ElectricTraces electric_traces(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,

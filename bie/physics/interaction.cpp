@@ -225,10 +225,12 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
   instruments.count_pair_targets("expanded", static_cast<std::uint64_t>(all.expanded));
 }
 
+Interaction::Interaction() : parts_(std::make_unique<const Parts>()) {}
+
 Interaction::~Interaction() = default;
 Interaction::Interaction(Interaction&&) noexcept = default;
 
-std::size_t Interaction::n_membranes() const { return parts_->n(); }
+bool Interaction::is_empty() const { return parts_->n() == 0; }
 
 const Shares& Interaction::shares() const { return parts_->shares; }
 

@@ -36,6 +36,8 @@ struct InteractingMembrane {
 /// Source: paper Eqs. (6), (8), (9) with source and target on different membranes
 class Interaction {
  public:
+  /// Of one membrane alone: it is empty, and this process has the membrane.
+  Interaction();
   /// @param settings     memory for rows is that of all
   /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
   /// @param exchange     which membranes are images of others, as the shares have it; most_summed_membranes then
@@ -47,7 +49,8 @@ class Interaction {
   ~Interaction();
   Interaction(Interaction&&) noexcept;
 
-  [[nodiscard]] std::size_t n_membranes() const;
+  /// Is there no membrane that acts on another one?
+  [[nodiscard]] bool is_empty() const;
   /// Which membranes are whose.
   [[nodiscard]] const Shares& shares() const;
   /// Which membranes are images of others.
@@ -64,7 +67,7 @@ class Interaction {
     shares().gather(fields, [this](const Matrix& f, std::size_t a) { return exchange().image(a).vector(f); });
   }
 
-  // Each throws std::logic_error for a layer that was not selected.
+  // Each throws std::logic_error for a layer that was not selected, and where the interaction is empty.
 
   /// J n·∇S[f] from J f: S′ between membranes. Degree 0 is zero: the layers of others have no flux through a membrane.
   [[nodiscard]] std::vector<Vector> weighted_single_flux(const std::vector<Vector>& weighted) const;

@@ -3,40 +3,68 @@
 #include <vector>
 
 #include "bie/physics/current_law.hpp"
+#include "bie/physics/unknowns.hpp"
 
 namespace vehd {
 
-/// Backward Euler of (4e): a = C_m/dt + G, k = σ and s_i = −s_e = (C_m/dt) V − J with a current G V + J through the
-/// membrane.
-/// @param dt         > 0; infinite for the steady state
-/// @param potential  V_m before the step, coefficients
-/// Source: paper Eqs. (4e), (30)
-CurrentLaw law_of_charging(const ChargingMembrane& of, const MembraneCurrent& current, double dt,
-                           const Vector& potential);
+/// The charges q_i and q_e of the faces as a law between V and both fields: a = C_m, k = ε, s_i = q_i, s_e = q_e.
+/// Without displacement currents q_i = −q_e = C_m V_m, and ε counts as zero.
+CurrentLaw<double> law_of_charges(const ChargingMembrane& of, const Unknowns& charges);
 
-/// V_m of all membranes after one backward-Euler step of (4e)/(14), Eq. (30), in one solve at every contrast and time
-/// constant: with a = C_m/dt + G_m, b = (C_m/dt) V_m − J_p, κ = σ_i σ_e/(σ_i + σ_e), the unknown V of one obeys
+/// Backward Euler of D q_i/Dt = σ_i E_i − I, D q_e/Dt = −σ_e E_e + I with a current I = G V + J through the membrane,
+/// which is (4e) without displacement currents: a = C_m/dt + G, k = σ + ε/dt, s_i = q_i/dt − J and s_e = q_e/dt + J.
+/// @param dt      > 0
+/// @param before  the charges at the start of the step
+/// Source: paper Eqs. (4e), (30); docs/theory/electric.md
+CurrentLaw<double> law_of_step(const ChargingMembrane& of, const MembraneCurrent& current, double dt,
+                               const Unknowns& before);
+
+/// One implicit step of the charging of all membranes and of the state s of those that porate,
+///   y − dt F(y) = from,   or with a residual   y − dt F(y) = from + residual − dt F(from),
+/// F_qi = σ_i E_i − (G_m + g(s)) V − J_p, F_qe = −σ_e E_e + (G_m + g(s)) V + J_p, F_s = r(s, V); without displacement
+/// currents that is C_m dV_m/dt = σ_i E_i − (G_m + g(s)) V_m − J_p. One solve for V where no membrane porates;
+/// elsewhere Newton's method for V, s being eliminated at every point, each of its steps such a solve. With a = C_m/dt
+/// + G_m, b = (C_m/dt) V_m − J_p and κ = σ_i σ_e/(σ_i + σ_e) the V of one membrane without displacement currents obeys
 ///   (½ + ηS′)(a V − b) − κ D′[V] = κ E·n.
-/// @param interaction  of the membranes; null where there is one
-/// @param dt           > 0
-/// @param potentials   V_m of each before the step on input, after it on output
+/// @param membranes  with the field and the pump at the end of the step; those of a correction do not count
+/// @param dt         > 0
+/// @param tolerance  of the solves, relative; Newton's method goes on until V changes by ten times this
+/// @param from       their charges and s; positions do not count
+/// @param residual   null for a step of backward Euler
+/// @param reached    y of each on output, without position
+/// @return  iterations of all solves; not converged where V does not settle
 /// @throws InputError  as solve_laws
-/// Accuracy: first order in dt, spectral in space; each step on the sphere is backward Euler to 1e-11
-/// (tests/physics/charging_test.cpp); the multipoles of two spheres charge as their linear system says
-/// (tests/physics/coupled_electric_test.cpp)
-/// Source: paper Eqs. (14), (29), (30), without the inverse
-SolveReport charge_membranes(const std::vector<ChargingMembrane>& membranes, const Interaction* interaction, double dt,
-                             double tolerance, std::vector<Vector>& potentials);
+/// Accuracy: first order in dt, spectral in space; each step on the sphere is backward Euler to 1e-11, with
+/// displacement currents to 1e-10 (tests/physics/charging_test.cpp, tests/physics/charge_relaxation_test.cpp); the
+/// multipoles of two spheres charge as their linear system says (tests/physics/charge_density_test.cpp); spheres that
+/// porate as an independent integrator has them (tests/stepping/poration_steps_test.cpp) Source: paper Eqs. (14), (29),
+/// (30), without the inverse
+SolveReport charge_membranes(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction, double dt,
+                             double tolerance, const std::vector<Unknowns>& from, const std::vector<Unknowns>* residual,
+                             std::vector<Unknowns>& reached);
 
-/// Steady V_m: C_m/dt → 0 in charge_membranes.
+/// s of a membrane that porates after such a step in which V is known to end in this.
+/// @param from  V at the start, and s
+Vector react(const PorationReaction& reaction, const SphereTransform& fine, double dt, const Unknowns& from,
+             const Unknowns* residual, const Vector& potential);
+
+/// ds/dt, coefficients.
+Vector reaction_rate(const PorationReaction& reaction, const SphereTransform& fine, const Vector& state,
+                     const Vector& potential);
+
+/// Steady V_m, the limit of a long step.
 /// @param potentials   first guesses on input, empty ones are zero; the steady V_m of each on output
 /// @throws InputError  if nothing determines it (a membrane and a fluid that both insulate, or an insulating membrane
 ///     with a pump), or as solve_laws
 /// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/charging_test.cpp), on an insulating 2:1 prolate to 1e-10
 /// (tests/physics/electric_prolate_test.cpp), two spheres act as insulators to 1e-8
-/// (tests/physics/coupled_electric_test.cpp)
+/// (tests/physics/charge_density_test.cpp)
 /// Source: paper Eq. (14) without its first term
-SolveReport steady_potentials(const std::vector<ChargingMembrane>& membranes, const Interaction* interaction,
+SolveReport steady_potentials(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
                               double tolerance, std::vector<Vector>& potentials);
+
+/// The charges of a steady state in which V_m is this: σ_k E_k = G_m V_m + J_p.
+/// @throws InputError where there are displacement currents and a fluid insulates
+Unknowns steady_charges(const ChargingMembrane& of, const Vector& potential);
 
 }  // namespace vehd

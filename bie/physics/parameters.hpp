@@ -56,6 +56,8 @@ struct ElectricParameters {
   double pump = 0.0;                           ///< factor of the pump current where its waveform is 1; 0 without a pump
   Waveform pump_waveform{};
 
+  [[nodiscard]] double permittivity_in() const { return permittivity_ratio * permittivity; }
+
   /// The same problem with the field and the pump of one time and no waveforms.
   [[nodiscard]] ElectricParameters at(double time, Limit limit) const {
     ElectricParameters now = *this;

@@ -50,7 +50,7 @@ JumpSolution solve_jumps(const ElectricParameters& electric, const Membrane& mem
   const double sum = electric.conductivity_in + electric.conductivity_out;
   const Vector hypersingular = weighted_hypersingular(membrane, potential);
   const Vector rhs = eta * hypersingular + s.area_element.cwiseProduct(current_jump / sum);
-  const SecondKindSolution density = solve_second_kind(membrane, eta, rhs, tolerance, {});
+  const SecondKindSolution density = solve_second_kind(membrane, eta, rhs, tolerance);
 
   ElectricTraces traces;
   traces.charge = density.values;

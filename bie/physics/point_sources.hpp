@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bie/physics/electric.hpp"
+#include "bie/physics/charge_density.hpp"
 
 namespace vehd {
 

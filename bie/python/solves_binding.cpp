@@ -51,7 +51,7 @@ ElectricSolution solve_electric(const Shared& surface, const Vector3& field, dou
   const Vector jump = potential_of(*surface, potential);
   const Membrane& membrane = surface->with({.laplace_single = true, .laplace_double = true, .laplace_adjoint = true});
   const Vector rhs = weighted_field_flux(membrane, field) + weighted_hypersingular(membrane, jump);
-  const SecondKindSolution density = solve_second_kind(membrane, conductivity_contrast(electric), rhs, tolerance, {});
+  const SecondKindSolution density = solve_second_kind(membrane, conductivity_contrast(electric), rhs, tolerance);
   require_converged(density.report, "charge density, Eq. (12)");
   ElectricTraces traces = electric_traces(electric, membrane, jump, density);
   Matrix force = electric_force(permittivity, membrane, traces, permittivity_ratio);

@@ -13,7 +13,6 @@
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/state/field_table.hpp"
-#include "bie/stepping/state/unknowns.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/file_system.hpp"
@@ -231,7 +230,7 @@ class SoundCheck {
     for (const VesicleState& vesicle : state.vesicles) {
       const Matrix& past = vesicle.past;
       require(past.size() == 0 || (past.rows() == vesicle.position.rows() && state.past_times.size() > 0 &&
-                                   past.cols() == state.past_times.size() * unknowns(vesicle).cols()),
+                                   past.cols() == state.past_times.size() * columns_of<Unknowns>(vesicle).cols()),
               "/state/past");
       require(past.allFinite(), "/state/past");
     }

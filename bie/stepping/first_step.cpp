@@ -27,10 +27,11 @@ double starting_rate(const EvolutionSetup& setup, const VesicleModel& model, con
   // Degree 0 carries the membrane along and changes nothing of it.
   const Matrix& velocity = fields.velocity;
   if (velocity.size() > 0) rate = velocity.bottomRows(velocity.rows() - 1).norm() / radius;
-  if (solution.potential_rate.size() > 0) {
+  const Vector& of_potential = solution.rate.transmembrane_potential;
+  if (of_potential.size() > 0) {
     if (const double pumped = pumped_rate(setup, model, vesicle, radius); pumped > 0.0) return std::max(rate, pumped);
     const double scale = potential_scale(*setup.model.electric, radius, vesicle.transmembrane_potential.norm());
-    rate = std::max(rate, solution.potential_rate.norm() / scale);
+    rate = std::max(rate, of_potential.norm() / scale);
   }
   return rate;
 }

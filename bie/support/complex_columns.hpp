@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <type_traits>
 
 #include "bie/support/types.hpp"
 
@@ -14,6 +15,28 @@ inline Matrix times(std::complex<double> c, const Matrix& z) {
   Eigen::Matrix2d map;
   map << c.real(), c.imag(), -c.imag(), c.real();
   return z * map;
+}
+
+/// A field of real or complex numbers.
+template <typename Scalar>
+using FieldOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+/// A real field as one column, a complex one as two.
+inline Matrix parts_of(const FieldOf<double>& real) { return real; }
+inline Matrix parts_of(const FieldOf<std::complex<double>>& z) {
+  Matrix parts(z.size(), 2);
+  parts << z.real(), z.imag();
+  return parts;
+}
+
+/// The other way.
+template <typename Scalar>
+FieldOf<Scalar> from_parts(const Matrix& parts) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return parts;
+  } else {
+    return parts.col(0) + std::complex<double>(0.0, 1.0) * parts.col(1);
+  }
 }
 
 /// |z|.

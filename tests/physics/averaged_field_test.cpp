@@ -39,7 +39,7 @@ struct GiantSphere {
 
   [[nodiscard]] AveragedField solve(const ElectricParameters& electric,
                                     const ChargingParameters& charging = kMembrane) const {
-    AveragedFields solved = solve_averaged_fields({{electric, membrane}}, {charging}, nullptr, kTight);
+    AveragedFields solved = solve_averaged_fields({{{electric, membrane}, charging}}, {}, kTight);
     require_converged(solved.report, "amplitudes");
     return std::move(solved.membranes.front());
   }
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(amplitude_is_the_steady_alternation_of_the_equations_in_tim
   electric.averaged_frequency = 0.35;
   const ChargingParameters charging{0.8, 0.2};
   const double omega = 2.0 * std::numbers::pi * *electric.averaged_frequency;
-  const AveragedFields solved = solve_averaged_fields({{electric, membrane}}, {charging}, nullptr, kTight);
+  const AveragedFields solved = solve_averaged_fields({{{electric, membrane}, charging}}, {}, kTight);
   const AveragedField& field = solved.membranes.front();
   Matrix force = Matrix::Zero(field.force.rows(), 3);
   for (const Index part : {0, 1}) {
@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(amplitudes_on_a_shape_without_symmetry_converge_spectrally)
   const auto solved = [&](int order) {
     const Space space(order);
     const Membrane membrane = make_membrane(space, asymmetric_shape(order), kLaplaceLayers);
-    return Matrix(solve_averaged_fields({{electric, membrane}}, {{0.8, 0.2}}, nullptr, kTight)
+    return Matrix(solve_averaged_fields({{{electric, membrane}, {0.8, 0.2}}}, {}, kTight)
                       .membranes.front()
                       .potential.topRows(n_coefficients(6)));
   };
@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(insulating_fluid_takes_the_field_off_the_membrane) {
   const Membrane membrane = make_membrane(space, sphere(6), kLaplaceLayers);
   ElectricParameters electric{{0.0, 0.0, 1.0}, 0.0, 1.0, 1.0};
   electric.averaged_frequency = 1.0;
-  const AveragedFields solved = solve_averaged_fields({{electric, membrane}}, {{1.0, 0.1}}, nullptr, kTight);
+  const AveragedFields solved = solve_averaged_fields({{{electric, membrane}, {1.0, 0.1}}}, {}, kTight);
   BOOST_TEST(solved.membranes.front().potential.cwiseAbs().maxCoeff() < 1e-12);
   // Inside the field is 3/2 E, outside it has no normal part.
   const Matrix q = space.fine.synthesize(solved.membranes.front().charge);
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(two_membranes_alternate_as_their_equations_in_time_do) {
   const ChargingParameters charging{0.8, 0.2};
   const double omega = 2.0 * std::numbers::pi * *electric.averaged_frequency;
   const AveragedFields solved =
-      solve_averaged_fields(two.in_field(electric), {charging, charging}, &two.interaction, kTight);
+      solve_averaged_fields(two.charging(electric, {charging, charging}), two.interaction, kTight);
   require_converged(solved.report, "amplitudes");
   for (const Index part : {0, 1}) {
     ElectricParameters now = electric;
@@ -222,13 +222,12 @@ BOOST_AUTO_TEST_CASE(two_membranes_alternate_as_their_equations_in_time_do) {
     const auto membranes = two.in_field(now);
     std::vector<Vector> potentials;
     for (const AveragedField& field : solved.membranes) potentials.emplace_back(sign * field.potential.col(part));
-    const CoupledDensities densities =
+    const std::vector<SecondKindSolution> densities =
         solve_second_kind(membranes, two.interaction, weighted_fluxes(membranes, two.interaction, potentials), kTight);
-    const std::vector<Vector> others =
-        potentials_of_others(membranes, two.interaction, potentials, densities.membranes);
+    const std::vector<Vector> others = potentials_of_others(membranes, two.interaction, potentials, densities);
     for (std::size_t a = 0; a < 2; ++a) {
       const Membrane& membrane = two.membranes[a];
-      const ElectricTraces traces = electric_traces(now, membrane, potentials[a], densities.membranes[a], others[a]);
+      const ElectricTraces traces = electric_traces(now, membrane, potentials[a], densities[a], others[a]);
       const Vector rate =
           -(membrane.fine.analyze(now.conductivity_in * traces.flux_in) + charging.conductance * potentials[a]) /
           charging.capacitance;
@@ -245,8 +244,8 @@ BOOST_AUTO_TEST_CASE(membranes_far_apart_do_not_hear_of_each_other) {
   electric.averaged_frequency = 0.5;
   const ChargingParameters charging{0.8, 0.2};
   const AveragedFields solved =
-      solve_averaged_fields(two.in_field(electric), {charging, charging}, &two.interaction, kTight);
-  const AveragedFields alone = solve_averaged_fields({{electric, two.membranes[0]}}, {charging}, nullptr, kTight);
+      solve_averaged_fields(two.charging(electric, {charging, charging}), two.interaction, kTight);
+  const AveragedFields alone = solve_averaged_fields({{{electric, two.membranes[0]}, charging}}, {}, kTight);
   for (const AveragedField& field : solved.membranes) {
     BOOST_TEST(max_difference(field.potential, alone.membranes[0].potential) < 1e-11);
     BOOST_TEST(max_difference(field.force, alone.membranes[0].force) < 1e-10);

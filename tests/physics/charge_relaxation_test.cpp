@@ -17,16 +17,16 @@ namespace {
 constexpr double kTight = 1e-13;
 
 /// Rates of these charges.
-FaceCharges rates_of(const ChargingMembrane& of, const FaceCharges& charges) {
-  const RelaxingField found = fields_of_charges({of}, nullptr, {charges}, kTight, {Vector()}).front();
+Unknowns rates_of(const ChargingMembrane& of, const Unknowns& charges) {
+  const RelaxingField found = fields_of_charges({of}, {}, {charges}, kTight, {Vector()}).front();
   require_converged(found.report, "V_m");
   return charge_rates(of, found, current_through(of.in_field.membrane, membrane_current(of), found.potential));
 }
 
 /// After a step of backward Euler.
-void relax(const ChargingMembrane& of, double dt, FaceCharges& charges) {
-  std::vector<FaceCharges> all{charges};
-  require_converged(relax_charges({of}, nullptr, dt, kTight, all), "charges");
+void relax(const ChargingMembrane& of, double dt, Unknowns& charges) {
+  std::vector<Unknowns> all;
+  require_converged(charge_membranes({of}, {}, dt, kTight, {charges}, nullptr, all), "charges");
   charges = all[0];
 }
 
@@ -50,8 +50,8 @@ struct RelaxingSphere {
   [[nodiscard]] Eigen::Vector2d rates(double inner, double sum, double field) const {
     ElectricParameters now = electric;
     now.field.z() = field;
-    const FaceCharges rates = rates_of({{now, membrane}, charging}, {dipole(inner), dipole(sum)});
-    return {amplitude(rates.inner), amplitude(rates.sum)};
+    const Unknowns rates = rates_of({{now, membrane}, charging}, {{}, dipole(inner), dipole(sum)});
+    return {amplitude(rates.transmembrane_potential), amplitude(rates.free_charge)};
   }
   [[nodiscard]] Eigen::Matrix2d matrix() const {
     Eigen::Matrix2d m;
@@ -85,21 +85,22 @@ BOOST_FIXTURE_TEST_CASE(each_step_is_backward_euler_exactly, RelaxingSphere) {
   const double dt = 0.4;
   const Eigen::Vector2d drive = rates(0.0, 0.0, electric.field.z());
   Eigen::Vector2d exact(0.2, -0.1);
-  FaceCharges charges{dipole(exact[0]), dipole(exact[1])};
+  Unknowns charges{{}, dipole(exact[0]), dipole(exact[1])};
   for (int i = 0; i < 3; ++i) {
     exact = (Eigen::Matrix2d::Identity() - dt * matrix()).inverse() * (exact + dt * drive);
     relax({{electric, membrane}, charging}, dt, charges);
   }
-  BOOST_TEST(max_difference(charges.inner, dipole(exact[0])) < 1e-10);
-  BOOST_TEST(max_difference(charges.sum, dipole(exact[1])) < 1e-10);
+  BOOST_TEST(max_difference(charges.transmembrane_potential, dipole(exact[0])) < 1e-10);
+  BOOST_TEST(max_difference(charges.free_charge, dipole(exact[1])) < 1e-10);
 }
 
 BOOST_FIXTURE_TEST_CASE(steady_charges_do_not_change, RelaxingSphere) {
   const ChargingMembrane of{{electric, membrane}, charging};
   std::vector<Vector> potentials(1);
-  require_converged(steady_potentials({of}, nullptr, kTight, potentials), "steady V_m");
-  const FaceCharges charges = steady_charges(of, potentials[0]);
-  const Eigen::Vector2d rate = rates(amplitude(charges.inner), amplitude(charges.sum), electric.field.z());
+  require_converged(steady_potentials({of}, {}, kTight, potentials), "steady V_m");
+  const Unknowns charges = steady_charges(of, potentials[0]);
+  const Eigen::Vector2d rate =
+      rates(amplitude(charges.transmembrane_potential), amplitude(charges.free_charge), electric.field.z());
   BOOST_TEST(rate.norm() < 1e-10);
 }
 
@@ -108,13 +109,13 @@ BOOST_AUTO_TEST_CASE(small_permittivity_is_the_leaky_dielectric_on_any_shape) {
   const Membrane membrane = make_membrane(space, asymmetric_shape(8), kLaplaceLayers);
   ElectricParameters electric{{0.4, -0.3, 1.1}, 0.6, 1.7, 1e-7, 0.5};
   const ChargingParameters charging{0.8, 0.3};
-  std::vector<Vector> potentials{Vector::Zero(n_coefficients(8))};
-  require_converged(charge_membranes({{{electric, membrane}, charging}}, nullptr, 0.3, kTight, potentials), "charging");
-  const Vector& leaky = potentials[0];
+  Unknowns leaky_charges{{}, Vector::Zero(n_coefficients(8))};
+  relax({{electric, membrane}, charging}, 0.3, leaky_charges);
+  const Vector& leaky = leaky_charges.transmembrane_potential;
   electric.displacement_current = true;
-  FaceCharges charges{Vector::Zero(leaky.size()), Vector::Zero(leaky.size())};
+  Unknowns charges{{}, Vector::Zero(leaky.size()), Vector::Zero(leaky.size())};
   relax({{electric, membrane}, charging}, 0.3, charges);
-  BOOST_TEST(max_difference(charges.inner, leaky) < 1e-5 * leaky.norm());
+  BOOST_TEST(max_difference(charges.transmembrane_potential, leaky) < 1e-5 * leaky.norm());
 }
 
 BOOST_AUTO_TEST_CASE(a_step_ends_in_charges_whose_field_makes_that_step) {
@@ -125,11 +126,12 @@ BOOST_AUTO_TEST_CASE(a_step_ends_in_charges_whose_field_makes_that_step) {
   electric.displacement_current = true;
   const ChargingParameters charging{0.8, 0.3};
   const double dt = 0.3;
-  FaceCharges charges{Vector::Zero(n_coefficients(12)), Vector::Zero(n_coefficients(12))};
+  Unknowns charges{{}, Vector::Zero(n_coefficients(12)), Vector::Zero(n_coefficients(12))};
   relax({{electric, membrane}, charging}, dt, charges);
-  const FaceCharges rates = rates_of({{electric, membrane}, charging}, charges);
-  BOOST_TEST(max_difference(dt * rates.inner, charges.inner) < 1e-3 * charges.inner.norm());
-  BOOST_TEST(max_difference(dt * rates.sum, charges.sum) < 3e-3 * charges.sum.norm());
+  const Unknowns rates = rates_of({{electric, membrane}, charging}, charges);
+  BOOST_TEST(max_difference(dt * rates.transmembrane_potential, charges.transmembrane_potential) <
+             1e-3 * charges.transmembrane_potential.norm());
+  BOOST_TEST(max_difference(dt * rates.free_charge, charges.free_charge) < 3e-3 * charges.free_charge.norm());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -41,14 +41,15 @@ struct ChargingSphere {
     return v;
   }
   void charge(double dt, Vector& v) const {
-    std::vector<Vector> potentials{v};
-    require_converged(charge_membranes({{{electric, membrane}, charging}}, nullptr, dt, kTolerance, potentials),
-                      "charging");
-    v = potentials[0];
+    std::vector<Unknowns> charged;
+    require_converged(
+        charge_membranes({{{electric, membrane}, charging}}, {}, dt, kTolerance, {{{}, v}}, nullptr, charged),
+        "charging");
+    v = charged[0].transmembrane_potential;
   }
   [[nodiscard]] SolveReport find_steady(Vector& v) const {
     std::vector<Vector> potentials(1);
-    const SolveReport report = steady_potentials({{{electric, membrane}, charging}}, nullptr, kTolerance, potentials);
+    const SolveReport report = steady_potentials({{{electric, membrane}, charging}}, {}, kTolerance, potentials);
     v = potentials[0];
     return report;
   }

@@ -38,20 +38,28 @@ std::vector<ChargingMembrane> charging_in(const SeveralMembranes& several, const
 }
 
 /// Their rates where nothing but leaks and pumps conducts through the membrane.
-FaceCharges rates_of(const ChargingMembrane& of, const RelaxingField& field) {
+Unknowns rates_of(const ChargingMembrane& of, const RelaxingField& field) {
   return charge_rates(of, field, current_through(of.in_field.membrane, membrane_current(of), field.potential));
 }
 
-std::vector<FaceCharges> no_charges(const SeveralMembranes& several) {
-  std::vector<FaceCharges> all;
-  for (const Vector& zero : several.zeros()) all.push_back({zero, zero});
+std::vector<Unknowns> no_charges(const SeveralMembranes& several) {
+  std::vector<Unknowns> all;
+  for (const Vector& zero : several.zeros()) all.push_back({{}, zero, zero});
   return all;
 }
 
+/// A step of backward Euler.
+void charge(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction, double dt,
+            std::vector<Unknowns>& charges) {
+  std::vector<Unknowns> reached;
+  require_converged(charge_membranes(membranes, interaction, dt, kTight, charges, nullptr, reached), "charges");
+  charges = std::move(reached);
+}
+
 std::vector<RelaxingField> fields(const std::vector<ChargingMembrane>& membranes, const SeveralMembranes& several,
-                                  const std::vector<FaceCharges>& charges) {
+                                  const std::vector<Unknowns>& charges) {
   std::vector<RelaxingField> found =
-      fields_of_charges(membranes, &several.interaction, charges, kTight, several.zeros());
+      fields_of_charges(membranes, several.interaction, charges, kTight, several.zeros());
   require_converged(found.front().report, "V_m");
   return found;
 }
@@ -83,8 +91,8 @@ BOOST_AUTO_TEST_CASE(one_step_of_two_spheres_is_that_of_their_multipoles) {
   const ElectricParameters electric = relaxing({0.0, 0.0, 1.0}, 6.0);
   const std::vector<ChargingMembrane> membranes = charging_in(spheres, electric);
   for (const double dt : {1e-3, 0.2, 10.0}) {
-    std::vector<FaceCharges> charges = no_charges(spheres);
-    require_converged(relax_charges(membranes, &spheres.interaction, dt, kTight, charges), "charges");
+    std::vector<Unknowns> charges = no_charges(spheres);
+    charge(membranes, spheres.interaction, dt, charges);
     const double k_in = 6.0 + 0.2 / dt, k_out = 1.7 + 0.4 / dt;
     const SphereForces exact = charged_sphere_forces(0.5, k_in / k_out, (0.8 / dt + 0.3) / k_out);
     const double found = attraction(spheres, electric, fields(membranes, spheres, charges));
@@ -102,8 +110,7 @@ BOOST_AUTO_TEST_CASE(two_spheres_in_an_alternating_field_attract_as_their_comple
     const Complex s = k.inside / membrane_admittance(kMembrane, frequency);
     const SphereForces exact = sphere_forces_of(
         0.5, [&](int m) -> Complex { return k.inside / k.outside / (1.0 + static_cast<double>(m) * s); });
-    const AveragedFields solved =
-        solve_averaged_fields(spheres.in_field(electric), {kMembrane, kMembrane}, &spheres.interaction, kTight);
+    const AveragedFields solved = solve_averaged_fields(charging_in(spheres, electric), spheres.interaction, kTight);
     require_converged(solved.report, "amplitudes");
     const double found = -total(spheres.membranes[0], solved.membranes[0].force).z();
     BOOST_TEST(std::abs(found - 0.4 * exact.along) < 1e-7, frequency << ": " << found << ", " << 0.4 * exact.along);
@@ -117,12 +124,12 @@ BOOST_AUTO_TEST_CASE(a_sphere_far_away_counts_with_the_third_power_of_its_distan
   const double dipole = polarisability(1, k_in / k_out / (1.0 + k_in / k_out / g));
   for (const double distance : {8.0, 16.0, 32.0}) {
     const SeveralMembranes spheres = spheres_above_each_other(6, distance);
-    std::vector<FaceCharges> charges = no_charges(spheres);
-    require_converged(relax_charges(charging_in(spheres, electric), &spheres.interaction, dt, kTight, charges), "pair");
-    std::vector<FaceCharges> alone{no_charges(spheres).front()};
-    require_converged(relax_charges({charging_in(spheres, electric).front()}, nullptr, dt, kTight, alone), "alone");
+    std::vector<Unknowns> charges = no_charges(spheres);
+    charge(charging_in(spheres, electric), spheres.interaction, dt, charges);
+    std::vector<Unknowns> alone{no_charges(spheres).front()};
+    charge({charging_in(spheres, electric).front()}, {}, dt, alone);
     const Index along = coefficient_index(1, 0);
-    const double growth = charges[0].inner[along] / alone[0].inner[along] - 1.0;
+    const double growth = charges[0].transmembrane_potential[along] / alone[0].transmembrane_potential[along] - 1.0;
     const double expected = -2.0 * dipole / std::pow(distance, 3);
     // The dipoles that the dipoles make are the next term.
     BOOST_TEST(std::abs(growth - expected) < 2.0 * expected * expected + 1e-11, growth << ", " << expected);
@@ -138,19 +145,14 @@ BOOST_AUTO_TEST_CASE(charges_of_two_membranes_change_as_their_amplitudes_alterna
   const std::vector<ChargingMembrane> membranes{{{relaxing(field), two.membranes[0]}, kMembrane},
                                                 {{relaxing(field, 3.0, 2.0), two.membranes[1]}, {0.5, 0.1}}};
   const double frequency = 0.2, omega = 2.0 * std::numbers::pi * frequency;
-  std::vector<ElectricMembrane> averaged;
-  std::vector<ChargingParameters> charging;
-  for (const ChargingMembrane& of : membranes) {
-    averaged.push_back(of.in_field);
-    averaged.back().electric.averaged_frequency = frequency;
-    charging.push_back(of.charging);
-  }
-  const AveragedFields solved = solve_averaged_fields(averaged, charging, &two.interaction, kTight);
-  std::vector<FaceCharges> charges;
+  std::vector<ChargingMembrane> averaged = membranes;
+  for (ChargingMembrane& of : averaged) of.in_field.electric.averaged_frequency = frequency;
+  const AveragedFields solved = solve_averaged_fields(averaged, two.interaction, kTight);
+  std::vector<Unknowns> charges;
   std::vector<Matrix> inner, sum;
   for (std::size_t a = 0; a < 2; ++a) {
     const auto [of_inner, of_sum] = charge_amplitudes(membranes[a], frequency, solved.membranes[a].potential);
-    charges.push_back({of_inner.col(0), of_sum.col(0)});
+    charges.push_back({{}, of_inner.col(0), of_sum.col(0)});
     inner.push_back(of_inner);
     sum.push_back(of_sum);
   }
@@ -158,10 +160,11 @@ BOOST_AUTO_TEST_CASE(charges_of_two_membranes_change_as_their_amplitudes_alterna
   for (std::size_t a = 0; a < 2; ++a) {
     const Vector potential = solved.membranes[a].potential.col(0);
     BOOST_TEST(max_difference(now[a].potential, potential) < 1e-3 * potential.norm());
-    const FaceCharges rates = rates_of(membranes[a], now[a]);
+    const Unknowns rates = rates_of(membranes[a], now[a]);
     // A quarter of a period later the alternation has minus the imaginary part.
-    BOOST_TEST(max_difference(rates.inner, -omega * inner[a].col(1)) < 3e-3 * omega * inner[a].norm());
-    BOOST_TEST(max_difference(rates.sum, -omega * sum[a].col(1)) < 3e-3 * omega * sum[a].norm());
+    BOOST_TEST(max_difference(rates.transmembrane_potential, -omega * inner[a].col(1)) <
+               3e-3 * omega * inner[a].norm());
+    BOOST_TEST(max_difference(rates.free_charge, -omega * sum[a].col(1)) < 3e-3 * omega * sum[a].norm());
   }
 }
 
@@ -173,15 +176,18 @@ BOOST_AUTO_TEST_CASE(a_step_of_two_membranes_ends_in_charges_whose_field_makes_i
   const std::vector<ChargingMembrane> membranes{{{relaxing(field), two.membranes[0]}, kMembrane},
                                                 {{relaxing(field, 3.0, 2.0), two.membranes[1]}, {0.5, 0.1}}};
   const double dt = 0.3;
-  std::vector<FaceCharges> charges = no_charges(two);
+  std::vector<Unknowns> charges = no_charges(two);
   for (int step = 0; step < 2; ++step) {
-    const std::vector<FaceCharges> before = charges;
-    require_converged(relax_charges(membranes, &two.interaction, dt, kTight, charges), "charges");
+    const std::vector<Unknowns> before = charges;
+    charge(membranes, two.interaction, dt, charges);
     const std::vector<RelaxingField> now = fields(membranes, two, charges);
     for (std::size_t a = 0; a < 2; ++a) {
-      const FaceCharges rates = rates_of(membranes[a], now[a]);
-      BOOST_TEST(max_difference(dt * rates.inner, charges[a].inner - before[a].inner) < 1e-4 * charges[a].inner.norm());
-      BOOST_TEST(max_difference(dt * rates.sum, charges[a].sum - before[a].sum) < 1e-4 * charges[a].sum.norm());
+      const Unknowns rates = rates_of(membranes[a], now[a]);
+      BOOST_TEST(max_difference(dt * rates.transmembrane_potential,
+                                charges[a].transmembrane_potential - before[a].transmembrane_potential) <
+                 1e-4 * charges[a].transmembrane_potential.norm());
+      BOOST_TEST(max_difference(dt * rates.free_charge, charges[a].free_charge - before[a].free_charge) <
+                 1e-4 * charges[a].free_charge.norm());
     }
   }
 }
@@ -192,15 +198,15 @@ BOOST_AUTO_TEST_CASE(copies_far_apart_are_each_alone) {
                                kLaplaceLayers, kLaplacePairs);
   const ElectricParameters electric = relaxing({0.4, -0.3, 1.1});
   const std::vector<ChargingMembrane> membranes = charging_in(three, electric);
-  std::vector<FaceCharges> charges = no_charges(three);
-  require_converged(relax_charges(membranes, &three.interaction, 0.3, kTight, charges), "charges");
-  std::vector<FaceCharges> alone{no_charges(three).front()};
-  require_converged(relax_charges({membranes.front()}, nullptr, 0.3, kTight, alone), "alone");
-  const RelaxingField of_one = fields_of_charges({membranes.front()}, nullptr, alone, kTight, {Vector()}).front();
+  std::vector<Unknowns> charges = no_charges(three);
+  charge(membranes, three.interaction, 0.3, charges);
+  std::vector<Unknowns> alone{no_charges(three).front()};
+  charge({membranes.front()}, {}, 0.3, alone);
+  const RelaxingField of_one = fields_of_charges({membranes.front()}, {}, alone, kTight, {Vector()}).front();
   const std::vector<RelaxingField> of_all = fields(membranes, three, charges);
   for (std::size_t a = 0; a < 3; ++a) {
-    BOOST_TEST(max_difference(charges[a].inner, alone[0].inner) < 1e-10);
-    BOOST_TEST(max_difference(charges[a].sum, alone[0].sum) < 1e-10);
+    BOOST_TEST(max_difference(charges[a].transmembrane_potential, alone[0].transmembrane_potential) < 1e-10);
+    BOOST_TEST(max_difference(charges[a].free_charge, alone[0].free_charge) < 1e-10);
     BOOST_TEST(max_difference(of_all[a].potential, of_one.potential) < 1e-10);
     BOOST_TEST(max_difference(of_all[a].traces.flux_in, of_one.traces.flux_in) < 1e-9);
     BOOST_TEST(max_difference(of_all[a].traces.charge, of_one.traces.charge) < 1e-9);

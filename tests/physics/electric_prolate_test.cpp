@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(interior_field_is_uniform_and_charge_follows_the_normal) {
 BOOST_AUTO_TEST_CASE(insulating_membrane_takes_the_whole_potential_drop_when_steady) {
   for (const double ratio : {0.5, 2.0, 1e6}) {
     std::vector<Vector> potentials(1);
-    require_converged(steady_potentials({{{electric(ratio), membrane}, {1.0, 0.0}}}, nullptr, 1e-12, potentials),
+    require_converged(steady_potentials({{{electric(ratio), membrane}, {1.0, 0.0}}}, {}, 1e-12, potentials),
                       "steady potential");
     const Vector expected = field / (1.0 - depolarisation()) * membrane.surface.position.col(2);
     BOOST_TEST(max_difference(space.fine.synthesize(potentials[0]), expected) < 1e-10 * field,

@@ -72,7 +72,7 @@ struct Example1 {
     const Vector current_jump = (2.0 * exact.flux_in - exact.flux_out) / 3.0;
     const Vector rhs = eta * weighted_hypersingular(membrane, sources.transmembrane_potential) +
                        membrane.surface.area_element.cwiseProduct(current_jump);
-    const SecondKindSolution density = solve_second_kind(membrane, eta, rhs, 1e-12, {});
+    const SecondKindSolution density = solve_second_kind(membrane, eta, rhs, 1e-12);
     require_converged(density.report, "charge density");
     sources.weighted_charge = density.weighted;
   }

@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(history_has_magnitudes_and_the_phase_of_a_sphere) {
   BOOST_TEST(phase < -10.0);
   BOOST_TEST(std::abs(found.diagnostics.q_north - std::abs(exact.outside - exact.inside)) < 1e-9);
   BOOST_TEST(found.fields.charge.size() == 0);
-  BOOST_TEST(found.solution.potential_rate.size() == 0);
+  BOOST_TEST(found.solution.rate.transmembrane_potential.size() == 0);
 }
 
 BOOST_AUTO_TEST_CASE(two_vesicles_far_apart_move_as_each_alone) {

@@ -133,8 +133,8 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_d
   const Evaluated now = evaluated(model, discretisation, state);
   BOOST_TEST(max_difference(now.fields.potential, amplitude.fields.potential_amplitude.col(0)) < 2e-3);
   const auto [rate_of_inner, rate_of_sum] = charges(1);
-  BOOST_TEST(max_difference(now.solution.potential_rate, -omega * rate_of_inner) < 5e-3);
-  BOOST_TEST(max_difference(now.solution.free_charge_rate, -omega * rate_of_sum) < 5e-3);
+  BOOST_TEST(max_difference(now.solution.rate.transmembrane_potential, -omega * rate_of_inner) < 5e-3);
+  BOOST_TEST(max_difference(now.solution.rate.free_charge, -omega * rate_of_sum) < 5e-3);
 }
 
 namespace {
@@ -227,8 +227,8 @@ BOOST_AUTO_TEST_CASE(steady_charges_of_two_vesicles_do_not_change) {
   for (std::size_t a = 0; a < 2; ++a) {
     const VesicleFields& fields = found.fields.vesicles[a];
     BOOST_TEST(fields.potential.norm() > 0.5);
-    BOOST_TEST(found.vesicles[a].potential_rate.norm() < 1e-4 * fields.potential.norm());
-    BOOST_TEST(found.vesicles[a].free_charge_rate.norm() < 1e-4 * fields.potential.norm());
+    BOOST_TEST(found.vesicles[a].rate.transmembrane_potential.norm() < 1e-4 * fields.potential.norm());
+    BOOST_TEST(found.vesicles[a].rate.free_charge.norm() < 1e-4 * fields.potential.norm());
     // K_k E_k = G_m V of both faces.
     const double conductance = model.vesicles[a].charging.conductance;
     BOOST_TEST(max_difference(

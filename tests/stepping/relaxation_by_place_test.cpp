@@ -94,8 +94,8 @@ BOOST_AUTO_TEST_CASE(steady_charges_do_not_change) {
   const Evaluated found =
       evaluated(model, discretisation, start_by_place(model, discretisation, shape, 1.0, electric_material(12), true));
   BOOST_TEST(found.fields.potential.norm() > 0.5);
-  BOOST_TEST(found.solution.potential_rate.norm() < 1e-4 * found.fields.potential.norm());
-  BOOST_TEST(found.solution.free_charge_rate.norm() < 1e-4 * found.fields.potential.norm());
+  BOOST_TEST(found.solution.rate.transmembrane_potential.norm() < 1e-4 * found.fields.potential.norm());
+  BOOST_TEST(found.solution.rate.free_charge.norm() < 1e-4 * found.fields.potential.norm());
 }
 
 BOOST_AUTO_TEST_CASE(what_is_the_same_everywhere_relaxes_as_without_places) {
@@ -153,8 +153,8 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_d
   state.vesicles[0].free_charge = of_sum.col(0);
   const Evaluated now = evaluated(model, discretisation, state);
   BOOST_TEST(max_difference(now.fields.potential, amplitude.col(0)) < 2e-3);
-  BOOST_TEST(max_difference(now.solution.potential_rate, -omega * of_inner.col(1)) < 5e-3);
-  BOOST_TEST(max_difference(now.solution.free_charge_rate, -omega * of_sum.col(1)) < 5e-3);
+  BOOST_TEST(max_difference(now.solution.rate.transmembrane_potential, -omega * of_inner.col(1)) < 5e-3);
+  BOOST_TEST(max_difference(now.solution.rate.free_charge, -omega * of_sum.col(1)) < 5e-3);
   BOOST_TEST(amplitude.norm() > 0.3);
 }
 

@@ -75,10 +75,11 @@ BOOST_AUTO_TEST_CASE(each_step_is_backward_euler) {
       for (std::size_t a = 0; a < 2; ++a) {
         const VesicleState &now = state.vesicles[a], &was = before.vesicles[a];
         const Vector charged = now.transmembrane_potential - was.transmembrane_potential;
-        const double of_charge = max_difference(dt * end.vesicles[a].potential_rate, charged) / charged.norm();
+        const double of_charge =
+            max_difference(dt * end.vesicles[a].rate.transmembrane_potential, charged) / charged.norm();
         BOOST_TEST(of_charge < 3e-3, relaxes << ": " << of_charge);
         const Vector opened = now.poration - was.poration;
-        const double of_pores = max_difference(dt * end.vesicles[a].poration_rate, opened) / opened.norm();
+        const double of_pores = max_difference(dt * end.vesicles[a].rate.poration, opened) / opened.norm();
         BOOST_TEST(of_pores < 1e-2, relaxes << ": " << of_pores);
         BOOST_TEST(opened.norm() > 0.01);
       }

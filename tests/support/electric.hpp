@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/electric.hpp"
+#include "bie/physics/charge_density.hpp"
 #include "tests/support/membrane.hpp"
 
 namespace vehd::testing {
@@ -9,7 +9,7 @@ namespace vehd::testing {
 inline SecondKindSolution solve_density(const ElectricParameters& electric, const Membrane& membrane,
                                         const Vector& potential) {
   const Vector rhs = weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential);
-  SecondKindSolution density = solve_second_kind(membrane, conductivity_contrast(electric), rhs, 1e-12, {});
+  SecondKindSolution density = solve_second_kind(membrane, conductivity_contrast(electric), rhs, 1e-12);
   require_converged(density.report, "charge density");
   return density;
 }

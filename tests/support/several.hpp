@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bie/physics/coupled_electric.hpp"
+#include "bie/physics/charge_density.hpp"
 #include "bie/physics/current_law.hpp"
 #include "tests/support/membrane.hpp"
 

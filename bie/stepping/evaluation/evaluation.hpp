@@ -18,11 +18,9 @@ struct VesicleSolution {
   /// Surface and operators, these on the rank of the vesicle alone; null in an evaluation that no step starts from.
   std::shared_ptr<const Membrane> membrane;
   bool is_sphere = false;  ///< see uniform_tension_is_free
-  Vector potential_rate;   ///< dV_m/dt of material points, Eq. (4e), coefficients; empty without electricity
+  Unknowns rate;           ///< dy/dt of material points, coefficients; a sphere moves as a rigid one
   /// Of all explicit effects on the fluid, values on the upsampled grid; empty without, and on other ranks.
   Matrix force_of_effects;
-  Vector poration_rate;        ///< that of SurfaceFields::poration; empty without
-  Vector free_charge_rate;     ///< that of SurfaceFields::free_charge; empty without displacement currents
   RecycledSubspaces recycled;  ///< those of the state with what the tension solve has learned
 };
 
@@ -31,12 +29,15 @@ struct VesicleSolution {
 struct SolvedFields {
   Fields fields;
   std::vector<VesicleSolution> vesicles;
-  /// Layers of the membranes on one another; null where there is only one, or where no step starts.
+  /// Layers of the membranes on one another, empty where there is only one; null where no step starts.
   std::shared_ptr<const Interaction> interaction;
   int iterations_flow = 0;         ///< of the tension solves
   int iterations_electric = 0;     ///< of Eq. (12)
   bool electric_inactive = false;  ///< see electric_inactive()
 };
+
+/// How exact the layers between membranes are next to those of each.
+PairSettings pair_settings(const NumericalSettings& settings);
 
 /// Whose operators serve.
 enum class Shapes { of_state, of_previous };

@@ -9,13 +9,12 @@ namespace {
 /// Of one vesicle.
 struct SolvedVesicle {
   VesicleFields fields;
-  Vector potential_rate, poration_rate, free_charge_rate;
+  Unknowns rate;
 };
 
 template <MaybeConst<SolvedVesicle> Vesicle, typename Visit>
 void visit_members(Vesicle& vesicle, Visit& visit) {
-  visit(vesicle.fields);
-  visit(vesicle.potential_rate, vesicle.poration_rate, vesicle.free_charge_rate);
+  visit(vesicle.fields, vesicle.rate);
 }
 
 }  // namespace
@@ -24,21 +23,15 @@ void gather_from_owners(const Shares& shares, const Exchange& exchange, SolvedFi
   if (shares.ranks().is_alone() && !exchange.any()) return;
   std::vector<SolvedVesicle> all(solved.vesicles.size());
   for (std::size_t a = 0; a < all.size(); ++a) {
-    VesicleSolution& solution = solved.vesicles[a];
-    all[a] = {std::move(solved.fields.vesicles[a]), std::move(solution.potential_rate),
-              std::move(solution.poration_rate), std::move(solution.free_charge_rate)};
+    all[a] = {std::move(solved.fields.vesicles[a]), std::move(solved.vesicles[a].rate)};
   }
   shares.gather(all, [&exchange](const SolvedVesicle& of_original, std::size_t a) -> SolvedVesicle {
     const ImageOfFields& image = exchange.image(a);
-    return {image_of(image, of_original.fields), image.potential(of_original.potential_rate),
-            image.scalar(of_original.poration_rate), image.potential(of_original.free_charge_rate)};
+    return {image_of(image, of_original.fields), image_of(image, of_original.rate)};
   });
   for (std::size_t a = 0; a < all.size(); ++a) {
-    VesicleSolution& solution = solved.vesicles[a];
     solved.fields.vesicles[a] = std::move(all[a].fields);
-    solution.potential_rate = std::move(all[a].potential_rate);
-    solution.poration_rate = std::move(all[a].poration_rate);
-    solution.free_charge_rate = std::move(all[a].free_charge_rate);
+    solved.vesicles[a].rate = std::move(all[a].rate);
   }
 }
 

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "bie/physics/charge_relaxation.hpp"
-#include "bie/physics/coupled_electric.hpp"
+#include "bie/physics/charge_density.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
@@ -21,7 +20,9 @@ namespace {
 /// Before what is solved for.
 SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, const StartMembrane& start) {
   const Index n = start.position.rows();
-  SurfaceFields fields{start.position, Vector::Zero(n), {}, {}, {}};
+  SurfaceFields fields;
+  fields.position = start.position;
+  fields.area_strain = Vector::Zero(n);
   if (vesicle.inextensible) fields.tension = Vector::Zero(n);
   fields.material = start.material;
   for_each_property(fields.material,
@@ -59,20 +60,15 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     interacting.push_back({position, space.targets(), electric_pair_selection(membranes.back().in_field.electric)});
     potentials.push_back(state.vesicles[a].transmembrane_potential);
   }
-  std::optional<Interaction> interaction;
-  if (interacts) {
-    interaction.emplace(interacting, PairSettings{}, instruments, shares, discretisation.symmetry().exchange);
-  }
-  require_converged(steady_potentials(membranes, interaction ? &*interaction : nullptr,
-                                      discretisation.settings().electric_tolerance, potentials),
+  const Interaction interaction =
+      interacts ? Interaction(interacting, {}, instruments, shares, discretisation.symmetry().exchange) : Interaction();
+  require_converged(steady_potentials(membranes, interaction, discretisation.settings().electric_tolerance, potentials),
                     "steady membrane potential");
   for (std::size_t a = 0; a < frozen.size(); ++a) {
     VesicleState& vesicle = state.vesicles[a];
-    vesicle.transmembrane_potential = std::move(potentials[a]);
-    if (!relaxes_charge(model)) continue;
-    FaceCharges charges = steady_charges(membranes[a], vesicle.transmembrane_potential);
-    vesicle.transmembrane_potential = std::move(charges.inner);
-    vesicle.free_charge = std::move(charges.sum);
+    Unknowns charges = steady_charges(membranes[a], potentials[a]);
+    vesicle.transmembrane_potential = std::move(charges.transmembrane_potential);
+    vesicle.free_charge = std::move(charges.free_charge);
   }
 }
 

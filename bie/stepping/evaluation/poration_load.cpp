@@ -88,7 +88,8 @@ PorationLoad poration_load(const PorationCriterion& criterion, double capacitanc
   if (criterion.potential && potential.size() > 0) {
     // That of the state is one of charges where V_m follows from them.
     const bool known = fields.potential.size() == 0;
-    most = of_potential(*criterion.potential, fine, potential, known ? solution.potential_rate : Vector());
+    most =
+        of_potential(*criterion.potential, fine, potential, known ? solution.rate.transmembrane_potential : Vector());
   }
   if (criterion.tension && fields.tension.size() > 0) {
     const LoadAt of_layer =

@@ -1,13 +1,12 @@
+#include <algorithm>
 #include <cstddef>
 
-#include "bie/physics/electric.hpp"
-#include "bie/physics/tension.hpp"
-#include "bie/stepping/evaluation/averaged_forces.hpp"
+#include "bie/physics/charge_density.hpp"
+#include "bie/physics/membrane_flow.hpp"
+#include "bie/stepping/evaluation/electric_fields.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/evaluation/gather_solution.hpp"
-#include "bie/stepping/evaluation/interacting_fields.hpp"
-#include "bie/stepping/evaluation/relaxing_charge.hpp"
-#include "bie/stepping/evaluation/vesicle_task.hpp"
+#include "bie/stepping/evaluation/membrane_velocities.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
@@ -18,70 +17,6 @@ namespace vehd {
 
 namespace {
 
-/// f_E with q and dV_m/dt as by-products, Eqs. (12), (15), (32). @returns values on the upsampled grid
-Matrix solve_electric(const VesicleTask& task, double time, Limit limit, int& iterations) {
-  const Membrane& membrane = task.membrane;
-  const ElectricParameters electric = electric_parameters(task.model, task.vesicle).at(time, limit);
-  const Vector& potential = task.state.transmembrane_potential;
-  const Vector rhs = weighted_field_flux(membrane, electric.field) + weighted_hypersingular(membrane, potential);
-  const SecondKindSolution density =
-      solve_second_kind(membrane, conductivity_contrast(electric), rhs, task.settings.electric_tolerance, {});
-  require_converged(density.report, "charge density, Eq. (12)");
-  iterations += density.report.iterations;
-  const ElectricTraces traces = electric_traces(electric, membrane, potential, density);
-  task.fields.charge = membrane.fine.analyze(traces.charge);
-  task.solution.potential_rate = charging_rate(task, electric, traces);
-  Matrix force = electric_force(electric.permittivity, membrane, traces, electric.permittivity_ratio);
-  task.fields.force_electric = membrane.fine.analyze(force);
-  return force;
-}
-
-/// Velocity of the membrane under the forcing, with the tension that keeps it inextensible, Eq. (27b).
-void solve_velocity(const VesicleTask& task, const Forcing& forcing, int& iterations) {
-  const Membrane& membrane = task.membrane;
-  Matrix velocity = forcing.velocity;
-  if (!membrane.layers.stokes_single.empty()) {
-    velocity += membrane.layers.stokes_single.apply(membrane.weighted(forcing.force)) / task.model.viscosity;
-  }
-  velocity = membrane.velocity(std::move(velocity));
-  if (task.vesicle.inextensible) {
-    const VelocityField driven = velocity_field(membrane, velocity, false);
-    const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
-    const FlowParameters parameters = flow_parameters(task.model, task.vesicle);
-    const FlowOptions options{task.solution.is_sphere, {}, task.space.subspace().scalars()};
-    const auto& known = task.state.recycled.tension;
-    FlowSystem system(parameters, membrane, 0.0, options, known ? known->in(options.entries, 1) : RecycledSubspace{});
-    const FlowSystem::Solution solution = system.solve(rhs, {{}, task.state.tension}, task.settings.flow_tolerance);
-    require_converged(solution.report, "tension, Eq. (27b)");
-    task.solution.recycled.tension =
-        recycled_scalars(options.entries, joined(system.learned(), system.kept(), thresholds::most_recycled));
-    iterations += solution.report.iterations;
-    velocity += solution.velocity;
-    task.fields.tension = solution.unknowns.tension;
-    task.fields.force_tension = membrane.fine.analyze(tension_force(membrane, solution.unknowns.tension));
-  }
-  task.fields.velocity = std::move(velocity);
-}
-
-void solve(const VesicleTask& task, double time, Limit limit, Instruments& instruments, SolvedFields& solved) {
-  const Membrane& membrane = task.membrane;
-  const Index n = task.state.position.rows();
-  Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(n, 3)};
-  if (task.model.electric && solved.electric_inactive) {
-    without_charges(task);
-  } else if (task.model.electric) {
-    const auto timer = instruments.time("electric");
-    forcing.force -= is_averaged(task.model)      ? averaged_forces({task}, solved).front()
-                     : relaxes_charge(task.model) ? forces_of_charges({task}, time, limit, solved).front()
-                                                  : solve_electric(task, time, limit, solved.iterations_electric);
-  }
-  add_poration(task);
-  if (!task.model.mobile) return;
-  const auto timer = instruments.time("tension solve");
-  add_forces(task, {membrane, task.state.position, time, limit}, forcing);
-  solve_velocity(task, forcing, solved.iterations_flow);
-}
-
 std::shared_ptr<const Membrane> assembled(const Model& model, const VesicleModel& vesicle, const MembraneSpace& space,
                                           const SurfaceFields& fields, bool electric_active, bool own,
                                           Instruments& instruments) {
@@ -90,6 +25,39 @@ std::shared_ptr<const Membrane> assembled(const Model& model, const VesicleModel
   Membrane membrane = membrane_at(space, fields.position, layers, vesicle.viscosity_ratio, instruments);
   membrane.material = material_at(space, fields.material);
   return std::make_shared<const Membrane>(std::move(membrane));
+}
+
+/// The layers between the membranes that the effects need; those of the electric problem only while it is active.
+std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
+                                                  const Discretisation& discretisation, Instruments& instruments) {
+  if (tasks.size() == 1) return std::make_shared<const Interaction>();
+  std::vector<InteractingMembrane> membranes;
+  for (const VesicleTask& task : tasks) {
+    PairSelection selection;
+    if (task.model.electric && electric_active) {
+      selection = electric_pair_selection(electric_parameters(task.model, task.vesicle));
+    }
+    if (task.model.mobile) {
+      const PairSelection flow = flow_pair_selection(flow_parameters(task.model, task.vesicle));
+      selection.stokes_single = flow.stokes_single;
+      selection.stokes_double = flow.stokes_double;
+    }
+    membranes.push_back({task.state.position, task.space.targets(), selection});
+  }
+  return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments,
+                                             discretisation.shares(), discretisation.symmetry().exchange,
+                                             discretisation.pair_transforms());
+}
+
+void solve(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,
+           SolvedFields& solved) {
+  std::vector<Matrix> forces_electric(tasks.size());
+  if (tasks.front().model.electric) {
+    const auto timer = instruments.time("electric");
+    forces_electric = solve_electric(tasks, time, limit, solved);
+  }
+  for (const std::size_t a : solved.interaction->shares().own(tasks.size())) solve_poration(tasks[a], time, limit);
+  if (tasks.front().model.mobile) solve_velocities(tasks, forces_electric, time, limit, instruments, solved);
 }
 
 SolvedFields solve_all(const Model& model, const Discretisation& discretisation, const State& state,
@@ -120,18 +88,20 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
     tasks.push_back({model, model.vesicles[a], discretisation.settings(), discretisation.vesicle(a), state.vesicles[a],
                      *solved.vesicles[a].membrane, solved.fields.vesicles[a], solved.vesicles[a]});
   }
-  if (n == 1) {
-    solve(tasks.front(), state.time, limit, instruments, solved);
-  } else {
-    solved.interaction =
-        reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, discretisation, instruments);
-    solve_interacting(tasks, state.time, limit, instruments, solved);
-    gather_from_owners(shares, discretisation.symmetry().exchange, solved);
-  }
+  solved.interaction =
+      reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, discretisation, instruments);
+  solve(tasks, state.time, limit, instruments, solved);
+  gather_from_owners(solved.interaction->shares(), discretisation.symmetry().exchange, solved);
   return solved;
 }
 
 }  // namespace
+
+PairSettings pair_settings(const NumericalSettings& settings) {
+  PairSettings result;
+  result.tolerance = std::max(result.tolerance, thresholds::pair_share * settings.quadrature_tolerance);
+  return result;
+}
 
 SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
                           Instruments& instruments, const SolvedFields* previous, Limit limit, Shapes shapes) {

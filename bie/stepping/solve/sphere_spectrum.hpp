@@ -27,7 +27,7 @@ double unresolved_curvature(const SphereFlow& sphere, int n);
 
 /// What holds a sphere in shape, degree n: rows u·n and J ∇_γ·u, columns a force c n and λ. Without bending and dt.
 /// Accuracy: closed form; solves on spheres that it preconditions take few iterations
-/// (tests/stepping/solve/coupled_tension_test.cpp)
+/// (tests/stepping/solve/tension_solve_test.cpp)
 Eigen::Matrix2d rigid_sphere_block(const SphereFlow& sphere, int n);
 
 /// Stand-in for the response of the area to a uniform tension, which vanishes on a sphere.

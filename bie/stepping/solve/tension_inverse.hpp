@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "bie/physics/coupled_flow.hpp"
+#include "bie/physics/membrane_flow.hpp"
 #include "bie/sphere/transform.hpp"
 
 namespace vehd {
@@ -22,7 +22,7 @@ struct TensionGrid {
 /// nothing, its response is taken to be larger.
 ///
 /// Accuracy: a coupled solve of fifty prolates takes half as many iterations as with the inverse of a sphere
-/// (tests/stepping/solve/coupled_tension_test.cpp)
+/// (tests/stepping/solve/tension_solve_test.cpp)
 ///
 /// Source: paper Eqs. (2), (27b)
 class TensionInverse {

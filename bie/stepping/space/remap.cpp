@@ -156,9 +156,8 @@ Matrix GridMove::carried(const Matrix& columns) const { return carried_to(fine_,
 /// All together cost little more than one of them.
 SurfaceFields GridMove::carried(const SurfaceFields& fields) const {
   SurfaceFields result = fields;
-  const auto all = [](const FieldRow&) { return true; };
-  const Matrix columns = carried(columns_of(fields, all));
-  for_each_block(result, all, [&](auto& field, Index first) { field = columns.middleCols(first, field.cols()); });
+  const Matrix columns = carried(columns_of(fields));
+  for_each_block(result, [&](auto& field, Index first) { field = columns.middleCols(first, field.cols()); });
   return result;
 }
 

@@ -35,28 +35,49 @@ struct FieldRow {
 };
 
 template <typename Fields>
+concept OfUnknowns = std::derived_from<std::remove_const_t<Fields>, Unknowns>;
+
+template <typename Fields>
 concept OfSurface = std::derived_from<std::remove_const_t<Fields>, SurfaceFields>;
 
 template <typename Fields>
 concept OfVesicle = std::derived_from<std::remove_const_t<Fields>, VesicleFields>;
 
 /// visit(row, member, …) for every field, there or empty, with that member of each of the arguments.
-template <typename Visit, OfSurface... Fields>
-void for_each_field(const Visit& visit, Fields&... f) {
+template <typename Visit, OfUnknowns... Fields>
+void for_each_unknown(const Visit& visit, Fields&... f) {
   using enum FieldKind;
   using enum FieldRole;
   const auto row = [&](const FieldRow& of, auto&... members) { visit(of, members...); };
   row({"position", "x", vector, unknown, "length", "membrane position x"}, f.position...);
-  row({"area_strain", "area_strain", scalar, carried, "1", "area strain W/W_ref - 1 of the material"},
-      f.area_strain...);
   row({"transmembrane_potential", "Vm", potential, unknown, "potential",
        "transmembrane potential V_m = [[phi]], interior minus exterior"},
       f.transmembrane_potential...);
   row({"free_charge", "", potential, unknown, "potential", "free charge of both faces over C_m"}, f.free_charge...);
-  row({"tension", "", scalar, guess, "force/length", "membrane tension lambda"}, f.tension...);
   row({"poration", "poration", scalar, unknown, "1",
        "state of poration: porosity X, or ln(N/N_0) of a density N of pores"},
       f.poration...);
+}
+
+template <typename Visit, std::same_as<Unknowns>... Fields>
+void for_each_field(const Visit& visit, Fields&... f) {
+  for_each_unknown(visit, f...);
+}
+
+template <typename Visit, std::same_as<const Unknowns>... Fields>
+void for_each_field(const Visit& visit, Fields&... f) {
+  for_each_unknown(visit, f...);
+}
+
+template <typename Visit, OfSurface... Fields>
+void for_each_field(const Visit& visit, Fields&... f) {
+  using enum FieldKind;
+  using enum FieldRole;
+  for_each_unknown(visit, f...);
+  const auto row = [&](const FieldRow& of, auto&... members) { visit(of, members...); };
+  row({"area_strain", "area_strain", scalar, carried, "1", "area strain W/W_ref - 1 of the material"},
+      f.area_strain...);
+  row({"tension", "", scalar, guess, "force/length", "membrane tension lambda"}, f.tension...);
   row({"capacitance", "capacitance", scalar, carried, "capacitance/area", "capacitance C_m where it varies"},
       f.material.capacitance...);
   row({"conductance", "conductance", scalar, carried, "conductance/area", "conductance G_m where it varies"},
@@ -116,6 +137,11 @@ void for_each_scalar(Fields& fields, const Visit& visit) {
 }
 
 /// All members, as they are sent between processes.
+template <MaybeConst<Unknowns> Fields, typename Visit>
+void visit_members(Fields& fields, Visit& visit) {
+  for_each_unknown([&](const FieldRow&, auto& field) { visit(field); }, fields);
+}
+
 template <MaybeConst<SurfaceFields> Fields, typename Visit>
 void visit_members(Fields& fields, Visit& visit) {
   for_each_field([&](const FieldRow&, auto& field) { visit(field); }, fields);
@@ -126,14 +152,14 @@ void visit_members(Fields& fields, Visit& visit) {
   for_each_field([&](const FieldRow&, auto& field) { visit(field); }, fields);
 }
 
-/// Where columns_of() has those of the fields that are there and that `takes(row)`: visit(field, first column).
+/// Where columns_of() has the fields that are there: visit(field, first column).
 /// @return the number of all columns
-template <OfSurface Fields, typename Takes, typename Visit>
-Index for_each_block(Fields& fields, const Takes& takes, const Visit& visit) {
+template <typename Fields, typename Visit>
+Index for_each_block(Fields& fields, const Visit& visit) {
   Index column = 0;
   for_each_field(
-      [&](const FieldRow& row, auto& field) {
-        if (field.size() == 0 || !takes(row)) return;
+      [&](const FieldRow&, auto& field) {
+        if (field.size() == 0) return;
         visit(field, column);
         column += field.cols();
       },
@@ -141,12 +167,11 @@ Index for_each_block(Fields& fields, const Takes& takes, const Visit& visit) {
   return column;
 }
 
-/// Such fields one behind the other, [n_coefficients x 3 …].
-template <typename Takes>
-Matrix columns_of(const SurfaceFields& fields, const Takes& takes) {
-  Matrix columns(fields.position.rows(), for_each_block(fields, takes, [](const auto&, Index) {}));
-  for_each_block(fields, takes,
-                 [&](const auto& field, Index first) { columns.middleCols(first, field.cols()) = field; });
+/// The fields that are there, one behind the other, [n_coefficients x 3 …].
+template <typename Fields>
+Matrix columns_of(const Fields& fields) {
+  Matrix columns(fields.position.rows(), for_each_block(fields, [](const auto&, Index) {}));
+  for_each_block(fields, [&](const auto& field, Index first) { columns.middleCols(first, field.cols()) = field; });
   return columns;
 }
 

@@ -17,7 +17,7 @@ struct VesicleState : SurfaceFields {
   std::optional<FirstCrossing> crossing{};  ///< of a membrane with a criterion of poration
   std::int64_t quadrature_level = 0;        ///< how often its quadrature has been made finer, see Evolution
   RecycledSubspaces recycled;
-  Matrix past{};  ///< unknowns() at each of State::past_times less those now, at the same material points
+  Matrix past{};  ///< columns_of its Unknowns at each of State::past_times less those now, at the same material points
 };
 
 /// Everything that one step hands to the next; a checkpoint stores exactly these values.

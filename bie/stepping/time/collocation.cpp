@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bie/stepping/state/unknowns.hpp"
 #include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
@@ -36,8 +35,8 @@ NodeSolution Collocation::within(double time) const {
     SurfaceFields& fields = result.vesicles[a].material;
     for (std::size_t m = 0; m <= last(); ++m) {
       const double weight = weights[static_cast<Index>(m)];
-      add_unknowns(unknowns(nodes_[m].vesicles[a].material), weight, fields);
-      add_unknowns(unknowns(predicted_[m].vesicles[a].material), -weight, fields);
+      axpy(weight, nodes_[m].vesicles[a].material, fields);
+      axpy(-weight, predicted_[m].vesicles[a].material, fields);
     }
     // A guess for what is solved anew.
     fields.tension = nodes_.back().vesicles[a].material.tension;
@@ -59,47 +58,21 @@ std::optional<InstantaneousDifference> Collocation::change_at_last() const {
 namespace {
 
 /// Adds Σ_j w_j F_j.
-void add_rates(const Vector& weights, const std::vector<Rate>& rates, Residual& sum) {
-  for (std::size_t a = 0; a < sum.vesicles.size(); ++a) {
-    Residual::OfVesicle& r = sum.vesicles[a];
-    for (std::size_t j = 0; j < rates.size(); ++j) {
-      const double weight = weights[static_cast<Index>(j)];
-      const Rate::OfVesicle& rate = rates[j].vesicles[a];
-      if (rate.velocity.size() > 0) r.position += weight * rate.velocity;
-      if (rate.potential.size() > 0) r.potential += weight * rate.potential;
-      if (rate.free_charge.size() > 0) r.free_charge += weight * rate.free_charge;
-      if (rate.poration.size() > 0) r.poration += weight * rate.poration;
-    }
+void add_rates(const Vector& weights, const std::vector<Rate>& rates, std::vector<Unknowns>& sum) {
+  for (std::size_t j = 0; j < rates.size(); ++j) {
+    for (std::size_t a = 0; a < sum.size(); ++a) axpy(weights[static_cast<Index>(j)], rates[j].unknowns[a], sum[a]);
   }
-}
-
-Residual nothing_lacks(const NodeSolution& y) {
-  Residual residual;
-  for (const Motion& motion : y.vesicles) {
-    const SurfaceFields& fields = motion.material;
-    residual.vesicles.push_back(
-        {0.0 * fields.position, 0.0 * fields.transmembrane_potential, 0.0 * fields.free_charge, 0.0 * fields.poration});
-  }
-  return residual;
-}
-
-/// y_0 − y.
-Residual way_back(const State& start, const NodeSolution& y) {
-  Residual residual;
-  for (std::size_t a = 0; a < start.vesicles.size(); ++a) {
-    const SurfaceFields& from = start.vesicles[a];
-    const SurfaceFields& to = y.vesicles[a].material;
-    residual.vesicles.push_back({from.position - to.position, from.transmembrane_potential - to.transmembrane_potential,
-                                 from.free_charge - to.free_charge, from.poration - to.poration});
-  }
-  return residual;
 }
 
 }  // namespace
 
 /// y_0 + dt Σ_j q_j F_j − y.
-Residual Collocation::residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const {
-  Residual residual = way_back(physics_.start(), y);
+std::vector<Unknowns> Collocation::residual(const Vector& weights, const NodeSolution& y,
+                                            const std::vector<Rate>& rates) const {
+  std::vector<Unknowns> residual;
+  for (std::size_t a = 0; a < y.vesicles.size(); ++a) {
+    residual.push_back(physics_.start().vesicles[a] - y.vesicles[a].material);
+  }
   add_rates(dt_ * weights, rates, residual);
   return residual;
 }
@@ -140,7 +113,7 @@ std::vector<VisibleDifference> Collocation::derivatives() const {
   const NodeSolution& end = nodes_.back();
   std::vector<VisibleDifference> result;
   for (int k = 1; k <= static_cast<int>(nodes_.size()); ++k) {
-    Residual moved = nothing_lacks(end);
+    std::vector<Unknowns> moved(end.vesicles.size());
     add_rates(dt_ * derivative_weights(points_of(rule_), k), rates_, moved);
     // One after the other: solves of one size share their systems.
     const NodeSolution followed =

@@ -55,7 +55,8 @@ class Collocation {
  private:
   [[nodiscard]] ImplicitSolve correction(std::size_t m, NodeEnd end) const;
   [[nodiscard]] NodeSolution predicted(double time) const;
-  [[nodiscard]] Residual residual(const Vector& weights, const NodeSolution& y, const std::vector<Rate>& rates) const;
+  [[nodiscard]] std::vector<Unknowns> residual(const Vector& weights, const NodeSolution& y,
+                                               const std::vector<Rate>& rates) const;
   [[nodiscard]] double place_of(double time) const;
 
   StepOperations& physics_;

@@ -7,19 +7,15 @@
 
 namespace vehd {
 
-/// F = dy/dt of material points, coefficients; a part that does not change is empty. With it what was solved for on the
-/// way and a history tells of.
+/// F = dy/dt at one node, with what is solved for at once there and a history tells of.
 struct Rate {
-  struct OfVesicle {
-    Matrix velocity;
-    Vector potential;
-    Vector free_charge;          ///< of SurfaceFields::free_charge; empty without
-    Vector poration;             ///< of SurfaceFields::poration; empty without
-    Matrix charge;               ///< q, or its amplitude; empty without electricity
-    Matrix potential_amplitude;  ///< of V_m in an averaged field, which is solved for at once; empty without
+  struct Instantaneous {
+    Matrix charge;               ///< q, or its amplitude, coefficients; empty without electricity
+    Matrix potential_amplitude;  ///< of V_m in an averaged field; empty without
     TensionIntegrals tension;
   };
-  std::vector<OfVesicle> vesicles;
+  std::vector<Unknowns> unknowns;  ///< of each vesicle, of material points; what does not change is empty
+  std::vector<Instantaneous> instantaneous;
 };
 
 /// Of what was solved for at a node.

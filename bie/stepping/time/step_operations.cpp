@@ -6,12 +6,11 @@
 #include <optional>
 
 #include "bie/physics/averaged_field.hpp"
-#include "bie/physics/electric.hpp"
+#include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
-#include "bie/stepping/time/porous_step.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/side_by_side.hpp"
 
@@ -42,9 +41,8 @@ FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const Me
   return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
 }
 
-Charge charge_of(const SurfaceFields& fields) {
-  return {fields.transmembrane_potential, fields.free_charge, fields.poration};
-}
+/// What charging changes.
+Unknowns charge_of(const Unknowns& y) { return {{}, y.transmembrane_potential, y.free_charge, y.poration}; }
 
 }  // namespace
 
@@ -123,17 +121,13 @@ void StepOperations::prepare(double dt) {
 NodeSolution StepOperations::first_order_step(const FirstOrderStep& step, NodeWork& work) {
   const double dt = step.dt;
   NodeSolution result{start_.time + dt, {}};
-  std::vector<Charge> charged;
-  for (const VesicleState& vesicle : start_.vesicles) charged.push_back(charge_of(vesicle));
-  if (porates()) {
-    charged = porated(charged, nullptr, result.time, dt, work);
-  } else if (charges()) {
-    charge(electric_at(result.time), dt, charged, work);
-  }
+  std::vector<Unknowns> charges;
+  for (const VesicleState& vesicle : start_.vesicles) charges.push_back(charge_of(vesicle));
+  charges = charged(charges, nullptr, result.time, dt, work);
   std::vector<MotionStart> starts;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = start_.vesicles[a];
-    take(std::move(charged[a]), result.time, a, fields);
+    take(std::move(charges[a]), result.time, a, fields);
     const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
     if (model_.mobile) fields.tension = instantaneous.tension;
     starts.push_back({std::move(fields), instantaneous.velocity});
@@ -147,89 +141,65 @@ NodeSolution StepOperations::first_order_step(const FirstOrderStep& step, NodeWo
 
 NodeSolution StepOperations::implicit_solve(const ImplicitSolve& solve, NodeWork& work) {
   const NodeSolution& y = *solve.y;
-  const Residual& r = solve.r;
+  const std::vector<Unknowns>& r = solve.r;
   const double dt = solve.dt;
   NodeSolution result{y.time, {}};
-  std::vector<Charge> changes;
-  for (const Residual::OfVesicle& of_vesicle : r.vesicles) {
-    changes.push_back({of_vesicle.potential, of_vesicle.free_charge, of_vesicle.poration});
-  }
-  std::vector<Charge> reached;
-  if (porates()) {
-    for (const Motion& motion : y.vesicles) reached.push_back(charge_of(motion.material));
-    reached = porated(reached, &changes, y.time, dt, work);
-  } else if (charges()) {
-    std::vector<ElectricParameters> homogeneous = electric_at(y.time);
-    for (ElectricParameters& electric : homogeneous) {
-      electric.field.setZero();
-      electric.pump = 0.0;
-    }
-    charge(homogeneous, dt, changes, work);
-    for (std::size_t a = 0; a < changes.size(); ++a) {
-      const Charge now = charge_of(y.vesicles[a].material);
-      reached.push_back({now.potential + changes[a].potential, now.free + changes[a].free});
-    }
-  }
+  std::vector<Unknowns> charges;
+  for (const Motion& motion : y.vesicles) charges.push_back(charge_of(motion.material));
+  charges = charged(charges, &r, y.time, dt, work);
   std::vector<MotionStart> starts;
   for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
     SurfaceFields fields = y.vesicles[a].material;
     fields.area_strain = start_.vesicles[a].area_strain;
-    if (!reached.empty()) take(std::move(reached[a]), result.time, a, fields);
-    starts.push_back({std::move(fields), r.vesicles[a].position / dt});
+    take(std::move(charges[a]), result.time, a, fields);
+    starts.push_back({std::move(fields), r[a].position / dt});
   }
   // A rigid motion has no stiffness, so nothing of it is implicit.
   const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
-    return motion_of_displacement(
-        sphere, y.vesicles[a].material.position + r.vesicles[a].position - start_.vesicles[a].position);
+    return motion_of_displacement(sphere,
+                                  y.vesicles[a].material.position + r[a].position - start_.vesicles[a].position);
   };
   result.vesicles = motions(starts, rigid, dt, solve.end, work);
   return result;
 }
 
-std::vector<ElectricParameters> StepOperations::electric_at(double time) const {
-  std::vector<ElectricParameters> result;
-  for (const VesicleModel& vesicle : model_.vesicles) {
-    result.push_back(electric_parameters(model_, vesicle).at(time, Limit::before));
+std::vector<Unknowns> StepOperations::charged(const std::vector<Unknowns>& from, const std::vector<Unknowns>* residual,
+                                              double time, double dt, NodeWork& work) const {
+  std::vector<Unknowns> reached = from;
+  if (!model_.electric) return reached;
+  const auto timer = work.instruments.time("electric");
+  if (!charges()) {
+    // Pores close under the V_m that there is, which does not change.
+    for (std::size_t a = 0; a < from.size(); ++a) {
+      if (!model_.vesicles[a].reaction) continue;
+      reached[a].poration = react(*model_.vesicles[a].reaction, at_start_.vesicles[a].membrane->fine, dt, from[a],
+                                  residual == nullptr ? nullptr : &(*residual)[a], from[a].transmembrane_potential);
+    }
+    return reached;
   }
-  return result;
-}
-
-void StepOperations::charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges,
-                            NodeWork& work) const {
-  const auto timer = work.instruments.time("electric");
-  const SolveReport report =
-      charge_step(model_, at_start_, electric, dt, discretisation_.settings().electric_tolerance, charges);
+  std::vector<ChargingMembrane> membranes;
+  for (std::size_t a = 0; a < from.size(); ++a) {
+    const VesicleModel& vesicle = model_.vesicles[a];
+    membranes.push_back(
+        {{electric_parameters(model_, vesicle).at(time, Limit::before), *at_start_.vesicles[a].membrane},
+         vesicle.charging,
+         vesicle.reaction.get()});
+  }
+  const SolveReport report = charge_membranes(membranes, *at_start_.interaction, dt,
+                                              discretisation_.settings().electric_tolerance, from, residual, reached);
   work.iterations.electric += report.iterations;
-  if (!report.converged()) throw ConvergenceError("membrane charging, Eq. (30), did not converge");
-}
-
-bool StepOperations::porates() const {
-  return std::any_of(model_.vesicles.begin(), model_.vesicles.end(),
-                     [](const VesicleModel& vesicle) { return vesicle.reaction != nullptr; });
-}
-
-/// After an implicit step of membranes that porate.
-std::vector<Charge> StepOperations::porated(const std::vector<Charge>& from, const std::vector<Charge>* lacks,
-                                            double time, double dt, NodeWork& work) const {
-  const auto timer = work.instruments.time("electric");
-  std::vector<ElectricParameters> electric;
-  if (charges()) electric = electric_at(time);
-  std::vector<Charge> reached;
-  const SolveReport report =
-      porous_step(model_, at_start_, electric, dt, discretisation_.settings().electric_tolerance, from, lacks, reached);
-  work.iterations.electric += report.iterations;
-  if (!report.converged()) throw ConvergenceError("charging of a membrane that porates did not converge");
+  require_converged(report, "membrane charging, Eq. (30)");
   return reached;
 }
 
-void StepOperations::take(Charge charge, double time, std::size_t a, SurfaceFields& fields) const {
+void StepOperations::take(Unknowns charged, double time, std::size_t a, SurfaceFields& fields) const {
   if (charges()) {
-    forget_decayed(time, a, charge.potential);
-    if (charge.free.size() > 0) forget_decayed(time, a, charge.free);
-    fields.transmembrane_potential = std::move(charge.potential);
-    fields.free_charge = std::move(charge.free);
+    forget_decayed(time, a, charged.transmembrane_potential);
+    if (charged.free_charge.size() > 0) forget_decayed(time, a, charged.free_charge);
   }
-  if (porates()) fields.poration = std::move(charge.poration);
+  fields.transmembrane_potential = std::move(charged.transmembrane_potential);
+  fields.free_charge = std::move(charged.free_charge);
+  fields.poration = std::move(charged.poration);
 }
 
 /// A potential this small does nothing any more, and without it the electric part becomes inactive.
@@ -323,8 +293,8 @@ VisibleDifference StepOperations::visible_difference(const NodeSolution& a, cons
 InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, const Rate& b) const {
   InstantaneousDifference largest;
   for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
-    const Rate::OfVesicle& x = a.vesicles[i];
-    const Rate::OfVesicle& y = b.vesicles[i];
+    const Rate::Instantaneous& x = a.instantaneous[i];
+    const Rate::Instantaneous& y = b.instantaneous[i];
     const double tension = std::abs(y.tension.sum - x.tension.sum);
     largest.tension = std::max(largest.tension, tension / tension_scale(model_, i, y.tension.magnitude));
     if (x.charge.size() == 0 || y.charge.size() == 0) continue;

@@ -9,7 +9,6 @@
 #include "bie/stepping/solve/constrained_motion.hpp"
 #include "bie/stepping/solve/flow_systems.hpp"
 #include "bie/stepping/solve/rigid_sphere.hpp"
-#include "bie/stepping/time/charge_step.hpp"
 #include "bie/stepping/time/rate.hpp"
 
 namespace vehd {
@@ -33,17 +32,6 @@ struct InstantaneousDifference {
   double charge = 0.0;   ///< of q in the maximum norm, over its size, and of V_m where it is solved for at once
 };
 
-/// What a node lacks of the equation of its time scheme, in the unknowns y.
-struct Residual {
-  struct OfVesicle {
-    Matrix position;
-    Vector potential;
-    Vector free_charge;  ///< empty without displacement currents
-    Vector poration;     ///< empty without a membrane that porates
-  };
-  std::vector<OfVesicle> vesicles;
-};
-
 /// What a node is for: within a step fields stay with the material; at its end they are carried to new nodes.
 enum class NodeEnd { material, remapped };
 
@@ -56,7 +44,7 @@ struct FirstOrderStep {
 /// A correction of a node: y + (1 − dt L)⁻¹ r.
 struct ImplicitSolve {
   const NodeSolution* y;
-  Residual r;
+  std::vector<Unknowns> r;  ///< of each vesicle
   double dt;
   NodeEnd end;
 };
@@ -159,14 +147,12 @@ class StepOperations {
   [[nodiscard]] State state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const;
   [[nodiscard]] double normal_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   [[nodiscard]] double potential_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
-  [[nodiscard]] std::vector<ElectricParameters> electric_at(double time) const;
-  void charge(const std::vector<ElectricParameters>& electric, double dt, std::vector<Charge>& charges,
-              NodeWork& work) const;
+  /// The charges and states of poration of all membranes after an implicit step from these, see charge_membranes.
+  /// @param residual  null for a step of backward Euler
+  [[nodiscard]] std::vector<Unknowns> charged(const std::vector<Unknowns>& from, const std::vector<Unknowns>* residual,
+                                              double time, double dt, NodeWork& work) const;
   [[nodiscard]] double poration_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
-  [[nodiscard]] bool porates() const;
-  std::vector<Charge> porated(const std::vector<Charge>& from, const std::vector<Charge>* lacks, double time, double dt,
-                              NodeWork& work) const;
-  void take(Charge charge, double time, std::size_t vesicle, SurfaceFields& fields) const;
+  void take(Unknowns charged, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] const Shares& shares() const { return discretisation_.shares(); }
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end, Instruments& instruments) const;

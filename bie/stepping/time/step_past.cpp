@@ -5,7 +5,6 @@
 #include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/symmetry.hpp"
-#include "bie/stepping/state/unknowns.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/stepping/time/smooth_past.hpp"
 #include "bie/stepping/time/step_operations.hpp"
@@ -43,7 +42,9 @@ NodeSolution StepOperations::extrapolated(double time) const {
     const Matrix& past = start_.vesicles[a].past;
     const Index n_columns = past.cols() / weights.size();
     for (Index j = 0; j < weights.size(); ++j) {
-      add_unknowns(past.middleCols(j * n_columns, n_columns), weights[j], fields);
+      for_each_block<Unknowns>(fields, [&](auto& field, Index first) {
+        field += weights[j] * past.middleCols(j * n_columns + first, field.cols());
+      });
     }
     if (model_.mobile) fields.tension = at_start_.fields.vesicles[a].tension;
     result.vesicles[a].material = symmetric_part(discretisation_.vesicle(a).subspace(), std::move(fields));
@@ -69,10 +70,11 @@ void StepOperations::remember(const std::vector<NodeSolution>& nodes, State& sta
   for_each_member(shares().own(all.size()), [&](std::size_t a) {
     const SurfaceFields& from = start_.vesicles[a];
     const SurfaceFields& to = end.vesicles[a].material;
-    const Matrix now = unknowns(to);
+    const Matrix now = columns_of<Unknowns>(to);
     Matrix past(now.rows(), n_times * now.cols());
     for (Index j = 0; j < n_times; ++j) {
-      const Matrix then = unknowns(j == 0 ? from : nodes[static_cast<std::size_t>(j - 1)].vesicles[a].material);
+      const Matrix then =
+          columns_of<Unknowns>(j == 0 ? from : nodes[static_cast<std::size_t>(j - 1)].vesicles[a].material);
       past.middleCols(j * now.cols(), now.cols()) = then - now;
     }
     const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();

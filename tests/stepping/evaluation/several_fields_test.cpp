@@ -1,4 +1,4 @@
-#include "bie/stepping/evaluation/interacting_fields.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -10,7 +10,7 @@
 using namespace vehd;
 using namespace vehd::testing;
 
-BOOST_AUTO_TEST_SUITE(interacting_fields)
+BOOST_AUTO_TEST_SUITE(several_fields)
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "bie/stepping/solve/coupled_tension.hpp"
+#include "bie/stepping/solve/tension_solve.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -13,7 +13,7 @@
 using namespace vehd;
 using namespace vehd::testing;
 
-BOOST_AUTO_TEST_SUITE(coupled_tension)
+BOOST_AUTO_TEST_SUITE(tension_solve)
 
 namespace {
 
@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(a_flow_common_to_all_fluids_is_found_between_membranes_of_a
     weighted.push_back(membranes[a].weighted(force));
     exact.emplace_back(pair.positions[a] * strain);
   }
-  CoupledFlow flow(members, pair.interaction);
+  MembraneFlow flow(members, pair.interaction);
   const std::vector<Matrix> found = flow.velocities(weighted, exact);
   for (const std::size_t a : {0, 1}) {
     BOOST_TEST(relative_difference(found[a], exact[a]) < 1e-7);

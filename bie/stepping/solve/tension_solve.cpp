@@ -1,4 +1,4 @@
-#include "bie/stepping/solve/coupled_tension.hpp"
+#include "bie/stepping/solve/tension_solve.hpp"
 
 #include <algorithm>
 #include <map>
@@ -31,11 +31,13 @@ void visit_members(Pair& pair, Visit& visit) {
 /// The problem on one membrane.
 class OneTension {
  public:
-  OneTension(const FlowMembrane& one, bool is_sphere)
+  /// @param holds_shape  whether a sphere is kept one by forces along its normal
+  OneTension(const FlowMembrane& one, bool is_sphere, bool holds_shape)
       : one_(one),
         membrane_(one.membrane),
         inextensible_(one.parameters.inextensible),
         is_sphere_(is_sphere),
+        holds_shape_(is_sphere && holds_shape),
         mean_response_(
             uniform_tension_response(one.membrane.radius, one.parameters.viscosity, one.parameters.viscosity_ratio)) {
     const SphereFlow sphere{membrane_.radius, one.parameters.viscosity, 0.0, 0.0, one.parameters.viscosity_ratio};
@@ -66,7 +68,9 @@ class OneTension {
   }
   /// Is there a force c n of this degree? Of the highest one truncation leaves a single velocity, which λ rules alone:
   /// its harmonic V is of one degree more.
-  [[nodiscard]] bool is_held(int degree) const { return is_sphere_ && degree >= 2 && degree < membrane_.fine.order(); }
+  [[nodiscard]] bool is_held(int degree) const {
+    return holds_shape_ && degree >= 2 && degree < membrane_.fine.order();
+  }
   [[nodiscard]] std::vector<Index> tension_entries() const {
     return inextensible_ ? membrane_.subspace.scalars() : std::vector<Index>();
   }
@@ -75,7 +79,7 @@ class OneTension {
   [[nodiscard]] Matrix force(const ScalarPair& unknowns) const {
     if (!inextensible_) return {};
     Matrix result = tension_force(membrane_, unknowns.tension);
-    if (is_sphere_) {
+    if (holds_shape_) {
       const Matrix normal = Vector(membrane_.fine.synthesize(unknowns.normal)).asDiagonal() * membrane_.surface.normal;
       result += without_mean(normal);
     }
@@ -86,10 +90,10 @@ class OneTension {
   [[nodiscard]] ScalarPair constraints(const Matrix& velocity) const {
     const SphereDerivatives u = membrane_.fine.synthesize_gradient(velocity);
     ScalarPair result{Vector::Zero(velocity.rows()), weighted_divergence(membrane_, u)};
-    if (is_sphere_) {
+    if (is_sphere_) result.tension[0] = 0.0;
+    if (holds_shape_) {
       const Matrix moving = without_mean(u.value);
       result.normal = membrane_.fine.analyze(moving.cwiseProduct(membrane_.surface.normal).rowwise().sum());
-      result.tension[0] = 0.0;
     }
     return result;
   }
@@ -126,7 +130,7 @@ class OneTension {
 
   const FlowMembrane& one_;
   const Membrane& membrane_;
-  bool inextensible_, is_sphere_;
+  bool inextensible_, is_sphere_, holds_shape_;
   double mean_response_;
   std::vector<Eigen::Matrix2d> inverse_;  ///< of each degree of a sphere
   std::optional<TensionInverse> of_membrane_;
@@ -276,12 +280,13 @@ void add_forces(const std::vector<OneTension>& all, const std::vector<std::size_
 
 }  // namespace
 
-CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
-                              CoupledFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
-                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
-                              double tolerance) {
+TensionSolution solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
+                               MembraneFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
+                               const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
+                               double tolerance) {
   std::vector<OneTension> all;
-  for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a]);
+  const bool has_others = membranes.size() > 1;
+  for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a], has_others);
   const std::vector<std::size_t> own = flow.shares().own(all.size());
   const auto gather = [&flow](std::vector<ScalarPair>& scalars) {
     flow.shares().gather(scalars, [&flow](const ScalarPair& of_original, std::size_t a) -> ScalarPair {
@@ -345,7 +350,7 @@ CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     size = found;
   }
   solution.report.iterations = iterations;
-  CoupledTension result{{}, {}, {}, std::vector<RecycledSubspace>(all.size()), solution.report};
+  TensionSolution result{{}, {}, {}, std::vector<RecycledSubspace>(all.size()), solution.report};
   if (recycles) {
     const RecycledSubspace learned =
         joined(solver.learned(), selected(former, solver.kept()), thresholds::most_recycled);

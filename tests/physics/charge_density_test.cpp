@@ -1,4 +1,4 @@
-#include "bie/physics/coupled_electric.hpp"
+#include "bie/physics/charge_density.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -13,7 +13,7 @@
 using namespace vehd;
 using namespace vehd::testing;
 
-BOOST_AUTO_TEST_SUITE(coupled_electric)
+BOOST_AUTO_TEST_SUITE(charge_density)
 
 namespace {
 
@@ -38,16 +38,28 @@ Forces electric_forces(const SeveralMembranes& several, const ElectricParameters
                        const std::vector<Vector>& potentials) {
   const std::vector<ElectricMembrane> members = several.in_field(electric);
   const std::vector<Vector> rhs = weighted_fluxes(members, several.interaction, potentials);
-  const CoupledDensities found = solve_second_kind(members, several.interaction, rhs, 1e-12);
-  require_converged(found.report, "charge densities");
-  const std::vector<Vector> others = potentials_of_others(members, several.interaction, potentials, found.membranes);
-  Forces forces{{}, found.report.iterations};
+  const std::vector<SecondKindSolution> found = solve_second_kind(members, several.interaction, rhs, 1e-12);
+  require_converged(found.front().report, "charge densities");
+  const std::vector<Vector> others = potentials_of_others(members, several.interaction, potentials, found);
+  Forces forces{{}, found.front().report.iterations};
   for (std::size_t a = 0; a < members.size(); ++a) {
     const Membrane& membrane = several.membranes[a];
-    const ElectricTraces traces = electric_traces(electric, membrane, potentials[a], found.membranes[a], others[a]);
+    const ElectricTraces traces = electric_traces(electric, membrane, potentials[a], found[a], others[a]);
     forces.on.push_back(-total(membrane, electric_force(1.0, membrane, traces)));
   }
   return forces;
+}
+
+std::vector<Unknowns> uncharged(const SeveralMembranes& several) {
+  std::vector<Unknowns> all;
+  for (const Vector& zero : several.zeros()) all.push_back({{}, zero});
+  return all;
+}
+
+std::vector<Vector> potentials_of(const std::vector<Unknowns>& charged) {
+  std::vector<Vector> all;
+  for (const Unknowns& one : charged) all.push_back(one.transmembrane_potential);
+  return all;
 }
 
 /// Attraction of the two, which are one above the other.
@@ -106,7 +118,7 @@ BOOST_AUTO_TEST_CASE(steady_membranes_act_as_insulators) {
       const ElectricParameters electric = with_ratio({0.0, 0.0, 1.0}, ratio);
       std::vector<Vector> potentials(2);
       const SolveReport report = steady_potentials(spheres.charging(electric, {{1.0, 0.0}, {1.0, 0.0}}),
-                                                   &spheres.interaction, 1e-12, potentials);
+                                                   spheres.interaction, 1e-12, potentials);
       require_converged(report, "steady potentials");
       const double found = attraction(electric_forces(spheres, electric, potentials));
       BOOST_TEST(std::abs(found - exact.along) < 1e-8, "gap " << gap << " ratio " << ratio);
@@ -121,12 +133,13 @@ BOOST_AUTO_TEST_CASE(two_spheres_charge_in_steps_as_their_multipoles_do) {
   const ElectricParameters electric = with_ratio({0.0, 0.0, 1.0}, 4.0);
   const std::vector<ChargingMembrane> members = spheres.charging(electric, {{0.8, 0.3}, {0.8, 0.3}});
   for (const double dt : {1e-3, 0.2, 10.0}) {
-    std::vector<Vector> potentials = spheres.zeros();
-    const SolveReport report = charge_membranes(members, &spheres.interaction, dt, 1e-12, potentials);
+    std::vector<Unknowns> charged;
+    const SolveReport report =
+        charge_membranes(members, spheres.interaction, dt, 1e-12, uncharged(spheres), nullptr, charged);
     BOOST_TEST(report.converged());
     BOOST_TEST(report.iterations <= 25);
     const SphereForces exact = charged_sphere_forces(0.5, 4.0, 0.8 / dt + 0.3);
-    BOOST_TEST(std::abs(attraction(electric_forces(spheres, electric, potentials)) - exact.along) < 1e-7);
+    BOOST_TEST(std::abs(attraction(electric_forces(spheres, electric, potentials_of(charged))) - exact.along) < 1e-7);
   }
 }
 
@@ -136,10 +149,13 @@ BOOST_AUTO_TEST_CASE(steady_potentials_stay_as_they_are) {
   const ElectricParameters electric{{0.4, -0.6, 1.0}, 5.0, 1.0, 1.0};
   const std::vector<ChargingMembrane> members = pair.charging(electric, {{0.8, 0.3}, {0.5, 0.0}});
   std::vector<Vector> potentials(2);
-  require_converged(steady_potentials(members, &pair.interaction, 1e-12, potentials), "steady potentials");
-  std::vector<Vector> later = potentials;
-  require_converged(charge_membranes(members, &pair.interaction, 0.2, 1e-12, later), "charging");
-  for (const std::size_t a : {0, 1}) BOOST_TEST(relative_difference(later[a], potentials[a]) < 1e-10);
+  require_converged(steady_potentials(members, pair.interaction, 1e-12, potentials), "steady potentials");
+  const std::vector<Unknowns> steady{{{}, potentials[0]}, {{}, potentials[1]}};
+  std::vector<Unknowns> later;
+  require_converged(charge_membranes(members, pair.interaction, 0.2, 1e-12, steady, nullptr, later), "charging");
+  for (const std::size_t a : {0, 1}) {
+    BOOST_TEST(relative_difference(later[a].transmembrane_potential, potentials[a]) < 1e-10);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_order_of_membranes_does_not_matter) {
@@ -165,11 +181,11 @@ BOOST_AUTO_TEST_CASE(copies_far_apart_are_each_alone_in_as_many_iterations) {
   const SecondKindSolution alone = solve_density(electric, several.membranes[0], potential);
   const std::vector<ElectricMembrane> members = several.in_field(electric);
   const std::vector<Vector> potentials(5, potential);
-  const CoupledDensities found =
+  const std::vector<SecondKindSolution> found =
       solve_second_kind(members, several.interaction, weighted_fluxes(members, several.interaction, potentials), 1e-12);
-  BOOST_TEST(found.report.converged());
-  BOOST_TEST(found.report.iterations <= alone.report.iterations + 1);
-  for (const SecondKindSolution& density : found.membranes) {
+  BOOST_TEST(found.front().report.converged());
+  BOOST_TEST(found.front().report.iterations <= alone.report.iterations + 1);
+  for (const SecondKindSolution& density : found) {
     BOOST_TEST(relative_difference(density.weighted, alone.weighted) < 1e-9);
   }
 }

@@ -12,7 +12,7 @@ namespace vehd {
 
 class RecycledGcr;
 
-/// One of several membranes in a flow. The viscosity outside is that of all.
+/// A membrane in a flow. Of several the viscosity outside is that of all.
 struct FlowMembrane {
   FlowParameters parameters;
   const Membrane& membrane;
@@ -21,21 +21,21 @@ struct FlowMembrane {
 /// Which layers of this membrane the flow about the others needs.
 PairSelection flow_pair_selection(const FlowParameters& parameters);
 
-/// Velocity map of several frozen membranes,
+/// Velocity map of frozen membranes,
 ///   (1 + Λ_a)/2 v_a − (1 − Λ_a) D_aa[v_a] − Σ_{b≠a} (1 − Λ_b) D_ab[v_b] = v_∞ + Σ_b S_ab[f_b]/μ,
 /// Λ the ratios of the viscosities. Where all are 1 it is explicit; elsewhere the double layers between the membranes
 /// are iterated with each membrane's own inverse as preconditioner, and directions that one application has found serve
 /// the next.
 ///
 /// Accuracy: a flow common to fluids of other viscosities to 1e-7 at p = 14, spheres along their line of centres to
-/// 1e-8 (tests/stepping/solve/coupled_tension_test.cpp)
+/// 1e-8 (tests/stepping/solve/tension_solve_test.cpp)
 /// Source: paper Eq. (5); Pozrikidis 1992
-class CoupledFlow {
+class MembraneFlow {
  public:
   /// Membranes and interaction must outlive it.
-  CoupledFlow(const std::vector<FlowMembrane>& membranes, const Interaction& interaction);
-  ~CoupledFlow();
-  CoupledFlow(CoupledFlow&&) noexcept;
+  MembraneFlow(const std::vector<FlowMembrane>& membranes, const Interaction& interaction);
+  ~MembraneFlow();
+  MembraneFlow(MembraneFlow&&) noexcept;
 
   /// Which membranes are whose: of forces and velocities those of this rank count, see Interaction.
   [[nodiscard]] const Shares& shares() const { return interaction_.shares(); }

@@ -4,12 +4,12 @@
 
 #include "bie/linear/recycled_subspace.hpp"
 #include "bie/linear/solve_report.hpp"
-#include "bie/physics/coupled_flow.hpp"
+#include "bie/physics/membrane_flow.hpp"
 
 namespace vehd {
 
-/// Tensions of several membranes that keep all of them inextensible, with what they make of the flow.
-struct CoupledTension {
+/// Tensions that keep all membranes inextensible, with what they make of the flow.
+struct TensionSolution {
   std::vector<Vector> tension;     ///< λ of each, coefficients; empty where the membrane may extend
   std::vector<Matrix> force;       ///< f_λ on the fluid, values on the upsampled grid; empty likewise
   std::vector<Matrix> velocities;  ///< u + w of the membranes, coefficients
@@ -23,23 +23,24 @@ struct CoupledTension {
 /// that under the other forces. The unknowns are λ/R, preconditioned with the sphere's inverse on each membrane, or
 /// with that of each membrane's own response (TensionInverse) where there are many.
 ///
-/// An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp): there a force c n, c of degrees 2 … p −
-/// 1, less its mean holds it in shape, the limit of a large uniform tension on a shape that hardly differs from a
-/// sphere; it is an unknown beside λ, and counts as force of the tension. The mean of λ stays zero there. Of several
+/// The mean of λ stays zero on a sphere. An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp):
+/// where it acts on others a force c n, c of degrees 2 … p − 1, less its mean holds it in shape, the limit of a large
+/// uniform tension on a shape that hardly differs from a sphere; it is an unknown beside λ, and counts as force of the
+/// tension. Alone it has the velocity of Eq. (27b). Of several
 /// ranks, see Interaction, each needs the forces on its own membranes and gets forces and velocities of these, the
 /// tensions and what is learned of all.
 /// @param is_sphere   of each membrane, see uniform_tension_is_free
-/// @param weighted    of J f, f the other forces, as CoupledFlow::velocities has them; likewise the background
+/// @param weighted    of J f, f the other forces, as MembraneFlow::velocities has them; likewise the background
 /// @param start       λ of each to start from; empty ones are zero. Their flow is found together with w.
-/// @param known       CoupledTension::learned on membranes that were nearly the same; counts if all of them have it
+/// @param known       TensionSolution::learned on membranes that were nearly the same; counts if all of them have it
 /// @param tolerance   of the preconditioned residual, over the preconditioned ∇_γ·w or, from a start, over the tensions
 ///                    without their means, of which it is the error
 /// Accuracy: two spheres along their line of centres as Stimson and Jeffery say to 1e-8 down to gaps of half a radius
-/// (tests/stepping/solve/coupled_tension_test.cpp)
+/// (tests/stepping/solve/tension_solve_test.cpp)
 /// Source: paper Eq. (27b), the layers being those of all membranes
-CoupledTension solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
-                              CoupledFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
-                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
-                              double tolerance);
+TensionSolution solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
+                               MembraneFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
+                               const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
+                               double tolerance);
 
 }  // namespace vehd

@@ -1,4 +1,4 @@
-#include "bie/physics/coupled_flow.hpp"
+#include "bie/physics/membrane_flow.hpp"
 
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -39,8 +39,9 @@ PairSelection flow_pair_selection(const FlowParameters& parameters) {
   return {.stokes_single = true, .stokes_double = parameters.viscosity_ratio != 1.0};
 }
 
-CoupledFlow::CoupledFlow(const std::vector<FlowMembrane>& membranes, const Interaction& interaction)
+MembraneFlow::MembraneFlow(const std::vector<FlowMembrane>& membranes, const Interaction& interaction)
     : membranes_(membranes), interaction_(interaction), contrast_(false), stacked_(stacked_vectors(membranes)) {
+  if (interaction.is_empty()) return;
   for (const FlowMembrane& one : membranes) contrast_ = contrast_ || one.parameters.viscosity_ratio != 1.0;
   if (!contrast_) return;
   const LinearMap map = [&membranes, &interaction, stacked = stacked_](const Vector& v) -> Vector {
@@ -59,14 +60,16 @@ CoupledFlow::CoupledFlow(const std::vector<FlowMembrane>& membranes, const Inter
       map, [](const Vector& r) { return r; }, stacked_.size());
 }
 
-CoupledFlow::~CoupledFlow() = default;
-CoupledFlow::CoupledFlow(CoupledFlow&&) noexcept = default;
+MembraneFlow::~MembraneFlow() = default;
+MembraneFlow::MembraneFlow(MembraneFlow&&) noexcept = default;
 
-std::vector<Matrix> CoupledFlow::velocities(const std::vector<Matrix>& weighted,
+std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted,
                                             const std::vector<Matrix>& background) {
-  std::vector<Matrix> result = interaction_.stokes_single(weighted);
+  std::vector<Matrix> result =
+      interaction_.is_empty() ? std::vector<Matrix>(weighted.size()) : interaction_.stokes_single(weighted);
   for_each_member(interaction_.shares().own(result.size()), [&](std::size_t a) {
     const Membrane& membrane = membranes_[a].membrane;
+    if (result[a].size() == 0) result[a] = Matrix::Zero(n_coefficients(membrane.fine.order()), 3);
     if (weighted[a].size() > 0 && !membrane.layers.stokes_single.empty())
       result[a] += membrane.layers.stokes_single.apply(weighted[a]);
     result[a] /= membranes_[a].parameters.viscosity;

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <vector>
+
+#include "bie/physics/electric.hpp"
+#include "bie/physics/interaction.hpp"
+#include "bie/support/complex_columns.hpp"
+
+/// Maps of real fields, transforms and layers, applied to real fields or to both parts of complex ones.
+namespace vehd {
+
+/// A linear map of real columns, of each part of a field.
+template <typename Scalar, typename Map>
+FieldOf<Scalar> mapped(const Map& map, const FieldOf<Scalar>& field) {
+  return from_parts<Scalar>(map(parts_of(field)));
+}
+
+template <typename Scalar>
+FieldOf<Scalar> values_of(const Membrane& membrane, const FieldOf<Scalar>& coefficients) {
+  return mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.fine.synthesize(parts); }, coefficients);
+}
+
+template <typename Scalar>
+FieldOf<Scalar> coefficients_of(const Membrane& membrane, const FieldOf<Scalar>& values) {
+  return mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.fine.analyze(parts); }, values);
+}
+
+/// Coefficients of J f from values of f.
+template <typename Scalar>
+FieldOf<Scalar> weighted(const Membrane& membrane, const FieldOf<Scalar>& values) {
+  return mapped<Scalar>([&](const Matrix& parts) { return membrane.weighted(parts); }, values);
+}
+
+/// J S′[f] from J f, coefficients.
+template <typename Scalar>
+FieldOf<Scalar> adjoint(const Membrane& membrane, const FieldOf<Scalar>& weighted) {
+  return mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.layers.laplace_adjoint.apply(parts); },
+                        weighted);
+}
+
+/// J D′[V], values.
+template <typename Scalar>
+FieldOf<Scalar> hypersingular(const Membrane& membrane, const FieldOf<Scalar>& potential) {
+  return mapped<Scalar>(
+      [&](const Matrix& parts) -> Matrix {
+        Matrix values(membrane.surface.n_points(), parts.cols());
+        for (Index part = 0; part < parts.cols(); ++part) {
+          values.col(part) = weighted_hypersingular(membrane, parts.col(part));
+        }
+        return values;
+      },
+      potential);
+}
+
+/// J E·n, values.
+template <typename Scalar>
+FieldOf<Scalar> applied_flux(const ElectricMembrane& of) {
+  return weighted_field_flux(of.membrane, of.electric.field).cast<Scalar>();
+}
+
+using Layer = std::vector<Vector> (Interaction::*)(const std::vector<Vector>&) const;
+
+/// What the others do to each membrane; nothing without others.
+template <typename Scalar>
+std::vector<FieldOf<Scalar>> of_others(const Interaction& interaction, Layer layer,
+                                       const std::vector<FieldOf<Scalar>>& densities) {
+  if (interaction.is_empty()) return std::vector<FieldOf<Scalar>>(densities.size());
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return (interaction.*layer)(densities);
+  } else {
+    std::vector<Vector> real, imaginary;
+    for (const FieldOf<Scalar>& density : densities) {
+      real.emplace_back(density.real());
+      imaginary.emplace_back(density.imag());
+    }
+    const std::vector<Vector> of_real = (interaction.*layer)(real), of_imaginary = (interaction.*layer)(imaginary);
+    std::vector<FieldOf<Scalar>> result;
+    for (std::size_t a = 0; a < densities.size(); ++a) {
+      result.emplace_back(of_real[a] + Scalar(0.0, 1.0) * of_imaginary[a]);
+    }
+    return result;
+  }
+}
+
+/// See Interaction::gather_potentials.
+template <typename Scalar>
+void gather(const Interaction& interaction, std::vector<FieldOf<Scalar>>& fields) {
+  if (interaction.is_empty()) return;
+  std::vector<Matrix> parts;
+  for (const FieldOf<Scalar>& field : fields) parts.push_back(parts_of(field));
+  interaction.gather_potentials(parts);
+  for (std::size_t a = 0; a < fields.size(); ++a) fields[a] = from_parts<Scalar>(parts[a]);
+}
+
+}  // namespace vehd

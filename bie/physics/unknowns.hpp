@@ -1,0 +1,24 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// The unknowns y of a time step on one membrane, coefficients of one degree. They form a vector space: rates,
+/// residuals and corrections are of this type too. A field without entries is zero.
+struct Unknowns {
+  Matrix position;  ///< x, [n_coefficients x 3]
+  /// V_m, interior minus exterior; empty without electricity. With displacement currents the charge q_i of the inner
+  /// face over C_m, which stays continuous where the field jumps.
+  Vector transmembrane_potential;
+  /// (q_i + q_e)/C_m of both faces with displacement currents, else empty. Where C_m varies over the membrane, both
+  /// charges are divided by the C_m of its parameters.
+  Vector free_charge{};
+  Vector poration{};  ///< s of the membrane's PorationReaction; empty without
+};
+
+/// y += weight x.
+void axpy(double weight, const Unknowns& x, Unknowns& y);
+Unknowns operator-(const Unknowns& a, const Unknowns& b);
+
+}  // namespace vehd
