@@ -41,14 +41,18 @@ class OneTension {
         mean_response_(
             uniform_tension_response(one.membrane.radius, one.parameters.viscosity, one.parameters.viscosity_ratio)) {
     const SphereFlow sphere{membrane_.radius, one.parameters.viscosity, 0.0, 0.0, one.parameters.viscosity_ratio};
-    for (int n = 0; n <= membrane_.fine.order(); ++n) {
+    const int order = membrane_.fine.order();
+    inverse_.resize(n_coefficients(order), 4);
+    for (int n = 0; n <= order; ++n) {
       Eigen::Matrix2d block = Eigen::Matrix2d::Identity();
       if (is_held(n)) {
         block = rigid_sphere_block(sphere, n);
       } else {
         block(1, 1) = n == 0 ? mean_response_ : sphere_flow_block(sphere, n)(1, 1);
       }
-      inverse_.push_back(block.inverse());
+      const Eigen::Matrix2d inverse = block.inverse();
+      auto of_degree = inverse_.middleRows(coefficient_index(n, -n), 2 * n + 1);
+      of_degree.rowwise() = Eigen::RowVector4d(inverse(0, 0), inverse(0, 1), inverse(1, 0), inverse(1, 1));
     }
   }
 
@@ -88,11 +92,11 @@ class OneTension {
 
   /// u·n and J ∇_γ·u.
   [[nodiscard]] ScalarPair constraints(const Matrix& velocity) const {
-    const SphereDerivatives u = membrane_.fine.synthesize_gradient(velocity);
+    const SphereDerivatives u = membrane_.fine.synthesize_first_derivatives(velocity);
     ScalarPair result{Vector::Zero(velocity.rows()), weighted_divergence(membrane_, u)};
     if (is_sphere_) result.tension[0] = 0.0;
     if (holds_shape_) {
-      const Matrix moving = without_mean(u.value);
+      const Matrix moving = without_mean(membrane_.fine.synthesize(velocity));
       result.normal = membrane_.fine.analyze(moving.cwiseProduct(membrane_.surface.normal).rowwise().sum());
     }
     return result;
@@ -112,13 +116,9 @@ class OneTension {
       of_all.tension(entries) = of_membrane_->apply(residual.tension(entries));
       return of_all;
     }
-    ScalarPair result = residual;
-    for (Index i = 0; i < result.tension.size(); ++i) {
-      const Eigen::Matrix2d& m = inverse_[static_cast<std::size_t>(degree_of(i))];
-      result.normal[i] = m(0, 0) * residual.normal[i] + m(0, 1) * residual.tension[i];
-      result.tension[i] = m(1, 0) * residual.normal[i] + m(1, 1) * residual.tension[i];
-    }
-    return result;
+    if (!holds_shape_) return {residual.normal, inverse_.col(3).cwiseProduct(residual.tension)};
+    return {inverse_.col(0).cwiseProduct(residual.normal) + inverse_.col(1).cwiseProduct(residual.tension),
+            inverse_.col(2).cwiseProduct(residual.normal) + inverse_.col(3).cwiseProduct(residual.tension)};
   }
 
  private:
@@ -132,7 +132,7 @@ class OneTension {
   const Membrane& membrane_;
   bool inextensible_, is_sphere_, holds_shape_;
   double mean_response_;
-  std::vector<Eigen::Matrix2d> inverse_;  ///< of each degree of a sphere
+  Eigen::Matrix<double, Eigen::Dynamic, 4> inverse_;  ///< of a sphere, row by row for each coefficient
   std::optional<TensionInverse> of_membrane_;
 };
 
