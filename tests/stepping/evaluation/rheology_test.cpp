@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(spheres_have_the_viscosity_of_einstein_in_every_linear_flow
   }
 }
 
-// [η] = 5/2 (1 + 3α/7) for r = 1 + αP₂, whatever the viscosity inside: docs/rheology.md.
+// [η] = 5/2 (1 + 3α/7) for r = 1 + αP₂, whatever the viscosity inside: docs/suspensions.md.
 BOOST_AUTO_TEST_CASE(viscosity_of_a_quasi_spherical_vesicle_has_the_slope_that_the_page_derives) {
   constexpr double kAmplitude = 1e-3;
   for (const double ratio : {1.0, 8.0}) {
