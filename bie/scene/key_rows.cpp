@@ -236,7 +236,7 @@ void add_electric_keys(KeyTable& table) {
   table.add("average", any_number,
             {"", "",
              "the shape follows the mean force of a period, and V_m is known by amplitude and phase; see "
-             "docs/experiments/ac_field_averaged.md"},
+             "docs/experiments/ac_field.md"},
             electric_waveform, &WaveformScene::average);
 }
 

@@ -38,7 +38,7 @@ def shapes(axes, quick: bool) -> None:
 
 
 def drive(frequency, ratio):
-    """What draws a sphere out along the field (above 0) or compresses it: Q of docs/experiments/ac_field_averaged.md, over
+    """What draws a sphere out along the field (above 0) or compresses it: Q of docs/experiments/ac_field.md, over
     the permittivity. That page has the numbers."""
     radius, permittivity, capacitance, outside = 10e-6, 80 * 8.8541878128e-12, 0.01, 1e-3
     omega = 2 * np.pi * frequency
