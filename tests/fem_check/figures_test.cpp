@@ -6,7 +6,7 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// What few unknowns must reach on exact solutions, docs/check.md: errors relative in L2(γ), radiation condition at
+/// What few unknowns must reach on exact solutions, docs/weak_forms.md: errors relative in L2(γ), radiation condition at
 /// R = 8 radii.
 namespace {
 
