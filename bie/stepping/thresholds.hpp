@@ -59,7 +59,7 @@ constexpr double curvature_floor = 1e-6;
 constexpr double largest_stretch = 0.5;
 /// Strain of former steps is taken back while it is no more than this, less and less of it above, and none from twice
 /// this on: so much comes from degrees that are cut off, and asking for it back distorts the shape, which with its
-/// tension does not depend on it. Shipped scenes have a tenth of this at most. Measured (docs/hard_cases.md).
+/// tension does not depend on it. Shipped scenes have a tenth of this at most. Measured (docs/accuracy.md).
 constexpr double known_strain = 5e-3;
 
 // Time.
