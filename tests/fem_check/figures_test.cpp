@@ -6,8 +6,8 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// What few unknowns must reach on exact solutions, docs/weak_forms.md: errors relative in L2(γ), radiation condition at
-/// R = 8 radii.
+/// What few unknowns must reach on exact solutions, docs/weak_forms.md: errors relative in L2(γ), radiation condition
+/// at R = 8 radii.
 namespace {
 
 constexpr long kMostUnknowns = 50000;
