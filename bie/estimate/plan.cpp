@@ -97,8 +97,6 @@ std::size_t count_unknown_fields(const Model& model, const Exchange& exchange) {
   return count;
 }
 
-std::string text_of(const Problem& problem) { return symmetry_text(problem.symmetry, problem.frame); }
-
 std::string difference_text(const Scene& scene, const Model& model, const Model& reduced, const RunPlan& plan,
                             std::size_t n_unknowns) {
   std::vector<std::string> parts;
@@ -108,7 +106,8 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
   }
   if (!saved.empty()) parts.push_back(fmt::format("no {}", fmt::join(saved, ", ")));
   if (n_unknowns > 0) parts.push_back(fmt::format("{} fewer unknown field{}", n_unknowns, n_unknowns > 1 ? "s" : ""));
-  const std::string symmetry = text_of(problem_of(scene, reduced));
+  const Problem problem = problem_of(scene, reduced);
+  const std::string symmetry = symmetry_text(problem.symmetry, problem.frame);
   if (symmetry != plan.symmetry) parts.push_back("symmetry: " + symmetry);
   return parts.empty() ? "nothing but its own term" : fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -196,7 +195,7 @@ RunPlan plan_of(const Scene& scene) {
   plan.times = run_times(scene, plan.groups);
   std::erase_if(plan.groups, [](const DimensionlessGroup& group) { return group.unit == "time"; });
   for (const DimensionlessGroup& group : plan.groups) plan.si_of_groups.push_back(si_text(scene, group));
-  plan.symmetry = text_of(problem);
+  plan.symmetry = symmetry_text(problem.symmetry, problem.frame);
   plan.vesicles = vesicle_names(scene);
   const std::vector<EffectDescription> acting_effects = effects_of(acting);
   for (const EffectDescription& effect : effects) {

@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "bie/estimate/plan_cost.hpp"
+#include "bie/estimate/cost.hpp"
 
 namespace vehd {
 namespace {
@@ -20,48 +20,43 @@ std::string cost_class(const Scene& scene, const RunPlan& plan) {
   return text;
 }
 
-/// Costs of one class.
-struct MeasuredCost {
-  double seconds_per_step = 0.0;
-  double steps_per_time = 0.0;  ///< with a tolerance
-  std::int64_t memory_bytes = 0;
-  bool known = false;
+/// A plan with its cost.
+struct CostedPlan {
+  RunPlan plan;
+  double end_time = 0.0;
 };
-
-MeasuredCost measured(const Scene& scene, RunPlan plan, CostCache& cache) {
-  predict_cost(scene, plan, cache);
-  if (!plan.stops.empty() || !plan.unknown.empty()) return {};
-  return {plan.seconds_per_step, static_cast<double>(plan.n_steps) / scene.numerics.end_time, plan.memory_bytes, true};
-}
 
 }  // namespace
 
-SweepCost predicted_cost(const std::vector<SweepRun>& runs, CostCache& cache) {
-  std::map<std::string, MeasuredCost> costs;
+SweepCost predicted_cost(const std::vector<SweepRun>& runs) {
+  std::map<std::string, CostedPlan> costs;
   SweepCost result{std::vector<double>(runs.size(), 0.0)};
-  std::vector<double>& seconds = result.seconds;
   std::vector<std::size_t> unknown;
-  double total = 0.0;
-  std::size_t n_known = 0;
+  double total = 0.0, n_known = 0.0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!runs[i].scene || !(runs[i].scene->numerics.end_time > 0.0)) continue;
     const Scene& scene = *runs[i].scene;
     const RunPlan plan = plan_of(scene);
     const std::string name = cost_class(scene, plan);
-    if (!costs.contains(name) || !costs.at(name).known) costs[name] = measured(scene, plan, cache);
-    const MeasuredCost& cost = costs.at(name);
-    if (!cost.known) {
-      unknown.push_back(i);
-      continue;
+    if (!costs.contains(name)) {
+      RunPlan costed = plan;
+      predict_cost(scene, costed);
+      if (!costed.stops.empty() || !costed.unknown.empty()) {
+        unknown.push_back(i);
+        continue;
+      }
+      costs[name] = {costed, scene.numerics.end_time};
     }
-    const double steps =
-        scene.numerics.tolerance ? cost.steps_per_time * scene.numerics.end_time : static_cast<double>(plan.n_steps);
-    seconds[i] = steps * cost.seconds_per_step;
-    result.memory_bytes = std::max(result.memory_bytes, cost.memory_bytes);
-    total += seconds[i];
-    ++n_known;
+    const CostedPlan& cost = costs.at(name);
+    const double steps = scene.numerics.tolerance
+                             ? static_cast<double>(cost.plan.n_steps) / cost.end_time * scene.numerics.end_time
+                             : static_cast<double>(plan.n_steps);
+    result.seconds[i] = steps * cost.plan.seconds_per_step;
+    result.memory_bytes = std::max(result.memory_bytes, cost.plan.memory_bytes);
+    total += result.seconds[i];
+    n_known += 1.0;
   }
-  for (const std::size_t i : unknown) seconds[i] = n_known > 0 ? total / static_cast<double>(n_known) : 1.0;
+  for (const std::size_t i : unknown) result.seconds[i] = n_known > 0.0 ? total / n_known : 1.0;
   return result;
 }
 

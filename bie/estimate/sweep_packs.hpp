@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "bie/estimate/cost_cache.hpp"
 #include "bie/runs/sweep/sweep_runs.hpp"
 
 namespace vehd {
@@ -17,7 +16,7 @@ struct SweepCost {
 /// Runs that need as many unknowns, operators and shapes a step have steps of one cost, which is measured on the first
 /// of them (predict_cost); a tolerance is taken to need as many steps in the same time as there. Runs whose trial stops
 /// count as an average run.
-SweepCost predicted_cost(const std::vector<SweepRun>& runs, CostCache& cache);
+SweepCost predicted_cost(const std::vector<SweepRun>& runs);
 
 /// Runs that belong together, longest first.
 using SweepPack = std::vector<std::size_t>;

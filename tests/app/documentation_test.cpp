@@ -136,7 +136,6 @@ BOOST_AUTO_TEST_CASE(the_scene_of_the_tutorial_is_the_one_that_its_page_shows) {
 
 BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {
   int count = 0;
-  const OwnCache cache;
   for (const fs::path& page : pages()) {
     // Each page starts afresh, as its reader does.
     const ReaderFolder folder;

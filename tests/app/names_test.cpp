@@ -115,7 +115,6 @@ BOOST_AUTO_TEST_CASE(of_a_movie_are_data_to_ffmpeg) {
 }
 
 BOOST_AUTO_TEST_CASE(of_a_sweep_are_words_of_its_script_for_slurm) {
-  const OwnCache cache;
   for (const std::string& name : hostile_names()) {
     const HostileFolder folder;
     const std::string place = name.starts_with('-') ? "./" + name : name;

@@ -47,18 +47,5 @@ ProgramResult run_command(const std::vector<std::string>& command);
 std::string python_with(const std::string& modules);
 std::vector<std::string> vehd_command(const std::vector<std::string>& arguments);
 
-/// While alive, the program keeps its measured costs in a folder of its own, which starts empty.
-class OwnCache {
- public:
-  OwnCache() { ::setenv("XDG_CACHE_HOME", (directory_ / "cache").c_str(), 1); }
-  ~OwnCache() { ::unsetenv("XDG_CACHE_HOME"); }
-  OwnCache(const OwnCache&) = delete;
-  OwnCache& operator=(const OwnCache&) = delete;
-  [[nodiscard]] std::string file() const { return directory_ / "cache/vehd/costs.json"; }
-
- private:
-  TemporaryDirectory directory_;
-};
-
 /// Two scenes of tests/hard/scenes, at the same place below `tree`.
 void copy_some_hard_cases(const std::filesystem::path& tree);

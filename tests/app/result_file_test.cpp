@@ -144,7 +144,6 @@ BOOST_FIXTURE_TEST_CASE(every_command_can_have_standard_output_for_its_result, F
     commands.push_back({"check", scene, "--set", "numerics.degree=16", "--quick", "--ranks", "2", "--require", "0.1",
                         "-o", directory / "check"});
   }
-  const OwnCache cache;
   for (const auto& command : commands) {
     const ProgramResult result = with_json(command, "-");
     BOOST_TEST(result.exit_code == 0, command.front() << ": " << result.errors);

@@ -76,7 +76,6 @@ BOOST_FIXTURE_TEST_CASE(plan_and_run_refuse_a_wrong_setting_in_one_line, WorkFol
 }
 
 BOOST_FIXTURE_TEST_CASE(a_plan_follows_what_is_set, WorkFolder) {
-  const OwnCache cache;
   const auto unknowns = [&](const std::string& settings) {
     BOOST_TEST_REQUIRE(vehd("plan some.toml --json plan.json " + settings).exit_code == 0);
     return json("plan.json")["unknowns"].get<int>();

@@ -175,7 +175,6 @@ BOOST_AUTO_TEST_CASE(errors_of_a_tolerance_are_those_of_the_worst_vesicle) {
 }
 
 BOOST_AUTO_TEST_CASE(plan_counts_the_kernels_of_all) {
-  const OwnCache cache;
   const FinishedRun run(quick_pair("0.2"));
   const ProgramResult result = run_vehd({"plan", run.scene, "--json", run.directory / "plan.json"});
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
@@ -193,7 +192,6 @@ BOOST_AUTO_TEST_CASE(plan_counts_the_kernels_of_all) {
 
 // Equal prolates about the axis of their field: what the other one does is what the first one does.
 BOOST_AUTO_TEST_CASE(exchange_of_equal_vesicles_is_planned_and_mirrors_them) {
-  const OwnCache cache;
   const TemporaryDirectory directory;
   const ProgramResult planned =
       run_vehd({"plan", two_prolates, "--set", "numerics.degree=8", "--set", "numerics.tolerance=1e-1", "--set",
@@ -218,7 +216,6 @@ BOOST_AUTO_TEST_CASE(exchange_of_equal_vesicles_is_planned_and_mirrors_them) {
 
 // Of ten some are far enough for expansions.
 BOOST_AUTO_TEST_CASE(plan_counts_the_targets_of_pairs_as_the_run_does) {
-  const OwnCache cache;
   const std::string scene =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
       "[numerics]\norder = 4\ndt = 0.1\nend_time = 0\n"

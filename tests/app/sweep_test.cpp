@@ -162,7 +162,6 @@ BOOST_FIXTURE_TEST_CASE(what_a_sweep_finds_does_not_depend_on_units, SweepWork) 
 }
 
 BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_shares_the_runs_out, SweepWork) {
-  const OwnCache cache;
   write_text(directory / "base.toml", quick_scene("5"));
   write_sweep("\"numerics.end_time\" = {values = [1.0, 2.0, 5.0]}\n\"numerics.degree\" = {values = [6, 8]}\n");
   const ProgramResult result = run({"--emit", "slurm", "--minutes", "90", "--json", directory / "result.json"});
@@ -185,7 +184,6 @@ BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_shares_the_runs_out, SweepWork) {
 }
 
 BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_has_what_the_cluster_wants, SweepWork) {
-  const OwnCache cache;
   write_sweep(conductivities);
   write_text(directory / "modules.sh", "module load fftw");
   const std::vector<std::string> wanted = {

@@ -1,6 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
-#include "bie/estimate/plan_cost.hpp"
+#include "bie/estimate/cost.hpp"
 #include "tests/scene/key_values.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/files.hpp"
@@ -19,11 +19,9 @@ const std::string kField = "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\n
 
 /// With the cost, measured in so many seconds or a little more.
 vehd::RunPlan planned(const std::string& text, double seconds = 2.0) {
-  const TemporaryDirectory directory;
-  vehd::CostCache costs(directory / "costs.json");
   const vehd::Scene scene = parsed(text);
   vehd::RunPlan plan = vehd::plan_of(scene);
-  vehd::predict_cost(scene, plan, costs, {.seconds = seconds, .model_seconds = 0.1 * seconds, .first_trial = 0.0});
+  vehd::predict_cost(scene, plan, {.seconds = seconds});
   return plan;
 }
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "bie/comparison/stored_copies.hpp"
-#include "bie/estimate/plan_cost.hpp"
+#include "bie/estimate/cost.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/history.hpp"
@@ -59,11 +59,8 @@ void read_run(vehd::Hdf5Reader file) {
 
 /// What `vehd plan` does, in a tenth of its time.
 void plan(const vehd::Scene& scene) {
-  static const TemporaryDirectory directory;
-  vehd::CostCache costs(directory / "costs.json");
-  costs.forget();
   vehd::RunPlan plan = vehd::plan_of(scene);
-  vehd::predict_cost(scene, plan, costs, {.seconds = 0.9, .model_seconds = 0.2, .first_trial = 0.2});
+  vehd::predict_cost(scene, plan, {.seconds = 0.9});
   if (plan.n_jumps < 0 || plan.n_steps < 0) throw std::logic_error("planned a negative number of steps");
 }
 

@@ -60,7 +60,6 @@ BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
     return;
   }
   const OwnSlurm slurm;
-  const OwnCache cache;
   const SweepWork work(quick_scene("20"));
   work.write_sweep("\"electric.conductivity_in\" = {from = 0.5, to = 2.0, count = 8}\n");
   const std::string undisturbed = work.directory / "undisturbed";

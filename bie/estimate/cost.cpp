@@ -1,0 +1,239 @@
+#include "bie/estimate/cost.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "bie/scene/accuracy.hpp"
+#include "bie/scene/problem.hpp"
+#include "bie/stepping/evolution.hpp"
+#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/time/time_rule.hpp"
+#include "bie/support/deadline.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/memory.hpp"
+
+namespace vehd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* out_of_time = "the time was over before a first step ended";
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::int64_t rounded(double count) { return std::llround(std::min(count, 1e18)); }
+
+/// A run without files, or its beginning.
+struct TrialRun {
+  std::vector<double> times;    ///< at the ends of its steps
+  std::vector<double> seconds;  ///< that its steps took
+  double all_seconds = 0.0;     ///< with those of its start
+  double evaluations = 0.0;     ///< of new shapes by its steps
+  double snapshots = 0.0;       ///< evaluations at snapshots within steps
+  int order = 0;                ///< highest degree; 0: there was no time to evaluate its start
+  bool completed = false;
+  std::string stops{};  ///< why no further step could be taken
+
+  [[nodiscard]] bool is_known() const { return completed || !times.empty(); }
+  [[nodiscard]] double n_steps() const { return static_cast<double>(times.size()); }
+  /// Steps of the whole run over those taken, if those left are as long as those of the later half.
+  [[nodiscard]] double whole(double end_time) const {
+    if (completed) return 1.0;
+    const std::size_t half = times.size() / 2;
+    const double later = times.back() - (half > 0 ? times[half - 1] : 0.0);
+    return 1.0 + (end_time - times.back()) / later * static_cast<double>(times.size() - half) / n_steps();
+  }
+};
+
+/// Takes steps to the end of the scene, but no more than these and none after these seconds, one at least.
+TrialRun run_trial(const Scene& scene, std::int64_t most_steps, double seconds, Deadline& deadline) {
+  const EventTimes events = events_of(scene);
+  TrialRun trial;
+  try {
+    const Problem problem = problem_of(scene);
+    Instruments instruments(&deadline);
+    const auto start = Clock::now();
+    Evolution evolution(setup_of(problem), problem.start, instruments);
+    const auto note = [&] {
+      trial.order = std::max(trial.order, highest_order_of(evolution.state()));
+      trial.completed = evolution.state().time >= events.end_time;
+      return std::exchange(trial.all_seconds, seconds_since(start));
+    };
+    evolution.evaluate_start();
+    note();
+    while (!trial.completed && std::ssize(trial.times) < most_steps &&
+           (trial.times.empty() || trial.all_seconds < seconds)) {
+      const int evaluations = evolution.step(events).evaluations;
+      const auto snapshots = static_cast<double>(evolution.passed().size());
+      const double before = note();
+      trial.times.push_back(evolution.state().time);
+      trial.seconds.push_back(trial.all_seconds - before);
+      trial.evaluations += evaluations - snapshots;
+      trial.snapshots += snapshots;
+    }
+  } catch (const ConvergenceError& error) {
+    trial.stops = error.what();
+  } catch (const OutOfTime&) {
+    // The steps before it count.
+  }
+  return trial;
+}
+
+/// The scene itself if it has this tolerance.
+Scene with_tolerance(const Scene& scene, double tolerance) {
+  return scene.numerics.tolerance == tolerance ? scene : at_tolerance(scene, tolerance);
+}
+
+/// Steps of one degree, timed or extrapolated.
+struct StepCost {
+  int order = 0;         ///< 0: nothing is known
+  double seconds = 0.0;  ///< of one
+  double bytes = 0.0;    ///< most memory of the process
+  double took = 0.0;     ///< seconds of timing them
+  std::string stops{};   ///< why a step could not be taken
+};
+
+/// Median time of steps from the start of a scene of fixed steps, without the first two if there are more.
+/// @param seconds  after which no step begins but the first
+StepCost timed_steps(Scene scene, int order, double seconds, Deadline& deadline) {
+  constexpr int kWarmUp = 2, kMost = 18;
+  scene.numerics.order = order;
+  TrialRun run = run_trial(scene, kMost, seconds, deadline);
+  if (!run.stops.empty() || !run.is_known()) return {.stops = run.stops};
+  const auto first = run.seconds.begin() + (std::ssize(run.seconds) > kWarmUp ? kWarmUp : 0);
+  const auto median = first + (run.seconds.end() - first) / 2;
+  std::nth_element(first, median, run.seconds.end());
+  return {order, run.seconds.empty() ? 0.0 : *median, static_cast<double>(peak_memory_bytes()), run.all_seconds};
+}
+
+/// Timed if that is expected to fit into the time left; otherwise from a lower degree by power laws, measured of
+/// shapes: 3.5 for sheared ones from 14 to 26, 2.9 for axisymmetric ones from 48 to 56.
+/// @param seconds  see timed_steps
+StepCost step_cost(const Scene& scene, int order, const StepCost& lower, double seconds, Deadline& deadline) {
+  constexpr double kSeconds = 3.5, kBytes = 4.0, kMostSeconds = 4.5;
+  if (order <= lower.order) return lower;
+  const double growth = lower.order > 0 ? static_cast<double>(order) / lower.order : 1.0;
+  const double expected = lower.took * std::pow(growth, kMostSeconds);
+  StepCost cost;
+  if (expected < deadline.seconds_left()) cost = timed_steps(scene, order, seconds, deadline);
+  if (cost.order > 0) {
+    cost.seconds = std::max(cost.seconds, lower.seconds);
+  } else if (lower.order > 0) {
+    cost = {order, lower.seconds * std::pow(growth, kSeconds), lower.bytes * std::pow(growth, kBytes), expected,
+            cost.stops};
+  }
+  return cost;
+}
+
+/// A scene of twenty fixed steps of this size.
+Scene with_fixed_steps(Scene scene, double dt) {
+  scene.numerics.tolerance.reset();
+  scene.numerics.dt = dt;
+  scene.numerics.time_order = highest_time_order;
+  scene.numerics.end_time = 20.0 * dt;
+  scene.output = {};
+  return scene;
+}
+
+/// What a run spends on its files; each snapshot is written in the highest degree. Measured once: 2.5 ms a snapshot at
+/// p = 16, 6.5 ms at p = 40.
+double file_seconds(const Scene& scene, double steps, int order) {
+  constexpr double kPerRow = 2e-4, kPerSnapshot = 2e-3, kPerPoint = 1.4e-6;
+  const double snapshots = 2.0 + events_of(scene).snapshots.count(scene.numerics.end_time);
+  return kPerRow * steps + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
+}
+
+/// Rows of falling tolerances, of which the trial run has the first.
+std::vector<CostRow> predicted_rows(const Scene& scene, std::span<const double> tolerances, const TrialRun& trial,
+                                    Deadline& deadline) {
+  constexpr double kTimedSeconds = 0.1;  // for each degree
+  std::vector<CostRow> rows;
+  if (!trial.is_known()) {
+    for (const double tolerance : tolerances) rows.push_back({.tolerance = tolerance, .unknown = out_of_time});
+    return rows;
+  }
+  const double whole = trial.whole(scene.numerics.end_time);
+  // How cost grows with the degree; if no step can be timed at the first one, by power laws alone.
+  StepCost cost{trial.order, 1.0, static_cast<double>(peak_memory_bytes()), std::numeric_limits<double>::infinity()};
+  const Scene timed = with_fixed_steps(scene, trial.times.empty() ? 0.0 : trial.times.front());
+  if (tolerances.size() > 1 && !trial.times.empty()) {
+    if (const StepCost first = timed_steps(timed, trial.order, kTimedSeconds, deadline); first.order > 0) cost = first;
+  }
+  const double per_evaluation = trial.all_seconds / (1.0 + trial.evaluations + trial.snapshots) / cost.seconds;
+  // In the shipped scenes 2 to 5, and 4 to 8 where the trial run took the highest degree of its tolerance.
+  const double degrees_per_digit = trial.order < with_tolerance(scene, tolerances.front()).numerics.order ? 4.0 : 6.0;
+  for (const double tolerance : tolerances) {
+    const double ratio = tolerances.front() / tolerance;
+    const int more_degrees = static_cast<int>(std::lround(degrees_per_digit * std::log10(ratio)));
+    const int highest = with_tolerance(scene, tolerance).numerics.order;
+    const double more = whole * std::pow(ratio, 1.0 / highest_time_order);
+    const double evaluations = 1.0 + trial.evaluations * more + trial.snapshots * whole;
+    CostRow row{.tolerance = tolerance, .measured = trial.completed && rows.empty()};
+    row.order = std::min(trial.order + more_degrees, highest);
+    row.steps = rounded(std::ceil(trial.n_steps() * more));
+    cost = step_cost(timed, row.order, cost, kTimedSeconds, deadline);
+    row.file_seconds = file_seconds(scene, trial.n_steps() * more, highest);
+    row.seconds = row.file_seconds + evaluations * per_evaluation * cost.seconds;
+    row.memory_bytes = rounded(cost.bytes);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void predict_from_fixed_steps(const Scene& scene, RunPlan& plan, const CostBudget& budget) {
+  constexpr double kShare = 0.3;  // of the seconds, for steps of the scene's own degree
+  const int own = scene.numerics.order;
+  Deadline deadline(budget.seconds);
+  StepCost cost;
+  // Lower degrees tell whether there is time for that of the scene.
+  for (const int order : {8, 12, 16, 24, 32, 48}) {
+    if (order < own) cost = step_cost(scene, order, cost, 0.0, deadline);
+  }
+  cost = step_cost(scene, own, cost, kShare * budget.seconds, deadline);
+  plan.stops = cost.stops;
+  if (cost.order == 0 && plan.stops.empty()) plan.unknown = out_of_time;
+  if (cost.order == 0 || !plan.stops.empty()) return;
+  plan.memory_bytes = rounded(cost.bytes);
+  if (plan.n_steps == 0) return;
+  const auto steps = static_cast<double>(plan.n_steps);
+  plan.seconds_per_step = cost.seconds + file_seconds(scene, steps, own) / steps;
+}
+
+}  // namespace
+
+std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>& tolerances,
+                                   const CostBudget& budget) {
+  constexpr double kShareOfTiming = 0.4;  // of the seconds, kept for steps of higher degrees
+  Deadline deadline(budget.seconds);
+  std::vector<CostRow> rows;
+  for (const double tolerance : tolerances) {
+    const TrialRun trial = run_trial(with_tolerance(scene, tolerance), budget.steps,
+                                     deadline.seconds_left() - kShareOfTiming * budget.seconds, deadline);
+    if (trial.stops.empty()) {
+      std::ranges::move(predicted_rows(scene, std::span(tolerances).subspan(rows.size()), trial, deadline),
+                        std::back_inserter(rows));
+      break;
+    }
+    // The next tolerance may go on.
+    rows.push_back({.tolerance = tolerance, .stops = trial.stops});
+  }
+  return rows;
+}
+
+void predict_cost(const Scene& scene, RunPlan& plan, const CostBudget& budget) {
+  if (!scene.numerics.tolerance) return predict_from_fixed_steps(scene, plan, budget);
+  constexpr double kLoosest = 1e-2;
+  std::vector<double> tolerances{*scene.numerics.tolerance};
+  if (tolerances.front() < kLoosest) tolerances.insert(tolerances.begin(), kLoosest);
+  const CostRow row = cost_table_of(scene, tolerances, budget).back();
+  plan.stops = row.stops;
+  plan.unknown = row.unknown;
+  plan.n_steps = row.steps;
+  plan.seconds_per_step = row.steps > 0 ? row.seconds / static_cast<double>(row.steps) : 0.0;
+  plan.memory_bytes = row.memory_bytes;
+}
+
+}  // namespace vehd
