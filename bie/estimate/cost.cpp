@@ -96,8 +96,8 @@ struct StepCost {
   std::string stops{};   ///< why a step could not be taken
 };
 
-/// Median time of steps from the start of a scene of fixed steps, without the first two if there are more.
-/// @param seconds  after which no step begins but the first
+/// Median time of steps from the start of a scene of fixed steps, without the first two if there are more; without any,
+/// that of the start. @param seconds  after which no step begins but the first
 StepCost timed_steps(Scene scene, int order, double seconds, Deadline& deadline) {
   constexpr int kWarmUp = 2, kMost = 18;
   scene.numerics.order = order;
@@ -106,7 +106,8 @@ StepCost timed_steps(Scene scene, int order, double seconds, Deadline& deadline)
   const auto first = run.seconds.begin() + (std::ssize(run.seconds) > kWarmUp ? kWarmUp : 0);
   const auto median = first + (run.seconds.end() - first) / 2;
   std::nth_element(first, median, run.seconds.end());
-  return {order, run.seconds.empty() ? 0.0 : *median, static_cast<double>(peak_memory_bytes()), run.all_seconds};
+  return {order, run.seconds.empty() ? run.all_seconds : *median, static_cast<double>(peak_memory_bytes()),
+          run.all_seconds};
 }
 
 /// Timed if that is expected to fit into the time left; otherwise from a lower degree by power laws, measured of
@@ -159,7 +160,7 @@ std::vector<CostRow> predicted_rows(const Scene& scene, std::span<const double> 
   // How cost grows with the degree; if no step can be timed at the first one, by power laws alone.
   StepCost cost{trial.order, 1.0, static_cast<double>(peak_memory_bytes()), std::numeric_limits<double>::infinity()};
   const Scene timed = with_fixed_steps(scene, trial.times.empty() ? 0.0 : trial.times.front());
-  if (tolerances.size() > 1 && !trial.times.empty()) {
+  if (tolerances.size() > 1) {
     if (const StepCost first = timed_steps(timed, trial.order, kTimedSeconds, deadline); first.order > 0) cost = first;
   }
   const double per_evaluation = trial.all_seconds / (1.0 + trial.evaluations + trial.snapshots) / cost.seconds;
