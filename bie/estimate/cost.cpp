@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -96,18 +97,16 @@ struct StepCost {
   std::string stops{};   ///< why a step could not be taken
 };
 
-/// Median time of steps from the start of a scene of fixed steps, without the first two if there are more; without any,
+/// Mean time of steps from the start of a scene of fixed steps, without the first two if there are more; without any,
 /// that of the start. @param seconds  after which no step begins but the first
 StepCost timed_steps(Scene scene, int order, double seconds, Deadline& deadline) {
-  constexpr int kWarmUp = 2, kMost = 18;
+  constexpr std::size_t kWarmUp = 2, kMost = 18;
   scene.numerics.order = order;
-  TrialRun run = run_trial(scene, kMost, seconds, deadline);
+  const TrialRun run = run_trial(scene, kMost, seconds, deadline);
   if (!run.stops.empty() || !run.is_known()) return {.stops = run.stops};
-  const auto first = run.seconds.begin() + (std::ssize(run.seconds) > kWarmUp ? kWarmUp : 0);
-  const auto median = first + (run.seconds.end() - first) / 2;
-  std::nth_element(first, median, run.seconds.end());
-  return {order, run.seconds.empty() ? run.all_seconds : *median, static_cast<double>(peak_memory_bytes()),
-          run.all_seconds};
+  const std::span steps = std::span(run.seconds).subspan(run.seconds.size() > kWarmUp ? kWarmUp : 0);
+  const double mean = std::reduce(steps.begin(), steps.end()) / static_cast<double>(steps.size());
+  return {order, steps.empty() ? run.all_seconds : mean, static_cast<double>(peak_memory_bytes()), run.all_seconds};
 }
 
 /// Timed if that is expected to fit into the time left; otherwise from a lower degree by power laws, measured of
@@ -120,9 +119,7 @@ StepCost step_cost(const Scene& scene, int order, const StepCost& lower, double 
   const double expected = lower.took * std::pow(growth, kMostSeconds);
   StepCost cost;
   if (expected < deadline.seconds_left()) cost = timed_steps(scene, order, seconds, deadline);
-  if (cost.order > 0) {
-    cost.seconds = std::max(cost.seconds, lower.seconds);
-  } else if (lower.order > 0) {
+  if (cost.order == 0 && lower.order > 0) {
     cost = {order, lower.seconds * std::pow(growth, kSeconds), lower.bytes * std::pow(growth, kBytes), expected,
             cost.stops};
   }
@@ -175,7 +172,9 @@ std::vector<CostRow> predicted_rows(const Scene& scene, std::span<const double> 
     CostRow row{.tolerance = tolerance, .measured = trial.completed && rows.empty()};
     row.order = std::min(trial.order + more_degrees, highest);
     row.steps = rounded(std::ceil(trial.n_steps() * more));
+    const double cheaper = cost.seconds;
     cost = step_cost(timed, row.order, cost, kTimedSeconds, deadline);
+    cost.seconds = std::max(cost.seconds, cheaper);
     row.file_seconds = file_seconds(scene, trial.n_steps() * more, highest);
     row.seconds = row.file_seconds + evaluations * per_evaluation * cost.seconds;
     row.memory_bytes = rounded(cost.bytes);
