@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "bie/scene/schema.hpp"
-#include "bie/scene/toml_text.hpp"
 #include "bie/scene/vesicles.hpp"
 
 namespace vehd {

@@ -1,24 +1,14 @@
 #include "bie/scene/initial_material.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "bie/scene/placement.hpp"
-#include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
-
-/// Of lines in a file of harmonics: those of the highest degree.
-constexpr std::size_t most_modes = 1 + highest_order * (highest_order + 2);
 
 /// Between a degree and a grid on which a cap is sampled, whose spectrum falls like a Gaussian.
 SphereTransform cap_transform(int order) { return {order, make_grid(2 * order + 32)}; }
@@ -89,39 +79,6 @@ MembraneMaterial initial_material(const Scene& scene) {
     for_each_property(material, [&](Vector& property) { property = rotated_scalar(property, rotation); });
   }
   return material;
-}
-
-void read_place_file(PlaceScene& places, const std::filesystem::path& folder) {
-  if (!places.path) return;
-  const std::string name = std::filesystem::absolute(folder / *places.path).lexically_normal().string();
-  if (!places.modes.empty()) {
-    throw InputError(fmt::format("{}: \"path\" of harmonics together with \"modes\"; accepted: one of them", name));
-  }
-  std::error_code error;
-  std::ifstream file(name);
-  if (!std::filesystem::is_regular_file(name, error) || !file) {
-    throw InputError(fmt::format("{}: no such file (\"path\" of harmonics)", name));
-  }
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    if (line.ends_with('\r')) line.pop_back();
-    std::string cells = line.substr(0, line.find('#'));
-    std::replace(cells.begin(), cells.end(), ',', ' ');
-    if (cells.find_first_not_of(" \t") == std::string::npos) continue;
-    std::istringstream words(cells);
-    HarmonicMode mode;
-    std::string more;
-    const bool is_mode = words >> mode.n >> mode.m >> mode.a && !(words >> more) && std::isfinite(mode.a);
-    if (!is_mode || mode.n < 0 || mode.n > highest_order || std::abs(mode.m) > mode.n ||
-        places.modes.size() == most_modes) {
-      throw InputError(
-          fmt::format("{}:{}: is \"{}\"; accepted: three numbers n, m, a with |m| <= n <= {}, at most {} "
-                      "lines",
-                      name, number, shortened(line), highest_order, most_modes));
-    }
-    places.modes.push_back(mode);
-  }
-  places.path.reset();
 }
 
 }  // namespace vehd

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-
 #include "bie/physics/membrane_material.hpp"
 #include "bie/scene/scene.hpp"
 
@@ -18,10 +16,5 @@ double place_truncation(const PlaceScene& places, int order);
 /// What differs from place to place on the membrane of a scene of one vesicle at time 0, turned with the shape:
 /// coefficients of the scene's degree.
 MembraneMaterial initial_material(const Scene& scene);
-
-/// Takes the modes of a `path` into the scene.
-/// @param folder  that the path is relative to
-/// @throws InputError naming the line of the file
-void read_place_file(PlaceScene& places, const std::filesystem::path& folder);
 
 }  // namespace vehd

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "bie/scene/schema.hpp"
-#include "bie/scene/toml_text.hpp"
 #include "bie/scene/toml_values.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/support/errors.hpp"

@@ -1,386 +1,504 @@
-#include "bie/scene/key_rows.hpp"
-
-#include "bie/scene/key_table.hpp"
+#include "bie/scene/schema.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 
+/// All tables and keys of a scene, in the order of reading and writing. A row
+/// names the key and the member of scene.hpp that holds its value; type, getter
+/// and setter follow from the member. A new key is a member and a row.
 namespace vehd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Range any_number{};
-constexpr Range positive{0.0, infinity, true};
-constexpr Range not_negative{0.0, infinity, false};
+constexpr Range positive{0.0, any_number.upper, true};
+constexpr Range not_negative{0.0, any_number.upper, false};
+constexpr Range degrees{0.0, 180.0, true};
+constexpr bool required = true;
 
-const auto units = [](auto& scene) -> auto& { return *scene.units; };
-const auto shape = [](auto& scene) -> auto& { return scene.shape; };
-const auto membrane = [](auto& scene) -> auto& { return scene.membrane; };
-const auto pump_waveform = [](auto& scene) -> auto& { return *scene.membrane.pump->waveform; };
-const auto fluid = [](auto& scene) -> auto& { return scene.fluid; };
-const auto gravity = [](auto& scene) -> auto& { return *scene.gravity; };
-const auto contact = [](auto& scene) -> auto& { return *scene.contact; };
-const auto suspension = [](auto& scene) -> auto& { return *scene.suspension; };
-const auto flow = [](auto& scene) -> auto& { return *scene.flow; };
-const auto electric = [](auto& scene) -> auto& { return *scene.electric; };
-const auto flow_waveform = [](auto& scene) -> auto& { return *scene.flow->waveform; };
-const auto electric_waveform = [](auto& scene) -> auto& { return *scene.electric->waveform; };
-const auto numerics = [](auto& scene) -> auto& { return scene.numerics; };
-const auto output = [](auto& scene) -> auto& { return scene.output; };
+/// How a member is stored in a Value, and of which type its key is.
+template <typename Stored_, ValueType type_>
+struct Traits {
+  using Stored = Stored_;
+  static constexpr ValueType type = type_;
+};
+template <typename Member>
+struct MemberTraits;
+template <>
+struct MemberTraits<bool> : Traits<bool, ValueType::boolean> {};
+template <>
+struct MemberTraits<int> : Traits<std::int64_t, ValueType::integer> {};
+template <>
+struct MemberTraits<std::int64_t> : Traits<std::int64_t, ValueType::integer> {};
+template <>
+struct MemberTraits<double> : Traits<double, ValueType::number> {};
+template <>
+struct MemberTraits<std::string> : Traits<std::string, ValueType::text> {};
+template <>
+struct MemberTraits<Triple> : Traits<Triple, ValueType::triple> {};
+template <>
+struct MemberTraits<TripleOfTriples> : Traits<TripleOfTriples, ValueType::matrix> {};
+template <>
+struct MemberTraits<AxisAngle> : Traits<AxisAngle, ValueType::axis_angle> {};
+template <>
+struct MemberTraits<std::vector<double>> : Traits<std::vector<double>, ValueType::numbers> {};
+template <>
+struct MemberTraits<std::vector<HarmonicMode>> : Traits<std::vector<HarmonicMode>, ValueType::modes> {};
+template <>
+struct MemberTraits<std::vector<OutputWindow>> : Traits<std::vector<OutputWindow>, ValueType::windows> {};
+template <typename Contained>
+struct MemberTraits<std::optional<Contained>> : MemberTraits<Contained> {};
 
-void add_units_keys(KeyTable& table) {
-  table.begin("units");
-  const auto add_scale = [&](std::string_view name, KeyTable::Text text, std::optional<double> UnitsScene::*member) {
-    table.add(name, positive, text, units, member).type = ValueType::quantity;
+struct Rows {
+  std::vector<TableDescription> tables;
+  std::vector<KeyDescription> keys;
+};
+
+/// Words of a row.
+struct Text {
+  std::string_view symbol, unit, description;
+  bool is_required = false;
+};
+
+/// One table, to which keys and tables within it are added.
+template <typename Part>
+class Table {
+ public:
+  /// @param part  maps a scene, const or not, to the struct of the table
+  Table(Rows& rows, TableDescription table, Part part) : rows_(&rows), table_(std::move(table)), part_(part) {}
+
+  /// A table that every scene has.
+  template <typename Owner, typename Member>
+  auto always(std::string_view name, std::string_view description, Member Owner::*member, bool is_required = false) {
+    const auto part = [ owner = part_, member ](auto& scene) -> auto& { return owner(scene).*member; };
+    rows_->tables.push_back({name, description, is_required, table_.present, table_.create});
+    return Table<decltype(part)>(*rows_, rows_->tables.back(), part);
+  }
+
+  /// One that makes the difference whether a scene has an effect; its owner
+  /// comes with it.
+  template <typename Owner, typename Member>
+  auto optional(std::string_view name, std::string_view description, std::optional<Member> Owner::*member) {
+    const auto holder = [ owner = part_, member ](auto& scene) -> auto& { return owner(scene).*member; };
+    const auto part = [holder](auto& scene) -> auto& { return *holder(scene); };
+    const auto present = [owner = table_, holder](const Scene& scene) {
+      return owner.present(scene) && holder(scene).has_value();
+    };
+    const auto create = [owner = table_, holder](Scene& scene) {
+      if (!owner.present(scene)) owner.create(scene);
+      holder(scene).emplace();
+    };
+    rows_->tables.push_back({name, description, false, present, create});
+    return Table<decltype(part)>(*rows_, rows_->tables.back(), part);
+  }
+
+  /// For keys of some of its kinds alone.
+  template <typename... Kinds>
+  [[nodiscard]] Table of(Kinds... kinds) const {
+    Table result = *this;
+    result.kinds_ = {kinds...};
+    return result;
+  }
+
+  template <typename Owner, typename Member>
+  KeyDescription& key(std::string_view name, Range range, const Text& text, Member Owner::*member) {
+    using Stored = typename MemberTraits<Member>::Stored;
+    KeyDescription& key = add_row(name, MemberTraits<Member>::type, Stored{}, range, text);
+    key.get = [part = part_, member](const Scene& scene) -> std::optional<Value> {
+      const Member& value = part(scene).*member;
+      if constexpr (std::is_same_v<Member, std::optional<Stored>>) {
+        return value ? std::optional<Value>(*value) : std::nullopt;
+      } else {
+        return Value(static_cast<Stored>(value));
+      }
+    };
+    key.set = [part = part_, member](Scene& scene, const Value& value) {
+      part(scene).*member = static_cast<Member>(std::get<Stored>(value));
+    };
+    return key;
+  }
+
+  /// @param words  one for each enumerator of the member, in their order
+  template <typename Owner, typename Enumeration>
+  void word(std::string_view name, std::vector<std::string_view> words, std::string_view description,
+            Enumeration Owner::*member, bool is_required = false) {
+    KeyDescription& key = add_row(name, ValueType::word, std::string(), {}, {"", "", description, is_required});
+    key.words = words;
+    key.get = [part = part_, words, member](const Scene& scene) -> std::optional<Value> {
+      return Value(std::string(words.at(static_cast<std::size_t>(part(scene).*member))));
+    };
+    key.set = [part = part_, words, member](Scene& scene, const Value& value) {
+      const auto found = std::ranges::find(words, std::get<std::string>(value));
+      part(scene).*member = static_cast<Enumeration>(found - words.begin());
+    };
+  }
+
+ private:
+  KeyDescription& add_row(std::string_view name, ValueType type, Value stored_as, Range range, const Text& text) {
+    KeyDescription& key = rows_->keys.emplace_back();
+    key.table = table_.name;
+    key.name = name;
+    key.type = type;
+    key.stored_as = std::move(stored_as);
+    key.symbol = text.symbol;
+    key.unit = text.unit;
+    key.range = range;
+    key.kinds = kinds_;
+    key.required = text.is_required;
+    key.description = text.description;
+    return key;
+  }
+
+  Rows* rows_;
+  TableDescription table_;
+  Part part_;
+  std::vector<std::string_view> kinds_;
+};
+
+void add_units(auto& scene) {
+  auto units = scene.optional("units", "what 1 means; absent: values are dimensionless", &Scene::units);
+  const auto scale = [&](std::string_view name, const Text& text, std::optional<double> UnitsScene::*member) {
+    units.key(name, positive, text, member).type = ValueType::quantity;
   };
-  add_scale("length", {"L", "length", "reference length; absent: √(area/4π) of an area in SI units"},
-            &UnitsScene::length);
-  add_scale("time",
-            {"T", "time",
-             "reference time; absent: the shortest that values in SI units give: duration of a pulse, period or "
-             "1/frequency (not of an averaged field), 1/rate (of a Poiseuille flow R/v_c), LC_m(1/σ_i + 1/(2σ_e)), "
-             "μ/(εE²), μL³/κ_B"},
-            &UnitsScene::time);
-  add_scale("viscosity", {"M", "viscosity", "reference viscosity; absent: that of the fluid in SI units"},
-            &UnitsScene::viscosity);
-  add_scale("potential", {"Φ", "potential", "reference potential; absent: √(ML/(T C_m)) of a capacitance in SI units"},
-            &UnitsScene::potential);
-  add_scale("temperature", {"", "temperature", "of energies in kBT, such as \"298 K\"; no scale"},
-            &UnitsScene::temperature);
+  scale("length", {"L", "length", "reference length; absent: √(area/4π) of an area in SI units"}, &UnitsScene::length);
+  scale(
+      "time",
+      {"T", "time",
+       "reference time; absent: the shortest that values in SI units give: duration of a pulse, period or 1/frequency "
+       "(not of an averaged field), 1/rate (of a Poiseuille flow R/v_c), LC_m(1/σ_i + 1/(2σ_e)), μ/(εE²), μL³/κ_B"},
+      &UnitsScene::time);
+  scale("viscosity", {"M", "viscosity", "reference viscosity; absent: that of the fluid in SI units"},
+        &UnitsScene::viscosity);
+  scale("potential", {"Φ", "potential", "reference potential; absent: √(ML/(T C_m)) of a capacitance in SI units"},
+        &UnitsScene::potential);
+  scale("temperature", {"", "temperature", "of energies in kBT, such as \"298 K\"; no scale"},
+        &UnitsScene::temperature);
 }
 
-void add_shape_keys(KeyTable& table) {
-  table.begin("shape");
-  table
-      .add_word("kind", {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
-                "how the initial shape is given; the middle four have the axis z", shape, &ShapeScene::kind)
-      .required = true;
-  table.begin("shape", {"ellipsoid"});
-  table.add("axes", size_range, {"", "length", "semi-axes along x, y, z"}, shape, &ShapeScene::axes).required = true;
-  table.begin("shape", {"prolate"});
-  table
-      .add("reduced_volume", {0.2, 1.0}, {"v", "1", "6√π V/A^{3/2}; size: area 4π"}, shape, &ShapeScene::reduced_volume)
-      .required = true;
-  table.begin("shape", {"oblate"});
-  table
-      .add("reduced_volume", {0.1, 1.0}, {"v", "1", "6√π V/A^{3/2}; size: area 4π"}, shape, &ShapeScene::reduced_volume)
-      .required = true;
-  table.begin("shape", {"biconcave"});
-  table.add("reduced_volume", {0.5, 0.75}, {"v", "1", "6√π V/A^{3/2}; size: area 4π"}, shape,
-            &ShapeScene::reduced_volume);
-  table.begin("shape", {"stomatocyte"});
-  table
-      .add("reduced_volume", {0.1, 0.65}, {"v", "1", "6√π V/A^{3/2}; size: area 4π; open towards −z"}, shape,
-           &ShapeScene::reduced_volume)
-      .required = true;
-  table.begin("shape", {"radial"});
-  table
-      .add("base", any_number, {"", "length", "constant part of the radius; may be left out with area"}, shape,
+void add_shape(auto& scene) {
+  auto shape = scene.always("shape", "initial shape", &Scene::shape, required);
+  shape.word("kind", {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
+             "how the initial shape is given; the middle four have the axis z", &ShapeScene::kind, required);
+  shape.of("ellipsoid").key("axes", size_range, {"", "length", "semi-axes along x, y, z", required}, &ShapeScene::axes);
+  const auto reduced_volume = [&](std::string_view kind, Range range, bool is_required, std::string_view text) {
+    shape.of(kind).key("reduced_volume", range, {"v", "1", text, is_required}, &ShapeScene::reduced_volume);
+  };
+  constexpr std::string_view definition = "6√π V/A^{3/2}; size: area 4π";
+  reduced_volume("prolate", {0.2, 1.0}, required, definition);
+  reduced_volume("oblate", {0.1, 1.0}, required, definition);
+  reduced_volume("biconcave", {0.5, 0.75}, false, definition);
+  reduced_volume("stomatocyte", {0.1, 0.65}, required, "6√π V/A^{3/2}; size: area 4π; open towards −z");
+  auto radial = shape.of("radial");
+  radial
+      .key("base", any_number, {"", "length", "constant part of the radius; may be left out with area"},
            &ShapeScene::base)
-      .default_has_effect = [](const Scene& scene) { return !scene.shape.area; };
-  table.add("amplitude", any_number, {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"},
-            shape, &ShapeScene::amplitude);
-  table.add("exponent", any_number, {"", "1", "factor of s in the exponential"}, shape, &ShapeScene::exponent);
-  table
-      .add("modes", any_number,
-           {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|"}, shape,
-           &ShapeScene::modes)
-      .required = true;
-  table.begin("shape", {"file"});
-  table
-      .add("path", any_number,
-           {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units"}, shape,
-           &ShapeScene::path)
-      .required = true;
-  table.add("time", not_negative, {"t", "time", "time of the snapshot in that run; absent: the last one"}, shape,
-            &ShapeScene::time);
-  table.begin("shape");
-  table.add("area", positive, {"A", "area", "the shape is scaled to this area; not with scale"}, shape,
-            &ShapeScene::area);
-  table.add("scale", size_range, {"", "1", "the shape is scaled by this factor; not with area"}, shape,
-            &ShapeScene::scale);
-  table.add("rotation", any_number,
-            {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"}, shape,
+      .default_has_effect = [](const Scene& s) { return !s.shape.area; };
+  radial.key("amplitude", any_number, {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"},
+             &ShapeScene::amplitude);
+  radial.key("exponent", any_number, {"", "1", "factor of s in the exponential"}, &ShapeScene::exponent);
+  radial.key("modes", any_number,
+             {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|", required},
+             &ShapeScene::modes);
+  auto file = shape.of("file");
+  file.key("path", any_number,
+           {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units", required},
+           &ShapeScene::path);
+  file.key("time", not_negative, {"t", "time", "time of the snapshot in that run; absent: the last one"},
+           &ShapeScene::time);
+  shape.key("area", positive, {"A", "area", "the shape is scaled to this area; not with scale"}, &ShapeScene::area);
+  shape.key("scale", size_range, {"", "1", "the shape is scaled by this factor; not with area"}, &ShapeScene::scale);
+  shape.key("rotation", any_number,
+            {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"},
             &ShapeScene::rotation);
-  table.add("centre", any_number, {"", "length", "where the shape's origin is placed, after rotation"}, shape,
+  shape.key("centre", any_number, {"", "length", "where the shape's origin is placed, after rotation"},
             &ShapeScene::centre);
 }
 
-void add_membrane_keys(KeyTable& table) {
-  table.begin("membrane");
-  table.add("bending_modulus", not_negative,
-            {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus κ_c; absent or 0: no bending"}, membrane,
-            &MembraneScene::bending_modulus);
-  table.add("spontaneous_curvature", any_number,
-            {"c", "1/length",
-             "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere. The usual C₀ of (κ_c/2)∫(C₁ + C₂ − C₀)² dA, positive "
-             "where the membrane prefers to bulge outwards, is −2c"},
-            membrane, &MembraneScene::spontaneous_curvature);
-  table.add("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"}, membrane,
-            &MembraneScene::inextensible);
-  table
-      .add("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"}, membrane,
-           &MembraneScene::capacitance)
-      .default_has_effect = [](const Scene& scene) { return scene.electric.has_value(); };
-  table.add("conductance", not_negative, {"G_m", "conductance/area", "used with [electric] only"}, membrane,
-            &MembraneScene::conductance);
-  table.add("mobile", any_number, {"", "", "false: the shape is frozen and only the membrane charges"}, membrane,
-            &MembraneScene::mobile);
-}
-
-void add_fluid_keys(KeyTable& table) {
-  table.begin("fluid");
-  table.add("viscosity", positive, {"μ", "viscosity", "of the fluid outside"}, fluid, &FluidScene::viscosity);
-  table.add("viscosity_ratio", not_negative, {"μ_i/μ_e", "1", "inside over outside; 1: no double layer is evaluated"},
-            fluid, &FluidScene::viscosity_ratio);
-  table.add("density_difference", any_number, {"ρ_i − ρ_e", "density", "inside minus outside; goes with [gravity]"},
-            fluid, &FluidScene::density_difference);
-}
-
-void add_gravity_keys(KeyTable& table) {
-  table.begin("gravity");
-  table.add("acceleration", any_number, {"g", "acceleration", "of free fall"}, gravity, &GravityScene::acceleration)
-      .required = true;
-}
-
-template <typename Part>
-void add_waveform_keys(KeyTable& table, std::string_view name, Part part) {
-  table.begin(name);
-  table
-      .add_word("kind", {"dc", "ac", "pulse", "pulse_train", "table"},
+/// @param waveform  the table, of which only some kinds have an average
+auto add_waveform(auto waveform) {
+  waveform.word("kind", {"dc", "ac", "pulse", "pulse_train", "table"},
                 "constant; cos(2πft + phase); 1 during [start, start + duration); that in every period; linear between "
                 "the entries of a table",
-                part, &WaveformScene::kind)
-      .required = true;
-  table.begin(name, {"ac"});
-  table
-      .add("frequency", positive, {"f", "1/time", "at least four steps a period are taken, unless it is averaged"},
-           part, &WaveformScene::frequency)
-      .required = true;
-  table.add("phase", any_number, {"", "1", "in radians; −π/2 makes a sine"}, part, &WaveformScene::phase);
-  table.begin(name, {"pulse", "pulse_train"});
-  table.add("start", any_number, {"", "time", "of the first pulse"}, part, &WaveformScene::start);
-  table.add("duration", positive, {"", "time", "of a pulse"}, part, &WaveformScene::duration).required = true;
-  table.begin(name, {"pulse_train"});
-  table.add("period", positive, {"", "time", "from pulse to pulse; longer than a pulse"}, part, &WaveformScene::period)
-      .required = true;
-  table.begin(name, {"table"});
-  table.add("path", any_number,
-            {"", "", "text file of lines \"time factor\", relative to the scene file; absent: times and values"}, part,
+                &WaveformScene::kind, required);
+  auto ac = waveform.of("ac"), pulse = waveform.of("pulse", "pulse_train"), table = waveform.of("table");
+  ac.key("frequency", positive,
+         {"f", "1/time", "at least four steps a period are taken, unless it is averaged", required},
+         &WaveformScene::frequency);
+  ac.key("phase", any_number, {"", "1", "in radians; −π/2 makes a sine"}, &WaveformScene::phase);
+  pulse.key("start", any_number, {"", "time", "of the first pulse"}, &WaveformScene::start);
+  pulse.key("duration", positive, {"", "time", "of a pulse", required}, &WaveformScene::duration);
+  waveform.of("pulse_train")
+      .key("period", positive, {"", "time", "from pulse to pulse; longer than a pulse", required},
+           &WaveformScene::period);
+  table.key("path", any_number,
+            {"", "", "text file of lines \"time factor\", relative to the scene file; absent: times and values"},
             &WaveformScene::path);
-  table.add("times", any_number, {"", "time", "ascending, two equal ones make a jump"}, part, &WaveformScene::times);
-  table.add("values", any_number, {"", "1", "factor at each of the times; constant beyond the ends"}, part,
+  table.key("times", any_number, {"", "time", "ascending, two equal ones make a jump"}, &WaveformScene::times);
+  table.key("values", any_number, {"", "1", "factor at each of the times; constant beyond the ends"},
             &WaveformScene::values);
+  return ac;
 }
 
-void add_contact_keys(KeyTable& table) {
-  table.begin("contact");
-  table
-      .add("energy", any_number,
-           {"W", "force/length",
-            "two flat membranes at distance d have W exp(−d²/range²) per area; positive repels, negative attracts"},
-           contact, &ContactScene::energy)
-      .required = true;
-  table.add("range", positive, {"", "length", "of the potential"}, contact, &ContactScene::range).required = true;
+/// Keys of a table that says how a property differs from place to place.
+auto add_places(auto places) {
+  places.word(
+      "kind", {"harmonics", "cap", "file"},
+      "the property is its value in [membrane] times base + s(θ, φ), where the material point was on the parameter "
+      "sphere of [shape]; times a factor within a round cap and another outside; as harmonics, of a text file",
+      &PlaceScene::kind, required);
+  auto harmonics = places.of("harmonics", "file"), cap = places.of("cap");
+  harmonics.key("base", any_number, {"", "1", "constant part of the factor"}, &PlaceScene::base);
+  harmonics.key("modes", any_number,
+                {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|; absent: 0"},
+                &PlaceScene::modes);
+  places.of("file").key("path", any_number,
+                        {"", "", "text file of lines \"n m a\", relative to the scene file; absent: modes"},
+                        &PlaceScene::path);
+  cap.key("axis", any_number, {"", "1", "through the middle of the cap"}, &PlaceScene::axis);
+  cap.key("angle_deg", degrees, {"α", "1", "from the axis to the edge, in degrees", required}, &PlaceScene::angle_deg);
+  cap.key("width_deg", degrees,
+          {"w", "1", "of the edge, in degrees: the share of the cap is ½ erfc((cos α − cos γ)/(w sin α))"},
+          &PlaceScene::width_deg);
+  cap.key("inside", any_number, {"", "1", "factor within the cap", required}, &PlaceScene::inside);
+  cap.key("outside", any_number, {"", "1", "factor outside"}, &PlaceScene::outside);
+  return places;
 }
 
-void add_flow_keys(KeyTable& table) {
-  table.begin("flow");
-  table
-      .add_word("kind", {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
-                "rate (z, 0, 0); rate (x, 0, −z); rate (−x/2, −y/2, z); any gradient; centre_velocity (1 − (y² + "
-                "z²)/radius²) along x",
-                flow, &FlowScene::kind)
-      .required = true;
-  table.begin("flow", {"shear", "planar_extension", "axisymmetric_extension"});
-  table.add("rate", any_number, {"γ̇", "1/time", "velocity gradient"}, flow, &FlowScene::rate).required = true;
-  table.begin("flow", {"gradient"});
-  table.add("gradient", any_number, {"∇v", "1/time", "rows dv_i/dx_j of trace zero"}, flow, &FlowScene::gradient)
-      .required = true;
-  table.begin("flow", {"poiseuille"});
-  table.add("centre_velocity", any_number, {"v_c", "velocity", "on the axis"}, flow, &FlowScene::centre_velocity)
-      .required = true;
-  table
-      .add("radius", positive, {"R", "length", "where the profile vanishes; there is no wall"}, flow,
-           &FlowScene::radius)
-      .required = true;
-  add_waveform_keys(table, "flow.waveform", flow_waveform);
+void add_membrane(auto& scene) {
+  auto membrane = scene.always("membrane", "mechanical and electric properties of the membrane", &Scene::membrane);
+  membrane.key("bending_modulus", not_negative,
+               {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus κ_c; absent or 0: no bending"},
+               &MembraneScene::bending_modulus);
+  membrane.key("spontaneous_curvature", any_number,
+               {"c", "1/length",
+                "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere. The usual C₀ of (κ_c/2)∫(C₁ + C₂ − C₀)² dA, positive "
+                "where the membrane prefers to bulge outwards, is −2c"},
+               &MembraneScene::spontaneous_curvature);
+  membrane.key("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"},
+               &MembraneScene::inextensible);
+  membrane
+      .key("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"},
+           &MembraneScene::capacitance)
+      .default_has_effect = [](const Scene& s) { return s.electric.has_value(); };
+  membrane.key("conductance", not_negative, {"G_m", "conductance/area", "used with [electric] only"},
+               &MembraneScene::conductance);
+  membrane.key("mobile", any_number, {"", "", "false: the shape is frozen and only the membrane charges"},
+               &MembraneScene::mobile);
+  add_places(membrane.optional("membrane.capacitance_by_place", "C_m from place to place; absent: uniform",
+                               &MembraneScene::capacitance_by_place));
+  add_places(membrane.optional("membrane.conductance_by_place", "G_m from place to place; absent: uniform",
+                               &MembraneScene::conductance_by_place));
+  add_places(membrane.optional("membrane.bending_by_place", "κ_B from place to place; absent: uniform",
+                               &MembraneScene::bending_by_place));
+  add_places(membrane.optional("membrane.curvature_by_place",
+                               "spontaneous curvature c from place to place; absent: uniform",
+                               &MembraneScene::curvature_by_place));
+  auto pump = add_places(membrane.optional(
+      "membrane.pump", "current that the membrane pumps from place to place; absent: none", &MembraneScene::pump));
+  pump.of("harmonics", "cap", "file")
+      .key("current", any_number,
+           {"J_p", "current/area", "outwards, where the factor is 1: C_m dV_m/dt + G_m V_m + J_p = −σ_i ∂φ_i/∂n",
+            required},
+           &PumpScene::current);
+  add_waveform(
+      pump.optional("membrane.pump.waveform", "factor of the pump current in time; absent: 1", &PumpScene::waveform));
 }
 
-void add_electric_keys(KeyTable& table) {
-  table.begin("electric");
-  table.add("field", any_number, {"E_∞", "field", "applied uniform field"}, electric, &ElectricScene::field).required =
-      true;
-  table
-      .add("conductivity_in", not_negative, {"σ_i", "conductivity", "of the fluid inside"}, electric,
-           &ElectricScene::conductivity_in)
-      .required = true;
-  table
-      .add("conductivity_out", not_negative, {"σ_e", "conductivity", "of the fluid outside"}, electric,
-           &ElectricScene::conductivity_out)
-      .required = true;
-  table.add("permittivity", positive, {"ε", "permittivity", "of the fluid outside"}, electric,
-            &ElectricScene::permittivity);
-  table.add("permittivity_ratio", positive, {"ε_i/ε_e", "1", "inside over outside"}, electric,
-            &ElectricScene::permittivity_ratio);
-  table.add_word(
-      "initial_Vm", {"zero", "steady", "file"},
-      "transmembrane potential at time 0: none; that of a membrane fully charged; that of the file of [shape], "
-      "which is the default with a file that has one",
-      electric, &ElectricScene::initial_potential);
-  table.add(
+void add_fluid(auto& scene) {
+  auto fluid = scene.always("fluid", "the fluids inside and outside", &Scene::fluid);
+  fluid.key("viscosity", positive, {"μ", "viscosity", "of the fluid outside"}, &FluidScene::viscosity);
+  fluid.key("viscosity_ratio", not_negative, {"μ_i/μ_e", "1", "inside over outside; 1: no double layer is evaluated"},
+            &FluidScene::viscosity_ratio);
+  fluid.key("density_difference", any_number, {"ρ_i − ρ_e", "density", "inside minus outside; goes with [gravity]"},
+            &FluidScene::density_difference);
+}
+
+void add_gravity_and_contact(auto& scene) {
+  auto gravity = scene.optional("gravity", "weight of the inner fluid; absent: none", &Scene::gravity);
+  gravity.key("acceleration", any_number, {"g", "acceleration", "of free fall", required}, &GravityScene::acceleration);
+  auto contact = scene.optional("contact", "potential between different vesicles; absent: none", &Scene::contact);
+  contact.key("energy", any_number,
+              {"W", "force/length",
+               "two flat membranes at distance d have W exp(−d²/range²) per area; positive repels, negative attracts",
+               required},
+              &ContactScene::energy);
+  contact.key("range", positive, {"", "length", "of the potential", required}, &ContactScene::range);
+}
+
+void add_flow(auto& scene) {
+  auto flow = scene.optional("flow", "background flow; absent: quiescent", &Scene::flow);
+  flow.word("kind", {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
+            "rate (z, 0, 0); rate (x, 0, −z); rate (−x/2, −y/2, z); any gradient; centre_velocity (1 − (y² + "
+            "z²)/radius²) along x",
+            &FlowScene::kind, required);
+  flow.of("shear", "planar_extension", "axisymmetric_extension")
+      .key("rate", any_number, {"γ̇", "1/time", "velocity gradient", required}, &FlowScene::rate);
+  flow.of("gradient")
+      .key("gradient", any_number, {"∇v", "1/time", "rows dv_i/dx_j of trace zero", required}, &FlowScene::gradient);
+  auto poiseuille = flow.of("poiseuille");
+  poiseuille.key("centre_velocity", any_number, {"v_c", "velocity", "on the axis", required},
+                 &FlowScene::centre_velocity);
+  poiseuille.key("radius", positive, {"R", "length", "where the profile vanishes; there is no wall", required},
+                 &FlowScene::radius);
+  add_waveform(flow.optional("flow.waveform", "factor of the flow in time; absent: 1", &FlowScene::waveform));
+}
+
+void add_electric(auto& scene) {
+  auto electric = scene.optional("electric", "applied field; absent: nothing electric is assembled", &Scene::electric);
+  electric.key("field", any_number, {"E_∞", "field", "applied uniform field", required}, &ElectricScene::field);
+  electric.key("conductivity_in", not_negative, {"σ_i", "conductivity", "of the fluid inside", required},
+               &ElectricScene::conductivity_in);
+  electric.key("conductivity_out", not_negative, {"σ_e", "conductivity", "of the fluid outside", required},
+               &ElectricScene::conductivity_out);
+  electric.key("permittivity", positive, {"ε", "permittivity", "of the fluid outside"}, &ElectricScene::permittivity);
+  electric.key("permittivity_ratio", positive, {"ε_i/ε_e", "1", "inside over outside"},
+               &ElectricScene::permittivity_ratio);
+  electric.word("initial_Vm", {"zero", "steady", "file"},
+                "transmembrane potential at time 0: none; that of a membrane fully charged; that of the file of "
+                "[shape], which is the default with a file that has one",
+                &ElectricScene::initial_potential);
+  electric.key(
       "displacement_current", any_number,
       {"", "", "of both fluids, which matters in fields of some 100 kHz and pulses below some us; needs permittivity"},
-      electric, &ElectricScene::displacement_current);
-  add_waveform_keys(table, "electric.waveform", electric_waveform);
-  table.begin("electric.waveform", {"ac"});
-  table.add("average", any_number,
-            {"", "",
-             "the shape follows the mean force of a period, and V_m is known by amplitude and phase; see "
-             "docs/experiments/ac_field.md"},
-            electric_waveform, &WaveformScene::average);
+      &ElectricScene::displacement_current);
+  auto ac = add_waveform(
+      electric.optional("electric.waveform", "factor of the field in time; absent: 1", &ElectricScene::waveform));
+  ac.key("average", any_number,
+         {"", "",
+          "the shape follows the mean force of a period, and V_m is known by amplitude and phase; see "
+          "docs/experiments/ac_field.md"},
+         &WaveformScene::average);
 }
 
-void add_numerics_keys(KeyTable& table) {
-  table.begin("numerics");
-  table.add("tolerance", {tightest_tolerance, 0.1},
-            {"", "1",
-             "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they are "
-             "fixed"},
-            numerics, &NumericsScene::tolerance);
-  table
-      .add("degree", {lowest_order, highest_order},
+void add_poration(auto& scene) {
+  using Poration = PorationScene;
+  auto poration =
+      scene.optional("poration", "what the membrane does beyond a threshold; absent: nothing", &Scene::poration);
+  poration.word(
+      "model", {"criterion", "porosity", "pores"},
+      "criterion: when and where a threshold is passed first, which changes nothing; porosity: G_m + G_1 X with dX/dt "
+      "= max((β − X)/τ_ep, (β − X)/τ_res), β = ½[1 + tanh k(|V_m|/V_r − 1)]; pores: G_m + N g_p with dN/dt = α "
+      "exp((V_m/V_ep)²)[1 − (N/N_0) exp(−q(V_m/V_ep)²)], g_p = 2πr²σ_p/(πr + 2h); see docs/experiments/poration.md",
+      &Poration::model, required);
+  auto criterion = poration.of("criterion"), porosity = poration.of("porosity"), pores = poration.of("pores");
+  criterion.key("threshold_Vm", positive, {"V_c", "potential", "of |V_m|; this, lysis_tension or both"},
+                &Poration::threshold_potential);
+  criterion.key(
+      "lysis_tension", positive,
+      {"λ_c", "force/length", "of λ + C_m V_m²/2, which a sphere does not determine; this, threshold_Vm or both"},
+      &Poration::lysis_tension);
+  porosity.key("threshold_Vm", positive, {"V_r", "potential", "where β is a half", required},
+               &Poration::threshold_potential);
+  porosity.key("porated_conductance", not_negative, {"G_1", "conductance/area", "beyond G_m where X is 1", required},
+               &Poration::porated_conductance);
+  porosity.key("steepness", positive, {"k", "1", "of β"}, &Poration::steepness);
+  porosity.key("poration_time", positive, {"τ_ep", "time", "in which X rises", required}, &Poration::poration_time);
+  porosity.key("resealing_time", positive, {"τ_res", "time", "in which X falls, longer than poration_time", required},
+               &Poration::resealing_time);
+  pores.key("creation_rate", positive, {"α", "1/(area time)", "of pores without V_m", required},
+            &Poration::creation_rate);
+  pores.key("creation_Vm", positive,
+            {"V_ep", "potential", "creation rises by the factor e where V_m reaches it", required},
+            &Poration::threshold_potential);
+  pores.key("rest_density", positive, {"N_0", "1/area", "of pores without V_m", required}, &Poration::rest_density);
+  pores.key("exponent", positive, {"q", "1", "of the density in equilibrium"}, &Poration::exponent);
+  pores.key("pore_radius", positive, {"r", "length", "of all pores", required}, &Poration::pore_radius);
+  pores.key("membrane_thickness", positive, {"h", "length", "of the membrane", required},
+            &Poration::membrane_thickness);
+  pores.key("pore_conductivity", positive, {"σ_p", "conductivity", "within pores; absent: (σ_e − σ_i)/ln(σ_e/σ_i)"},
+            &Poration::pore_conductivity);
+}
+
+void add_numerics(auto& scene) {
+  auto numerics = scene.always("numerics", "resolution in space and time", &Scene::numerics, required);
+  numerics.key(
+      "tolerance", {tightest_tolerance, 0.1},
+      {"", "1",
+       "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they are fixed"},
+      &NumericsScene::tolerance);
+  numerics
+      .key("degree", {lowest_order, highest_order},
            {"p", "1",
             "of the spherical harmonics; also called order; with a tolerance the highest and that of the files, by "
             "default 8 (1 − log₁₀ tolerance) up to 64"},
-           numerics, &NumericsScene::order)
+           &NumericsScene::order)
       .other_name = "order";
-  table.add("dt", positive, {"Δt", "time", "largest time step; required without a tolerance"}, numerics,
-            &NumericsScene::dt);
-  table.add(
-      "time_order", {1, highest_time_order},
-      {"", "1",
-       "order of a step in Δt: 1 the paper's scheme; 2 … 5 its deferred correction at 2, 5, 10, 13 times the work; "
-       "with a tolerance at least 2, by default 5"},
-      numerics, &NumericsScene::time_order);
-  table
-      .add("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone"}, numerics,
-           &NumericsScene::end_time)
-      .required = true;
-  table.add_word("symmetry", {"auto", "off", "axisymmetric"},
-                 "use what is found; use none; refuse a scene that is not axisymmetric about any axis", numerics,
-                 &NumericsScene::symmetry);
-  table.add("error_bars", any_number,
-            {"", "", "history_error.csv: the estimated error of every number of history.csv, for a third more time"},
-            numerics, &NumericsScene::error_bars);
+  numerics.key("dt", positive, {"Δt", "time", "largest time step; required without a tolerance"}, &NumericsScene::dt);
+  numerics.key("time_order", {1, highest_time_order},
+               {"", "1",
+                "order of a step in Δt: 1 the paper's scheme; 2 … 5 its deferred correction at 2, 5, 10, 13 times the "
+                "work; with a tolerance at least 2, by default 5"},
+               &NumericsScene::time_order);
+  numerics.key("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone", required},
+               &NumericsScene::end_time);
+  numerics.word("symmetry", {"auto", "off", "axisymmetric"},
+                "use what is found; use none; refuse a scene that is not axisymmetric about any axis",
+                &NumericsScene::symmetry);
+  numerics.key("error_bars", any_number,
+               {"", "", "history_error.csv: the estimated error of every number of history.csv, for a third more time"},
+               &NumericsScene::error_bars);
 }
 
-void add_output_keys(KeyTable& table) {
-  table.begin("output");
-  table.add("every", positive,
-            {"", "time", "time between snapshots; absent: the start, the end, and what times and window ask for"},
-            output, &OutputScene::every);
-  table.add("times", not_negative, {"", "time", "further times of snapshots, ascending"}, output, &OutputScene::times);
-  table.add("window", not_negative,
-            {"", "time",
-             "[[output.window]]: further snapshots at from, from + every, … up to to; any number of windows, which may "
-             "overlap"},
-            output, &OutputScene::windows);
-  table.add_word(
-      "units", {"auto", "si", "dimensionless"},
-      "of history.csv, summary.json, pictures and progress: auto takes SI units where the scene has [units]; "
-      "see docs/run_files.md",
-      output, &OutputScene::units);
+void add_output(auto& scene) {
+  auto output = scene.always("output", "what is written", &Scene::output);
+  output.key("every", positive,
+             {"", "time", "time between snapshots; absent: the start, the end, and what times and window ask for"},
+             &OutputScene::every);
+  output.key("times", not_negative, {"", "time", "further times of snapshots, ascending"}, &OutputScene::times);
+  output.key("window", not_negative,
+             {"", "time",
+              "[[output.window]]: further snapshots at from, from + every, … up to to; any number of windows, which "
+              "may overlap"},
+             &OutputScene::windows);
+  output.word("units", {"auto", "si", "dimensionless"},
+              "of history.csv, summary.json, pictures and progress: auto takes SI units where the scene has [units]; "
+              "see docs/run_files.md",
+              &OutputScene::units);
 }
 
-TableDescription always_present(std::string_view name, std::string_view description, bool required = false) {
-  return {name, description, required, [](const Scene&) { return true; }, [](Scene&) {}};
+void add_suspension(auto& scene) {
+  auto suspension =
+      scene.optional("suspension", "copies of the vesicle at random places; absent: none", &Scene::suspension);
+  suspension.word("kind", {"box", "ball"}, "the region; every vesicle is within it as a whole", &SuspensionScene::kind,
+                  required);
+  suspension.of("box").key("size", positive, {"", "length", "along x, y, z", required}, &SuspensionScene::size);
+  suspension.of("ball").key("radius", positive, {"", "length", "of the ball", required}, &SuspensionScene::radius);
+  suspension.key("centre", any_number, {"", "length", "of the region"}, &SuspensionScene::centre);
+  suspension.key("count", {1.0, 1e9}, {"", "1", "number of vesicles; or volume_fraction"}, &SuspensionScene::count);
+  suspension.key("volume_fraction", {0.0, 1.0, true}, {"", "1", "of the vesicles in the region; or count"},
+                 &SuspensionScene::volume_fraction);
+  suspension.key("seed", {0.0, 1e9}, {"", "1", "of the random places and orientations"}, &SuspensionScene::seed);
+  suspension.word("orientation", {"random", "aligned"}, "random takes the place of rotation in [shape]",
+                  &SuspensionScene::orientation);
+  suspension.key("gap", not_negative, {"", "1", "least distance of two vesicles over the radius √(area/4π)"},
+                 &SuspensionScene::gap);
 }
 
-/// The waveform of a field or flow; its owner comes with it.
-template <typename Member>
-TableDescription waveform_table(std::string_view name, std::string_view description,
-                                std::optional<Member> Scene::*member) {
-  return {name, description, false,
-          [member](const Scene& scene) { return (scene.*member).has_value() && (scene.*member)->waveform.has_value(); },
-          [member](Scene& scene) {
-            if (!(scene.*member)) (scene.*member).emplace();
-            (scene.*member)->waveform.emplace();
-          }};
+Rows make_rows() {
+  Rows rows;
+  const auto whole = [](auto& scene) -> auto& { return scene; };
+  Table scene(rows, {"", "", true, [](const Scene&) { return true; }, [](Scene&) {}}, whole);
+  add_units(scene);
+  add_shape(scene);
+  add_membrane(scene);
+  add_fluid(scene);
+  add_gravity_and_contact(scene);
+  add_flow(scene);
+  add_electric(scene);
+  add_poration(scene);
+  add_numerics(scene);
+  add_output(scene);
+  add_suspension(scene);
+  return rows;
 }
 
-/// An effect that the scene has exactly if it has the table.
-template <typename Member>
-TableDescription optional_table(std::string_view name, std::string_view description,
-                                std::optional<Member> Scene::*member) {
-  return {name, description, false, [member](const Scene& scene) { return (scene.*member).has_value(); },
-          [member](Scene& scene) { (scene.*member).emplace(); }};
-}
-
-void add_suspension_keys(KeyTable& table) {
-  table.begin("suspension");
-  table
-      .add_word("kind", {"box", "ball"}, "the region; every vesicle is within it as a whole", suspension,
-                &SuspensionScene::kind)
-      .required = true;
-  table.begin("suspension", {"box"});
-  table.add("size", positive, {"", "length", "along x, y, z"}, suspension, &SuspensionScene::size).required = true;
-  table.begin("suspension", {"ball"});
-  table.add("radius", positive, {"", "length", "of the ball"}, suspension, &SuspensionScene::radius).required = true;
-  table.begin("suspension");
-  table.add("centre", any_number, {"", "length", "of the region"}, suspension, &SuspensionScene::centre);
-  table.add("count", {1.0, 1e9}, {"", "1", "number of vesicles; or volume_fraction"}, suspension,
-            &SuspensionScene::count);
-  table.add("volume_fraction", {0.0, 1.0, true}, {"", "1", "of the vesicles in the region; or count"}, suspension,
-            &SuspensionScene::volume_fraction);
-  table.add("seed", {0.0, 1e9}, {"", "1", "of the random places and orientations"}, suspension, &SuspensionScene::seed);
-  table.add_word("orientation", {"random", "aligned"}, "random takes the place of rotation in [shape]", suspension,
-                 &SuspensionScene::orientation);
-  table.add("gap", not_negative, {"", "1", "least distance of two vesicles over the radius √(area/4π)"}, suspension,
-            &SuspensionScene::gap);
+const Rows& all_rows() {
+  static const Rows rows = make_rows();
+  return rows;
 }
 
 }  // namespace
 
-std::vector<TableDescription> table_rows() {
-  std::vector<TableDescription> rows = {
-      optional_table("units", "what 1 means; absent: values are dimensionless", &Scene::units),
-      always_present("shape", "initial shape", true),
-      always_present("membrane", "mechanical and electric properties of the membrane"),
-      always_present("fluid", "the fluids inside and outside"),
-      optional_table("gravity", "weight of the inner fluid; absent: none", &Scene::gravity),
-      optional_table("contact", "potential between different vesicles; absent: none", &Scene::contact),
-      optional_table("flow", "background flow; absent: quiescent", &Scene::flow),
-      waveform_table("flow.waveform", "factor of the flow in time; absent: 1", &Scene::flow),
-      optional_table("electric", "applied field; absent: nothing electric is assembled", &Scene::electric),
-      waveform_table("electric.waveform", "factor of the field in time; absent: 1", &Scene::electric),
-      optional_table("poration", "what the membrane does beyond a threshold; absent: nothing", &Scene::poration),
-      always_present("numerics", "resolution in space and time", true),
-      always_present("output", "what is written"),
-      optional_table("suspension", "copies of the vesicle at random places; absent: none", &Scene::suspension),
-  };
-  const auto fluid_row = std::ranges::find(rows, "fluid", &TableDescription::name);
-  std::vector<TableDescription> of_places = place_tables();
-  rows.insert(fluid_row, of_places.begin(), of_places.end());
-  return rows;
-}
+const std::vector<TableDescription>& scene_tables() { return all_rows().tables; }
 
-std::vector<KeyDescription> key_rows() {
-  KeyTable table;
-  add_units_keys(table);
-  add_shape_keys(table);
-  add_membrane_keys(table);
-  add_place_keys(table);
-  add_waveform_keys(table, "membrane.pump.waveform", pump_waveform);
-  add_fluid_keys(table);
-  add_gravity_keys(table);
-  add_contact_keys(table);
-  add_flow_keys(table);
-  add_electric_keys(table);
-  add_poration_keys(table);
-  add_numerics_keys(table);
-  add_output_keys(table);
-  add_suspension_keys(table);
-  return table.take();
-}
+const std::vector<KeyDescription>& scene_keys() { return all_rows().keys; }
 
 }  // namespace vehd

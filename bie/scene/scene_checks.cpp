@@ -1,19 +1,20 @@
-#include "bie/scene/scene_checks.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
+#include "bie/files/run_reader.hpp"
+#include "bie/geometry/roundness.hpp"
+#include "bie/scene/checks.hpp"
+#include "bie/scene/initial_material.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/placement.hpp"
-#include "bie/scene/problem.hpp"
-#include "bie/scene/schema.hpp"
-#include "bie/scene/toml_values.hpp"
+#include "bie/scene/shape_file.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/scene/waveforms.hpp"
-#include "bie/support/errors.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 namespace {
@@ -25,179 +26,71 @@ constexpr double most_steps = 1e9;
 constexpr double trace_tolerance = 1e-12;
 /// A step as long as the period would see an alternating field as constant.
 constexpr double fewest_fixed_steps_a_period = 4.0;
+/// Of a cap that the degree cuts, over its step: what it may be wrong by, and hence fall below zero.
+constexpr double largest_truncation = 0.02;
 
-class Checks {
+class SceneChecks {
  public:
-  Checks(const Scene& scene, const toml::table& table, const std::string& file, bool is_heavy)
-      : scene_(scene), table_(table), file_(file), is_heavy_(is_heavy) {}
+  SceneChecks(Scene& scene, const TomlFile& file, bool is_heavy) : scene_(scene), file_(file), is_heavy_(is_heavy) {}
 
-  void run() const {
+  void run() {
     check_steps();
-    check_placement();
-    if (scene_.shape.kind == ShapeKind::radial) check_radial_shape();
+    check_shape();
     if (scene_.flow && scene_.flow->kind == FlowKind::gradient) check_gradient();
-    if (scene_.electric) check_conductivities();
-    if (scene_.electric) check_displacement_current();
-    if (scene_.electric && has_averaged_field(scene_)) check_average();
-    if (scene_.electric && has_relaxing_charge(scene_)) check_relaxing_charge();
+    if (scene_.electric) check_electric(*scene_.electric);
     check_effects();
-    if (scene_.flow && scene_.flow->waveform) check_waveform("flow.waveform", *scene_.flow->waveform);
-    if (scene_.electric && scene_.electric->waveform) {
-      check_waveform("electric.waveform", *scene_.electric->waveform);
-    }
-    if (const auto& pump = scene_.membrane.pump; pump && pump->waveform) {
-      check_waveform("membrane.pump.waveform", *pump->waveform);
-    }
+    if (scene_.flow) check_waveform("flow.waveform", scene_.flow->waveform);
+    if (scene_.electric) check_waveform("electric.waveform", scene_.electric->waveform);
+    if (scene_.membrane.pump) check_waveform("membrane.pump.waveform", scene_.membrane.pump->waveform);
     check_periods();
-    check_windows();
-    check_counts();
     check_output();
+    check_places();
+    check_shape_file();
+    check_size();
+    if (scene_.poration) check_poration(*scene_.poration);
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view table, std::string_view key, const std::string& problem) const {
-    refuse_key(table_, table, key, file_, problem);
+  /// @param problem  {0} or the first {} is "key" in [table]
+  template <typename... Arguments>
+  void refuse_if(bool is_wrong, std::string_view table, std::string_view key,
+                 fmt::format_string<const std::string&, const Arguments&...> problem,
+                 const Arguments&... arguments) const {
+    if (!is_wrong) return;
+    const std::string called = fmt::format("\"{}\" in [{}]", key, table);
+    file_.refuse_key(table, key, "{}", fmt::format(problem, called, arguments...));
   }
 
-  void check_effects() const {
-    const bool heavy = scene_.fluid.density_difference != 0.0;
-    if (scene_.gravity && !heavy && !is_heavy_) {
-      refuse("gravity", "acceleration",
-             "[gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
-    }
-    if (heavy && !scene_.gravity) {
-      refuse("fluid", "density_difference", "\"density_difference\" in [fluid] has no effect without [gravity]");
-    }
-    if (scene_.gravity && scene_.gravity->acceleration == Triple{}) {
-      refuse("gravity", "acceleration", "\"acceleration\" in [gravity] is 0; accepted: a vector that is not zero");
-    }
-    if (scene_.membrane.spontaneous_curvature != 0.0 && !(scene_.membrane.bending_modulus.value_or(0.0) > 0.0)) {
-      refuse("membrane", "spontaneous_curvature",
-             "\"spontaneous_curvature\" in [membrane] has no effect without \"bending_modulus\"");
-    }
-    if (!scene_.membrane.mobile && !scene_.electric) {
-      refuse("membrane", "mobile", "\"mobile\" in [membrane] is false without [electric]: nothing would ever change");
-    }
+  void check_steps() const {
+    const NumericsScene& n = scene_.numerics;
+    refuse_if(!n.dt && !n.tolerance, "numerics", "dt",
+              "missing key \"dt\" in [numerics] (largest time step); accepted: > 0, or a \"tolerance\"");
+    refuse_if(n.tolerance && n.time_order < 2, "numerics", "time_order",
+              "{} is 1, which has no error estimate; accepted with a tolerance: 2 to 5");
   }
 
-  void check_displacement_current() const {
-    if (!scene_.electric->displacement_current) return;
-    if (!table_["electric"]["permittivity"]) {
-      refuse("electric", "displacement_current",
-             "\"displacement_current\" in [electric] needs \"permittivity\" there, whose default is not that of any "
-             "fluid");
-    }
-  }
-
-  void check_relaxing_charge() const {
-    const ElectricScene& electric = *scene_.electric;
-    if (electric.initial_potential == InitialPotential::file) {
-      refuse("electric", "initial_Vm",
-             "\"initial_Vm\" in [electric] is file, but with \"displacement_current\" the charges of both faces count, "
-             "which "
-             "no file has; accepted: zero, steady");
-    }
-    if (electric.initial_potential == InitialPotential::steady &&
-        (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0)) {
-      refuse("electric", "initial_Vm",
-             "\"initial_Vm\" in [electric] is steady, but a conductivity is 0; accepted with \"displacement_current\": "
-             "zero");
-    }
-  }
-
-  void check_average() const {
-    if (scene_.electric->initial_potential != InitialPotential::zero) {
-      refuse("electric", "initial_Vm",
-             "\"initial_Vm\" in [electric] has no effect with \"average\" in [electric.waveform]; accepted: zero");
-    }
-    if (scene_.electric->waveform->phase != 0.0) {
-      refuse("electric.waveform", "phase",
-             "\"phase\" in [electric.waveform] has no effect with \"average\"; accepted: 0");
-    }
-  }
-
-  void check_waveform(const std::string& table, const WaveformScene& waveform) const {
-    switch (waveform.kind) {
-      case WaveformKind::dc:
-      case WaveformKind::ac:
-      case WaveformKind::pulse:
-        break;
-      case WaveformKind::pulse_train:
-        if (waveform.period > waveform.duration) break;
-        refuse(table, "period",
-               fmt::format("\"period\" in [{}] is {:g}; accepted: more than the duration {:g}", table, waveform.period,
-                           waveform.duration));
-      case WaveformKind::table:
-        check_waveform_table(table, waveform);
-    }
-  }
-
-  /// Of fixed steps.
-  void check_periods() const {
-    if (!scene_.numerics.dt) return;
-    for (const ActingWaveform& acting : acting_waveforms(scene_)) {
-      if (acting.waveform->kind != WaveformKind::ac) continue;
-      const double steps = 1.0 / (acting.waveform->frequency * *scene_.numerics.dt);
-      if (steps >= fewest_fixed_steps_a_period) continue;
-      refuse(acting.table, "frequency",
-             fmt::format("\"dt\" in [numerics] takes {:.3g} steps a period of [{}]; accepted: at least {:g}", steps,
-                         acting.table, fewest_fixed_steps_a_period));
-    }
-  }
-
-  void check_waveform_table(const std::string& table, const WaveformScene& waveform) const {
-    const auto refuse_times = [&](const std::string& problem) {
-      refuse(table, "times", fmt::format("the table of [{}] {}", table, problem));
-    };
-    const auto& times = waveform.times;
-    if (times.size() != waveform.values.size()) {
-      refuse_times(
-          fmt::format("has {} times and {} values; accepted: as many of either", times.size(), waveform.values.size()));
-    }
-    if (times.size() < 2) refuse_times(fmt::format("has {} entries; accepted: at least 2", times.size()));
-    const auto fall = std::is_sorted_until(times.begin(), times.end());
-    if (fall != times.end()) refuse_times(fmt::format("falls to the time {:g}; accepted: ascending times", *fall));
-    for (std::size_t i = 2; i < times.size(); ++i) {
-      if (times[i] == times[i - 2]) {
-        refuse_times(fmt::format("has the time {:g} three times; accepted: twice, which makes a jump", times[i]));
-      }
-    }
-  }
-
-  void check_placement() const {
+  void check_shape() const {
     const ShapeScene& shape = scene_.shape;
-    if (shape.area && shape.scale) {
-      refuse("shape", "scale", "\"scale\" in [shape] together with \"area\"; accepted: one of them");
-    }
-    if (shape.rotation && (*shape.rotation)[0] == 0.0 && (*shape.rotation)[1] == 0.0 && (*shape.rotation)[2] == 0.0) {
-      refuse("shape", "rotation", "\"rotation\" in [shape] has the axis 0, 0, 0; accepted: an axis that is not zero");
-    }
-  }
-
-  void check_radial_shape() const {
-    const ShapeScene& shape = scene_.shape;
+    refuse_if(shape.area && shape.scale, "shape", "scale", "{} together with \"area\"; accepted: one of them");
+    const AxisAngle turn = shape.rotation.value_or(AxisAngle{1.0});
+    refuse_if(turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0, "shape", "rotation",
+              "{} has the axis 0, 0, 0; accepted: an axis that is not zero");
+    if (shape.kind != ShapeKind::radial) return;
     // The effective scene spells out every default.
-    if (!shape.amplitude && shape.exponent != ShapeScene{}.exponent) {
-      refuse("shape", "exponent", "\"exponent\" in [shape] has no effect without \"amplitude\"");
-    }
+    refuse_if(!shape.amplitude && shape.exponent != ShapeScene{}.exponent, "shape", "exponent",
+              "{} has no effect without \"amplitude\"");
     for (std::size_t i = 0; i < shape.modes.size(); ++i) {
       if (shape.modes[i].n <= scene_.numerics.order) continue;
-      const toml::node& entry = *table_["shape"]["modes"][i].node();
-      throw InputError(
-          fmt::format("{}: \"modes\" in [shape] has the degree n = {}; accepted: at most the degree {} of [numerics]",
-                      place(entry, file_), shape.modes[i].n, scene_.numerics.order));
+      file_.refuse(*file_.table["shape"]["modes"][i].node(),
+                   "\"modes\" in [shape] has the degree n = {}; accepted: at most the degree {} of [numerics]",
+                   shape.modes[i].n, scene_.numerics.order);
     }
     const Extremes radius = radius_extremes(scene_);
-    if (!(radius.least > 0.0)) {
-      refuse(
-          "shape", "modes",
-          fmt::format("the radius in [shape] falls to {}; accepted: > 0 and finite in every direction", radius.least));
-    }
-    if (!size_range.contains(radius.least) || !size_range.contains(radius.most)) {
-      refuse("shape", "modes",
-             fmt::format("the radius in [shape] is {:.3g} to {:.3g}; accepted: {}", radius.least, radius.most,
-                         size_range.text()));
-    }
+    refuse_if(!(radius.least > 0.0), "shape", "modes",
+              "the radius in [shape] falls to {1}; accepted: > 0 and finite in every direction", radius.least);
+    refuse_if(!size_range.contains(radius.least) || !size_range.contains(radius.most), "shape", "modes",
+              "the radius in [shape] is {1:.3g} to {2:.3g}; accepted: {3}", radius.least, radius.most,
+              size_range.text());
   }
 
   void check_gradient() const {
@@ -207,28 +100,79 @@ class Checks {
       for (const double entry : row) largest = std::max(largest, std::abs(entry));
     }
     const double trace = gradient[0][0] + gradient[1][1] + gradient[2][2];
-    if (!(std::abs(trace) <= trace_tolerance * largest)) {
-      refuse("flow", "gradient",
-             fmt::format("\"gradient\" in [flow] has the trace {}; accepted: 0 (incompressible flow)", trace));
+    refuse_if(!(std::abs(trace) <= trace_tolerance * largest), "flow", "gradient",
+              "{} has the trace {}; accepted: 0 (incompressible flow)", trace);
+  }
+
+  void check_electric(const ElectricScene& electric) const {
+    const bool steady = electric.initial_potential == InitialPotential::steady;
+    const bool insulates = electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0;
+    refuse_if(electric.conductivity_in == 0.0 && electric.conductivity_out == 0.0, "electric", "conductivity_in",
+              "\"conductivity_in\" and \"conductivity_out\" in [electric] are both 0; accepted: at least one > 0");
+    refuse_if(electric.displacement_current && !file_.table["electric"]["permittivity"], "electric",
+              "displacement_current", "{} needs \"permittivity\" there, whose default is not that of any fluid");
+    if (has_averaged_field(scene_)) {
+      refuse_if(electric.initial_potential != InitialPotential::zero, "electric", "initial_Vm",
+                "{} has no effect with \"average\" in [electric.waveform]; accepted: zero");
+      refuse_if(electric.waveform->phase != 0.0, "electric.waveform", "phase",
+                "{} has no effect with \"average\"; accepted: 0");
+    }
+    if (!has_relaxing_charge(scene_)) return;
+    refuse_if(electric.initial_potential == InitialPotential::file, "electric", "initial_Vm",
+              "{} is file, but with \"displacement_current\" the charges of both faces count, which no file has; "
+              "accepted: zero, steady");
+    refuse_if(steady && insulates, "electric", "initial_Vm",
+              "{} is steady, but a conductivity is 0; accepted with \"displacement_current\": zero");
+  }
+
+  void check_effects() const {
+    const MembraneScene& membrane = scene_.membrane;
+    const bool heavy = scene_.fluid.density_difference != 0.0;
+    refuse_if(scene_.gravity && !heavy && !is_heavy_, "gravity", "acceleration",
+              "[gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
+    refuse_if(heavy && !scene_.gravity, "fluid", "density_difference", "{} has no effect without [gravity]");
+    refuse_if(scene_.gravity && scene_.gravity->acceleration == Triple{}, "gravity", "acceleration",
+              "{} is 0; accepted: a vector that is not zero");
+    refuse_if(membrane.spontaneous_curvature != 0.0 && !(membrane.bending_modulus.value_or(0.0) > 0.0), "membrane",
+              "spontaneous_curvature", "{} has no effect without \"bending_modulus\"");
+    refuse_if(!membrane.mobile && !scene_.electric, "membrane", "mobile",
+              "{} is false without [electric]: nothing would ever change");
+  }
+
+  void check_waveform(std::string_view table, const std::optional<WaveformScene>& waveform) const {
+    if (!waveform) return;
+    if (waveform->kind == WaveformKind::pulse_train) {
+      refuse_if(waveform->period <= waveform->duration, table, "period",
+                "{} is {:g}; accepted: more than the duration {:g}", waveform->period, waveform->duration);
+    }
+    if (waveform->kind != WaveformKind::table) return;
+    const auto& times = waveform->times;
+    refuse_if(times.size() != waveform->values.size(), table, "times",
+              "the table of [{1}] has {2} times and {3} values; accepted: as many of either", table, times.size(),
+              waveform->values.size());
+    refuse_if(times.size() < 2, table, "times", "the table of [{1}] has {2} entries; accepted: at least 2", table,
+              times.size());
+    const auto fall = std::ranges::is_sorted_until(times);
+    if (fall != times.end()) {
+      file_.refuse_key(table, "times", "the table of [{}] falls to the time {:g}; accepted: ascending times", table,
+                       *fall);
+    }
+    for (std::size_t i = 2; i < times.size(); ++i) {
+      refuse_if(times[i] == times[i - 2], table, "times",
+                "the table of [{1}] has the time {2:g} three times; accepted: twice, which makes a jump", table,
+                times[i]);
     }
   }
 
-  void check_conductivities() const {
-    if (scene_.electric->conductivity_in == 0.0 && scene_.electric->conductivity_out == 0.0) {
-      refuse("electric", "conductivity_in",
-             "\"conductivity_in\" and \"conductivity_out\" in [electric] are both 0; accepted: at least one > 0");
-    }
-  }
-
-  void check_steps() const {
-    const NumericsScene& numerics = scene_.numerics;
-    if (!numerics.dt && !numerics.tolerance) {
-      refuse("numerics", "dt",
-             "missing key \"dt\" in [numerics] (largest time step); accepted: > 0, or a \"tolerance\"");
-    }
-    if (numerics.tolerance && numerics.time_order < 2) {
-      refuse("numerics", "time_order",
-             "\"time_order\" in [numerics] is 1, which has no error estimate; accepted with a tolerance: 2 to 5");
+  /// Of fixed steps.
+  void check_periods() const {
+    if (!scene_.numerics.dt) return;
+    for (const ActingWaveform& acting : acting_waveforms(scene_)) {
+      if (acting.waveform->kind != WaveformKind::ac) continue;
+      const double steps = 1.0 / (acting.waveform->frequency * *scene_.numerics.dt);
+      refuse_if(steps < fewest_fixed_steps_a_period, acting.table, "frequency",
+                "\"dt\" in [numerics] takes {1:.3g} steps a period of [{2}]; accepted: at least {3:g}", steps,
+                acting.table, fewest_fixed_steps_a_period);
     }
   }
 
@@ -242,98 +186,231 @@ class Checks {
     std::vector<Demand> demands;
     if (numerics.dt) demands.push_back({"numerics", "dt", numerics.end_time / *numerics.dt});
     for (const ActingWaveform& acting : acting_waveforms(scene_)) {
-      demands.push_back(
-          {acting.table, steps_key(acting.waveform->kind), fewest_steps(*acting.waveform, numerics.end_time)});
+      const WaveformKind kind = acting.waveform->kind;
+      const char* key = kind == WaveformKind::ac ? "frequency" : kind == WaveformKind::pulse_train ? "period" : "kind";
+      demands.push_back({acting.table, key, fewest_steps(*acting.waveform, numerics.end_time)});
     }
     double steps = 0.0;
     for (const Demand& demand : demands) steps += demand.steps;
     if (steps <= most_steps) return;
     const Demand& largest = *std::ranges::max_element(demands, {}, &Demand::steps);
-    refuse(largest.table, largest.key,
-           fmt::format("\"{}\" in [{}] asks for {:.3g} steps; accepted: at most {:g}", largest.key, largest.table,
-                       largest.steps, most_steps));
-  }
-
-  /// The key of a waveform on which its steps depend.
-  static std::string_view steps_key(WaveformKind kind) {
-    if (kind == WaveformKind::ac) return "frequency";
-    return kind == WaveformKind::pulse_train ? "period" : "kind";
-  }
-
-  void check_counts() const {
-    const NumericsScene& numerics = scene_.numerics;
-    require_few_steps();
-    const OutputScene& output = scene_.output;
-    double count = output.every ? numerics.end_time / *output.every : 0.0;
-    const auto require_few = [&](std::string_view key) {
-      if (count <= most_snapshots) return;
-      refuse("output", key,
-             fmt::format("\"{}\" in [output] asks for {:.3g} snapshots; accepted: at most {:g}", key, count,
-                         most_snapshots));
-    };
-    require_few("every");
-    for (const OutputWindow& window : output.windows) {
-      count += std::max(0.0, std::min(window.to, numerics.end_time) - window.from) / window.every;
-    }
-    require_few("window");
-    count += static_cast<double>(output.times.size());
-    require_few("times");
+    refuse_if(true, largest.table, largest.key, "{} asks for {:.3g} steps; accepted: at most {:g}", largest.steps,
+              most_steps);
   }
 
   void check_output() const {
     const OutputScene& output = scene_.output;
-    const auto fall = std::is_sorted_until(output.times.begin(), output.times.end());
+    const double end = scene_.numerics.end_time;
+    for (const OutputWindow& window : output.windows) {
+      refuse_if(!(window.every > 0.0 && window.to > window.from), "output", "window",
+                "{} goes from {:g} to {:g} every {:g}; accepted: a later \"to\" and an \"every\" > 0", window.from,
+                window.to, window.every);
+    }
+    require_few_steps();
+    double count = 0.0;
+    const auto add = [&](std::string_view key, double more) {
+      count += more;
+      refuse_if(count > most_snapshots, "output", key, "{} asks for {:.3g} snapshots; accepted: at most {:g}", count,
+                most_snapshots);
+    };
+    if (output.every) add("every", end / *output.every);
+    double in_windows = 0.0;
+    for (const OutputWindow& window : output.windows) {
+      in_windows += std::max(0.0, std::min(window.to, end) - window.from) / window.every;
+    }
+    add("window", in_windows);
+    add("times", static_cast<double>(output.times.size()));
+    const auto fall = std::ranges::is_sorted_until(output.times);
     if (fall != output.times.end()) {
-      refuse("output", "times", fmt::format("\"times\" in [output] falls to {:g}; accepted: ascending times", *fall));
+      file_.refuse_key("output", "times", "\"times\" in [output] falls to {:g}; accepted: ascending times", *fall);
     }
-    if (output.units == ResultUnits::si && !scene_.units) {
-      refuse("output", "units", "\"units\" in [output] is \"si\", but the scene has no table [units]");
-    }
+    refuse_if(output.units == ResultUnits::si && !scene_.units, "output", "units",
+              "{} is \"si\", but the scene has no table [units]");
   }
 
-  /// Before any count of theirs.
-  void check_windows() const {
-    for (const OutputWindow& window : scene_.output.windows) {
-      if (window.every > 0.0 && window.to > window.from) continue;
-      refuse("output", "window",
-             fmt::format("\"window\" in [output] goes from {:g} to {:g} every {:g}; accepted: a later \"to\" and an "
-                         "\"every\" > 0",
-                         window.from, window.to, window.every));
+  /// Properties by place and the pump.
+  void check_places() const {
+    enum class Sign { any, not_negative, positive };
+    struct Property {
+      std::string_view table;
+      const PlaceScene* places;
+      bool is_electric;
+      std::string_view key;  ///< in [membrane], of the value that is multiplied
+      double value;
+      Sign sign;
+    };
+    const MembraneScene& m = scene_.membrane;
+    const auto pointer = [](const auto& places) -> const PlaceScene* { return places ? &*places : nullptr; };
+    const std::vector<Property> properties = {{"membrane.capacitance_by_place", pointer(m.capacitance_by_place), true,
+                                               "capacitance", m.capacitance, Sign::positive},
+                                              {"membrane.conductance_by_place", pointer(m.conductance_by_place), true,
+                                               "conductance", m.conductance, Sign::not_negative},
+                                              {"membrane.bending_by_place", pointer(m.bending_by_place), false,
+                                               "bending_modulus", m.bending_modulus.value_or(0.0), Sign::positive},
+                                              {"membrane.curvature_by_place", pointer(m.curvature_by_place), false,
+                                               "spontaneous_curvature", m.spontaneous_curvature, Sign::any},
+                                              {"membrane.pump", pointer(m.pump), true, "", 1.0, Sign::any}};
+    for (const Property& property : properties) {
+      if (property.places == nullptr) continue;
+      refuse_if(property.is_electric && !scene_.electric, property.table, "kind",
+                "[{1}] has no effect without [electric]", property.table);
+      refuse_if(!property.is_electric && !m.mobile, property.table, "kind",
+                "[{1}] has no effect while \"mobile\" in [membrane] is false", property.table);
+      check_factor(property.table, *property.places);
     }
+    for (const Property& property : properties) {
+      if (property.places == nullptr) continue;
+      refuse_if(property.value == 0.0, property.table, "kind", "[{1}] has no effect: \"{2}\" in [membrane] is 0",
+                property.table, property.key);
+      if (property.sign == Sign::any) continue;
+      const int degree = scene_.numerics.order;
+      const Vector factor =
+          SphereTransform(degree, make_grid(2 * degree)).synthesize(place_factor(*property.places, degree));
+      const double least = factor.minCoeff();
+      const bool may_vanish = property.sign == Sign::not_negative;
+      // A cut cap falls below zero.
+      refuse_if(!(may_vanish ? least >= -largest_truncation * factor.maxCoeff() : least > 0.0), property.table, "kind",
+                "the factor in [{1}] falls to {2:.3g}; accepted: {3} everywhere", property.table, least,
+                may_vanish ? ">= 0" : "> 0");
+    }
+    if (m.pump) check_pump(*m.pump);
   }
 
-  const Scene& scene_;
-  const toml::table& table_;
-  const std::string& file_;
+  void check_factor(std::string_view table, const PlaceScene& places) const {
+    const int degree = scene_.numerics.order;
+    for (const HarmonicMode& mode : places.modes) {
+      refuse_if(mode.n > degree, table, "modes",
+                "{} has the degree n = {}; accepted: at most the degree {} of [numerics]", mode.n, degree);
+    }
+    if (places.kind != PlaceKind::cap) return;
+    refuse_if(places.axis == Triple{}, table, "axis", "{} is 0, 0, 0; accepted: a vector that is not zero");
+    refuse_if(places.angle_deg == 180.0, table, "angle_deg", "{} is 180; accepted: less");
+    const double truncation = place_truncation(places, degree);
+    refuse_if(truncation > largest_truncation, table, "width_deg",
+              "the edge of the cap in [{1}] is wrong by {2:.2g} of its step at the degree {3} of [numerics]; accepted: "
+              "at most {4:g}, by a wider \"width_deg\" or a higher degree",
+              table, truncation, degree, largest_truncation);
+  }
+
+  void check_pump(const PumpScene& pump) const {
+    refuse_if(has_averaged_field(scene_), "membrane.pump", "current",
+              "\"average\" in [electric.waveform] is true with [membrane.pump], whose current has a time of its own; "
+              "accepted: false");
+    refuse_if(pump.current == 0.0, "membrane.pump", "current", "{} is 0: it has no effect; accepted: any other");
+    refuse_if(scene_.membrane.conductance == 0.0 && scene_.electric->initial_potential == InitialPotential::steady,
+              "membrane.pump", "current",
+              "a pump and a steady \"initial_Vm\" in [electric] with \"conductance\" 0 in [membrane], where the pump "
+              "never comes to rest; accepted: a conductance > 0, or zero");
+  }
+
+  void check_shape_file() {
+    const ShapeScene& shape = scene_.shape;
+    if (shape.kind != ShapeKind::file) {
+      refuse_if(takes_stored_potential(scene_), "electric", "initial_Vm",
+                "{} is file, but the shape is from none; accepted: zero, steady");
+      return;
+    }
+    std::error_code error;
+    refuse_if(!std::filesystem::is_regular_file(shape.path, error), "shape", "path", "{} is {}: no such file",
+              shape.path);
+    const RunReader run(shape.path);
+    refuse_if(run.n_vesicles() > 1, "shape", "path", "{} is {}, which holds {} vesicles; accepted: a run of one",
+              shape.path, run.n_vesicles());
+    const auto units = units_of(run);
+    if (!shape.area) {
+      require_scale(units, "length", &UnitsScene::length, "shape", "path", "\"area\" in [shape], which sets the size");
+    }
+    if (shape.time) {
+      require_scale(units, "time", &UnitsScene::time, "shape", "time", "no \"time\", for the last snapshot");
+      const double factor = *conversion(units, scene_.units, &UnitsScene::time);
+      const double time = *shape.time / factor;
+      refuse_if(!run.find(time), "shape", "time", "{} is {:g}, at which {} has no snapshot; the nearest is at {:g}",
+                *shape.time, shape.path, run.times()[run.nearest(time)] * factor);
+    }
+    if (!scene_.electric || has_averaged_field(scene_) || has_relaxing_charge(scene_)) return;
+    const bool has_potential = ShapeFile(scene_).has_potential();
+    if (has_potential && !file_.table["electric"]["initial_Vm"].is_string()) {
+      scene_.electric->initial_potential = InitialPotential::file;
+    }
+    if (!takes_stored_potential(scene_)) return;
+    refuse_if(!has_potential, "electric", "initial_Vm", "{} is file, but {} has no V_m; accepted: zero, steady",
+              shape.path);
+    require_scale(units, "potential", &UnitsScene::potential, "electric", "initial_Vm",
+                  "\"initial_Vm\" zero or steady");
+  }
+
+  /// @param way_out  what makes the scale unnecessary
+  void require_scale(const std::optional<UnitsScene>& of_run, std::string_view name,
+                     std::optional<double> UnitsScene::*scale, std::string_view table, std::string_view key,
+                     std::string_view way_out) const {
+    if (conversion(of_run, scene_.units, scale)) return;
+    const bool run_has_it = of_run && *of_run.*scale;
+    const std::string this_scene = "this scene";
+    refuse_if(true, table, key, "{} needs a reference {}, which {} has and {} has not; accepted: {}, or {}", name,
+              run_has_it ? scene_.shape.path : this_scene, run_has_it ? this_scene : scene_.shape.path,
+              run_has_it ? fmt::format("\"{}\" in [units]", name) : "a run of a scene with [units]", way_out);
+  }
+
+  /// Area and volume must be positive and finite.
+  void check_size() const {
+    // About its own centre: the volume of a far shape would have no digits left.
+    Scene centred = scene_;
+    centred.shape.centre = {};
+    const ShapeSize size = size_of(initial_position(centred));
+    const auto is_accepted = [](double value) { return value > 0.0 && std::isfinite(value); };
+    if (is_accepted(size.area) && is_accepted(size.volume)) return;
+    file_.refuse(*file_.table.get("shape"),
+                 "the shape in [shape] has the area {:g} and the volume {:g}; accepted: > 0 and finite", size.area,
+                 size.volume);
+  }
+
+  void check_poration(const PorationScene& poration) const {
+    refuse_if(has_averaged_field(scene_), "poration", "model",
+              "\"average\" in [electric.waveform] is true with [poration], which asks for V_m at every moment; "
+              "accepted: false");
+    if (poration.model == PorationModel::criterion) {
+      refuse_if(!poration.threshold_potential && !poration.lysis_tension, "poration", "model",
+                "missing key \"threshold_Vm\" or \"lysis_tension\" in [poration]; accepted: one or both");
+      refuse_if(poration.threshold_potential && !scene_.electric, "poration", "threshold_Vm",
+                "{} has no effect without [electric]");
+      if (!poration.lysis_tension) return;
+      refuse_if(!(scene_.membrane.inextensible && scene_.membrane.mobile), "poration", "lysis_tension",
+                "{} has no effect without a tension; accepted: \"inextensible\" and \"mobile\" in [membrane] true");
+      refuse_if(is_sphere(), "poration", "lysis_tension",
+                "{} of a sphere: a uniform tension of any size moves nothing there, so the tension is not determined; "
+                "accepted: another [shape], or \"threshold_Vm\" alone");
+      return;
+    }
+    refuse_if(!scene_.electric, "poration", "model",
+              "[poration] acts on nothing without [electric]; accepted: model = criterion");
+    const ElectricScene& electric = *scene_.electric;
+    refuse_if(electric.initial_potential == InitialPotential::steady, "poration", "model",
+              "[poration] with a steady \"initial_Vm\" in [electric], under which a membrane would porate at once; "
+              "accepted: zero or file");
+    refuse_if(poration.model == PorationModel::porosity && poration.resealing_time <= poration.poration_time,
+              "poration", "resealing_time", "{} is {:g}; accepted: more than the \"poration_time\" {:g}",
+              poration.resealing_time, poration.poration_time);
+    refuse_if(poration.model == PorationModel::pores && !poration.pore_conductivity &&
+                  (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0),
+              "poration", "model",
+              "missing key \"pore_conductivity\" in [poration]: a conductivity in [electric] is 0; accepted: > 0");
+  }
+
+  [[nodiscard]] bool is_sphere() const {
+    const Matrix position = initial_position(scene_);
+    const int order = order_of(position.rows());
+    const Surface shape = make_surface(SphereTransform(order, make_grid(order)), position);
+    const double radius = std::sqrt(surface_area(shape) / (4.0 * std::numbers::pi));
+    return distance_variation(shape) < thresholds::sphere_variation * radius;
+  }
+
+  Scene& scene_;
+  const TomlFile& file_;
   bool is_heavy_;  ///< something else has a weight
 };
 
 }  // namespace
 
-void check_scene(const Scene& scene, const toml::table& table, const std::string& file, bool is_heavy) {
-  Checks(scene, table, file, is_heavy).run();
-}
-
-void check_shape_size(const Scene& scene, const toml::table& table, const std::string& file) {
-  // About its own centre: the volume of a far shape would have no digits left.
-  Scene centred = scene;
-  centred.shape.centre = {};
-  const ShapeSize size = size_of(initial_position(centred));
-  const auto is_accepted = [](double value) { return value > 0.0 && std::isfinite(value); };
-  if (is_accepted(size.area) && is_accepted(size.volume)) return;
-  throw InputError(
-      fmt::format("{}: the shape in [shape] has the area {:g} and the volume {:g}; accepted: > 0 and finite",
-                  place(*table.get("shape"), file), size.area, size.volume));
-}
-
-void check_symmetry(const Scene& scene, const toml::table& table, const std::string& file) {
-  if (scene.numerics.symmetry != SymmetryUse::axisymmetric) return;
-  const Problem found = problem_of(scene);
-  if (found.symmetry.axisymmetric) return;
-  throw InputError(fmt::format(
-      "{}: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one axis; they have: "
-      "{}",
-      place(*table["numerics"]["symmetry"].node(), file), symmetry_text(found.symmetry, found.frame)));
-}
+void check_scene(Scene& scene, const TomlFile& file, bool is_heavy) { SceneChecks(scene, file, is_heavy).run(); }
 
 }  // namespace vehd

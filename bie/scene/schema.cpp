@@ -1,15 +1,86 @@
 #include "bie/scene/schema.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "bie/scene/key_rows.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/scene/vesicles.hpp"
 
 namespace vehd {
+namespace {
+
+/// A type of values in words.
+struct TypeWords {
+  std::string_view name;
+  std::string_view accepted;  ///< {}: the range, the words or the units of the key
+};
+constexpr std::array<TypeWords, 12> type_words = {{
+    {"boolean", "true or false"},
+    {"integer", "an integer, {}"},
+    {"number", "a number {}"},
+    {"word", "{}"},
+    {"text", "a text in quotes"},
+    {"3 numbers", "3 numbers [x, y, z], each {}"},
+    {"3 x 3 numbers", "3 rows of 3 finite numbers"},
+    {"4 numbers", "4 finite numbers [axis_x, axis_y, axis_z, degrees]"},
+    {"list of numbers", "a list of numbers, each {}"},
+    {"list of {n, m, a}", "entries {{n = degree, m = -n ... n, a = finite number}}"},
+    {"list of {from, to, every}", "entries {{from = time, to = time, every = time}}, each {}"},
+    {"text with unit", "a positive number with its unit in quotes, {}"},
+}};
+
+const TypeWords& words_of(ValueType type) { return type_words.at(static_cast<std::size_t>(type)); }
+
+/// A value in one line of TOML.
+struct TomlText {
+  std::string operator()(bool value) const { return value ? "true" : "false"; }
+  std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
+  std::string operator()(double value) const {
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".einf") == std::string::npos ? text + ".0" : text;
+  }
+  std::string operator()(const std::string& value) const {
+    std::string quoted = "\"";
+    for (const char letter : value) {
+      if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
+        quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(letter));
+        continue;
+      }
+      if (letter == '"' || letter == '\\') quoted += '\\';
+      quoted += letter;
+    }
+    return quoted + '"';
+  }
+  std::string operator()(const HarmonicMode& mode) const {
+    return fmt::format("{{n = {}, m = {}, a = {}}}", mode.n, mode.m, (*this)(mode.a));
+  }
+  std::string operator()(const OutputWindow& window) const {
+    return fmt::format("{{from = {}, to = {}, every = {}}}", (*this)(window.from), (*this)(window.to),
+                       (*this)(window.every));
+  }
+  template <typename Entry, std::size_t size>
+  std::string operator()(const std::array<Entry, size>& entries) const {
+    return list(entries);
+  }
+  template <typename Entry>
+  std::string operator()(const std::vector<Entry>& entries) const {
+    return list(entries);
+  }
+
+ private:
+  template <typename Entries>
+  [[nodiscard]] std::string list(const Entries& entries) const {
+    std::vector<std::string> parts;
+    for (const auto& entry : entries) parts.push_back((*this)(entry));
+    return fmt::format("[{}]", fmt::join(parts, ", "));
+  }
+};
+
+}  // namespace
 
 bool Range::contains(double value) const {
   return std::isfinite(value) && value <= upper && (lower_excluded ? value > lower : value >= lower);
@@ -34,14 +105,27 @@ bool KeyDescription::is_for(std::string_view kind) const {
   return kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-const std::vector<TableDescription>& scene_tables() {
-  static const std::vector<TableDescription> tables = table_rows();
-  return tables;
+std::string_view KeyDescription::type_text() const { return words_of(type).name; }
+
+std::string KeyDescription::accepted_text() const {
+  std::string detail = range.text();
+  if (type == ValueType::number && detail == Range{}.text()) return detail;
+  if (type == ValueType::word) detail = fmt::format("{}", fmt::join(words, ", "));
+  if (type == ValueType::quantity) detail = find_dimension(unit)->accepted();
+  return fmt::format(fmt::runtime(words_of(type).accepted), detail);
 }
 
-const std::vector<KeyDescription>& scene_keys() {
-  static const std::vector<KeyDescription> keys = key_rows();
-  return keys;
+std::vector<std::string_view> key_names(std::string_view table) {
+  std::vector<std::string_view> names;
+  for (const KeyDescription& key : scene_keys()) {
+    if (key.table == table && std::ranges::find(names, key.name) == names.end()) names.push_back(key.name);
+  }
+  return names;
+}
+
+const TableDescription* find_table(std::string_view name) {
+  const auto found = std::ranges::find(scene_tables(), name, &TableDescription::name);
+  return found == scene_tables().end() ? nullptr : &*found;
 }
 
 const KeyDescription* find_key(std::string_view table, std::string_view name) {
@@ -69,16 +153,12 @@ std::string kind_of(const Scene& scene, std::string_view table) {
 }
 
 bool applies(const KeyDescription& key, const Scene& scene) {
-  const auto table = std::find_if(scene_tables().begin(), scene_tables().end(),
-                                  [&](const TableDescription& candidate) { return candidate.name == key.table; });
-  return table->present(scene) && key.is_for(kind_of(scene, key.table));
+  return find_table(key.table)->present(scene) && key.is_for(kind_of(scene, key.table));
 }
 
 std::optional<Value> default_value(const KeyDescription& key) {
   Scene scene;
-  for (const TableDescription& table : scene_tables()) {
-    if (table.name == key.table) table.create(scene);
-  }
+  find_table(key.table)->create(scene);
   return key.get(scene);
 }
 
@@ -94,39 +174,31 @@ bool needs_value(const KeyDescription& key, const Scene& scene) {
   return scene.units && has_default_in_units(key) && (!key.default_has_effect || key.default_has_effect(scene));
 }
 
-namespace {
-
-/// @param names  to which those of keys in which two scenes of one vesicle differ are added
-template <typename Wanted>
-void add_differing_keys(const Scene& a, const Scene& b, const std::string& prefix, const Wanted& wanted,
-                        std::vector<std::string>& names) {
-  for (const KeyDescription& key : scene_keys()) {
-    if (!wanted(key)) continue;
-    const auto value_a = applies(key, a) ? key.get(a) : std::nullopt;
-    const auto value_b = applies(key, b) ? key.get(b) : std::nullopt;
-    const std::string name = fmt::format("{}{}.{}", prefix, key.table, key.name);
-    if (value_a != value_b && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-}
-
-}  // namespace
-
 std::vector<std::string> differing_keys(const Scene& a, const Scene& b) {
-  std::vector<std::string> names;
-  if (a.vesicles.empty() && b.vesicles.empty()) {
-    add_differing_keys(
-        a, b, "", [](const KeyDescription&) { return true; }, names);
-    return names;
-  }
   if (vesicle_names(a) != vesicle_names(b)) return {"vesicle.name"};
-  add_differing_keys(
-      a, b, "", [](const KeyDescription& key) { return !is_of_vesicle(key); }, names);
+  const bool several = !a.vesicles.empty();
+  std::vector<std::string> names;
+  const auto compare = [&](const Scene& one, const Scene& other, const std::string& prefix, bool of_vesicle) {
+    for (const KeyDescription& key : scene_keys()) {
+      if (several && is_of_vesicle(key) != of_vesicle) continue;
+      const auto value = applies(key, one) ? key.get(one) : std::nullopt;
+      const auto other_value = applies(key, other) ? key.get(other) : std::nullopt;
+      const std::string name = fmt::format("{}{}.{}", prefix, key.table, key.name);
+      if (value != other_value && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  };
+  compare(a, b, "", false);
   for (std::size_t v = 0; v < a.vesicles.size(); ++v) {
-    add_differing_keys(
-        alone(a, v), alone(b, v), fmt::format("vesicle[{}].", v),
-        [](const KeyDescription& key) { return is_of_vesicle(key); }, names);
+    compare(alone(a, v), alone(b, v), fmt::format("vesicle[{}].", v), true);
   }
   return names;
+}
+
+std::string to_toml(const Value& value) { return std::visit(TomlText{}, value); }
+
+std::string to_toml(const KeyDescription& key, const Value& value) {
+  if (key.type != ValueType::quantity) return to_toml(value);
+  return TomlText{}(fmt::format("{} {}", std::get<double>(value), find_dimension(key.unit)->si_unit()));
 }
 
 }  // namespace vehd

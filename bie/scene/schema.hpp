@@ -10,8 +10,9 @@
 
 #include "bie/scene/scene.hpp"
 
-/// The one table of scene keys. The reader, the writer, the comparison of two scenes and the reference text are all
-/// driven by it, so that a key is described in exactly one place; defaults are those of the structs in scene.hpp.
+/// The one table of scene keys (key_rows.cpp). The reader, the writer, the comparison of two scenes and the reference
+/// text are all driven by it, so that a key is described in exactly one place; defaults are those of the structs in
+/// scene.hpp.
 namespace vehd {
 
 /// `quantity` is a number that always has a unit, kept in SI; every other value is dimensionless once read.
@@ -57,6 +58,7 @@ struct KeyDescription {
   std::string_view name;
   std::string_view other_name;  ///< under which it is read as well; empty if it has none
   ValueType type = ValueType::number;
+  Value stored_as;          ///< any value of the type in which its values are stored
   std::string_view symbol;  ///< as in the paper; empty if it has none
   std::string_view unit;    ///< name of a dimension (units.hpp), "1", or empty where the value is no number
   Range range;
@@ -75,6 +77,10 @@ struct KeyDescription {
   [[nodiscard]] bool takes(double value) const;
   /// Does the key belong to this kind of its table?
   [[nodiscard]] bool is_for(std::string_view kind) const;
+  /// Its type in a word or two.
+  [[nodiscard]] std::string_view type_text() const;
+  /// What it accepts, in words.
+  [[nodiscard]] std::string accepted_text() const;
 };
 
 /// One table of a scene.
@@ -90,6 +96,12 @@ struct TableDescription {
 const std::vector<TableDescription>& scene_tables();
 /// Likewise the keys of all tables.
 const std::vector<KeyDescription>& scene_keys();
+
+/// Names of the keys of a table, each once.
+std::vector<std::string_view> key_names(std::string_view table);
+
+/// nullptr if there is none of that name.
+const TableDescription* find_table(std::string_view name);
 
 /// The first key of either name, or nullptr. A table may have rows of one name for different kinds.
 const KeyDescription* find_key(std::string_view table, std::string_view name);
@@ -120,5 +132,11 @@ bool needs_value(const KeyDescription& key, const Scene& scene);
 /// "table.key" of every value in which the scenes differ, "vesicle[0].table.key" of those of one of several vesicles;
 /// "vesicle.name" alone where they have other vesicles.
 std::vector<std::string> differing_keys(const Scene& a, const Scene& b);
+
+/// A value as TOML, numbers with as many digits as reading back exactly needs.
+std::string to_toml(const Value& value);
+
+/// The value of a key as TOML; a quantity in its SI unit.
+std::string to_toml(const KeyDescription& key, const Value& value);
 
 }  // namespace vehd

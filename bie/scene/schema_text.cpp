@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "bie/scene/key_reference.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/scene/vesicles.hpp"
@@ -63,21 +62,28 @@ vesicle. Vesicles that overlap are refused, and so is a steady `initial_Vm` of s
 several writes [files of its own](several_vesicles.md).
 )";
 
+std::string range_text(const KeyDescription& key) {
+  if (key.type == ValueType::boolean) return "true, false";
+  if (key.type == ValueType::text) return "any";
+  if (key.type == ValueType::word) return key.accepted_text();
+  return key.range.text() == Range{}.text() ? "finite" : key.range.text();
+}
+
+std::string default_text(const KeyDescription& key) {
+  if (key.required) return "required";
+  const auto value = default_value(key);
+  if (!value) return "absent";
+  return to_toml(key, *value) + (has_default_in_units(key) ? "; required with [units]" : "");
+}
+
+std::string or_dash(std::string_view text) { return text.empty() ? "–" : std::string(text); }
+
 /// The keys that every vesicle may have for itself.
 TextTable own_keys() {
   TextTable rows = {{"table", "keys"}, {"[[vesicle]]", "name"}};
   for (const std::string_view table : vesicle_tables()) {
-    std::vector<std::string> names;
-    bool whole = true;
-    for (const KeyDescription& key : scene_keys()) {
-      if (key.table != table) continue;
-      if (!is_of_vesicle(key)) {
-        whole = false;
-        continue;
-      }
-      const std::string name(key.name);
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
+    std::vector<std::string_view> names = key_names(table);
+    const bool whole = std::erase_if(names, [&](std::string_view key) { return !is_of_vesicle(table, key); }) == 0;
     rows.push_back({fmt::format("[vesicle.{}]", table), whole ? "all" : fmt::format("{}", fmt::join(names, ", "))});
   }
   return rows;
@@ -99,8 +105,7 @@ TextTable key_table(const TableDescription& table) {
 TextTable unit_table() {
   TextTable rows = {{"dimension", "reference scale", "units"}};
   for (const Dimension& dimension : dimensions()) {
-    const auto uses = [&](const KeyDescription& key) { return key.unit == dimension.name; };
-    if (std::none_of(scene_keys().begin(), scene_keys().end(), uses)) continue;
+    if (std::ranges::find(scene_keys(), dimension.name, &KeyDescription::unit) == scene_keys().end()) continue;
     rows.push_back({std::string(dimension.name), dimension.scale_text(), dimension.accepted()});
   }
   return rows;
@@ -109,6 +114,17 @@ TextTable unit_table() {
 std::string presence(const TableDescription& table) { return table.required ? " (required)" : ""; }
 
 }  // namespace
+
+std::vector<KeyReference> key_references() {
+  std::vector<KeyReference> references;
+  for (const KeyDescription& key : scene_keys()) {
+    references.push_back({std::string(key.table), std::string(key.name),
+                          key.kinds.empty() ? "all" : fmt::format("{}", fmt::join(key.kinds, ", ")),
+                          or_dash(key.symbol), std::string(key.type_text()), or_dash(key.unit), range_text(key),
+                          default_text(key), std::string(key.description)});
+  }
+  return references;
+}
 
 std::string scene_help() {
   std::string text;

@@ -9,7 +9,6 @@
 
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/schema.hpp"
-#include "bie/scene/toml_text.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

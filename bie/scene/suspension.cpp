@@ -15,10 +15,8 @@
 #include "bie/potentials/nearest_points.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/placement.hpp"
-#include "bie/scene/toml_values.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -96,8 +94,8 @@ struct PlacedVesicle {
 
 class Placement {
  public:
-  Placement(const Scene& one, const toml::table& file, const std::string& name)
-      : one_(one), wanted_(*one.suspension), file_(file), name_(name), shape_(one), random_(wanted_.seed) {}
+  Placement(const Scene& one, const TomlFile& file)
+      : one_(one), wanted_(*one.suspension), file_(file), shape_(one), random_(wanted_.seed) {}
 
   std::vector<PlacedVesicle> run() {
     const int count = counted();
@@ -105,10 +103,10 @@ class Placement {
     while (static_cast<int>(placed.size()) < count) {
       std::optional<PlacedVesicle> next = next_beside(placed);
       if (!next) {
-        refuse(wanted_.count ? "count" : "volume_fraction",
-               fmt::format("no room for the vesicles of [suspension]: {} of {} found a place, {:.3g} of the volume; "
-                           "accepted: fewer, a larger region or a smaller \"gap\"",
-                           placed.size(), count, static_cast<double>(placed.size()) * shape_.volume / region_volume()));
+        file_.refuse_key("suspension", amount_key(),
+                         "no room for the vesicles of [suspension]: {} of {} found a place, {:.3g} of the volume; "
+                         "accepted: fewer, a larger region or a smaller \"gap\"",
+                         placed.size(), count, static_cast<double>(placed.size()) * shape_.volume / region_volume());
       }
       placed.push_back(std::move(*next));
     }
@@ -116,11 +114,9 @@ class Placement {
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view key, const std::string& problem) const {
-    refuse_key(file_, "suspension", key, name_, problem);
-  }
-
   [[nodiscard]] bool is_box() const { return wanted_.kind == SuspensionKind::box; }
+
+  [[nodiscard]] std::string_view amount_key() const { return wanted_.count ? "count" : "volume_fraction"; }
 
   [[nodiscard]] double region_volume() const {
     if (is_box()) return wanted_.size[0] * wanted_.size[1] * wanted_.size[2];
@@ -129,30 +125,31 @@ class Placement {
 
   [[nodiscard]] int counted() const {
     if (wanted_.count.has_value() == wanted_.volume_fraction.has_value()) {
-      refuse("kind", "[suspension] accepts one of \"count\" and \"volume_fraction\"");
+      file_.refuse_key("suspension", "kind", "[suspension] accepts one of \"count\" and \"volume_fraction\"");
     }
+    const double most = static_cast<double>(most_vesicles);
     const double count = wanted_.count ? static_cast<double>(*wanted_.count)
                                        : std::round(*wanted_.volume_fraction * region_volume() / shape_.volume);
-    if (wanted_.count && count > static_cast<double>(most_vesicles)) {
-      refuse("count",
-             fmt::format("\"count\" in [suspension] is {}; accepted: at most {}", *wanted_.count, most_vesicles));
+    if (wanted_.count && count > most) {
+      file_.refuse_key("suspension", "count", "\"count\" in [suspension] is {}; accepted: at most {}", *wanted_.count,
+                       most_vesicles);
     }
-    if (!wanted_.count && !(count >= 1.0 && count <= static_cast<double>(most_vesicles))) {
-      refuse("volume_fraction",
-             fmt::format("\"volume_fraction\" in [suspension] makes {:.6g} vesicles; accepted: 1 to {}", count,
-                         most_vesicles));
+    if (!(count >= 1.0 && count <= most)) {
+      file_.refuse_key("suspension", "volume_fraction",
+                       "\"volume_fraction\" in [suspension] makes {:.6g} vesicles; accepted: 1 to {}", count,
+                       most_vesicles);
     }
     const double narrowest = is_box() ? *std::ranges::min_element(wanted_.size) : 2.0 * wanted_.radius;
     if (narrowest < 2.0 * shape_.outer) {
-      refuse(is_box() ? "size" : "radius",
-             fmt::format("the region of [suspension] is {:.3g} wide, a vesicle {:.3g}; accepted: no room less",
-                         narrowest, 2.0 * shape_.outer));
+      file_.refuse_key("suspension", is_box() ? "size" : "radius",
+                       "the region of [suspension] is {:.3g} wide, a vesicle {:.3g}; accepted: no room less", narrowest,
+                       2.0 * shape_.outer);
     }
     if (count * shape_.volume > region_volume()) {
-      refuse(wanted_.count ? "count" : "volume_fraction",
-             fmt::format(
-                 "{:.6g} vesicles have {:.3g} times the volume of the region of [suspension]; accepted: less than 1",
-                 count, count * shape_.volume / region_volume()));
+      file_.refuse_key(
+          "suspension", amount_key(),
+          "{:.6g} vesicles have {:.3g} times the volume of the region of [suspension]; accepted: less than 1", count,
+          count * shape_.volume / region_volume());
     }
     return static_cast<int>(count);
   }
@@ -212,18 +209,17 @@ class Placement {
 
   const Scene& one_;
   const SuspensionScene& wanted_;
-  const toml::table& file_;
-  const std::string& name_;
+  const TomlFile& file_;
   CopiedShape shape_;
   Random random_;
 };
 
 }  // namespace
 
-Scene placed_suspension(const Scene& one, const toml::table& file, const std::string& name) {
+Scene placed_suspension(const Scene& one, const TomlFile& file) {
   std::vector<Scene> scenes;
   std::vector<std::string> names;
-  for (const PlacedVesicle& placed : Placement(one, file, name).run()) {
+  for (const PlacedVesicle& placed : Placement(one, file).run()) {
     Scene& scene = scenes.emplace_back(one);
     scene.suspension.reset();
     scene.shape.centre = triple_of(placed.centre);

@@ -1,139 +1,272 @@
 #include "bie/scene/sweep_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <exception>
 #include <set>
 
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/scene/toml_file.hpp"
 #include "bie/scene/toml_values.hpp"
-#include "bie/scene/varied_values.hpp"
-#include "bie/support/errors.hpp"
+#include "bie/scene/units.hpp"
 
 namespace vehd {
 namespace {
 
-const std::vector<std::string_view> sweep_words = {"scene", "vary", "mode", "columns"};
+constexpr const char* values_form = "values = [...], or from, to and count, with scale = \"linear\" or \"log\"";
 
-void require_sweep_words(const toml::table& table, const std::string& file) {
-  for (const auto& [word, node] : table) {
-    if (std::find(sweep_words.begin(), sweep_words.end(), word.str()) != sweep_words.end()) continue;
-    throw InputError(fmt::format("{}: unknown {} \"{}\" in a sweep; {}", place(node, file),
-                                 node.is_table() ? "table" : "key", word.str(), suggestion(word.str(), sweep_words)));
+/// A value in one line of TOML.
+std::string value_text(const toml::node& node) {
+  std::vector<std::string> parts;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& part : *array) parts.push_back(value_text(part));
+    return fmt::format("[{}]", fmt::join(parts, ", "));
+  }
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, part] : *table) parts.push_back(fmt::format("{} = {}", key.str(), value_text(part)));
+    return fmt::format("{{{}}}", fmt::join(parts, ", "));
+  }
+  if (const auto* text = node.as_string()) return to_toml(Value(text->get()));
+  if (const auto* number = node.as_floating_point()) return to_toml(Value(number->get()));
+  if (const auto* number = node.as_integer()) return to_toml(Value(number->get()));
+  return shown(node);
+}
+
+/// One key of [vary] in its file.
+class VariedKeyReader {
+ public:
+  /// @param units  of the base scene
+  VariedKeyReader(const std::string& name, const toml::table& table, const TomlFile& file,
+                  const std::optional<UnitsScene>& units)
+      : name_(name), table_(table), file_(file), units_(units), descriptions_(descriptions()) {}
+
+  /// @throws InputError if the key does not accept one of the values
+  [[nodiscard]] VariedKey read() const {
+    const toml::node* values = table_.get("values");
+    std::vector<std::string_view> known{"values"};
+    if (values == nullptr) known = {"values", "from", "to", "count", "scale"};
+    for (const auto& [word, node] : table_) {
+      if (std::ranges::find(known, word.str()) != known.end()) continue;
+      refuse(node, "has an unknown \"{}\"; {}", word.str(), suggestion(word.str(), known));
+    }
+    VariedKey result{name_, {}, false};
+    if (values == nullptr) {
+      const toml::node* scale = table_.get("scale");
+      const std::string word = scale != nullptr ? scale->value<std::string>().value_or("") : "linear";
+      if (word != "linear" && word != "log") {
+        refuse(*scale, "has scale = {}; accepted: \"linear\", \"log\"", shown(*scale));
+      }
+      result.is_logarithmic = word == "log";
+      result.values = values_of_range(result.is_logarithmic);
+      for (const char* end : {"from", "to"}) require_accepted(*table_.get(end));
+      return result;
+    }
+    const toml::array* list = values->as_array();
+    if (list == nullptr || list->empty()) refuse(*values, "has no list of values; accepted: {}", values_form);
+    for (const toml::node& node : *list) {
+      require_accepted(node);
+      const std::string toml = value_text(node);
+      result.values.push_back({toml, node.value<std::string>().value_or(toml)});
+    }
+    return result;
+  }
+
+ private:
+  template <typename... Arguments>
+  [[noreturn]] void refuse(const toml::node& node, fmt::format_string<Arguments...> problem,
+                           Arguments&&... arguments) const {
+    file_.refuse(node, "\"{}\" in [vary] {}", name_, fmt::format(problem, std::forward<Arguments>(arguments)...));
+  }
+
+  /// All rows of the key: one for each kind that has another. @throws InputError if the scene has no such key
+  [[nodiscard]] std::vector<const KeyDescription*> descriptions() const {
+    const std::size_t dot = name_.rfind('.');
+    const std::string table = name_.substr(0, dot), word = dot == std::string::npos ? "" : name_.substr(dot + 1);
+    std::vector<const KeyDescription*> found;
+    std::vector<std::string> all;
+    for (const KeyDescription& description : scene_keys()) {
+      all.push_back(fmt::format("{}.{}", description.table, description.name));
+      if (description.table == table && description.is_called(word)) found.push_back(&description);
+    }
+    if (!found.empty()) return found;
+    if (const auto of_table = key_names(table); !of_table.empty()) {
+      file_.refuse(table_, "unknown key \"{}\" of [{}] in [vary]; {}", word, table, suggestion(word, of_table));
+    }
+    file_.refuse(table_, "\"{}\" in [vary] is no \"table.key\" of a scene; did you mean \"{}\"?", shortened(name_),
+                 nearest_name(name_, {all.begin(), all.end()}));
+  }
+
+  /// @throws what the first description says where none accepts the value
+  void require_accepted(const toml::node& node) const {
+    std::exception_ptr first;
+    for (const KeyDescription* description : descriptions_) {
+      try {
+        static_cast<void>(checked_value(*description, node, file_.name, units_));
+        return;
+      } catch (const InputError&) {
+        if (!first) first = std::current_exception();
+      }
+    }
+    std::rethrow_exception(first);
+  }
+
+  /// One end of a range: a number, or one with a unit.
+  [[nodiscard]] Quantity end_of_range(const char* name) const {
+    const toml::node* node = table_.get(name);
+    if (node == nullptr) refuse(table_, "has no \"{}\"; accepted: {}", name, values_form);
+    if (const auto number = number_of(*node)) return {*number, ""};
+    const auto quantity = parse_quantity(node->value<std::string>().value_or(""));
+    if (!quantity) refuse(*node, "has {} = {}; accepted: a number", name, shown(*node));
+    return *quantity;
+  }
+
+  [[nodiscard]] std::vector<VariedValue> values_of_range(bool logarithmic) const {
+    const Quantity from = end_of_range("from"), to = end_of_range("to");
+    if (from.unit != to.unit) {
+      refuse(*table_.get("to"), "goes from a value in \"{}\" to one in \"{}\"; accepted: one unit", from.unit, to.unit);
+    }
+    const toml::node* counted = table_.get("count");
+    const std::int64_t count = counted != nullptr ? counted->value<std::int64_t>().value_or(0) : 0;
+    if (count < 2 || count > static_cast<std::int64_t>(most_runs)) {
+      refuse(counted != nullptr ? *counted : table_, "needs \"count\"; accepted: 2 ... {}", most_runs);
+    }
+    if (logarithmic && !(from.number * to.number > 0.0)) {
+      refuse(*table_.get("from"), "goes by equal factors; accepted: two numbers of one sign, none of them 0");
+    }
+    const bool is_integer = descriptions_.front()->type == ValueType::integer;
+    std::vector<VariedValue> values;
+    for (std::int64_t i = 0; i < count; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+      double value = logarithmic ? from.number * std::pow(to.number / from.number, share)
+                                 : from.number + share * (to.number - from.number);
+      // The shortest number within rounding: 0.3 and not 0.30000000000000004.
+      const std::string rounded = fmt::format("{:.14g}", value);
+      std::from_chars(rounded.data(), rounded.data() + rounded.size(), value);
+      if (i == count - 1) value = to.number;
+      if (is_integer && value != std::round(value)) {
+        refuse(*counted, "is a whole number and would become {}; accepted: another count", value);
+      }
+      const std::string number = to_toml(is_integer ? Value(static_cast<std::int64_t>(value)) : Value(value));
+      const std::string text = from.unit.empty() ? number : fmt::format("{} {}", number, from.unit);
+      values.push_back({from.unit.empty() ? text : to_toml(Value(text)), text});
+    }
+    return values;
+  }
+
+  const std::string& name_;
+  const toml::table& table_;
+  const TomlFile& file_;
+  const std::optional<UnitsScene>& units_;
+  std::vector<const KeyDescription*> descriptions_;
+};
+
+void require_sweep_words(const TomlFile& file) {
+  const std::vector<std::string_view> words = {"scene", "vary", "mode", "columns"};
+  for (const auto& [word, node] : file.table) {
+    if (std::ranges::find(words, word.str()) != words.end()) continue;
+    file.refuse(node, "unknown {} \"{}\" in a sweep; {}", node.is_table() ? "table" : "key", word.str(),
+                suggestion(word.str(), words));
   }
 }
 
-std::filesystem::path base_scene(const toml::table& table, const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const toml::node* node = table.get("scene");
-  if (node == nullptr) throw InputError(fmt::format("{}:1: missing key \"scene\"; accepted: path of a scene", file));
+std::filesystem::path base_scene(const TomlFile& file, const std::filesystem::path& folder) {
+  const toml::node* node = file.table.get("scene");
+  if (node == nullptr) {
+    throw InputError(fmt::format("{}:1: missing key \"scene\"; accepted: path of a scene", file.name));
+  }
   const auto text = node->value<std::string>();
-  if (!text) {
-    throw InputError(fmt::format("{}: \"scene\" is {}; accepted: path of a scene", place(*node, file), shown(*node)));
-  }
-  const std::filesystem::path scene = (path.parent_path() / *text).lexically_normal();
+  if (!text) file.refuse(*node, "\"scene\" is {}; accepted: path of a scene", shown(*node));
+  const std::filesystem::path scene = (folder / *text).lexically_normal();
   std::error_code ignored;
-  if (!std::filesystem::exists(scene, ignored)) {
-    throw InputError(fmt::format("{}: \"scene\" is {}: no such file", place(*node, file), shown(*node)));
-  }
+  if (!std::filesystem::exists(scene, ignored)) file.refuse(*node, "\"scene\" is {}: no such file", shown(*node));
   return scene;
 }
 
 /// A key may also stand without quotes, as a table within tables: flow.rate = {...}.
-void add_varied_keys(const toml::table& table, const std::string& prefix, SweepFile& sweep) {
-  const std::string file = sweep.file.string();
-  // In the order of the file: the library sorts by name.
-  std::vector<std::pair<std::string, const toml::node*>> entries;
-  for (const auto& [word, node] : table) entries.emplace_back(prefix + std::string(word.str()), &node);
-  for (const auto& [name, node] : entries) {
-    const toml::table* inner = node->as_table();
+void add_varied_keys(const toml::table& table, const std::string& prefix, const TomlFile& file, SweepFile& sweep) {
+  for (const auto& [word, node] : table) {
+    const std::string name = prefix + std::string(word.str());
+    const toml::table* inner = node.as_table();
     if (inner == nullptr) {
-      throw InputError(fmt::format("{}: \"{}\" in [vary] is {}; accepted: {{values = [...]}} or {{from, to, count}}",
-                                   place(*node, file), name, shown(*node)));
+      file.refuse(node, "\"{}\" in [vary] is {}; accepted: {{values = [...]}} or {{from, to, count}}", name,
+                  shown(node));
     }
-    const bool all_are_tables = !inner->empty() && std::all_of(inner->begin(), inner->end(), [](const auto& entry) {
-      return entry.second.is_table();
-    });
-    if (all_are_tables) {
-      add_varied_keys(*inner, name + ".", sweep);
-    } else {
-      if (name == "output.units") {
-        throw InputError(fmt::format("{}: \"{}\" in [vary]: one table has one set of units; give it in the scene",
-                                     place(*node, file), name));
-      }
-      sweep.keys.push_back(varied_key(name, *inner, file, sweep.scene.units));
+    if (!inner->empty() &&
+        std::all_of(inner->begin(), inner->end(), [](const auto& entry) { return entry.second.is_table(); })) {
+      add_varied_keys(*inner, name + ".", file, sweep);
+      continue;
     }
+    if (name == "output.units") {
+      file.refuse(node, "\"{}\" in [vary]: one table has one set of units; give it in the scene", name);
+    }
+    sweep.keys.push_back(VariedKeyReader(name, *inner, file, sweep.scene.units).read());
   }
 }
 
-/// Line of a key in [vary], by which keys keep the order of the file.
-toml::source_position position_of(const toml::table& vary, const std::string& name) {
-  if (const toml::node* node = vary.get(name)) return node->source().begin;
-  const auto node = vary.at_path(name);
-  return node ? node.node()->source().begin : toml::source_position{};
-}
-
-void read_varied_keys(const toml::table& table, SweepFile& sweep) {
-  const std::string file = sweep.file.string();
-  const toml::table* vary = table.get("vary") != nullptr ? table.get("vary")->as_table() : nullptr;
+void read_varied_keys(const TomlFile& file, SweepFile& sweep) {
+  const toml::table* vary = file.find("vary");
   if (vary == nullptr || vary->empty()) {
-    throw InputError(fmt::format("{}:1: missing table [vary]; accepted: \"table.key\" = {{values = [...]}}", file));
+    throw InputError(
+        fmt::format("{}:1: missing table [vary]; accepted: \"table.key\" = {{values = [...]}}", file.name));
   }
-  add_varied_keys(*vary, "", sweep);
-  std::stable_sort(sweep.keys.begin(), sweep.keys.end(), [&](const VariedKey& a, const VariedKey& b) {
-    return position_of(*vary, a.name) < position_of(*vary, b.name);
-  });
+  add_varied_keys(*vary, "", file, sweep);
+  // In the order of the file: the library sorts by name.
+  const auto position = [vary](const VariedKey& key) {
+    const toml::node* node = vary->get(key.name);
+    if (node == nullptr) node = vary->at_path(key.name).node();
+    return node != nullptr ? node->source().begin : toml::source_position{};
+  };
+  std::ranges::stable_sort(sweep.keys, [&](const auto& a, const auto& b) { return position(a) < position(b); });
 }
 
 /// Two runs of a grid would be the same.
-void require_different_values(const VariedKey& key, const std::string& file) {
+void require_different_values(const VariedKey& key, const TomlFile& file) {
   std::set<std::string> values;
   for (const VariedValue& value : key.values) {
     if (values.insert(value.toml).second) continue;
     throw InputError(
-        fmt::format("{}: \"{}\" in [vary] has {} twice; accepted: different values", file, key.name, value.shown));
+        fmt::format("{}: \"{}\" in [vary] has {} twice; accepted: different values", file.name, key.name, value.shown));
   }
 }
 
-void read_sweep_mode(const toml::table& table, SweepFile& sweep) {
-  const std::string file = sweep.file.string();
-  const toml::node* node = table.get("mode");
+void read_sweep_mode(const TomlFile& file, SweepFile& sweep) {
+  const toml::node* node = file.table.get("mode");
   const std::string mode = node != nullptr ? node->value<std::string>().value_or("") : "grid";
   if (mode != "grid" && mode != "zip") {
-    throw InputError(fmt::format("{}: \"mode\" is {}; accepted: \"grid\", \"zip\"", place(*node, file), shown(*node)));
+    file.refuse(*node, "\"mode\" is {}; accepted: \"grid\", \"zip\"", shown(*node));
   }
   sweep.mode = mode == "zip" ? SweepMode::zip : SweepMode::grid;
-  const std::size_t count = sweep.keys.front().values.size();
+  const VariedKey& first = sweep.keys.front();
+  std::size_t n_runs = sweep.mode == SweepMode::zip ? first.values.size() : 1;
   for (const VariedKey& key : sweep.keys) {
-    if (sweep.mode == SweepMode::grid || key.values.size() == count) continue;
-    throw InputError(fmt::format("{}: mode \"zip\": \"{}\" has {} values and \"{}\" has {}; accepted: as many",
-                                 place(*node, file), sweep.keys.front().name, count, key.name, key.values.size()));
-  }
-  std::size_t n_runs = 1;
-  for (const VariedKey& key : sweep.keys) {
-    if (sweep.mode == SweepMode::grid) require_different_values(key, file);
-    n_runs = sweep.mode == SweepMode::zip ? count : n_runs * key.values.size();
+    if (sweep.mode == SweepMode::grid) {
+      require_different_values(key, file);
+      n_runs *= key.values.size();
+    } else if (key.values.size() != first.values.size()) {
+      file.refuse(*node, "mode \"zip\": \"{}\" has {} values and \"{}\" has {}; accepted: as many", first.name,
+                  first.values.size(), key.name, key.values.size());
+    }
     if (n_runs > most_runs) {
-      throw InputError(fmt::format("{}: asks for more runs than {}; accepted: at most as many", file, most_runs));
+      throw InputError(fmt::format("{}: asks for more runs than {}; accepted: at most as many", file.name, most_runs));
     }
   }
 }
 
-void read_sweep_columns(const toml::table& table, SweepFile& sweep) {
-  const toml::node* node = table.get("columns");
+void read_sweep_columns(const TomlFile& file, SweepFile& sweep) {
+  const toml::node* node = file.table.get("columns");
   if (node == nullptr) return;
-  const std::string file = sweep.file.string();
-  const toml::array* names = node->as_array();
   const auto refuse = [&](const toml::node& wrong) {
-    throw InputError(fmt::format("{}: \"columns\" has {}; accepted: a list of columns of history.csv",
-                                 place(wrong, file), shown(wrong)));
+    file.refuse(wrong, "\"columns\" has {}; accepted: a list of columns of history.csv", shown(wrong));
   };
+  const toml::array* names = node->as_array();
   if (names == nullptr) return refuse(*node);
   for (const toml::node& name : *names) {
     if (!name.is_string()) refuse(name);
-    sweep.columns.push_back({name.as_string()->get(), place(name, file)});
+    sweep.columns.push_back({name.as_string()->get(), place(name, file.name)});
   }
 }
 
@@ -157,15 +290,15 @@ std::vector<VariedValue> SweepFile::values_of(std::size_t run) const {
 }
 
 SweepFile read_sweep(const std::filesystem::path& path) {
-  const toml::table table = parse_toml(text_of_toml_file(path, "a sweep"), path.string());
-  require_sweep_words(table, path.string());
+  const TomlFile file = parse_toml(text_of_toml_file(path, "a sweep"), path.string());
+  require_sweep_words(file);
   SweepFile sweep;
   sweep.file = path;
-  sweep.scene_file = base_scene(table, path);
+  sweep.scene_file = base_scene(file, path.parent_path());
   sweep.scene = read_scene(sweep.scene_file);
-  read_varied_keys(table, sweep);
-  read_sweep_mode(table, sweep);
-  read_sweep_columns(table, sweep);
+  read_varied_keys(file, sweep);
+  read_sweep_mode(file, sweep);
+  read_sweep_columns(file, sweep);
   return sweep;
 }
 

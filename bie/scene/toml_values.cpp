@@ -4,239 +4,256 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/reference_scales.hpp"
 #include "bie/scene/settings.hpp"
-#include "bie/scene/toml_text.hpp"
 #include "bie/scene/units.hpp"
-#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
 
-/// One key of one file: everything that a message about it needs.
-struct Context {
-  const KeyDescription& key;
-  const std::string& file;
-  const std::optional<UnitsScene>& units;
+/// Reads values of one key of one file; read() is overloaded by the type of the value.
+class ValueReader {
+ public:
+  ValueReader(const KeyDescription& key, const std::string& file, const std::optional<UnitsScene>& units)
+      : key_(key), file_(file), units_(units) {}
 
+  [[noreturn]] void refuse(const toml::node& node) const { refuse(node, fmt::format("is {}", shown(node))); }
   [[noreturn]] void refuse(const toml::node& node, const std::string& problem) const {
-    refuse(node, problem, accepted_text(key));
+    refuse(node, problem, key_.accepted_text());
   }
   [[noreturn]] void refuse(const toml::node& node, const std::string& problem, const std::string& accepted) const {
-    throw InputError(
-        fmt::format("{}: \"{}\" in [{}] {}; accepted: {}", place(node, file), key.name, key.table, problem, accepted));
+    refuse_with(node, fmt::format("\"{}\" in [{}] {}; accepted: {}", key_.name, key_.table, problem, accepted));
   }
-};
 
-/// @param value  as read; what is in the range of the key has the wrong magnitude
-[[noreturn]] void refuse_value(const Context& context, const toml::node& node, double value) {
-  const std::string problem = fmt::format("is {}", shown(node));
-  if (!context.key.range.contains(value)) context.refuse(node, problem);
-  const std::string magnitude = context.key.unit == "time"
-                                    ? fmt::format("at least {:g}", smallest_magnitude)
-                                    : fmt::format("{:g} ... {:g}", smallest_magnitude, largest_magnitude);
-  context.refuse(node, problem, fmt::format("{}, {} in magnitude unless 0", accepted_text(context.key), magnitude));
-}
-
-/// SI value of a text such as "1 kV/cm".
-double si_value(const Context& context, const Dimension& dimension, const toml::value<std::string>& node) {
-  const auto quantity = parse_quantity(node.get());
-  if (!quantity) context.refuse(node, fmt::format("is {}", shown(node)));
-  if (quantity->unit.empty()) {
-    context.refuse(node, fmt::format("is {}, without a unit", shown(node)), dimension.accepted());
+  /// See si_number.
+  [[nodiscard]] std::optional<double> in_si(const toml::node& node) const {
+    const toml::value<std::string>* text = node.as_string();
+    if (text == nullptr && number_of(node)) return std::nullopt;
+    if (text == nullptr) refuse(node);
+    const double value = si_value(*find_dimension(key_.unit), *text);
+    if (!key_.takes(value)) refuse_value(node, value);
+    return value;
   }
-  const Unit* unit = dimension.find(quantity->unit);
-  if (unit == nullptr) {
-    context.refuse(
-        node,
-        fmt::format("is {}, whose unit \"{}\" is none of {} (nearest: \"{}\")", shown(node),
-                    shortened(quantity->written), dimension.name, nearest_name(quantity->unit, dimension.symbols())),
-        dimension.accepted());
+
+  void read(const toml::node& node, bool& value) const { value = as<bool>(node); }
+  void read(const toml::node& node, std::int64_t& value) const {
+    value = as<std::int64_t>(node);
+    double in_range = 0.0;
+    read(node, in_range);
   }
-  const std::optional<double> temperature = context.units ? context.units->temperature : std::nullopt;
-  if (unit->per_kelvin && !temperature) {
-    context.refuse(node, fmt::format("is {}, but the scene has no temperature", shown(node)),
-                   "\"temperature\" in [units] with the unit K");
+  void read(const toml::node& node, double& value) const {
+    if (key_.type == ValueType::quantity) {
+      const auto quantity = in_si(node);
+      if (!quantity) refuse(node);
+      value = *quantity;
+      return;
+    }
+    const toml::value<std::string>* text = node.as_string();
+    const std::optional<double> number = text != nullptr ? value_with_unit(*text) : number_of(node);
+    if (!number) refuse(node);
+    if (!std::isfinite(*number)) refuse(node, fmt::format("is {}, not a finite number", *number));
+    if (!key_.takes(*number)) refuse_value(node, *number);
+    // A negative zero is none: 1/0 has a sign.
+    value = *number + 0.0;
   }
-  return quantity->in_si(*unit, temperature);
-}
-
-/// Dimensionless value of a text such as "1 kV/cm".
-double value_with_unit(const Context& context, const toml::value<std::string>& node) {
-  const Dimension* dimension = find_dimension(context.key.unit);
-  if (dimension == nullptr || !parse_quantity(node.get())) {
-    context.refuse(node, fmt::format("is {}", shown(node)));
+  void read(const toml::node& node, std::string& value) const {
+    value = as<std::string>(node);
+    if (key_.type == ValueType::text || std::ranges::find(key_.words, value) != key_.words.end()) return;
+    refuse_with(node, fmt::format("\"{}\" in [{}] is {}; {}", key_.name, key_.table, shown(node),
+                                  suggestion(value, key_.words)));
   }
-  if (!context.units) {
-    context.refuse(node, fmt::format("is {}, but the scene has no table [units]", shown(node)));
+  template <typename Entry, std::size_t size>
+  void read(const toml::node& node, std::array<Entry, size>& values) const {
+    const toml::array& array = as<toml::array>(node);
+    if (array.size() != size) refuse(node, fmt::format("has {} components", array.size()));
+    for (std::size_t i = 0; i < size; ++i) read(array[i], values[i]);
   }
-  const double value = si_value(context, *dimension, node);
-  const auto scale = reference_scale(*context.units, *dimension);
-  if (scale && !std::isnormal(*scale)) {
-    context.refuse(node, fmt::format("is {}, but 1 of the scene is {} {}", shown(node), *scale, dimension->si_unit()),
-                   "scales in [units] whose powers a number can hold");
+  template <typename Entry>
+  void read(const toml::node& node, std::vector<Entry>& values) const {
+    for (const toml::node& entry : as<toml::array>(node)) read(entry, values.emplace_back());
   }
-  if (!scale) {
-    const std::string_view missing = missing_scale(*context.units, *dimension);
-    context.refuse(node, fmt::format("is {}, but the scene has no reference {}", shown(node), missing),
-                   fmt::format("\"{}\" in [units], or a unit for {}", missing, source_of_scale(missing)));
+  void read(const toml::node& node, HarmonicMode& mode) const {
+    const toml::table& table = entry_of({"n", "m", "a"}, node);
+    std::int64_t n = 0, m = 0;
+    read(*table.get("n"), n);
+    read(*table.get("m"), m);
+    // Bounded here so that neither can overflow; the order of the scene bounds n further.
+    if (n < 0 || n > 1000) refuse(*table.get("n"), fmt::format("has the degree n = {}", n));
+    if (m < -n || m > n) refuse(*table.get("m"), fmt::format("has the mode n = {}, m = {}", n, m));
+    mode = {static_cast<int>(n), static_cast<int>(m)};
+    read(*table.get("a"), mode.a);
   }
-  const double result = value / *scale;
-  // What is too small for a number would be 0, which is another statement.
-  if (value != 0.0 && result == 0.0) refuse_value(context, node, value);
-  return result;
-}
-
-/// See si_number.
-std::optional<double> number_in_si(const Context& context, const toml::node& node) {
-  const toml::value<std::string>* text = node.as_string();
-  if (text == nullptr && number_of(node)) return std::nullopt;
-  if (text == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  const double value = si_value(context, *find_dimension(context.key.unit), *text);
-  if (!context.key.takes(value)) refuse_value(context, node, value);
-  return value;
-}
-
-double quantity(const Context& context, const toml::node& node) {
-  const auto value = number_in_si(context, node);
-  if (!value) context.refuse(node, fmt::format("is {}", shown(node)));
-  return *value;
-}
-
-double number(const Context& context, const toml::node& node) {
-  const toml::value<std::string>* text = node.as_string();
-  const std::optional<double> value = text != nullptr ? value_with_unit(context, *text) : number_of(node);
-  if (!value) context.refuse(node, fmt::format("is {}", shown(node)));
-  if (!std::isfinite(*value)) context.refuse(node, fmt::format("is {}, not a finite number", *value));
-  if (!context.key.takes(*value)) refuse_value(context, node, *value);
-  // A negative zero is none: 1/0 has a sign.
-  return *value + 0.0;
-}
-
-std::int64_t integer(const Context& context, const toml::node& node) {
-  const toml::value<std::int64_t>* value = node.as_integer();
-  if (value == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  number(context, node);
-  return value->get();
-}
-
-bool boolean(const Context& context, const toml::node& node) {
-  const toml::value<bool>* value = node.as_boolean();
-  if (value == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  return value->get();
-}
-
-const toml::array& array_of(std::size_t size, const Context& context, const toml::node& node) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  if (array->size() != size) context.refuse(node, fmt::format("has {} components", array->size()));
-  return *array;
-}
-
-Triple triple(const Context& context, const toml::node& node) {
-  const toml::array& array = array_of(3, context, node);
-  return {number(context, array[0]), number(context, array[1]), number(context, array[2])};
-}
-
-TripleOfTriples matrix(const Context& context, const toml::node& node) {
-  const toml::array& rows = array_of(3, context, node);
-  return {triple(context, rows[0]), triple(context, rows[1]), triple(context, rows[2])};
-}
-
-AxisAngle axis_angle(const Context& context, const toml::node& node) {
-  const toml::array& array = array_of(4, context, node);
-  return {number(context, array[0]), number(context, array[1]), number(context, array[2]), number(context, array[3])};
-}
-
-/// @param read  one entry
-template <typename Entry>
-std::vector<Entry> list_of(Entry (*read)(const Context&, const toml::node&), const Context& context,
-                           const toml::node& node) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  std::vector<Entry> result;
-  for (const toml::node& entry : *array) result.push_back(read(context, entry));
-  return result;
-}
-
-std::vector<double> numbers(const Context& context, const toml::node& node) {
-  return list_of<double>(number, context, node);
-}
-
-std::string text(const Context& context, const toml::node& node) {
-  const toml::value<std::string>* value = node.as_string();
-  if (value == nullptr) context.refuse(node, fmt::format("is {}", shown(node)));
-  return value->get();
-}
-
-std::string word(const Context& context, const toml::node& node) {
-  const std::string value = text(context, node);
-  const auto& words = context.key.words;
-  if (std::find(words.begin(), words.end(), value) == words.end()) {
-    throw InputError(fmt::format("{}: \"{}\" in [{}] is {}; {}", place(node, context.file), context.key.name,
-                                 context.key.table, shown(node), suggestion(value, words)));
+  void read(const toml::node& node, OutputWindow& window) const {
+    const toml::table& table = entry_of({"from", "to", "every"}, node);
+    read(*table.get("from"), window.from);
+    read(*table.get("to"), window.to);
+    read(*table.get("every"), window.every);
   }
-  return value;
-}
 
-/// An entry of a list of tables with exactly these keys.
-const toml::table& entry_of(std::initializer_list<std::string_view> names, const Context& context,
-                            const toml::node& node) {
-  const toml::table* table = node.as_table();
-  if (table == nullptr) context.refuse(node, fmt::format("has the entry {}", shown(node)));
-  for (const auto& [name, value] : *table) {
-    if (std::find(names.begin(), names.end(), name.str()) == names.end()) {
-      throw InputError(fmt::format("{}: unknown key \"{}\" in an entry of \"{}\" in [{}]; accepted: {}",
-                                   place(value, context.file), name.str(), context.key.name, context.key.table,
-                                   fmt::join(names, ", ")));
+ private:
+  [[noreturn]] void refuse_with(const toml::node& node, const std::string& problem) const {
+    throw InputError(fmt::format("{}: {}", place(node, file_), problem));
+  }
+
+  /// @param value  as read; what is in the range of the key has the wrong magnitude
+  [[noreturn]] void refuse_value(const toml::node& node, double value) const {
+    if (!key_.range.contains(value)) refuse(node);
+    const std::string magnitude = key_.unit == "time"
+                                      ? fmt::format("at least {:g}", smallest_magnitude)
+                                      : fmt::format("{:g} ... {:g}", smallest_magnitude, largest_magnitude);
+    refuse(node, fmt::format("is {}", shown(node)),
+           fmt::format("{}, {} in magnitude unless 0", key_.accepted_text(), magnitude));
+  }
+
+  /// The node as one of the types of TOML.
+  template <typename Type>
+  [[nodiscard]] const Type& as(const toml::node& node) const {
+    const auto* value = node.as<Type>();
+    if (value == nullptr) refuse(node);
+    if constexpr (std::is_same_v<Type, toml::array>) {
+      return *value;
+    } else {
+      return value->get();
     }
   }
-  for (const std::string_view name : names) {
-    if (!table->contains(name)) context.refuse(node, fmt::format("has an entry without \"{}\"", name));
+
+  /// An entry of a list of tables with exactly these keys.
+  [[nodiscard]] const toml::table& entry_of(std::initializer_list<std::string_view> names,
+                                            const toml::node& node) const {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) refuse(node, fmt::format("has the entry {}", shown(node)));
+    for (const auto& [name, value] : *table) {
+      if (std::ranges::find(names, name.str()) != names.end()) continue;
+      refuse_with(value, fmt::format("unknown key \"{}\" in an entry of \"{}\" in [{}]; accepted: {}", name.str(),
+                                     key_.name, key_.table, fmt::join(names, ", ")));
+    }
+    for (const std::string_view name : names) {
+      if (!table->contains(name)) refuse(node, fmt::format("has an entry without \"{}\"", name));
+    }
+    return *table;
   }
-  return *table;
-}
 
-HarmonicMode mode(const Context& context, const toml::node& node) {
-  const toml::table& table = entry_of({"n", "m", "a"}, context, node);
-  const std::int64_t n = integer(context, *table.get("n"));
-  const std::int64_t m = integer(context, *table.get("m"));
-  // Bounded here so that neither can overflow; the order of the scene bounds n further.
-  if (n < 0 || n > 1000) context.refuse(*table.get("n"), fmt::format("has the degree n = {}", n));
-  if (m < -n || m > n) context.refuse(*table.get("m"), fmt::format("has the mode n = {}, m = {}", n, m));
-  return {static_cast<int>(n), static_cast<int>(m), number(context, *table.get("a"))};
-}
+  /// SI value of a text such as "1 kV/cm".
+  [[nodiscard]] double si_value(const Dimension& dimension, const toml::value<std::string>& node) const {
+    const auto quantity = parse_quantity(node.get());
+    if (!quantity) refuse(node);
+    if (quantity->unit.empty()) refuse(node, fmt::format("is {}, without a unit", shown(node)), dimension.accepted());
+    const Unit* unit = dimension.find(quantity->unit);
+    if (unit == nullptr) {
+      refuse(
+          node,
+          fmt::format("is {}, whose unit \"{}\" is none of {} (nearest: \"{}\")", shown(node),
+                      shortened(quantity->written), dimension.name, nearest_name(quantity->unit, dimension.symbols())),
+          dimension.accepted());
+    }
+    const std::optional<double> temperature = units_ ? units_->temperature : std::nullopt;
+    if (unit->per_kelvin && !temperature) {
+      refuse(node, fmt::format("is {}, but the scene has no temperature", shown(node)),
+             "\"temperature\" in [units] with the unit K");
+    }
+    return quantity->in_si(*unit, temperature);
+  }
 
-std::vector<HarmonicMode> modes(const Context& context, const toml::node& node) {
-  return list_of<HarmonicMode>(mode, context, node);
-}
+  /// Dimensionless value of such a text.
+  [[nodiscard]] double value_with_unit(const toml::value<std::string>& node) const {
+    const Dimension* dimension = find_dimension(key_.unit);
+    if (dimension == nullptr || !parse_quantity(node.get())) refuse(node);
+    if (!units_) refuse(node, fmt::format("is {}, but the scene has no table [units]", shown(node)));
+    const double value = si_value(*dimension, node);
+    const auto scale = reference_scale(*units_, *dimension);
+    if (!scale) {
+      const std::string_view missing = missing_scale(*units_, *dimension);
+      refuse(node, fmt::format("is {}, but the scene has no reference {}", shown(node), missing),
+             fmt::format("\"{}\" in [units], or a unit for {}", missing, source_of_scale(missing)));
+    }
+    if (!std::isnormal(*scale)) {
+      refuse(node, fmt::format("is {}, but 1 of the scene is {} {}", shown(node), *scale, dimension->si_unit()),
+             "scales in [units] whose powers a number can hold");
+    }
+    const double result = value / *scale;
+    // What is too small for a number would be 0, which is another statement.
+    if (value != 0.0 && result == 0.0) refuse_value(node, value);
+    return result;
+  }
 
-OutputWindow window(const Context& context, const toml::node& node) {
-  const toml::table& table = entry_of({"from", "to", "every"}, context, node);
-  const auto time = [&](std::string_view name) { return number(context, *table.get(name)); };
-  return {time("from"), time("to"), time("every")};
-}
+  const KeyDescription& key_;
+  const std::string& file_;
+  const std::optional<UnitsScene>& units_;
+};
 
-std::vector<OutputWindow> windows(const Context& context, const toml::node& node) {
-  return list_of<OutputWindow>(window, context, node);
+/// The parser limits nested values but builds a table for every part of a dotted key, whose destruction recurses.
+/// @throws InputError at the first key with too many parts
+void require_short_keys(const std::string& text, const std::string& name) {
+  constexpr int most_parts = 16;
+  int line = 1;
+  int dots = 0;
+  char quote = '\0';
+  for (const char letter : text) {
+    if (letter == '\n') {
+      ++line;
+      dots = 0;
+      quote = '\0';
+    } else if (quote != '\0') {
+      if (letter == quote) quote = '\0';
+    } else if (letter == '"' || letter == '\'') {
+      quote = letter;
+    } else if (letter == '.') {
+      if (++dots >= most_parts) {
+        throw InputError(fmt::format("{}:{}: a key of too many parts; accepted: at most {}", name, line, most_parts));
+      }
+    } else if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '_' && letter != '-' &&
+               letter != ' ' && letter != '\t') {
+      dots = 0;
+    }
+  }
 }
 
 }  // namespace
+
+std::string text_of_toml_file(const std::filesystem::path& path, std::string_view what) {
+  // No sensible file comes near this; what does is some other file.
+  constexpr std::uintmax_t largest_bytes = 1 << 20;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw InputError(fmt::format("{}: not a file; {} (TOML) is expected", path.string(), what));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (size > largest_bytes) {
+    throw InputError(fmt::format("{}: {} bytes are too many for {}; accepted: at most {}", path.string(), size, what,
+                                 largest_bytes));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  return text.str();
+}
+
+TomlFile parse_toml(const std::string& text, const std::string& name) {
+  require_short_keys(text, name);
+  try {
+    return {toml::parse(text, name), name};
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+}
 
 std::string place(const toml::node& node, const std::string& file) {
   if (is_from_setting(node)) return *node.source().path;
   return fmt::format("{}:{}", file, node.source().begin.line);
 }
 
-void refuse_key(const toml::table& scene, std::string_view table, std::string_view key, const std::string& file,
-                const std::string& problem) {
-  const auto owner = scene.at_path(table);
+const toml::node& TomlFile::node_of(std::string_view dotted, std::string_view key) const {
+  const auto owner = table.at_path(dotted);
   const auto node = owner[key];
-  throw InputError(fmt::format("{}: {}", place(node ? *node.node() : *owner.node(), file), problem));
+  return node ? *node.node() : *owner.node();
 }
 
 std::optional<double> number_of(const toml::node& node) {
@@ -266,71 +283,16 @@ std::string shown(const toml::node& node) {
   return shortened(text);
 }
 
-std::string accepted_text(const KeyDescription& key) {
-  switch (key.type) {
-    case ValueType::boolean:
-      return "true or false";
-    case ValueType::integer:
-      return fmt::format("an integer, {}", key.range.text());
-    case ValueType::number:
-      return key.range.text() == Range{}.text() ? Range{}.text() : fmt::format("a number {}", key.range.text());
-    case ValueType::word:
-      return fmt::format("{}", fmt::join(key.words, ", "));
-    case ValueType::text:
-      return "a text in quotes";
-    case ValueType::triple:
-      return fmt::format("3 numbers [x, y, z], each {}", key.range.text());
-    case ValueType::matrix:
-      return "3 rows of 3 finite numbers";
-    case ValueType::axis_angle:
-      return "4 finite numbers [axis_x, axis_y, axis_z, degrees]";
-    case ValueType::numbers:
-      return fmt::format("a list of numbers, each {}", key.range.text());
-    case ValueType::modes:
-      return "entries {n = degree, m = -n ... n, a = finite number}";
-    case ValueType::windows:
-      return fmt::format("entries {{from = time, to = time, every = time}}, each {}", key.range.text());
-    case ValueType::quantity:
-      return fmt::format("a positive number with its unit in quotes, {}", find_dimension(key.unit)->accepted());
-  }
-  return {};
-}
-
 std::optional<double> si_number(const KeyDescription& key, const toml::node& node, const std::string& file,
                                 const std::optional<UnitsScene>& units) {
-  return number_in_si({key, file, units}, node);
+  return ValueReader(key, file, units).in_si(node);
 }
 
 Value checked_value(const KeyDescription& key, const toml::node& node, const std::string& file,
                     const std::optional<UnitsScene>& units) {
-  const Context context{key, file, units};
-  switch (key.type) {
-    case ValueType::boolean:
-      return boolean(context, node);
-    case ValueType::integer:
-      return integer(context, node);
-    case ValueType::number:
-      return number(context, node);
-    case ValueType::word:
-      return word(context, node);
-    case ValueType::text:
-      return text(context, node);
-    case ValueType::triple:
-      return triple(context, node);
-    case ValueType::matrix:
-      return matrix(context, node);
-    case ValueType::axis_angle:
-      return axis_angle(context, node);
-    case ValueType::quantity:
-      return quantity(context, node);
-    case ValueType::numbers:
-      return numbers(context, node);
-    case ValueType::windows:
-      return windows(context, node);
-    case ValueType::modes:
-      break;
-  }
-  return modes(context, node);
+  Value value = key.stored_as;
+  std::visit([&](auto& stored) { ValueReader(key, file, units).read(node, stored); }, value);
+  return value;
 }
 
 }  // namespace vehd

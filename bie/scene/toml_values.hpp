@@ -1,23 +1,55 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "bie/scene/schema.hpp"
+#include "bie/support/errors.hpp"
 
-/// From TOML nodes to values of the key table.
+/// TOML files, and from their nodes to values of the key table.
 namespace vehd {
+
+/// Text of a TOML file that somebody has written.
+/// @param what  it is, for messages: "a scene file"
+/// @throws InputError if it is missing, no file or far too long
+std::string text_of_toml_file(const std::filesystem::path& path, std::string_view what);
 
 /// "file:line" of a node, or the option --set that gave it.
 std::string place(const toml::node& node, const std::string& file);
 
-/// @throws InputError with the problem at the key of a table, or at the table that lacks it
-/// @param table  of the scene, "electric.waveform" included; it exists
-[[noreturn]] void refuse_key(const toml::table& scene, std::string_view table, std::string_view key,
-                             const std::string& file, const std::string& problem);
+/// A file of TOML and the name that stands for it in messages.
+struct TomlFile {
+  toml::table table;
+  std::string name;
+
+  /// The table of a dotted name, or nullptr.
+  [[nodiscard]] const toml::table* find(std::string_view dotted) const { return table.at_path(dotted).as_table(); }
+  /// The node of a key of a table, or that of the table.
+  [[nodiscard]] const toml::node& node_of(std::string_view dotted, std::string_view key) const;
+
+  /// @throws InputError "file:line: problem"
+  template <typename... Arguments>
+  [[noreturn]] void refuse(const toml::node& node, fmt::format_string<Arguments...> problem,
+                           Arguments&&... arguments) const {
+    throw InputError(place(node, name) + ": " + fmt::format(problem, std::forward<Arguments>(arguments)...));
+  }
+  /// Likewise at the key of a table, or at the table that lacks it.
+  /// @param dotted  of the scene, "electric.waveform" included; it exists
+  template <typename... Arguments>
+  [[noreturn]] void refuse_key(std::string_view dotted, std::string_view key, fmt::format_string<Arguments...> problem,
+                               Arguments&&... arguments) const {
+    refuse(node_of(dotted, key), problem, std::forward<Arguments>(arguments)...);
+  }
+};
+
+/// @param name  stands for the file in messages
+/// @throws InputError "name:line: ..."
+TomlFile parse_toml(const std::string& text, const std::string& name);
 
 /// A number of any notation: an integer is the double nearest to it, as if it were written with a point.
 /// @return nullopt if the node is no number
@@ -25,9 +57,6 @@ std::optional<double> number_of(const toml::node& node);
 
 /// The value as written, cut to a readable length, with its type where that is not plain to see.
 std::string shown(const toml::node& node);
-
-/// What a key accepts, in words.
-std::string accepted_text(const KeyDescription& key);
 
 /// SI value of a number with a unit, within the range of its key.
 /// @return nullopt of a plain number

@@ -1,7 +1,3 @@
-#include "bie/scene/vesicle_checks.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,15 +5,14 @@
 #include <vector>
 
 #include "bie/potentials/nearest_points.hpp"
+#include "bie/scene/checks.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/placement.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/scene/schema.hpp"
-#include "bie/scene/toml_values.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/thresholds.hpp"
-#include "bie/support/errors.hpp"
-#include "bie/support/types.hpp"
 
 namespace vehd {
 namespace {
@@ -34,54 +29,55 @@ double reach_bound(const Matrix& position) {
 
 class VesicleChecks {
  public:
-  VesicleChecks(const Scene& scene, const toml::table& file, const std::string& name)
-      : scene_(scene), file_(file), name_(name) {}
+  VesicleChecks(const Scene& scene, const TomlFile& file) : scene_(scene), file_(file) {}
 
   void run() const {
-    if (scene_.contact) check_contact();
-    if (scene_.vesicles.empty()) {
-      const bool is_placed = scene_.shape.centre != Triple{} || scene_.shape.kind == ShapeKind::file;
-      if (is_placed) check_distance(0, initial_position(scene_));
-      return;
+    if (scene_.contact) check_contact(*scene_.contact);
+    if (!scene_.vesicles.empty()) {
+      if (scene_.electric) check_electric();
+      check_positions();
+    } else if (scene_.shape.centre != Triple{} || scene_.shape.kind == ShapeKind::file) {
+      check_distance(0, initial_position(scene_));
     }
-    if (scene_.electric) check_electric();
-    check_places();
+    if (scene_.numerics.symmetry == SymmetryUse::axisymmetric) check_symmetry();
   }
 
  private:
-  [[noreturn]] void refuse(std::size_t vesicle, const std::string& problem) const {
-    throw InputError(fmt::format("{}: {}", place(node_of(vesicle), name_), problem));
+  template <typename... Arguments>
+  [[noreturn]] void refuse(std::size_t vesicle, fmt::format_string<Arguments...> problem,
+                           Arguments&&... arguments) const {
+    file_.refuse(node_of(vesicle), problem, std::forward<Arguments>(arguments)...);
   }
 
   /// Those of a suspension stand nowhere.
   [[nodiscard]] const toml::node& node_of(std::size_t vesicle) const {
-    if (const toml::node* all = file_.get("vesicle")) return (*all->as_array())[vesicle];
-    const toml::node* suspension = file_.get("suspension");
-    return suspension != nullptr ? *suspension : *file_.get("shape");
+    if (const toml::node* all = file_.table.get("vesicle")) return (*all->as_array())[vesicle];
+    const toml::node* suspension = file_.table.get("suspension");
+    return suspension != nullptr ? *suspension : *file_.table.get("shape");
   }
 
   /// Where the file says it, otherwise what it belongs to.
   [[nodiscard]] const toml::node& centre_of(std::size_t vesicle) const {
     const toml::node& owner = node_of(vesicle);
-    const auto centre = owner.as_table()->at_path(file_.contains("vesicle") ? "shape.centre" : "centre");
+    const auto centre = owner.as_table()->at_path(file_.table.contains("vesicle") ? "shape.centre" : "centre");
     return centre ? *centre.node() : owner;
   }
 
-  void check_contact() const {
-    const auto refuse_contact = [&](const std::string& problem) {
-      throw InputError(fmt::format("{}: {}", place(*file_.get("contact"), name_), problem));
-    };
-    if (scene_.vesicles.empty()) {
-      refuse_contact("[contact] acts between vesicles, and there is one; accepted: with tables [[vesicle]]");
-    }
-    if (scene_.contact->energy == 0.0) {
-      refuse_contact("\"energy\" in [contact] is 0: it has no effect; accepted: any other value");
-    }
-    if (!scene_.membrane.mobile) refuse_contact("[contact] has no effect while \"mobile\" in [membrane] is false");
+  [[nodiscard]] std::string called(std::size_t vesicle) const {
+    return scene_.vesicles.empty() ? "the vesicle" : fmt::format("vesicle \"{}\"", scene_.vesicles[vesicle].name);
   }
 
-  [[nodiscard]] std::string called(std::size_t vesicle) const {
-    return fmt::format("vesicle \"{}\"", scene_.vesicles[vesicle].name);
+  void check_contact(const ContactScene& contact) const {
+    const toml::node& table = *file_.table.get("contact");
+    if (scene_.vesicles.empty()) {
+      file_.refuse(table, "[contact] acts between vesicles, and there is one; accepted: with tables [[vesicle]]");
+    }
+    if (contact.energy == 0.0) {
+      file_.refuse(table, "\"energy\" in [contact] is 0: it has no effect; accepted: any other value");
+    }
+    if (!scene_.membrane.mobile) {
+      file_.refuse(table, "[contact] has no effect while \"mobile\" in [membrane] is false");
+    }
   }
 
   void check_electric() const {
@@ -92,24 +88,31 @@ class VesicleChecks {
     for (std::size_t a = 0; a < scene_.vesicles.size(); ++a) {
       const VesicleScene& vesicle = scene_.vesicles[a];
       if (is_steady(vesicle) != steady) {
-        refuse(a, fmt::format("{} {}start with a steady V_m, but {} does{}; accepted: \"initial_Vm\" steady for all "
-                              "vesicles or for none",
-                              called(a), steady ? "does not " : "", called(0), steady ? "" : " not"));
+        refuse(a,
+               "{} {}start with a steady V_m, but {} does{}; accepted: \"initial_Vm\" steady for all vesicles or for "
+               "none",
+               called(a), steady ? "does not " : "", called(0), steady ? "" : " not");
       }
       if (vesicle.electric->conductivity_in > 0.0 && vesicle.electric->conductivity_out > 0.0) continue;
-      refuse(a, fmt::format("\"conductivity_in\" or \"conductivity_out\" of {} is 0; accepted with several vesicles: "
-                            "> 0, as small as it has to be",
-                            called(a)));
+      refuse(a,
+             "\"conductivity_in\" or \"conductivity_out\" of {} is 0; accepted with several vesicles: > 0, as small as "
+             "it has to be",
+             called(a));
     }
   }
 
-  void check_places() const {
+  void check_positions() const {
     std::vector<Matrix> positions;
     for (const Scene& one : each_alone(scene_)) {
       positions.push_back(initial_position(one));
       check_distance(positions.size() - 1, positions.back());
     }
-    if (scene_.contact) check_range(positions);
+    for (std::size_t a = 0; scene_.contact && a < positions.size(); ++a) {
+      const double radius = std::sqrt(vehd::size_of(positions[a]).area / (4.0 * std::numbers::pi));
+      if (scene_.contact->range >= thresholds::shortest_contact * radius) continue;
+      file_.refuse_key("contact", "range", "\"range\" in [contact] is {:.2g} radii of {}; accepted: at least {:g}",
+                       scene_.contact->range / radius, called(a), thresholds::shortest_contact);
+    }
     for (std::size_t b = 0; b < positions.size(); ++b) {
       for (std::size_t a = 0; a < b; ++a) check_pair(a, b, positions);
     }
@@ -121,42 +124,24 @@ class VesicleChecks {
     const double distance = position.row(0).norm();
     const double size = position.bottomRows(position.rows() - 1).norm();
     if (distance <= farthest * size) return;
-    const std::string who = scene_.vesicles.empty() ? "the vesicle" : called(vesicle);
-    throw InputError(
-        fmt::format("{}: \"centre\" in [shape] places {} {:.3g} radii from the origin; accepted: at most {:.2g}",
-                    place(centre_of(vesicle), name_), who, distance / size, farthest));
-  }
-
-  void check_range(const std::vector<Matrix>& positions) const {
-    for (std::size_t a = 0; a < positions.size(); ++a) {
-      const double radius = std::sqrt(vehd::size_of(positions[a]).area / (4.0 * std::numbers::pi));
-      if (scene_.contact->range >= thresholds::shortest_contact * radius) continue;
-      throw InputError(fmt::format("{}: \"range\" in [contact] is {:.2g} radii of {}; accepted: at least {:g}",
-                                   place(*file_.at_path("contact.range").node(), name_), scene_.contact->range / radius,
-                                   called(a), thresholds::shortest_contact));
-    }
+    file_.refuse(centre_of(vesicle),
+                 "\"centre\" in [shape] places {} {:.3g} radii from the origin; accepted: at most {:.2g}",
+                 called(vesicle), distance / size, farthest);
   }
 
   void check_pair(std::size_t a, std::size_t b, const std::vector<Matrix>& positions) const {
     const double distance = (positions[a].row(0) - positions[b].row(0)).norm() / std::sqrt(4.0 * std::numbers::pi);
     if (distance > 1.01 * (reach_bound(positions[a]) + reach_bound(positions[b]))) return;
-    const auto refuse_pair = [&](const std::string& problem) {
-      refuse(b, fmt::format("{}; accepted: each outside all others, by \"centre\" in [vesicle.shape]", problem));
+    const Arrangement arrangement = arrangement_of(positions[a], positions[b]);
+    if (arrangement == Arrangement::apart) return check_gap(a, b, positions);
+    constexpr const char* accepted = "accepted: each outside all others, by \"centre\" in [vesicle.shape]";
+    const auto placed = [&](std::size_t vesicle) {
+      const Triple& centre = scene_.vesicles[vesicle].shape.centre;
+      return fmt::format("{}, about ({:g}, {:g}, {:g})", called(vesicle), centre[0], centre[1], centre[2]);
     };
-    switch (arrangement_of(positions[a], positions[b])) {
-      case Arrangement::apart:
-        check_gap(a, b, positions);
-        return;
-      case Arrangement::they_meet:
-        refuse_pair(
-            fmt::format("{}, about {}, overlaps {}, about {}", called(b), centre_text(b), called(a), centre_text(a)));
-        return;
-      case Arrangement::first_is_inside:
-        refuse_pair(fmt::format("{}, about {}, has {} inside", called(b), centre_text(b), called(a)));
-        return;
-      case Arrangement::second_is_inside:
-        refuse_pair(fmt::format("{}, about {}, is inside {}", called(b), centre_text(b), called(a)));
-    }
+    if (arrangement == Arrangement::they_meet) refuse(b, "{}, overlaps {}; {}", placed(b), placed(a), accepted);
+    if (arrangement == Arrangement::first_is_inside) refuse(b, "{}, has {} inside; {}", placed(b), called(a), accepted);
+    refuse(b, "{}, is inside {}; {}", placed(b), called(a), accepted);
   }
 
   /// A run would stop where it starts.
@@ -169,24 +154,25 @@ class VesicleChecks {
     const double area = std::min(vehd::size_of(positions[a]).area, vehd::size_of(positions[b]).area);
     const double relative = gap / std::sqrt(area / (4.0 * std::numbers::pi));
     if (relative >= thresholds::smallest_gap) return;
-    refuse(b, fmt::format("{} is {:.2g} radii from {}; accepted: at least {:g}", called(b), relative, called(a),
-                          thresholds::smallest_gap));
+    refuse(b, "{} is {:.2g} radii from {}; accepted: at least {:g}", called(b), relative, called(a),
+           thresholds::smallest_gap);
   }
 
-  [[nodiscard]] std::string centre_text(std::size_t vesicle) const {
-    const Triple& centre = scene_.vesicles[vesicle].shape.centre;
-    return fmt::format("({:g}, {:g}, {:g})", centre[0], centre[1], centre[2]);
+  void check_symmetry() const {
+    const Problem found = problem_of(scene_);
+    if (found.symmetry.axisymmetric) return;
+    file_.refuse_key("numerics", "symmetry",
+                     "\"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one axis; "
+                     "they have: {}",
+                     symmetry_text(found.symmetry, found.frame));
   }
 
   const Scene& scene_;
-  const toml::table& file_;
-  const std::string& name_;
+  const TomlFile& file_;
 };
 
 }  // namespace
 
-void check_vesicles(const Scene& scene, const toml::table& file, const std::string& name) {
-  VesicleChecks(scene, file, name).run();
-}
+void check_vesicles(const Scene& scene, const TomlFile& file) { VesicleChecks(scene, file).run(); }
 
 }  // namespace vehd

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/scene/toml_text.hpp"
+#include "bie/scene/schema.hpp"
 #include "tests/app/sweep_folder.hpp"
 
 namespace {

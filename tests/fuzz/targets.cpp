@@ -12,7 +12,7 @@
 #include "bie/scene/reader.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/scene/shape_file.hpp"
-#include "bie/scene/waveform_file.hpp"
+#include "bie/scene/number_files.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/written_numbers.hpp"

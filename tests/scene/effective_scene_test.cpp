@@ -4,7 +4,6 @@
 #include <regex>
 
 #include "bie/scene/schema.hpp"
-#include "bie/scene/toml_text.hpp"
 #include "bie/scene/units.hpp"
 #include "tests/scene/scene_text.hpp"
 

@@ -10,7 +10,6 @@
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/schema.hpp"
-#include "bie/scene/toml_text.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

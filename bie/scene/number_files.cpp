@@ -1,0 +1,119 @@
+#include "bie/scene/number_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "bie/support/errors.hpp"
+
+namespace vehd {
+namespace {
+
+/// Of lines in a file of harmonics: those of the highest degree.
+constexpr std::size_t most_modes = 1 + highest_order * (highest_order + 2);
+/// A waveform of more rows or bytes is some other file. The rows become part of the effective scene, which every
+/// checkpoint holds and which must not be too long for a scene file itself.
+constexpr std::size_t most_rows = 10000;
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 22;
+
+/// @param read  one line without its comment: takes it and the line as written for messages, with its place
+template <typename Read>
+void for_each_row(std::istream& stream, const std::string& name, const Read& read) {
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    if (line.ends_with('\r')) line.pop_back();
+    std::string cells = line.substr(0, line.find('#'));
+    std::replace(cells.begin(), cells.end(), ',', ' ');
+    if (cells.find_first_not_of(" \t") == std::string::npos) continue;
+    std::istringstream words(cells);
+    read(words, fmt::format("{}:{}", name, number), shortened(line));
+  }
+}
+
+bool is_at_end(std::istringstream& words) {
+  std::string more;
+  return !(words >> more);
+}
+
+/// The stream of a file of numbers.
+/// @param what  has the path, for messages
+std::ifstream opened(const std::string& name, const char* what) {
+  std::error_code error;
+  std::ifstream file(name);
+  if (!std::filesystem::is_regular_file(name, error) || !file) {
+    throw InputError(fmt::format("{}: no such file (\"path\" of {})", name, what));
+  }
+  return file;
+}
+
+void read_modes(PlaceScene& places, const std::string& name) {
+  if (!places.modes.empty()) {
+    throw InputError(fmt::format("{}: \"path\" of harmonics together with \"modes\"; accepted: one of them", name));
+  }
+  std::ifstream file = opened(name, "harmonics");
+  for_each_row(file, name, [&](std::istringstream& words, const std::string& place, const std::string& line) {
+    HarmonicMode mode;
+    const bool is_mode = words >> mode.n >> mode.m >> mode.a && is_at_end(words) && std::isfinite(mode.a);
+    if (!is_mode || mode.n < 0 || mode.n > highest_order || std::abs(mode.m) > mode.n ||
+        places.modes.size() == most_modes) {
+      throw InputError(
+          fmt::format("{}: is \"{}\"; accepted: three numbers n, m, a with |m| <= n <= {}, at most {} lines", place,
+                      line, highest_order, most_modes));
+    }
+    places.modes.push_back(mode);
+  });
+}
+
+void read_times(WaveformScene& waveform, const std::string& name) {
+  if (!waveform.times.empty() || !waveform.values.empty()) {
+    throw InputError(fmt::format(
+        "{}: the waveform has \"path\" together with \"times\" or \"values\"; accepted: one of them", name));
+  }
+  std::ifstream file = opened(name, "a waveform");
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(name, error);
+  if (error || bytes > most_bytes) {
+    throw InputError(
+        fmt::format("{}: {} bytes are too many for a waveform; accepted: at most {}", name, bytes, most_bytes));
+  }
+  read_waveform_rows(waveform, file, name);
+}
+
+}  // namespace
+
+void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std::string& name) {
+  for_each_row(stream, name, [&](std::istringstream& words, const std::string& place, const std::string& line) {
+    double time = 0.0, value = 0.0;
+    if (!(words >> time >> value) || !is_at_end(words) || !std::isfinite(time) || !std::isfinite(value)) {
+      throw InputError(fmt::format("{}: is \"{}\"; accepted: two finite numbers, time and factor", place, line));
+    }
+    if (waveform.times.size() == most_rows) throw InputError(fmt::format("{}: more than {} rows", place, most_rows));
+    waveform.times.push_back(time);
+    waveform.values.push_back(value);
+  });
+}
+
+void read_number_files(Scene& scene, const std::filesystem::path& folder) {
+  const auto replace = [&](auto& owner, const auto& read) {
+    if (!owner.path) return;
+    read(owner, std::filesystem::absolute(folder / *owner.path).lexically_normal().string());
+    owner.path.reset();
+  };
+  const auto replace_waveform = [&](auto& owner) {
+    if (owner && owner->waveform) replace(*owner->waveform, read_times);
+  };
+  MembraneScene& membrane = scene.membrane;
+  for (auto* places : {&membrane.capacitance_by_place, &membrane.conductance_by_place, &membrane.bending_by_place,
+                       &membrane.curvature_by_place}) {
+    if (*places) replace(**places, read_modes);
+  }
+  if (membrane.pump) replace(*membrane.pump, read_modes);
+  replace_waveform(membrane.pump);
+  replace_waveform(scene.flow);
+  replace_waveform(scene.electric);
+}
+
+}  // namespace vehd
