@@ -11,7 +11,7 @@
 #include "bie/files/hdf5_writer.hpp"
 #include "bie/files/run_file.hpp"
 #include "bie/runs/snapshot_copy.hpp"
-#include "bie/scene/shape_file.hpp"
+#include "bie/scene/reader.hpp"
 #include "bie/scene/units.hpp"
 
 namespace vehd {

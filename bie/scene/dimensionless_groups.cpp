@@ -1,7 +1,5 @@
 #include "bie/scene/dimensionless_groups.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -26,100 +24,95 @@ class Groups {
         size_(size_of(initial_position(scene))) {}
 
   std::vector<DimensionlessGroup> all() {
-    add_geometry();
-    if (vesicle_.viscosity_ratio != 1.0) {
-      add({"viscosity ratio", "Λ", vesicle_.viscosity_ratio, "1", "μ_i/μ_e"});
-    }
+    const double v = 3.0 * size_.volume / (4.0 * pi);
+    groups_.push_back({"radius", "a", radius(), "length", "√(A/4π)"});
+    number("reduced volume", "v", v / std::pow(radius(), 3), "volume over that of the sphere with the same area");
+    number("excess area", "Δ", size_.area / std::pow(v, 2.0 / 3.0) - 4.0 * pi,
+           "A/a_V² − 4π, a_V the radius of the sphere with the same volume");
+    if (vesicle_.viscosity_ratio != 1.0) number("viscosity ratio", "Λ", vesicle_.viscosity_ratio, "μ_i/μ_e");
     if (vesicle_.bending) add_bending();
-    if (shear_rate() > 0.0) add_flow();
+    if (shear_rate() > 0.0) {
+      time("flow time", "t_γ", 1.0 / shear_rate(), "1/γ̇: the flow turns and stretches the vesicle");
+      if (vesicle_.bending) {
+        number("capillary number of the flow", "χ", shear_rate() * bending_time(),
+               "μγ̇a³/κ_B: viscous stress over bending stress");
+      }
+    }
     if (scene_.gravity) {
-      add({"sedimentation time", "t_g", model_.viscosity / (weight() * radius()), "time",
-           "μ/(|ρ_i − ρ_e|ga): its weight moves the vesicle by about its radius"});
+      time("sedimentation time", "t_g", model_.viscosity / (weight() * radius()),
+           "μ/(|ρ_i − ρ_e|ga): its weight moves the vesicle by about its radius");
     }
     if (model_.electric) add_electric();
     return groups_;
   }
 
  private:
-  void add(DimensionlessGroup group) { groups_.push_back(group); }
-
-  void add_geometry() {
-    add({"radius", "a", radius(), "length", "√(A/4π)"});
-    add({"reduced volume", "v", 3.0 * size_.volume / (4.0 * pi * std::pow(radius(), 3)), "1",
-         "volume over that of the sphere with the same area"});
-    add({"excess area", "Δ", size_.area / std::pow(3.0 * size_.volume / (4.0 * pi), 2.0 / 3.0) - 4.0 * pi, "1",
-         "A/a_V² − 4π, a_V the radius of the sphere with the same volume"});
+  void number(std::string_view name, std::string_view symbol, double value, std::string_view meaning) {
+    groups_.push_back({name, symbol, value, "1", meaning});
+  }
+  void time(std::string_view name, std::string_view symbol, double value, std::string_view meaning) {
+    groups_.push_back({name, symbol, value, "time", meaning});
   }
 
   void add_bending() {
-    add({"bending time", "t_κ", bending_time(), "time", "μa³/κ_B: shapes relax by bending"});
-    if (scene_.membrane.spontaneous_curvature != 0.0) {
-      add({"spontaneous curvature", "c₀", scene_.membrane.spontaneous_curvature * radius(), "1",
-           "ca, −1 on a sphere; the usual C₀ is −2c"});
-      add({"the usual spontaneous curvature", "C₀a", -2.0 * scene_.membrane.spontaneous_curvature * radius(), "1",
-           "−2ca of (κ_c/2)∫(C₁ + C₂ − C₀)² dA with κ_c = κ_B/2, 2 on a sphere"});
+    time("bending time", "t_κ", bending_time(), "μa³/κ_B: shapes relax by bending");
+    if (const double curvature = scene_.membrane.spontaneous_curvature * radius(); curvature != 0.0) {
+      number("spontaneous curvature", "c₀", curvature, "ca, −1 on a sphere; the usual C₀ is −2c");
+      number("the usual spontaneous curvature", "C₀a", -2.0 * curvature,
+             "−2ca of (κ_c/2)∫(C₁ + C₂ − C₀)² dA with κ_c = κ_B/2, 2 on a sphere");
     }
     if (!scene_.gravity) return;
-    add({"Bond number", "Bo", weight() * std::pow(radius(), 4) / vesicle_.bending->modulus, "1",
-         "|ρ_i − ρ_e|ga⁴/κ_B: weight over bending force"});
-  }
-
-  void add_flow() {
-    add({"flow time", "t_γ", 1.0 / shear_rate(), "time", "1/γ̇: the flow turns and stretches the vesicle"});
-    if (!vesicle_.bending) return;
-    add({"capillary number of the flow", "χ", shear_rate() * bending_time(), "1",
-         "μγ̇a³/κ_B: viscous stress over bending stress"});
+    number("Bond number", "Bo", weight() * std::pow(radius(), 4) / vesicle_.bending->modulus,
+           "|ρ_i − ρ_e|ga⁴/κ_B: weight over bending force");
   }
 
   void add_electric() {
     const ElectricParameters electric = electric_parameters(model_, vesicle_);
     const double inside = electric.conductivity_in, outside = electric.conductivity_out;
     if (outside > 0.0) {
-      add({"conductivity ratio", "R", inside / outside, "1", "σ_i/σ_e"});
-      add({"membrane conductance", "g", vesicle_.charging.conductance * radius() / outside, "1",
-           "G_m a/σ_e: leak of the membrane over conduction of the fluid"});
+      number("conductivity ratio", "R", inside / outside, "σ_i/σ_e");
+      number("membrane conductance", "g", vesicle_.charging.conductance * radius() / outside,
+             "G_m a/σ_e: leak of the membrane over conduction of the fluid");
     }
     const double series = 2.0 * inside * outside / (inside + 2.0 * outside);
     const double rate = vesicle_.charging.conductance + series / radius();
     if (rate > 0.0) {
       const double charging_time = vesicle_.charging.capacitance / rate;
-      add({"charging time", "t_m", charging_time, "time",
-           "C_m/(G_m + 2σ_iσ_e/((σ_i + 2σ_e)a)): a sphere's membrane charges"});
+      time("charging time", "t_m", charging_time, "C_m/(G_m + 2σ_iσ_e/((σ_i + 2σ_e)a)): a sphere's membrane charges");
       const auto& waveform = scene_.electric->waveform;
       if (waveform && waveform->kind == WaveformKind::ac) {
-        add({"frequency", "ωt_m", 2.0 * pi * waveform->frequency * charging_time, "1",
-             "2πf t_m: above 1 the field passes through the membrane"});
+        number("frequency", "ωt_m", 2.0 * pi * waveform->frequency * charging_time,
+               "2πf t_m: above 1 the field passes through the membrane");
       }
     }
     if (electric.permittivity_ratio != 1.0) {
-      add({"permittivity ratio", "S", electric.permittivity_ratio, "1", "ε_i/ε_e"});
+      number("permittivity ratio", "S", electric.permittivity_ratio, "ε_i/ε_e");
     }
     // Without units the permittivity is that of the stress alone, as in the paper, whatever the conductivities.
     if (scene_.units || electric.displacement_current) {
-      add({"Maxwell–Wagner time", "t_MW",
-           electric.permittivity * (electric.permittivity_ratio + 2.0) / (inside + 2.0 * outside), "time",
-           "(ε_i + 2ε_e)/(σ_i + 2σ_e): the charge of the fluids relaxes"});
+      time("Maxwell–Wagner time", "t_MW",
+           electric.permittivity * (electric.permittivity_ratio + 2.0) / (inside + 2.0 * outside),
+           "(ε_i + 2ε_e)/(σ_i + 2σ_e): the charge of the fluids relaxes");
     }
     const double stress = electric.permittivity * electric.field.squaredNorm();
     if (stress == 0.0) return;
     if (electric.averaged_frequency) {
       const double drive = sphere_in_ac_field(electric, vesicle_.charging, radius()).drive;
-      add({"drive of the averaged field", "Q", drive / electric.permittivity, "1",
-           "P₂ part of its stress over ε: above 0 a nearly spherical vesicle becomes prolate along the field"});
-      const double ripple =
-          ripple_amplitude(electric, vesicle_.charging, radius(), model_.viscosity, vesicle_.viscosity_ratio);
-      add({"ripple", "s₂", ripple, "1",
-           "amplitude over a of the motion at 2f, which the average leaves out, of a sphere: "
-           "εE²|Q₂|/((32 + 23Λ)μ 2ω)"});
+      number("drive of the averaged field", "Q", drive / electric.permittivity,
+             "P₂ part of its stress over ε: above 0 a nearly spherical vesicle becomes prolate along the field");
+      number("ripple", "s₂",
+             ripple_amplitude(electric, vesicle_.charging, radius(), model_.viscosity, vesicle_.viscosity_ratio),
+             "amplitude over a of the motion at 2f, which the average leaves out, of a sphere: "
+             "εE²|Q₂|/((32 + 23Λ)μ 2ω)");
     }
-    add({"electric time", "t_el", model_.viscosity / stress, "time", "μ/(εE²): the field deforms the membrane"});
+    time("electric time", "t_el", model_.viscosity / stress, "μ/(εE²): the field deforms the membrane");
     if (vesicle_.bending) {
-      add({"electric capillary number", "Ca", stress / vesicle_.bending->modulus * 3.0 * size_.volume / (4.0 * pi), "1",
-           "εE²/κ_B · 3V/4π, Eq. (36): electric stress over bending stress"});
+      number("electric capillary number", "Ca", stress / vesicle_.bending->modulus * 3.0 * size_.volume / (4.0 * pi),
+             "εE²/κ_B · 3V/4π, Eq. (36): electric stress over bending stress");
     }
     if (shear_rate() > 0.0) {
-      add({"Mason number", "Mn", model_.viscosity * shear_rate() / stress, "1",
-           "μγ̇/(εE²): viscous stress over electric stress"});
+      number("Mason number", "Mn", model_.viscosity * shear_rate() / stress,
+             "μγ̇/(εE²): viscous stress over electric stress");
     }
   }
 
@@ -135,8 +128,7 @@ class Groups {
   }
   /// Per volume.
   [[nodiscard]] double weight() const {
-    const Triple& g = scene_.gravity->acceleration;
-    return std::abs(scene_.fluid.density_difference) * Vector3(g[0], g[1], g[2]).norm();
+    return std::abs(scene_.fluid.density_difference) * vector_of(scene_.gravity->acceleration).norm();
   }
   [[nodiscard]] double radius() const { return std::sqrt(size_.area / (4.0 * pi)); }
   [[nodiscard]] double bending_time() const {
@@ -155,10 +147,8 @@ class Groups {
 std::vector<DimensionlessGroup> dimensionless_groups(const Scene& scene) { return Groups(scene).all(); }
 
 std::string si_text(const Scene& scene, const DimensionlessGroup& group) {
-  const Dimension* dimension = find_dimension(group.unit);
-  if (dimension == nullptr || !scene.units) return {};
-  const auto scale = reference_scale(*scene.units, *dimension);
-  return scale ? si_number(group.value * *scale, group.unit) : std::string();
+  const double scale = si_scale(scene.units, group.unit);
+  return group.unit == "1" || std::isnan(scale) ? std::string() : si_number(group.value * scale, group.unit);
 }
 
 }  // namespace vehd

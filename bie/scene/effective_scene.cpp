@@ -7,43 +7,30 @@
 
 namespace vehd {
 
-namespace {
-
-/// The keys of a table that are asked for.
-template <typename Wanted>
-std::string keys_of(const Scene& scene, std::string_view table, const Wanted& wanted) {
-  std::string text;
-  for (const KeyDescription& key : scene_keys()) {
-    if (key.table != table || !applies(key, scene) || !wanted(key)) continue;
-    if (const auto value = key.get(scene)) text += fmt::format("{} = {}\n", key.name, to_toml(key, *value));
-  }
-  return text;
-}
-
-/// One table [[vesicle]] with all that may differ from vesicle to vesicle.
-std::string vesicle_text(const Scene& one, const std::string& name) {
-  std::string text = fmt::format("\n[[vesicle]]\nname = {}\n", to_toml(Value(name)));
-  for (const TableDescription& table : scene_tables()) {
-    if (!table.present(one)) continue;
-    const std::string keys = keys_of(one, table.name, [](const KeyDescription& key) { return is_of_vesicle(key); });
-    if (!keys.empty()) text += fmt::format("[vesicle.{}]\n{}", table.name, keys);
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string effective_scene(const Scene& scene) {
   const bool several = !scene.vesicles.empty();
+  const auto keys_of = [&](const Scene& one, std::string_view table, bool of_vesicle) {
+    std::string text;
+    for (const KeyDescription& key : scene_keys()) {
+      if (key.table != table || !applies(key, one) || (several && is_of_vesicle(key) != of_vesicle)) continue;
+      if (const auto value = key.get(one)) text += fmt::format("{} = {}\n", key.name, to_toml(key, *value));
+    }
+    return text;
+  };
   std::string text;
   for (const TableDescription& table : scene_tables()) {
     const bool of_each = table.name == "shape" || table.name.starts_with("membrane.");
     if (!table.present(scene) || (several && of_each)) continue;
     text += fmt::format("{}[{}]  # {}\n", text.empty() ? "" : "\n", table.name, table.description);
-    text += keys_of(scene, table.name, [&](const KeyDescription& key) { return !several || !is_of_vesicle(key); });
+    text += keys_of(scene, table.name, false);
   }
   for (std::size_t a = 0; a < scene.vesicles.size(); ++a) {
-    text += vesicle_text(alone(scene, a), scene.vesicles[a].name);
+    const Scene one = alone(scene, a);
+    text += fmt::format("\n[[vesicle]]\nname = {}\n", to_toml(Value(scene.vesicles[a].name)));
+    for (const TableDescription& table : scene_tables()) {
+      const std::string keys = table.present(one) ? keys_of(one, table.name, true) : "";
+      if (!keys.empty()) text += fmt::format("[vesicle.{}]\n{}", table.name, keys);
+    }
   }
   return text;
 }

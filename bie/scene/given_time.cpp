@@ -6,17 +6,13 @@
 #include "bie/support/errors.hpp"
 
 namespace vehd {
-namespace {
-
-const Dimension& dimension_of_time() { return *find_dimension("time"); }
-
-}  // namespace
 
 std::string problem_of_time(const std::string& text) {
+  const Dimension& dimension = *find_dimension("time");
   const auto quantity = parse_quantity(text);
-  if (quantity && (quantity->unit.empty() || dimension_of_time().find(quantity->unit) != nullptr)) return {};
+  if (quantity && (quantity->unit.empty() || dimension.find(quantity->unit) != nullptr)) return {};
   return fmt::format("\"{}\" is no time; accepted: a number, or one with a unit ({}), as \"0.5 ms\"", text,
-                     dimension_of_time().accepted());
+                     dimension.accepted());
 }
 
 double number_of_time(const std::string& text, const std::optional<UnitsScene>& scales,
@@ -35,7 +31,7 @@ double number_of_time(const std::string& text, const std::optional<UnitsScene>& 
     throw InputError(
         fmt::format("the time \"{}\" has a unit, but the scene has none of time; accepted: a number", text));
   }
-  return quantity.in_si(*dimension_of_time().find(quantity.unit)) / *scales->time;
+  return quantity.in_si(*find_dimension("time")->find(quantity.unit)) / *scales->time;
 }
 
 }  // namespace vehd

@@ -5,16 +5,30 @@
 #include <limits>
 #include <numbers>
 
-#include "bie/scene/biconcave.hpp"
 #include "bie/scene/placement.hpp"
-#include "bie/scene/shape_file.hpp"
-#include "bie/scene/shape_nodes.hpp"
-#include "bie/scene/spheroid.hpp"
-#include "bie/scene/stomatocyte.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/scene/shapes_of_revolution.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
 namespace {
+
+/// Unit vector of a direction.
+Vector3 direction(double theta, double phi) {
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+/// Coefficients of Σ a Re Y_n^m, without modes above the degree, which trial runs of a lower one have.
+Vector sum_of_modes(const std::vector<HarmonicMode>& modes, int degree) {
+  Vector coefficients = Vector::Zero(n_coefficients(degree));
+  for (const HarmonicMode& mode : modes) {
+    if (mode.n > degree) continue;
+    // Re and Im of the complex harmonic are 1/√2 of the real ones.
+    coefficients[coefficient_index(mode.n, mode.m)] += mode.m == 0 ? mode.a : mode.a / std::numbers::sqrt2;
+  }
+  return coefficients;
+}
 
 /// x = axes · r̂, whose components are the three harmonics of degree 1: exact, with all other coefficients zero.
 Matrix ellipsoid_position(const Triple& axes, int order) {
@@ -27,16 +41,10 @@ Matrix ellipsoid_position(const Triple& axes, int order) {
 }
 
 Vector radius_on(const SphereTransform& of_shape, const ShapeScene& shape) {
-  // Of a trial run with a lower degree than that of the modes as well.
+  // All modes count, in a trial run with a lower degree as well.
   int degree = of_shape.order();
   for (const HarmonicMode& mode : shape.modes) degree = std::max(degree, mode.n);
-  const SphereTransform transform(degree, of_shape.grid());
-  Matrix coefficients = Matrix::Zero(n_coefficients(degree), 1);
-  for (const HarmonicMode& mode : shape.modes) {
-    // Re and Im of the complex harmonic are 1/√2 of the real ones.
-    coefficients(coefficient_index(mode.n, mode.m), 0) += mode.m == 0 ? mode.a : mode.a / std::numbers::sqrt2;
-  }
-  const Vector s = transform.synthesize(coefficients).col(0);
+  const Vector s = SphereTransform(degree, of_shape.grid()).synthesize(sum_of_modes(shape.modes, degree)).col(0);
   if (!shape.amplitude) return shape.base + s.array();
   return shape.base + *shape.amplitude * (shape.exponent * s.array()).exp();
 }
@@ -44,16 +52,14 @@ Vector radius_on(const SphereTransform& of_shape, const ShapeScene& shape) {
 Matrix radial_position(const Scene& scene) {
   const SphereTransform transform = shape_transform(scene.numerics.order);
   const Vector radius = radius_on(transform, scene.shape);
-  return without_rounding(position_through(transform, [&](Index i, double theta, double phi) -> Vector3 {
-    return radius(i) * Vector3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-  }));
+  return without_rounding(position_through(
+      transform, [&](Index i, double theta, double phi) -> Vector3 { return radius(i) * direction(theta, phi); }));
 }
 
-InitialMembrane stored_membrane(const Scene& scene) {
-  const ShapeFile file(scene);
-  InitialMembrane membrane{resize_order(file.position(), scene.numerics.order), {}};
-  if (takes_stored_potential(scene)) membrane.potential = resize_order(file.potential(), scene.numerics.order);
-  return membrane;
+/// From numbers of a shape file to those of the scene. They are taken as they are where neither has the scale;
+/// check_scene refuses a scene for which that is not enough.
+double factor_from(const RunReader& run, const Scene& scene, std::optional<double> UnitsScene::*scale) {
+  return conversion(units_of(run), scene.units, scale).value_or(1.0);
 }
 
 InitialMembrane unplaced_membrane(const Scene& scene) {
@@ -75,19 +81,40 @@ InitialMembrane unplaced_membrane(const Scene& scene) {
     case ShapeKind::file:
       break;
   }
-  return stored_membrane(scene);
-}
-
-bool is_of_unit_size(ShapeKind kind) {
-  return kind == ShapeKind::prolate || kind == ShapeKind::oblate || kind == ShapeKind::biconcave ||
-         kind == ShapeKind::stomatocyte;
+  const RunReader run(shape.path);
+  const RunSnapshot start = start_snapshot(run, scene);
+  const Matrix position = factor_from(run, scene, &UnitsScene::length) * start.coefficients("x", 3);
+  InitialMembrane membrane{resize_order(position, order), {}};
+  if (takes_stored_potential(scene)) {
+    const Vector potential = factor_from(run, scene, &UnitsScene::potential) * start.coefficients("Vm", 1).col(0);
+    membrane.potential = resize_order(potential, order);
+  }
+  return membrane;
 }
 
 double size_factor(const ShapeScene& shape, const Matrix& position) {
   if (shape.scale) return *shape.scale;
   if (!shape.area) return 1.0;
-  const double area = is_of_unit_size(shape.kind) ? 4.0 * std::numbers::pi : size_of(position).area;
-  return std::sqrt(*shape.area / area);
+  const bool has_unit_size =
+      shape.kind != ShapeKind::ellipsoid && shape.kind != ShapeKind::radial && shape.kind != ShapeKind::file;
+  return std::sqrt(*shape.area / (has_unit_size ? 4.0 * std::numbers::pi : size_of(position).area));
+}
+
+/// Between a degree and a grid on which a cap is sampled, whose spectrum falls like a Gaussian.
+SphereTransform cap_transform(int order) { return {order, make_grid(2 * order + 32)}; }
+
+Vector cap_values(const PlaceScene& places, const SphereGrid& grid) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const Vector3 axis = vector_of(places.axis).stableNormalized();
+  const double edge = std::cos(places.angle_deg * degree);
+  const double width = places.width_deg * degree * std::sin(places.angle_deg * degree);
+  Vector values(grid.n_points());
+  for (Index i = 0; i < values.size(); ++i) {
+    const Vector3 r = direction(grid.theta[i / grid.n_phi], grid.phi[i % grid.n_phi]);
+    const double share = 0.5 * std::erfc((edge - axis.dot(r)) / width);
+    values[i] = places.outside + (places.inside - places.outside) * share;
+  }
+  return values;
 }
 
 }  // namespace
@@ -105,16 +132,61 @@ InitialMembrane initial_membrane(const Scene& scene) {
   return membrane;
 }
 
+RunSnapshot start_snapshot(const RunReader& run, const Scene& scene) {
+  if (!scene.shape.time) return run.snapshot(run.times().size() - 1);
+  return run.snapshot(run.at(*scene.shape.time / factor_from(run, scene, &UnitsScene::time)));
+}
+
 Matrix initial_position(const Scene& scene) { return initial_membrane(scene).position; }
 
 Extremes radius_extremes(const Scene& scene) {
   const Vector radius = radius_on(shape_transform(scene.numerics.order), scene.shape);
-  // -fno-trapping-math still allows isfinite; minCoeff alone would skip a NaN.
-  for (const double value : radius) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (!std::isfinite(value)) return {none, none};
+  // minCoeff alone would skip a NaN.
+  if (radius.allFinite()) return {radius.minCoeff(), radius.maxCoeff()};
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return {none, none};
+}
+
+Vector place_factor(const PlaceScene& places, int order) {
+  if (places.kind != PlaceKind::cap) {
+    Vector factor = sum_of_modes(places.modes, order);
+    factor[0] += places.base * std::sqrt(4.0 * std::numbers::pi);
+    return factor;
   }
-  return {radius.minCoeff(), radius.maxCoeff()};
+  const SphereTransform transform = cap_transform(order);
+  return without_rounding(transform.analyze(cap_values(places, transform.grid()))).col(0);
+}
+
+double place_truncation(const PlaceScene& places, int order) {
+  const double difference = std::abs(places.inside - places.outside);
+  if (places.kind != PlaceKind::cap || difference == 0.0) return 0.0;
+  const SphereTransform transform = cap_transform(order);
+  const Vector kept = transform.synthesize(place_factor(places, order));
+  return (kept - cap_values(places, transform.grid())).cwiseAbs().maxCoeff() / difference;
+}
+
+MembraneMaterial initial_material(const Scene& scene) {
+  const MembraneScene& membrane = scene.membrane;
+  MembraneMaterial material;
+  const auto take = [&](const std::optional<PlaceScene>& places, double value, Vector& property) {
+    if (places) property = value * place_factor(*places, scene.numerics.order);
+  };
+  if (scene.electric) {
+    take(membrane.capacitance_by_place, membrane.capacitance, material.capacitance);
+    take(membrane.conductance_by_place, membrane.conductance, material.conductance);
+    if (membrane.pump) take(*membrane.pump, membrane.pump->current, material.pump_current);
+  }
+  if (membrane.bending_by_place || membrane.curvature_by_place) {
+    // The force needs both.
+    const PlaceScene same{};
+    take(membrane.bending_by_place.value_or(same), membrane.bending_modulus.value_or(0.0), material.bending_modulus);
+    take(membrane.curvature_by_place.value_or(same), membrane.spontaneous_curvature, material.spontaneous_curvature);
+  }
+  if (scene.shape.rotation) {
+    const Matrix3 rotation = rotation_matrix(*scene.shape.rotation);
+    for_each_property(material, [&](Vector& property) { property = rotated_scalar(property, rotation); });
+  }
+  return material;
 }
 
 }  // namespace vehd

@@ -1,24 +1,27 @@
 #pragma once
 
+#include "bie/files/run_reader.hpp"
+#include "bie/physics/membrane_material.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/support/types.hpp"
 
+/// The membrane at time 0 of a scene of one vesicle, placed and in units of the scene: coefficients of its degree.
 namespace vehd {
 
-/// Coefficients of the scene's order.
 struct InitialMembrane {
   Matrix position;   ///< x(θ, φ), [n_coefficients x 3]; θ from +z
   Vector potential;  ///< V_m where the scene takes it from its shape file, otherwise empty
 };
 
-/// The membrane of a scene of one vesicle at time 0, placed and in units of the scene. @throws InputError if the shape
-/// file cannot be used
-///
+/// @throws InputError if the shape file cannot be used
 /// Accuracy: shapes are truncated to the order of the scene (tests/scene/initial_shape_test.cpp)
 InitialMembrane initial_membrane(const Scene& scene);
 
 /// Its position alone.
 Matrix initial_position(const Scene& scene);
+
+/// The snapshot with which a scene of [shape] kind "file" starts. @throws InputError if there is none
+RunSnapshot start_snapshot(const RunReader& run, const Scene& scene);
 
 /// Smallest and largest value.
 struct Extremes {
@@ -27,5 +30,16 @@ struct Extremes {
 
 /// Of the radius of a radial shape over a fine grid; NaN if some radius is not finite.
 Extremes radius_extremes(const Scene& scene);
+
+/// Factor of a property over the parameter sphere, coefficients.
+/// @param order  that a cap is cut to
+/// Accuracy: harmonics exact, a cap to its truncation, see place_truncation
+Vector place_factor(const PlaceScene& places, int order);
+
+/// Largest error of a cap that is cut to a degree, over the difference of its two factors; 0 of harmonics.
+double place_truncation(const PlaceScene& places, int order);
+
+/// What differs from place to place, turned with the shape.
+MembraneMaterial initial_material(const Scene& scene);
 
 }  // namespace vehd

@@ -2,9 +2,8 @@
 #include "bie/sphere/degrees.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 
-/// All tables and keys of a scene, in the order of reading and writing. A row
-/// names the key and the member of scene.hpp that holds its value; type, getter
-/// and setter follow from the member. A new key is a member and a row.
+/// All tables and keys of a scene, in the order of reading and writing. A row names the key and the member of scene.hpp
+/// that holds its value; type, getter and setter follow from the member. A new key is a member and a row.
 namespace vehd {
 namespace {
 
@@ -14,38 +13,17 @@ constexpr Range not_negative{0.0, any_number.upper, false};
 constexpr Range degrees{0.0, 180.0, true};
 constexpr bool required = true;
 
-/// How a member is stored in a Value, and of which type its key is.
-template <typename Stored_, ValueType type_>
-struct Traits {
-  using Stored = Stored_;
-  static constexpr ValueType type = type_;
-};
+/// How a member is stored in a Value.
 template <typename Member>
-struct MemberTraits;
+struct StoredAs {
+  using Type = Member;
+};
 template <>
-struct MemberTraits<bool> : Traits<bool, ValueType::boolean> {};
-template <>
-struct MemberTraits<int> : Traits<std::int64_t, ValueType::integer> {};
-template <>
-struct MemberTraits<std::int64_t> : Traits<std::int64_t, ValueType::integer> {};
-template <>
-struct MemberTraits<double> : Traits<double, ValueType::number> {};
-template <>
-struct MemberTraits<std::string> : Traits<std::string, ValueType::text> {};
-template <>
-struct MemberTraits<Triple> : Traits<Triple, ValueType::triple> {};
-template <>
-struct MemberTraits<TripleOfTriples> : Traits<TripleOfTriples, ValueType::matrix> {};
-template <>
-struct MemberTraits<AxisAngle> : Traits<AxisAngle, ValueType::axis_angle> {};
-template <>
-struct MemberTraits<std::vector<double>> : Traits<std::vector<double>, ValueType::numbers> {};
-template <>
-struct MemberTraits<std::vector<HarmonicMode>> : Traits<std::vector<HarmonicMode>, ValueType::modes> {};
-template <>
-struct MemberTraits<std::vector<OutputWindow>> : Traits<std::vector<OutputWindow>, ValueType::windows> {};
+struct StoredAs<int> {
+  using Type = std::int64_t;
+};
 template <typename Contained>
-struct MemberTraits<std::optional<Contained>> : MemberTraits<Contained> {};
+struct StoredAs<std::optional<Contained>> : StoredAs<Contained> {};
 
 struct Rows {
   std::vector<TableDescription> tables;
@@ -67,16 +45,15 @@ class Table {
 
   /// A table that every scene has.
   template <typename Owner, typename Member>
-  auto always(std::string_view name, std::string_view description, Member Owner::*member, bool is_required = false) {
+  auto always(std::string_view name, Member Owner::*member, std::string_view description, bool is_required = false) {
     const auto part = [ owner = part_, member ](auto& scene) -> auto& { return owner(scene).*member; };
     rows_->tables.push_back({name, description, is_required, table_.present, table_.create});
     return Table<decltype(part)>(*rows_, rows_->tables.back(), part);
   }
 
-  /// One that makes the difference whether a scene has an effect; its owner
-  /// comes with it.
+  /// One that makes the difference whether a scene has an effect; its owner comes with it.
   template <typename Owner, typename Member>
-  auto optional(std::string_view name, std::string_view description, std::optional<Member> Owner::*member) {
+  auto optional(std::string_view name, std::optional<Member> Owner::*member, std::string_view description) {
     const auto holder = [ owner = part_, member ](auto& scene) -> auto& { return owner(scene).*member; };
     const auto part = [holder](auto& scene) -> auto& { return *holder(scene); };
     const auto present = [owner = table_, holder](const Scene& scene) {
@@ -99,9 +76,9 @@ class Table {
   }
 
   template <typename Owner, typename Member>
-  KeyDescription& key(std::string_view name, Range range, const Text& text, Member Owner::*member) {
-    using Stored = typename MemberTraits<Member>::Stored;
-    KeyDescription& key = add_row(name, MemberTraits<Member>::type, Stored{}, range, text);
+  KeyDescription& key(std::string_view name, Member Owner::*member, Range range, const Text& text) {
+    using Stored = typename StoredAs<Member>::Type;
+    KeyDescription& key = add_row(name, Stored{}, range, text);
     key.get = [part = part_, member](const Scene& scene) -> std::optional<Value> {
       const Member& value = part(scene).*member;
       if constexpr (std::is_same_v<Member, std::optional<Stored>>) {
@@ -118,9 +95,10 @@ class Table {
 
   /// @param words  one for each enumerator of the member, in their order
   template <typename Owner, typename Enumeration>
-  void word(std::string_view name, std::vector<std::string_view> words, std::string_view description,
-            Enumeration Owner::*member, bool is_required = false) {
-    KeyDescription& key = add_row(name, ValueType::word, std::string(), {}, {"", "", description, is_required});
+  void word(std::string_view name, Enumeration Owner::*member, std::vector<std::string_view> words,
+            std::string_view description, bool is_required = false) {
+    KeyDescription& key = add_row(name, std::string(), {}, {"", "", description, is_required});
+    key.type = ValueType::word;
     key.words = words;
     key.get = [part = part_, words, member](const Scene& scene) -> std::optional<Value> {
       return Value(std::string(words.at(static_cast<std::size_t>(part(scene).*member))));
@@ -132,11 +110,11 @@ class Table {
   }
 
  private:
-  KeyDescription& add_row(std::string_view name, ValueType type, Value stored_as, Range range, const Text& text) {
+  KeyDescription& add_row(std::string_view name, Value stored_as, Range range, const Text& text) {
     KeyDescription& key = rows_->keys.emplace_back();
     key.table = table_.name;
     key.name = name;
-    key.type = type;
+    key.type = static_cast<ValueType>(stored_as.index());
     key.stored_as = std::move(stored_as);
     key.symbol = text.symbol;
     key.unit = text.unit;
@@ -154,32 +132,32 @@ class Table {
 };
 
 void add_units(auto& scene) {
-  auto units = scene.optional("units", "what 1 means; absent: values are dimensionless", &Scene::units);
-  const auto scale = [&](std::string_view name, const Text& text, std::optional<double> UnitsScene::*member) {
-    units.key(name, positive, text, member).type = ValueType::quantity;
+  auto units = scene.optional("units", &Scene::units, "what 1 means; absent: values are dimensionless");
+  const auto scale = [&](std::string_view name, std::optional<double> UnitsScene::*member, const Text& text) {
+    units.key(name, member, positive, text).type = ValueType::quantity;
   };
-  scale("length", {"L", "length", "reference length; absent: √(area/4π) of an area in SI units"}, &UnitsScene::length);
+  scale("length", &UnitsScene::length, {"L", "length", "reference length; absent: √(area/4π) of an area in SI units"});
   scale(
-      "time",
+      "time", &UnitsScene::time,
       {"T", "time",
        "reference time; absent: the shortest that values in SI units give: duration of a pulse, period or 1/frequency "
-       "(not of an averaged field), 1/rate (of a Poiseuille flow R/v_c), LC_m(1/σ_i + 1/(2σ_e)), μ/(εE²), μL³/κ_B"},
-      &UnitsScene::time);
-  scale("viscosity", {"M", "viscosity", "reference viscosity; absent: that of the fluid in SI units"},
-        &UnitsScene::viscosity);
-  scale("potential", {"Φ", "potential", "reference potential; absent: √(ML/(T C_m)) of a capacitance in SI units"},
-        &UnitsScene::potential);
-  scale("temperature", {"", "temperature", "of energies in kBT, such as \"298 K\"; no scale"},
-        &UnitsScene::temperature);
+       "(not of an averaged field), 1/rate (of a Poiseuille flow R/v_c), LC_m(1/σ_i + 1/(2σ_e)), μ/(εE²), μL³/κ_B"});
+  scale("viscosity", &UnitsScene::viscosity,
+        {"M", "viscosity", "reference viscosity; absent: that of the fluid in SI units"});
+  scale("potential", &UnitsScene::potential,
+        {"Φ", "potential", "reference potential; absent: √(ML/(T C_m)) of a capacitance in SI units"});
+  scale("temperature", &UnitsScene::temperature,
+        {"", "temperature", "of energies in kBT, such as \"298 K\"; no scale"});
 }
 
 void add_shape(auto& scene) {
-  auto shape = scene.always("shape", "initial shape", &Scene::shape, required);
-  shape.word("kind", {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
-             "how the initial shape is given; the middle four have the axis z", &ShapeScene::kind, required);
-  shape.of("ellipsoid").key("axes", size_range, {"", "length", "semi-axes along x, y, z", required}, &ShapeScene::axes);
+  auto shape = scene.always("shape", &Scene::shape, "initial shape", required);
+  shape.word("kind", &ShapeScene::kind,
+             {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
+             "how the initial shape is given; the middle four have the axis z", required);
+  shape.of("ellipsoid").key("axes", &ShapeScene::axes, size_range, {"", "length", "semi-axes along x, y, z", required});
   const auto reduced_volume = [&](std::string_view kind, Range range, bool is_required, std::string_view text) {
-    shape.of(kind).key("reduced_volume", range, {"v", "1", text, is_required}, &ShapeScene::reduced_volume);
+    shape.of(kind).key("reduced_volume", &ShapeScene::reduced_volume, range, {"v", "1", text, is_required});
   };
   constexpr std::string_view definition = "6√π V/A^{3/2}; size: area 4π";
   reduced_volume("prolate", {0.2, 1.0}, required, definition);
@@ -188,288 +166,263 @@ void add_shape(auto& scene) {
   reduced_volume("stomatocyte", {0.1, 0.65}, required, "6√π V/A^{3/2}; size: area 4π; open towards −z");
   auto radial = shape.of("radial");
   radial
-      .key("base", any_number, {"", "length", "constant part of the radius; may be left out with area"},
-           &ShapeScene::base)
+      .key("base", &ShapeScene::base, any_number,
+           {"", "length", "constant part of the radius; may be left out with area"})
       .default_has_effect = [](const Scene& s) { return !s.shape.area; };
-  radial.key("amplitude", any_number, {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"},
-             &ShapeScene::amplitude);
-  radial.key("exponent", any_number, {"", "1", "factor of s in the exponential"}, &ShapeScene::exponent);
-  radial.key("modes", any_number,
-             {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|", required},
-             &ShapeScene::modes);
+  radial.key("amplitude", &ShapeScene::amplitude, any_number,
+             {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"});
+  radial.key("exponent", &ShapeScene::exponent, any_number, {"", "1", "factor of s in the exponential"});
+  radial.key("modes", &ShapeScene::modes, any_number,
+             {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|", required});
   auto file = shape.of("file");
-  file.key("path", any_number,
-           {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units", required},
-           &ShapeScene::path);
-  file.key("time", not_negative, {"t", "time", "time of the snapshot in that run; absent: the last one"},
-           &ShapeScene::time);
-  shape.key("area", positive, {"A", "area", "the shape is scaled to this area; not with scale"}, &ShapeScene::area);
-  shape.key("scale", size_range, {"", "1", "the shape is scaled by this factor; not with area"}, &ShapeScene::scale);
-  shape.key("rotation", any_number,
-            {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"},
-            &ShapeScene::rotation);
-  shape.key("centre", any_number, {"", "length", "where the shape's origin is placed, after rotation"},
-            &ShapeScene::centre);
+  file.key("path", &ShapeScene::path, any_number,
+           {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units", required});
+  file.key("time", &ShapeScene::time, not_negative,
+           {"t", "time", "time of the snapshot in that run; absent: the last one"});
+  shape.key("area", &ShapeScene::area, positive, {"A", "area", "the shape is scaled to this area; not with scale"});
+  shape.key("scale", &ShapeScene::scale, size_range, {"", "1", "the shape is scaled by this factor; not with area"});
+  shape.key("rotation", &ShapeScene::rotation, any_number,
+            {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"});
+  shape.key("centre", &ShapeScene::centre, any_number,
+            {"", "length", "where the shape's origin is placed, after rotation"});
 }
 
 /// @param waveform  the table, of which only some kinds have an average
 auto add_waveform(auto waveform) {
-  waveform.word("kind", {"dc", "ac", "pulse", "pulse_train", "table"},
+  waveform.word("kind", &WaveformScene::kind, {"dc", "ac", "pulse", "pulse_train", "table"},
                 "constant; cos(2πft + phase); 1 during [start, start + duration); that in every period; linear between "
                 "the entries of a table",
-                &WaveformScene::kind, required);
+                required);
   auto ac = waveform.of("ac"), pulse = waveform.of("pulse", "pulse_train"), table = waveform.of("table");
-  ac.key("frequency", positive,
-         {"f", "1/time", "at least four steps a period are taken, unless it is averaged", required},
-         &WaveformScene::frequency);
-  ac.key("phase", any_number, {"", "1", "in radians; −π/2 makes a sine"}, &WaveformScene::phase);
-  pulse.key("start", any_number, {"", "time", "of the first pulse"}, &WaveformScene::start);
-  pulse.key("duration", positive, {"", "time", "of a pulse", required}, &WaveformScene::duration);
+  ac.key("frequency", &WaveformScene::frequency, positive,
+         {"f", "1/time", "at least four steps a period are taken, unless it is averaged", required});
+  ac.key("phase", &WaveformScene::phase, any_number, {"", "1", "in radians; −π/2 makes a sine"});
+  pulse.key("start", &WaveformScene::start, any_number, {"", "time", "of the first pulse"});
+  pulse.key("duration", &WaveformScene::duration, positive, {"", "time", "of a pulse", required});
   waveform.of("pulse_train")
-      .key("period", positive, {"", "time", "from pulse to pulse; longer than a pulse", required},
-           &WaveformScene::period);
-  table.key("path", any_number,
-            {"", "", "text file of lines \"time factor\", relative to the scene file; absent: times and values"},
-            &WaveformScene::path);
-  table.key("times", any_number, {"", "time", "ascending, two equal ones make a jump"}, &WaveformScene::times);
-  table.key("values", any_number, {"", "1", "factor at each of the times; constant beyond the ends"},
-            &WaveformScene::values);
+      .key("period", &WaveformScene::period, positive,
+           {"", "time", "from pulse to pulse; longer than a pulse", required});
+  table.key("path", &WaveformScene::path, any_number,
+            {"", "", "text file of lines \"time factor\", relative to the scene file; absent: times and values"});
+  table.key("times", &WaveformScene::times, any_number, {"", "time", "ascending, two equal ones make a jump"});
+  table.key("values", &WaveformScene::values, any_number,
+            {"", "1", "factor at each of the times; constant beyond the ends"});
   return ac;
 }
 
 /// Keys of a table that says how a property differs from place to place.
 auto add_places(auto places) {
   places.word(
-      "kind", {"harmonics", "cap", "file"},
+      "kind", &PlaceScene::kind, {"harmonics", "cap", "file"},
       "the property is its value in [membrane] times base + s(θ, φ), where the material point was on the parameter "
       "sphere of [shape]; times a factor within a round cap and another outside; as harmonics, of a text file",
-      &PlaceScene::kind, required);
+      required);
   auto harmonics = places.of("harmonics", "file"), cap = places.of("cap");
-  harmonics.key("base", any_number, {"", "1", "constant part of the factor"}, &PlaceScene::base);
-  harmonics.key("modes", any_number,
-                {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|; absent: 0"},
-                &PlaceScene::modes);
-  places.of("file").key("path", any_number,
-                        {"", "", "text file of lines \"n m a\", relative to the scene file; absent: modes"},
-                        &PlaceScene::path);
-  cap.key("axis", any_number, {"", "1", "through the middle of the cap"}, &PlaceScene::axis);
-  cap.key("angle_deg", degrees, {"α", "1", "from the axis to the edge, in degrees", required}, &PlaceScene::angle_deg);
-  cap.key("width_deg", degrees,
-          {"w", "1", "of the edge, in degrees: the share of the cap is ½ erfc((cos α − cos γ)/(w sin α))"},
-          &PlaceScene::width_deg);
-  cap.key("inside", any_number, {"", "1", "factor within the cap", required}, &PlaceScene::inside);
-  cap.key("outside", any_number, {"", "1", "factor outside"}, &PlaceScene::outside);
+  harmonics.key("base", &PlaceScene::base, any_number, {"", "1", "constant part of the factor"});
+  harmonics.key("modes", &PlaceScene::modes, any_number,
+                {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|; absent: 0"});
+  places.of("file").key("path", &PlaceScene::path, any_number,
+                        {"", "", "text file of lines \"n m a\", relative to the scene file; absent: modes"});
+  cap.key("axis", &PlaceScene::axis, any_number, {"", "1", "through the middle of the cap"});
+  cap.key("angle_deg", &PlaceScene::angle_deg, degrees, {"α", "1", "from the axis to the edge, in degrees", required});
+  cap.key("width_deg", &PlaceScene::width_deg, degrees,
+          {"w", "1", "of the edge, in degrees: the share of the cap is ½ erfc((cos α − cos γ)/(w sin α))"});
+  cap.key("inside", &PlaceScene::inside, any_number, {"", "1", "factor within the cap", required});
+  cap.key("outside", &PlaceScene::outside, any_number, {"", "1", "factor outside"});
   return places;
 }
 
 void add_membrane(auto& scene) {
-  auto membrane = scene.always("membrane", "mechanical and electric properties of the membrane", &Scene::membrane);
-  membrane.key("bending_modulus", not_negative,
-               {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus κ_c; absent or 0: no bending"},
-               &MembraneScene::bending_modulus);
-  membrane.key("spontaneous_curvature", any_number,
+  auto membrane = scene.always("membrane", &Scene::membrane, "mechanical and electric properties of the membrane");
+  membrane.key("bending_modulus", &MembraneScene::bending_modulus, not_negative,
+               {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus κ_c; absent or 0: no bending"});
+  membrane.key("spontaneous_curvature", &MembraneScene::spontaneous_curvature, any_number,
                {"c", "1/length",
                 "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere. The usual C₀ of (κ_c/2)∫(C₁ + C₂ − C₀)² dA, positive "
-                "where the membrane prefers to bulge outwards, is −2c"},
-               &MembraneScene::spontaneous_curvature);
-  membrane.key("inextensible", any_number, {"", "", "local area is conserved by a tension, Eq. (1e)"},
-               &MembraneScene::inextensible);
+                "where the membrane prefers to bulge outwards, is −2c"});
+  membrane.key("inextensible", &MembraneScene::inextensible, any_number,
+               {"", "", "local area is conserved by a tension, Eq. (1e)"});
   membrane
-      .key("capacitance", positive, {"C_m", "capacitance/area", "used with [electric] only"},
-           &MembraneScene::capacitance)
+      .key("capacitance", &MembraneScene::capacitance, positive,
+           {"C_m", "capacitance/area", "used with [electric] only"})
       .default_has_effect = [](const Scene& s) { return s.electric.has_value(); };
-  membrane.key("conductance", not_negative, {"G_m", "conductance/area", "used with [electric] only"},
-               &MembraneScene::conductance);
-  membrane.key("mobile", any_number, {"", "", "false: the shape is frozen and only the membrane charges"},
-               &MembraneScene::mobile);
-  add_places(membrane.optional("membrane.capacitance_by_place", "C_m from place to place; absent: uniform",
-                               &MembraneScene::capacitance_by_place));
-  add_places(membrane.optional("membrane.conductance_by_place", "G_m from place to place; absent: uniform",
-                               &MembraneScene::conductance_by_place));
-  add_places(membrane.optional("membrane.bending_by_place", "κ_B from place to place; absent: uniform",
-                               &MembraneScene::bending_by_place));
-  add_places(membrane.optional("membrane.curvature_by_place",
-                               "spontaneous curvature c from place to place; absent: uniform",
-                               &MembraneScene::curvature_by_place));
-  auto pump = add_places(membrane.optional(
-      "membrane.pump", "current that the membrane pumps from place to place; absent: none", &MembraneScene::pump));
+  membrane.key("conductance", &MembraneScene::conductance, not_negative,
+               {"G_m", "conductance/area", "used with [electric] only"});
+  membrane.key("mobile", &MembraneScene::mobile, any_number,
+               {"", "", "false: the shape is frozen and only the membrane charges"});
+  add_places(membrane.optional("membrane.capacitance_by_place", &MembraneScene::capacitance_by_place,
+                               "C_m from place to place; absent: uniform"));
+  add_places(membrane.optional("membrane.conductance_by_place", &MembraneScene::conductance_by_place,
+                               "G_m from place to place; absent: uniform"));
+  add_places(membrane.optional("membrane.bending_by_place", &MembraneScene::bending_by_place,
+                               "κ_B from place to place; absent: uniform"));
+  add_places(membrane.optional("membrane.curvature_by_place", &MembraneScene::curvature_by_place,
+                               "spontaneous curvature c from place to place; absent: uniform"));
+  auto pump = add_places(membrane.optional("membrane.pump", &MembraneScene::pump,
+                                           "current that the membrane pumps from place to place; absent: none"));
   pump.of("harmonics", "cap", "file")
-      .key("current", any_number,
+      .key("current", &PumpScene::current, any_number,
            {"J_p", "current/area", "outwards, where the factor is 1: C_m dV_m/dt + G_m V_m + J_p = −σ_i ∂φ_i/∂n",
-            required},
-           &PumpScene::current);
+            required});
   add_waveform(
-      pump.optional("membrane.pump.waveform", "factor of the pump current in time; absent: 1", &PumpScene::waveform));
+      pump.optional("membrane.pump.waveform", &PumpScene::waveform, "factor of the pump current in time; absent: 1"));
 }
 
 void add_fluid(auto& scene) {
-  auto fluid = scene.always("fluid", "the fluids inside and outside", &Scene::fluid);
-  fluid.key("viscosity", positive, {"μ", "viscosity", "of the fluid outside"}, &FluidScene::viscosity);
-  fluid.key("viscosity_ratio", not_negative, {"μ_i/μ_e", "1", "inside over outside; 1: no double layer is evaluated"},
-            &FluidScene::viscosity_ratio);
-  fluid.key("density_difference", any_number, {"ρ_i − ρ_e", "density", "inside minus outside; goes with [gravity]"},
-            &FluidScene::density_difference);
+  auto fluid = scene.always("fluid", &Scene::fluid, "the fluids inside and outside");
+  fluid.key("viscosity", &FluidScene::viscosity, positive, {"μ", "viscosity", "of the fluid outside"});
+  fluid.key("viscosity_ratio", &FluidScene::viscosity_ratio, not_negative,
+            {"μ_i/μ_e", "1", "inside over outside; 1: no double layer is evaluated"});
+  fluid.key("density_difference", &FluidScene::density_difference, any_number,
+            {"ρ_i − ρ_e", "density", "inside minus outside; goes with [gravity]"});
 }
 
 void add_gravity_and_contact(auto& scene) {
-  auto gravity = scene.optional("gravity", "weight of the inner fluid; absent: none", &Scene::gravity);
-  gravity.key("acceleration", any_number, {"g", "acceleration", "of free fall", required}, &GravityScene::acceleration);
-  auto contact = scene.optional("contact", "potential between different vesicles; absent: none", &Scene::contact);
-  contact.key("energy", any_number,
+  auto gravity = scene.optional("gravity", &Scene::gravity, "weight of the inner fluid; absent: none");
+  gravity.key("acceleration", &GravityScene::acceleration, any_number, {"g", "acceleration", "of free fall", required});
+  auto contact = scene.optional("contact", &Scene::contact, "potential between different vesicles; absent: none");
+  contact.key("energy", &ContactScene::energy, any_number,
               {"W", "force/length",
                "two flat membranes at distance d have W exp(−d²/range²) per area; positive repels, negative attracts",
-               required},
-              &ContactScene::energy);
-  contact.key("range", positive, {"", "length", "of the potential", required}, &ContactScene::range);
+               required});
+  contact.key("range", &ContactScene::range, positive, {"", "length", "of the potential", required});
 }
 
 void add_flow(auto& scene) {
-  auto flow = scene.optional("flow", "background flow; absent: quiescent", &Scene::flow);
-  flow.word("kind", {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
+  auto flow = scene.optional("flow", &Scene::flow, "background flow; absent: quiescent");
+  flow.word("kind", &FlowScene::kind, {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
             "rate (z, 0, 0); rate (x, 0, −z); rate (−x/2, −y/2, z); any gradient; centre_velocity (1 − (y² + "
             "z²)/radius²) along x",
-            &FlowScene::kind, required);
+            required);
   flow.of("shear", "planar_extension", "axisymmetric_extension")
-      .key("rate", any_number, {"γ̇", "1/time", "velocity gradient", required}, &FlowScene::rate);
+      .key("rate", &FlowScene::rate, any_number, {"γ̇", "1/time", "velocity gradient", required});
   flow.of("gradient")
-      .key("gradient", any_number, {"∇v", "1/time", "rows dv_i/dx_j of trace zero", required}, &FlowScene::gradient);
+      .key("gradient", &FlowScene::gradient, any_number, {"∇v", "1/time", "rows dv_i/dx_j of trace zero", required});
   auto poiseuille = flow.of("poiseuille");
-  poiseuille.key("centre_velocity", any_number, {"v_c", "velocity", "on the axis", required},
-                 &FlowScene::centre_velocity);
-  poiseuille.key("radius", positive, {"R", "length", "where the profile vanishes; there is no wall", required},
-                 &FlowScene::radius);
-  add_waveform(flow.optional("flow.waveform", "factor of the flow in time; absent: 1", &FlowScene::waveform));
+  poiseuille.key("centre_velocity", &FlowScene::centre_velocity, any_number,
+                 {"v_c", "velocity", "on the axis", required});
+  poiseuille.key("radius", &FlowScene::radius, positive,
+                 {"R", "length", "where the profile vanishes; there is no wall", required});
+  add_waveform(flow.optional("flow.waveform", &FlowScene::waveform, "factor of the flow in time; absent: 1"));
 }
 
 void add_electric(auto& scene) {
-  auto electric = scene.optional("electric", "applied field; absent: nothing electric is assembled", &Scene::electric);
-  electric.key("field", any_number, {"E_∞", "field", "applied uniform field", required}, &ElectricScene::field);
-  electric.key("conductivity_in", not_negative, {"σ_i", "conductivity", "of the fluid inside", required},
-               &ElectricScene::conductivity_in);
-  electric.key("conductivity_out", not_negative, {"σ_e", "conductivity", "of the fluid outside", required},
-               &ElectricScene::conductivity_out);
-  electric.key("permittivity", positive, {"ε", "permittivity", "of the fluid outside"}, &ElectricScene::permittivity);
-  electric.key("permittivity_ratio", positive, {"ε_i/ε_e", "1", "inside over outside"},
-               &ElectricScene::permittivity_ratio);
-  electric.word("initial_Vm", {"zero", "steady", "file"},
+  auto electric = scene.optional("electric", &Scene::electric, "applied field; absent: nothing electric is assembled");
+  electric.key("field", &ElectricScene::field, any_number, {"E_∞", "field", "applied uniform field", required});
+  electric.key("conductivity_in", &ElectricScene::conductivity_in, not_negative,
+               {"σ_i", "conductivity", "of the fluid inside", required});
+  electric.key("conductivity_out", &ElectricScene::conductivity_out, not_negative,
+               {"σ_e", "conductivity", "of the fluid outside", required});
+  electric.key("permittivity", &ElectricScene::permittivity, positive, {"ε", "permittivity", "of the fluid outside"});
+  electric.key("permittivity_ratio", &ElectricScene::permittivity_ratio, positive,
+               {"ε_i/ε_e", "1", "inside over outside"});
+  electric.word("initial_Vm", &ElectricScene::initial_potential, {"zero", "steady", "file"},
                 "transmembrane potential at time 0: none; that of a membrane fully charged; that of the file of "
-                "[shape], which is the default with a file that has one",
-                &ElectricScene::initial_potential);
+                "[shape], which is the default with a file that has one");
   electric.key(
-      "displacement_current", any_number,
-      {"", "", "of both fluids, which matters in fields of some 100 kHz and pulses below some us; needs permittivity"},
-      &ElectricScene::displacement_current);
+      "displacement_current", &ElectricScene::displacement_current, any_number,
+      {"", "", "of both fluids, which matters in fields of some 100 kHz and pulses below some us; needs permittivity"});
   auto ac = add_waveform(
-      electric.optional("electric.waveform", "factor of the field in time; absent: 1", &ElectricScene::waveform));
-  ac.key("average", any_number,
+      electric.optional("electric.waveform", &ElectricScene::waveform, "factor of the field in time; absent: 1"));
+  ac.key("average", &WaveformScene::average, any_number,
          {"", "",
           "the shape follows the mean force of a period, and V_m is known by amplitude and phase; see "
-          "docs/experiments/ac_field.md"},
-         &WaveformScene::average);
+          "docs/experiments/ac_field.md"});
 }
 
 void add_poration(auto& scene) {
   using Poration = PorationScene;
   auto poration =
-      scene.optional("poration", "what the membrane does beyond a threshold; absent: nothing", &Scene::poration);
+      scene.optional("poration", &Scene::poration, "what the membrane does beyond a threshold; absent: nothing");
   poration.word(
-      "model", {"criterion", "porosity", "pores"},
+      "model", &Poration::model, {"criterion", "porosity", "pores"},
       "criterion: when and where a threshold is passed first, which changes nothing; porosity: G_m + G_1 X with dX/dt "
       "= max((β − X)/τ_ep, (β − X)/τ_res), β = ½[1 + tanh k(|V_m|/V_r − 1)]; pores: G_m + N g_p with dN/dt = α "
       "exp((V_m/V_ep)²)[1 − (N/N_0) exp(−q(V_m/V_ep)²)], g_p = 2πr²σ_p/(πr + 2h); see docs/experiments/poration.md",
-      &Poration::model, required);
+      required);
   auto criterion = poration.of("criterion"), porosity = poration.of("porosity"), pores = poration.of("pores");
-  criterion.key("threshold_Vm", positive, {"V_c", "potential", "of |V_m|; this, lysis_tension or both"},
-                &Poration::threshold_potential);
+  criterion.key("threshold_Vm", &Poration::threshold_potential, positive,
+                {"V_c", "potential", "of |V_m|; this, lysis_tension or both"});
   criterion.key(
-      "lysis_tension", positive,
-      {"λ_c", "force/length", "of λ + C_m V_m²/2, which a sphere does not determine; this, threshold_Vm or both"},
-      &Poration::lysis_tension);
-  porosity.key("threshold_Vm", positive, {"V_r", "potential", "where β is a half", required},
-               &Poration::threshold_potential);
-  porosity.key("porated_conductance", not_negative, {"G_1", "conductance/area", "beyond G_m where X is 1", required},
-               &Poration::porated_conductance);
-  porosity.key("steepness", positive, {"k", "1", "of β"}, &Poration::steepness);
-  porosity.key("poration_time", positive, {"τ_ep", "time", "in which X rises", required}, &Poration::poration_time);
-  porosity.key("resealing_time", positive, {"τ_res", "time", "in which X falls, longer than poration_time", required},
-               &Poration::resealing_time);
-  pores.key("creation_rate", positive, {"α", "1/(area time)", "of pores without V_m", required},
-            &Poration::creation_rate);
-  pores.key("creation_Vm", positive,
-            {"V_ep", "potential", "creation rises by the factor e where V_m reaches it", required},
-            &Poration::threshold_potential);
-  pores.key("rest_density", positive, {"N_0", "1/area", "of pores without V_m", required}, &Poration::rest_density);
-  pores.key("exponent", positive, {"q", "1", "of the density in equilibrium"}, &Poration::exponent);
-  pores.key("pore_radius", positive, {"r", "length", "of all pores", required}, &Poration::pore_radius);
-  pores.key("membrane_thickness", positive, {"h", "length", "of the membrane", required},
-            &Poration::membrane_thickness);
-  pores.key("pore_conductivity", positive, {"σ_p", "conductivity", "within pores; absent: (σ_e − σ_i)/ln(σ_e/σ_i)"},
-            &Poration::pore_conductivity);
+      "lysis_tension", &Poration::lysis_tension, positive,
+      {"λ_c", "force/length", "of λ + C_m V_m²/2, which a sphere does not determine; this, threshold_Vm or both"});
+  porosity.key("threshold_Vm", &Poration::threshold_potential, positive,
+               {"V_r", "potential", "where β is a half", required});
+  porosity.key("porated_conductance", &Poration::porated_conductance, not_negative,
+               {"G_1", "conductance/area", "beyond G_m where X is 1", required});
+  porosity.key("steepness", &Poration::steepness, positive, {"k", "1", "of β"});
+  porosity.key("poration_time", &Poration::poration_time, positive, {"τ_ep", "time", "in which X rises", required});
+  porosity.key("resealing_time", &Poration::resealing_time, positive,
+               {"τ_res", "time", "in which X falls, longer than poration_time", required});
+  pores.key("creation_rate", &Poration::creation_rate, positive,
+            {"α", "1/(area time)", "of pores without V_m", required});
+  pores.key("creation_Vm", &Poration::threshold_potential, positive,
+            {"V_ep", "potential", "creation rises by the factor e where V_m reaches it", required});
+  pores.key("rest_density", &Poration::rest_density, positive, {"N_0", "1/area", "of pores without V_m", required});
+  pores.key("exponent", &Poration::exponent, positive, {"q", "1", "of the density in equilibrium"});
+  pores.key("pore_radius", &Poration::pore_radius, positive, {"r", "length", "of all pores", required});
+  pores.key("membrane_thickness", &Poration::membrane_thickness, positive,
+            {"h", "length", "of the membrane", required});
+  pores.key("pore_conductivity", &Poration::pore_conductivity, positive,
+            {"σ_p", "conductivity", "within pores; absent: (σ_e − σ_i)/ln(σ_e/σ_i)"});
 }
 
 void add_numerics(auto& scene) {
-  auto numerics = scene.always("numerics", "resolution in space and time", &Scene::numerics, required);
-  numerics.key(
-      "tolerance", {tightest_tolerance, 0.1},
-      {"", "1",
-       "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they are fixed"},
-      &NumericsScene::tolerance);
+  auto numerics = scene.always("numerics", &Scene::numerics, "resolution in space and time", required);
+  numerics.key("tolerance", &NumericsScene::tolerance, {tightest_tolerance, 0.1},
+               {"", "1",
+                "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they "
+                "are fixed"});
   numerics
-      .key("degree", {lowest_order, highest_order},
+      .key("degree", &NumericsScene::order, {lowest_order, highest_order},
            {"p", "1",
             "of the spherical harmonics; also called order; with a tolerance the highest and that of the files, by "
-            "default 8 (1 − log₁₀ tolerance) up to 64"},
-           &NumericsScene::order)
+            "default 8 (1 − log₁₀ tolerance) up to 64"})
       .other_name = "order";
-  numerics.key("dt", positive, {"Δt", "time", "largest time step; required without a tolerance"}, &NumericsScene::dt);
-  numerics.key("time_order", {1, highest_time_order},
+  numerics.key("dt", &NumericsScene::dt, positive, {"Δt", "time", "largest time step; required without a tolerance"});
+  numerics.key("time_order", &NumericsScene::time_order, {1, highest_time_order},
                {"", "1",
                 "order of a step in Δt: 1 the paper's scheme; 2 … 5 its deferred correction at 2, 5, 10, 13 times the "
-                "work; with a tolerance at least 2, by default 5"},
-               &NumericsScene::time_order);
-  numerics.key("end_time", not_negative, {"", "time", "0 solves and writes the initial state alone", required},
-               &NumericsScene::end_time);
-  numerics.word("symmetry", {"auto", "off", "axisymmetric"},
-                "use what is found; use none; refuse a scene that is not axisymmetric about any axis",
-                &NumericsScene::symmetry);
-  numerics.key("error_bars", any_number,
-               {"", "", "history_error.csv: the estimated error of every number of history.csv, for a third more time"},
-               &NumericsScene::error_bars);
+                "work; with a tolerance at least 2, by default 5"});
+  numerics.key("end_time", &NumericsScene::end_time, not_negative,
+               {"", "time", "0 solves and writes the initial state alone", required});
+  numerics.word("symmetry", &NumericsScene::symmetry, {"auto", "off", "axisymmetric"},
+                "use what is found; use none; refuse a scene that is not axisymmetric about any axis");
+  numerics.key(
+      "error_bars", &NumericsScene::error_bars, any_number,
+      {"", "", "history_error.csv: the estimated error of every number of history.csv, for a third more time"});
 }
 
 void add_output(auto& scene) {
-  auto output = scene.always("output", "what is written", &Scene::output);
-  output.key("every", positive,
-             {"", "time", "time between snapshots; absent: the start, the end, and what times and window ask for"},
-             &OutputScene::every);
-  output.key("times", not_negative, {"", "time", "further times of snapshots, ascending"}, &OutputScene::times);
-  output.key("window", not_negative,
+  auto output = scene.always("output", &Scene::output, "what is written");
+  output.key("every", &OutputScene::every, positive,
+             {"", "time", "time between snapshots; absent: the start, the end, and what times and window ask for"});
+  output.key("times", &OutputScene::times, not_negative, {"", "time", "further times of snapshots, ascending"});
+  output.key("window", &OutputScene::windows, not_negative,
              {"", "time",
               "[[output.window]]: further snapshots at from, from + every, … up to to; any number of windows, which "
-              "may overlap"},
-             &OutputScene::windows);
-  output.word("units", {"auto", "si", "dimensionless"},
+              "may overlap"});
+  output.word("units", &OutputScene::units, {"auto", "si", "dimensionless"},
               "of history.csv, summary.json, pictures and progress: auto takes SI units where the scene has [units]; "
-              "see docs/run_files.md",
-              &OutputScene::units);
+              "see docs/run_files.md");
 }
 
 void add_suspension(auto& scene) {
   auto suspension =
-      scene.optional("suspension", "copies of the vesicle at random places; absent: none", &Scene::suspension);
-  suspension.word("kind", {"box", "ball"}, "the region; every vesicle is within it as a whole", &SuspensionScene::kind,
+      scene.optional("suspension", &Scene::suspension, "copies of the vesicle at random places; absent: none");
+  suspension.word("kind", &SuspensionScene::kind, {"box", "ball"}, "the region; every vesicle is within it as a whole",
                   required);
-  suspension.of("box").key("size", positive, {"", "length", "along x, y, z", required}, &SuspensionScene::size);
-  suspension.of("ball").key("radius", positive, {"", "length", "of the ball", required}, &SuspensionScene::radius);
-  suspension.key("centre", any_number, {"", "length", "of the region"}, &SuspensionScene::centre);
-  suspension.key("count", {1.0, 1e9}, {"", "1", "number of vesicles; or volume_fraction"}, &SuspensionScene::count);
-  suspension.key("volume_fraction", {0.0, 1.0, true}, {"", "1", "of the vesicles in the region; or count"},
-                 &SuspensionScene::volume_fraction);
-  suspension.key("seed", {0.0, 1e9}, {"", "1", "of the random places and orientations"}, &SuspensionScene::seed);
-  suspension.word("orientation", {"random", "aligned"}, "random takes the place of rotation in [shape]",
-                  &SuspensionScene::orientation);
-  suspension.key("gap", not_negative, {"", "1", "least distance of two vesicles over the radius √(area/4π)"},
-                 &SuspensionScene::gap);
+  suspension.of("box").key("size", &SuspensionScene::size, positive, {"", "length", "along x, y, z", required});
+  suspension.of("ball").key("radius", &SuspensionScene::radius, positive, {"", "length", "of the ball", required});
+  suspension.key("centre", &SuspensionScene::centre, any_number, {"", "length", "of the region"});
+  suspension.key("count", &SuspensionScene::count, {1.0, 1e9}, {"", "1", "number of vesicles; or volume_fraction"});
+  suspension.key("volume_fraction", &SuspensionScene::volume_fraction, {0.0, 1.0, true},
+                 {"", "1", "of the vesicles in the region; or count"});
+  suspension.key("seed", &SuspensionScene::seed, {0.0, 1e9}, {"", "1", "of the random places and orientations"});
+  suspension.word("orientation", &SuspensionScene::orientation, {"random", "aligned"},
+                  "random takes the place of rotation in [shape]");
+  suspension.key("gap", &SuspensionScene::gap, not_negative,
+                 {"", "1", "least distance of two vesicles over the radius √(area/4π)"});
 }
 
 Rows make_rows() {

@@ -8,6 +8,7 @@
 #include "bie/physics/poiseuille_flow.hpp"
 #include "bie/physics/pore_density.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/scene/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/scene/waveforms.hpp"
 
@@ -21,119 +22,61 @@ Waveform waveform_in(const Scene& scene, std::string_view table) {
   return found == acting.end() ? Waveform() : waveform_of(*found->waveform);
 }
 
-Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
-
-BackgroundFlow background_flow_of(const FlowScene& flow) {
-  switch (flow.kind) {
-    case FlowKind::shear:
-      return shear_flow(flow.rate);
-    case FlowKind::planar_extension:
-      return planar_extension(flow.rate);
-    case FlowKind::axisymmetric_extension:
-      return axisymmetric_extension(flow.rate);
-    case FlowKind::gradient:
-    case FlowKind::poiseuille:
-      break;
-  }
+BackgroundFlow linear_flow(const FlowScene& flow) {
+  if (flow.kind == FlowKind::shear) return shear_flow(flow.rate);
+  if (flow.kind == FlowKind::planar_extension) return planar_extension(flow.rate);
+  if (flow.kind == FlowKind::axisymmetric_extension) return axisymmetric_extension(flow.rate);
   BackgroundFlow result;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) result.gradient(i, j) = flow.gradient[i][j];
-  }
+  for (int i = 0; i < 3; ++i) result.gradient.row(i) = vector_of(flow.gradient[i]).transpose();
   return result;
 }
 
-void add_flow(const Scene& scene, Model& model) {
-  const FlowScene& flow = *scene.flow;
-  const Waveform waveform = waveform_in(scene, "flow.waveform");
-  if (flow.kind == FlowKind::poiseuille) {
-    const PoiseuilleParameters poiseuille{flow.centre_velocity, flow.radius, waveform};
-    model.effects.push_back(std::make_shared<PoiseuilleFlowEffect>(poiseuille));
-    return;
-  }
-  model.flow = background_flow_of(flow);
-  model.flow->waveform = waveform;
-}
-
-}  // namespace
-
-namespace {
-
-/// @param scene  of this vesicle alone
+/// @param scene  of one vesicle, with [poration]
 void add_poration(const Scene& scene, VesicleModel& vesicle) {
   const PorationScene& p = *scene.poration;
-  switch (p.model) {
-    case PorationModel::criterion:
-      vesicle.criterion = PorationCriterion{p.threshold_potential, p.lysis_tension};
-      break;
-    case PorationModel::porosity:
-      vesicle.reaction = std::make_shared<MembranePorosity>(PorosityParameters{
-          p.porated_conductance, *p.threshold_potential, p.steepness, p.poration_time, p.resealing_time});
-      break;
-    case PorationModel::pores: {
-      const double conductivity = p.pore_conductivity.value_or(
-          pore_conductivity(scene.electric->conductivity_in, scene.electric->conductivity_out));
-      vesicle.reaction = std::make_shared<PoreDensity>(
-          PoreParameters{p.creation_rate, *p.threshold_potential, p.rest_density, p.exponent,
-                         pore_conductance(p.pore_radius, p.membrane_thickness, conductivity)});
-      break;
-    }
+  if (p.model == PorationModel::criterion) {
+    vesicle.criterion = PorationCriterion{p.threshold_potential, p.lysis_tension};
+  } else if (p.model == PorationModel::porosity) {
+    vesicle.reaction = std::make_shared<MembranePorosity>(PorosityParameters{
+        p.porated_conductance, *p.threshold_potential, p.steepness, p.poration_time, p.resealing_time});
+  } else {
+    const double conductivity = p.pore_conductivity.value_or(
+        pore_conductivity(scene.electric->conductivity_in, scene.electric->conductivity_out));
+    vesicle.reaction = std::make_shared<PoreDensity>(
+        PoreParameters{p.creation_rate, *p.threshold_potential, p.rest_density, p.exponent,
+                       pore_conductance(p.pore_radius, p.membrane_thickness, conductivity)});
   }
 }
 
 /// @param scene  of this vesicle alone
 VesicleModel vesicle_of(const Scene& scene) {
+  const MembraneScene& m = scene.membrane;
   VesicleModel vesicle;
   vesicle.viscosity_ratio = scene.fluid.viscosity_ratio;
-  vesicle.inextensible = scene.membrane.inextensible;
-  if (scene.membrane.bending_modulus.value_or(0.0) > 0.0) {
-    const double modulus = *scene.membrane.bending_modulus;
+  vesicle.inextensible = m.inextensible;
+  vesicle.by_place = m.capacitance_by_place || m.conductance_by_place || m.bending_by_place || m.curvature_by_place;
+  if (const double modulus = m.bending_modulus.value_or(0.0); modulus > 0.0) {
     vesicle.bending = BendingParameters{modulus};
-    const bool by_place = scene.membrane.bending_by_place || scene.membrane.curvature_by_place;
-    if (const double curvature = scene.membrane.spontaneous_curvature; curvature != 0.0 && !by_place) {
-      vesicle.effects.push_back(
-          std::make_shared<SpontaneousCurvatureEffect>(SpontaneousCurvatureParameters{modulus, curvature}));
+    if (m.spontaneous_curvature != 0.0 && !m.bending_by_place && !m.curvature_by_place) {
+      vesicle.effects.push_back(std::make_shared<SpontaneousCurvatureEffect>(
+          SpontaneousCurvatureParameters{modulus, m.spontaneous_curvature}));
     }
   }
   if (scene.gravity && scene.fluid.density_difference != 0.0) {
-    const GravityParameters gravity{scene.fluid.density_difference, vector_of(scene.gravity->acceleration)};
-    vesicle.effects.push_back(std::make_shared<GravityEffect>(gravity));
+    vesicle.effects.push_back(std::make_shared<GravityEffect>(
+        GravityParameters{scene.fluid.density_difference, vector_of(scene.gravity->acceleration)}));
   }
   if (scene.electric) {
     vesicle.inside = {scene.electric->conductivity_in, scene.electric->permittivity_ratio};
-    vesicle.charging = {scene.membrane.capacitance, scene.membrane.conductance};
-    if (scene.membrane.pump) vesicle.pump = waveform_in(scene, "membrane.pump.waveform");
+    vesicle.charging = {m.capacitance, m.conductance};
+    if (m.pump) vesicle.pump = waveform_in(scene, "membrane.pump.waveform");
   }
-  const MembraneScene& m = scene.membrane;
-  vesicle.by_place = m.capacitance_by_place || m.conductance_by_place || m.bending_by_place || m.curvature_by_place;
   if (scene.poration) add_poration(scene, vesicle);
   return vesicle;
 }
 
-}  // namespace
-
-Model model_of(const Scene& scene) {
-  Model model;
-  model.viscosity = scene.fluid.viscosity;
-  model.mobile = scene.membrane.mobile;
-  model.vesicles.clear();
-  for (const Scene& one : each_alone(scene)) model.vesicles.push_back(vesicle_of(one));
-  if (scene.flow) add_flow(scene, model);
-  if (scene.contact) model.contact = ContactParameters{scene.contact->energy, scene.contact->range};
-  if (scene.electric) {
-    // Without a field, and until there is a V_m, the electric part of a step is inactive.
-    const bool is_zero = scene.electric->field == Triple{};
-    const Waveform waveform = is_zero ? Waveform::alternating(0.0, 1.0, 0.0) : waveform_in(scene, "electric.waveform");
-    model.electric = AppliedField{vector_of(scene.electric->field), scene.electric->conductivity_out,
-                                  scene.electric->permittivity, waveform, scene.electric->displacement_current};
-    if (has_averaged_field(scene)) model.electric->averaged_frequency = scene.electric->waveform->frequency;
-  }
-  return model;
-}
-
-namespace {
-
-/// Of whatever alternates.
-double longest_of_period(const Scene& scene) {
+/// An eighth of the shortest period of whatever alternates.
+double longest_step_in_a_period(const Scene& scene) {
   double result = std::numeric_limits<double>::infinity();
   for (const Scene& one : each_alone(scene)) {
     for (const ActingWaveform& acting : acting_waveforms(one)) {
@@ -146,6 +89,34 @@ double longest_of_period(const Scene& scene) {
 
 }  // namespace
 
+Model model_of(const Scene& scene) {
+  Model model;
+  model.viscosity = scene.fluid.viscosity;
+  model.mobile = scene.membrane.mobile;
+  model.vesicles.clear();
+  for (const Scene& one : each_alone(scene)) model.vesicles.push_back(vesicle_of(one));
+  if (const auto& flow = scene.flow) {
+    const Waveform waveform = waveform_in(scene, "flow.waveform");
+    if (flow->kind == FlowKind::poiseuille) {
+      model.effects.push_back(
+          std::make_shared<PoiseuilleFlowEffect>(PoiseuilleParameters{flow->centre_velocity, flow->radius, waveform}));
+    } else {
+      model.flow = linear_flow(*flow);
+      model.flow->waveform = waveform;
+    }
+  }
+  if (scene.contact) model.contact = ContactParameters{scene.contact->energy, scene.contact->range};
+  if (const auto& electric = scene.electric) {
+    // Without a field, and until there is a V_m, the electric part of a step is inactive.
+    const bool is_zero = electric->field == Triple{};
+    const Waveform waveform = is_zero ? Waveform::alternating(0.0, 1.0, 0.0) : waveform_in(scene, "electric.waveform");
+    model.electric = AppliedField{vector_of(electric->field), electric->conductivity_out, electric->permittivity,
+                                  waveform, electric->displacement_current};
+    if (has_averaged_field(scene)) model.electric->averaged_frequency = electric->waveform->frequency;
+  }
+  return model;
+}
+
 StepControl step_control_of(const Scene& scene) {
   const NumericsScene& numerics = scene.numerics;
   if (!numerics.tolerance) return fixed_steps(*numerics.dt);
@@ -153,8 +124,8 @@ StepControl step_control_of(const Scene& scene) {
   // hours.
   constexpr double kSmallestFraction = 1e-15;
   const double longest = std::max(numerics.end_time, std::numeric_limits<double>::min());
-  return {std::min({numerics.dt.value_or(longest), longest, longest_of_period(scene)}), kSmallestFraction * longest,
-          *numerics.tolerance};
+  return {std::min({numerics.dt.value_or(longest), longest, longest_step_in_a_period(scene)}),
+          kSmallestFraction * longest, *numerics.tolerance};
 }
 
 NumericalSettings settings_of(const Scene& scene) {

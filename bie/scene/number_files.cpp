@@ -1,5 +1,3 @@
-#include "bie/scene/number_files.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "bie/scene/reading_steps.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/rotation.hpp"
-#include "bie/sphere/transform.hpp"
 
 namespace vehd {
 namespace {
@@ -17,27 +17,22 @@ constexpr double rounding = 1e-14;
 /// Area elements are no polynomials.
 int fine_order(int order) { return std::max(4 * order, 128); }
 
-/// Cosine and sine of an angle in degrees.
-struct Turn {
-  double cosine, sine;
-};
-
-Turn turn_of(double degrees) {
-  int quarters = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarters) * std::numbers::pi / 180.0;
-  Turn turn{std::cos(rest), std::sin(rest)};
-  for (int i = 0; i < (quarters & 3); ++i) turn = {-turn.sine, turn.cosine};
-  return turn;
-}
-
 }  // namespace
+
+SphereTransform shape_transform(int order) {
+  constexpr int coarsest = 64;
+  return {order, make_grid(std::max(3 * order, coarsest))};
+}
 
 Matrix3 rotation_matrix(const AxisAngle& rotation) {
   const Vector3 axis = Vector3(rotation[0], rotation[1], rotation[2]).stableNormalized();
-  const Turn turn = turn_of(rotation[3]);
+  int quarters = 0;
+  const double rest = std::remquo(rotation[3], 90.0, &quarters) * std::numbers::pi / 180.0;
+  std::complex<double> turn = std::polar(1.0, rest);
+  for (int i = 0; i < (quarters & 3); ++i) turn = {-turn.imag(), turn.real()};
   Matrix3 cross;
   cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
-  return turn.cosine * Matrix3::Identity() + turn.sine * cross + (1.0 - turn.cosine) * axis * axis.transpose();
+  return turn.real() * Matrix3::Identity() + turn.imag() * cross + (1.0 - turn.real()) * axis * axis.transpose();
 }
 
 Matrix rotated(const Matrix& position, const Matrix3& rotation) {

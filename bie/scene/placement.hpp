@@ -1,10 +1,29 @@
 #pragma once
 
 #include "bie/scene/scene.hpp"
+#include "bie/sphere/transform.hpp"
 #include "bie/support/types.hpp"
 
 /// Size, direction and place of a shape, on position coefficients [n_coefficients x 3].
 namespace vehd {
+
+/// Three numbers of a scene as a vector.
+inline Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
+
+/// Between degree p and a grid to sample a shape on: shapes are no polynomials of bounded degree, and a grid this much
+/// finer keeps aliasing below the truncation.
+SphereTransform shape_transform(int order);
+
+/// Position coefficients of the shape that goes through point(i, θ, φ) at the nodes i of the transform's grid.
+template <typename Point>
+Matrix position_through(const SphereTransform& transform, const Point& point) {
+  const SphereGrid& grid = transform.grid();
+  Matrix points(grid.n_points(), 3);
+  for (Index i = 0; i < points.rows(); ++i) {
+    points.row(i) = point(i, grid.theta(i / grid.n_phi), grid.phi(i % grid.n_phi)).transpose();
+  }
+  return transform.analyze(points);
+}
 
 /// Right-handed; exact for quarter turns about the coordinate axes. The axis must not be zero.
 /// @param rotation  axis of any length, angle in degrees

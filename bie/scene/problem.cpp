@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "bie/scene/initial_material.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/vesicles.hpp"

@@ -9,6 +9,8 @@
 
 namespace vehd {
 
+class RunReader;
+
 /// Reads and validates a scene file (TOML, docs/scenes).
 /// @throws InputError "file:line: what is wrong, the value, what is accepted"
 Scene read_scene(const std::filesystem::path& path);
@@ -27,5 +29,8 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
 /// @return nullopt if the text has no such table
 /// @throws InputError "name:line: ..."
 std::optional<UnitsScene> parse_units(const std::string& text, const std::string& name);
+
+/// Reference scales of a run; nullopt if its scene has no [units]. @throws InputError
+std::optional<UnitsScene> units_of(const RunReader& run);
 
 }  // namespace vehd

@@ -1,9 +1,8 @@
-#include "bie/scene/reference_scales.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "bie/scene/reading_steps.hpp"
 #include "bie/scene/units.hpp"
 
 namespace vehd {

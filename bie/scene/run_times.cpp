@@ -13,91 +13,62 @@
 namespace vehd {
 namespace {
 
-class Times {
- public:
-  Times(const Scene& scene, const std::vector<DimensionlessGroup>& groups)
-      : scene_(scene), seconds_(si_scale(scene.units, "time")) {
-    for (const DimensionlessGroup& group : groups) {
-      if (group.unit == "time") add(std::string(group.name), std::string(group.symbol), group.value, meaning_of(group));
-    }
-    if (scene.electric && scene.electric->waveform) add_waveform("field", *scene.electric->waveform);
-    if (scene.flow && scene.flow->waveform) add_waveform("flow", *scene.flow->waveform);
-    if (scene.numerics.end_time > 0.0) add("run", "t_end", scene.numerics.end_time, "from start to end");
-    std::ranges::stable_sort(times_, {}, &RunTime::value);
-    for (RunTime& time : times_) {
-      if (time.symbol == "t_MW") time.meaning += relaxation_text(time.value);
-    }
-  }
-
-  std::vector<RunTime> take() { return std::move(times_); }
-
- private:
-  void add(std::string name, std::string symbol, double value, std::string meaning) {
-    std::optional<double> seconds;
-    if (std::isfinite(seconds_)) seconds = value * seconds_;
-    times_.push_back({std::move(name), std::move(symbol), value, seconds, std::move(meaning)});
-  }
-
-  [[nodiscard]] std::string meaning_of(const DimensionlessGroup& group) const {
-    const double end = scene_.numerics.end_time;
-    std::string text(group.meaning);
-    if (end > 0.0) text += fmt::format("; the run lasts {:.3g} {}", end / group.value, group.symbol);
-    return text;
-  }
-
-  void add_waveform(const std::string& of, const WaveformScene& waveform) {
-    switch (waveform.kind) {
-      case WaveformKind::dc:
-      case WaveformKind::table:
-        return;
-      case WaveformKind::ac:
-        forcing(of + " period", "1/f", 1.0 / waveform.frequency, 2.0 * std::numbers::pi,
-                waveform.average ? "averaged; the run has {:.3g}" : "at least four steps each; the run has {:.3g}");
-        return;
-      case WaveformKind::pulse_train:
-        add(of + " period", "", waveform.period,
-            count_text(waveform.period, "from pulse to pulse; the run has {:.3g}"));
-        [[fallthrough]];
-      case WaveformKind::pulse:
-        forcing(of + " pulse", "", waveform.duration, 1.0,
-                "a step ends where it begins and ends; the run lasts {:.3g} of it");
-    }
-  }
-
-  /// @param share  of it in which the forcing changes: 1/ω of a period
-  void forcing(const std::string& name, const std::string& symbol, double time, double share, const char* meaning) {
-    add(name, symbol, time, count_text(time, meaning));
-    shortest_forcing_ = std::min(shortest_forcing_, time / share);
-  }
-
-  [[nodiscard]] std::string count_text(double time, const char* text) const {
-    return fmt::format(fmt::runtime(text), scene_.numerics.end_time / time);
-  }
-
-  /// The model has the charge of the fluids follow at once.
-  [[nodiscard]] std::string relaxation_text(double time) const {
-    constexpr double short_against = 0.1;
-    double other = shortest_forcing_;
-    for (const RunTime& each : times_) {
-      if (each.symbol == "t_m") other = std::min(other, each.value);
-    }
-    if (scene_.electric->displacement_current) return "; by displacement currents";
-    if (time <= short_against * other) return "; short, as the model needs";
-    return "; not short against charging and waveform: displacement currents would matter";
-  }
-
-  const Scene& scene_;
-  double seconds_;
-  double shortest_forcing_ = std::numeric_limits<double>::infinity();
-  std::vector<RunTime> times_;
-};
+/// The model has the charge of the fluids follow at once.
+/// @param other  shortest time of charging and forcing
+std::string relaxation_text(const Scene& scene, double time, double other) {
+  constexpr double short_against = 0.1;
+  if (scene.electric->displacement_current) return "; by displacement currents";
+  if (time <= short_against * other) return "; short, as the model needs";
+  return "; not short against charging and waveform: displacement currents would matter";
+}
 
 }  // namespace
 
 std::string RunTime::text() const { return seconds ? si_number(*seconds, "time") : fmt::format("{:.4g}", value); }
 
 std::vector<RunTime> run_times(const Scene& scene, const std::vector<DimensionlessGroup>& groups) {
-  return Times(scene, groups).take();
+  const double end = scene.numerics.end_time;
+  std::vector<RunTime> times;
+  const auto add = [&](std::string name, std::string symbol, double value, std::string meaning) {
+    const double seconds = value * si_scale(scene.units, "time");
+    times.push_back({std::move(name), std::move(symbol), value,
+                     std::isfinite(seconds) ? std::optional(seconds) : std::nullopt, std::move(meaning)});
+  };
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const DimensionlessGroup& group : groups) {
+    if (group.unit != "time") continue;
+    if (group.symbol == "t_m") shortest = group.value;
+    std::string meaning(group.meaning);
+    if (end > 0.0) meaning += fmt::format("; the run lasts {:.3g} {}", end / group.value, group.symbol);
+    add(std::string(group.name), std::string(group.symbol), group.value, std::move(meaning));
+  }
+  const auto add_waveform = [&](const std::string& of, const std::optional<WaveformScene>& waveform) {
+    if (!waveform) return;
+    const auto count = [end](double time) { return fmt::format("{:.3g}", end / time); };
+    const double period = waveform->kind == WaveformKind::ac ? 1.0 / waveform->frequency : waveform->period;
+    if (waveform->kind == WaveformKind::ac) {
+      add(of + " period", "1/f", period,
+          (waveform->average ? "averaged; the run has " : "at least four steps each; the run has ") + count(period));
+      // It changes within 1/ω.
+      shortest = std::min(shortest, period / (2.0 * std::numbers::pi));
+    }
+    if (waveform->kind == WaveformKind::pulse_train) {
+      add(of + " period", "", period, "from pulse to pulse; the run has " + count(period));
+    }
+    if (waveform->kind == WaveformKind::pulse_train || waveform->kind == WaveformKind::pulse) {
+      add(of + " pulse", "", waveform->duration,
+          fmt::format("a step ends where it begins and ends; the run lasts {} of it", count(waveform->duration)));
+      shortest = std::min(shortest, waveform->duration);
+    }
+  };
+  if (scene.electric) add_waveform("field", scene.electric->waveform);
+  if (scene.flow) add_waveform("flow", scene.flow->waveform);
+  if (end > 0.0) add("run", "t_end", end, "from start to end");
+  std::ranges::stable_sort(times, {}, &RunTime::value);
+  for (RunTime& time : times) {
+    if (time.symbol == "t_MW") time.meaning += relaxation_text(scene, time.value, shortest);
+  }
+  return times;
 }
 
 }  // namespace vehd

@@ -21,8 +21,7 @@ using AxisAngle = std::array<double, 4>;
 
 /// One term amplitude * Re Y_n^m of Eq. (17); m < 0 takes Im Y_n^|m|.
 struct HarmonicMode {
-  int n = 0;
-  int m = 0;
+  int n = 0, m = 0;
   double a = 0.0;
   bool operator==(const HarmonicMode&) const = default;
 };
@@ -46,11 +45,8 @@ enum class ResultUnits { automatic, si, dimensionless };
 
 /// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
 struct UnitsScene {
-  std::optional<double> length;         ///< m
-  std::optional<double> time;           ///< s
-  std::optional<double> viscosity;      ///< Pa s
-  std::optional<double> potential;      ///< V
-  std::optional<double> temperature{};  ///< K, of energies in kBT; no scale
+  std::optional<double> length, time, viscosity, potential;
+  std::optional<double> temperature{};  ///< of energies in kBT; no scale
   bool operator==(const UnitsScene&) const = default;
 };
 
@@ -75,11 +71,7 @@ struct ShapeScene {
 /// Factor of a field or flow in the course of time; which members count depends on the kind.
 struct WaveformScene {
   WaveformKind kind = WaveformKind::dc;
-  double frequency = 1.0;
-  double phase = 0.0;
-  double start = 0.0;
-  double duration = 1.0;
-  double period = 1.0;
+  double frequency = 1.0, phase = 0.0, start = 0.0, duration = 1.0, period = 1.0;
   bool average = false;             ///< of an ac field: only the mean of its force over a period counts
   std::optional<std::string> path;  ///< of a table that is still to be read
   std::vector<double> times, values;
@@ -96,10 +88,7 @@ struct PlaceScene {
   std::vector<HarmonicMode> modes;
   std::optional<std::string> path;  ///< of modes that are still to be read
   Triple axis{0.0, 0.0, 1.0};
-  double angle_deg = 30.0;
-  double width_deg = 15.0;
-  double inside = 1.0;
-  double outside = 1.0;
+  double angle_deg = 30.0, width_deg = 15.0, inside = 1.0, outside = 1.0;
   bool operator==(const PlaceScene&) const = default;
 };
 
@@ -125,9 +114,7 @@ struct MembraneScene {
 
 /// Table [fluid].
 struct FluidScene {
-  double viscosity = 1.0;
-  double viscosity_ratio = 1.0;
-  double density_difference = 0.0;
+  double viscosity = 1.0, viscosity_ratio = 1.0, density_difference = 0.0;
   bool operator==(const FluidScene&) const = default;
 };
 
@@ -139,8 +126,7 @@ struct GravityScene {
 
 /// Table [contact]: a potential between the membranes of different vesicles.
 struct ContactScene {
-  double energy = 0.0;
-  double range = 1.0;
+  double energy = 0.0, range = 1.0;
   bool operator==(const ContactScene&) const = default;
 };
 
@@ -151,9 +137,8 @@ enum class SuspensionOrientation { random, aligned };
 /// Table [suspension]: copies of one vesicle in a region.
 struct SuspensionScene {
   SuspensionKind kind = SuspensionKind::box;
-  Triple size{1.0, 1.0, 1.0};
+  Triple size{1.0, 1.0, 1.0}, centre{0.0, 0.0, 0.0};
   double radius = 1.0;
-  Triple centre{0.0, 0.0, 0.0};
   std::optional<std::int64_t> count;
   std::optional<double> volume_fraction;
   int seed = 1;
@@ -167,8 +152,7 @@ struct FlowScene {
   FlowKind kind = FlowKind::shear;
   double rate = 1.0;
   TripleOfTriples gradient{};
-  double centre_velocity = 1.0;
-  double radius = 1.0;
+  double centre_velocity = 1.0, radius = 1.0;
   std::optional<WaveformScene> waveform;  ///< absent: constant
   bool operator==(const FlowScene&) const = default;
 };
@@ -176,10 +160,7 @@ struct FlowScene {
 /// Table [electric].
 struct ElectricScene {
   Triple field{0.0, 0.0, 0.0};
-  double conductivity_in = 1.0;
-  double conductivity_out = 1.0;
-  double permittivity = 1.0;
-  double permittivity_ratio = 1.0;
+  double conductivity_in = 1.0, conductivity_out = 1.0, permittivity = 1.0, permittivity_ratio = 1.0;
   bool displacement_current = false;
   std::optional<WaveformScene> waveform;                        ///< absent: constant
   InitialPotential initial_potential = InitialPotential::zero;  ///< of the file by default, where it has one
@@ -189,17 +170,9 @@ struct ElectricScene {
 /// Table [poration]; which members count depends on the model.
 struct PorationScene {
   PorationModel model = PorationModel::criterion;
-  std::optional<double> threshold_potential;
-  std::optional<double> lysis_tension;
-  double porated_conductance = 0.0;
-  double steepness = 10.0;
-  double poration_time = 1.0;
-  double resealing_time = 1.0;
-  double creation_rate = 1.0;
-  double rest_density = 1.0;
-  double exponent = 2.46;
-  double pore_radius = 1.0;
-  double membrane_thickness = 1.0;
+  std::optional<double> threshold_potential, lysis_tension;
+  double porated_conductance = 0.0, steepness = 10.0, poration_time = 1.0, resealing_time = 1.0;
+  double creation_rate = 1.0, rest_density = 1.0, exponent = 2.46, pore_radius = 1.0, membrane_thickness = 1.0;
   std::optional<double> pore_conductivity;
   bool operator==(const PorationScene&) const = default;
 };
@@ -218,9 +191,7 @@ struct NumericsScene {
 
 /// Snapshots at from, from + every, ... up to `to`.
 struct OutputWindow {
-  double from = 0.0;
-  double to = 0.0;
-  double every = 0.0;
+  double from = 0.0, to = 0.0, every = 0.0;
   bool operator==(const OutputWindow&) const = default;
 };
 
@@ -272,6 +243,11 @@ inline bool has_averaged_field(const Scene& scene) {
 /// Does free charge relax in time beside V_m?
 inline bool has_relaxing_charge(const Scene& scene) {
   return scene.electric && scene.electric->displacement_current && !has_averaged_field(scene);
+}
+
+/// Is V_m at time 0 that of the shape file?
+inline bool takes_stored_potential(const Scene& scene) {
+  return scene.electric && scene.electric->initial_potential == InitialPotential::file;
 }
 
 /// Does a membrane differ from place to place, or have a pump?

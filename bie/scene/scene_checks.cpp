@@ -6,11 +6,10 @@
 
 #include "bie/files/run_reader.hpp"
 #include "bie/geometry/roundness.hpp"
-#include "bie/scene/checks.hpp"
-#include "bie/scene/initial_material.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/placement.hpp"
-#include "bie/scene/shape_file.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/scene/reading_steps.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/scene/waveforms.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -51,33 +50,35 @@ class SceneChecks {
   }
 
  private:
+  /// @param key      "table.key"
   /// @param problem  {0} or the first {} is "key" in [table]
   template <typename... Arguments>
-  void refuse_if(bool is_wrong, std::string_view table, std::string_view key,
+  void refuse_if(bool is_wrong, std::string_view key,
                  fmt::format_string<const std::string&, const Arguments&...> problem,
                  const Arguments&... arguments) const {
     if (!is_wrong) return;
-    const std::string called = fmt::format("\"{}\" in [{}]", key, table);
-    file_.refuse_key(table, key, "{}", fmt::format(problem, called, arguments...));
+    const std::size_t dot = key.rfind('.');
+    const std::string called = fmt::format("\"{}\" in [{}]", key.substr(dot + 1), key.substr(0, dot));
+    file_.refuse_key(key.substr(0, dot), key.substr(dot + 1), "{}", fmt::format(problem, called, arguments...));
   }
 
   void check_steps() const {
     const NumericsScene& n = scene_.numerics;
-    refuse_if(!n.dt && !n.tolerance, "numerics", "dt",
+    refuse_if(!n.dt && !n.tolerance, "numerics.dt",
               "missing key \"dt\" in [numerics] (largest time step); accepted: > 0, or a \"tolerance\"");
-    refuse_if(n.tolerance && n.time_order < 2, "numerics", "time_order",
+    refuse_if(n.tolerance && n.time_order < 2, "numerics.time_order",
               "{} is 1, which has no error estimate; accepted with a tolerance: 2 to 5");
   }
 
   void check_shape() const {
     const ShapeScene& shape = scene_.shape;
-    refuse_if(shape.area && shape.scale, "shape", "scale", "{} together with \"area\"; accepted: one of them");
+    refuse_if(shape.area && shape.scale, "shape.scale", "{} together with \"area\"; accepted: one of them");
     const AxisAngle turn = shape.rotation.value_or(AxisAngle{1.0});
-    refuse_if(turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0, "shape", "rotation",
+    refuse_if(turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0, "shape.rotation",
               "{} has the axis 0, 0, 0; accepted: an axis that is not zero");
     if (shape.kind != ShapeKind::radial) return;
     // The effective scene spells out every default.
-    refuse_if(!shape.amplitude && shape.exponent != ShapeScene{}.exponent, "shape", "exponent",
+    refuse_if(!shape.amplitude && shape.exponent != ShapeScene{}.exponent, "shape.exponent",
               "{} has no effect without \"amplitude\"");
     for (std::size_t i = 0; i < shape.modes.size(); ++i) {
       if (shape.modes[i].n <= scene_.numerics.order) continue;
@@ -86,9 +87,9 @@ class SceneChecks {
                    shape.modes[i].n, scene_.numerics.order);
     }
     const Extremes radius = radius_extremes(scene_);
-    refuse_if(!(radius.least > 0.0), "shape", "modes",
+    refuse_if(!(radius.least > 0.0), "shape.modes",
               "the radius in [shape] falls to {1}; accepted: > 0 and finite in every direction", radius.least);
-    refuse_if(!size_range.contains(radius.least) || !size_range.contains(radius.most), "shape", "modes",
+    refuse_if(!size_range.contains(radius.least) || !size_range.contains(radius.most), "shape.modes",
               "the radius in [shape] is {1:.3g} to {2:.3g}; accepted: {3}", radius.least, radius.most,
               size_range.text());
   }
@@ -100,57 +101,58 @@ class SceneChecks {
       for (const double entry : row) largest = std::max(largest, std::abs(entry));
     }
     const double trace = gradient[0][0] + gradient[1][1] + gradient[2][2];
-    refuse_if(!(std::abs(trace) <= trace_tolerance * largest), "flow", "gradient",
+    refuse_if(!(std::abs(trace) <= trace_tolerance * largest), "flow.gradient",
               "{} has the trace {}; accepted: 0 (incompressible flow)", trace);
   }
 
   void check_electric(const ElectricScene& electric) const {
     const bool steady = electric.initial_potential == InitialPotential::steady;
     const bool insulates = electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0;
-    refuse_if(electric.conductivity_in == 0.0 && electric.conductivity_out == 0.0, "electric", "conductivity_in",
+    refuse_if(electric.conductivity_in == 0.0 && electric.conductivity_out == 0.0, "electric.conductivity_in",
               "\"conductivity_in\" and \"conductivity_out\" in [electric] are both 0; accepted: at least one > 0");
-    refuse_if(electric.displacement_current && !file_.table["electric"]["permittivity"], "electric",
-              "displacement_current", "{} needs \"permittivity\" there, whose default is not that of any fluid");
+    refuse_if(electric.displacement_current && !file_.table["electric"]["permittivity"],
+              "electric.displacement_current",
+              "{} needs \"permittivity\" there, whose default is not that of any fluid");
     if (has_averaged_field(scene_)) {
-      refuse_if(electric.initial_potential != InitialPotential::zero, "electric", "initial_Vm",
+      refuse_if(electric.initial_potential != InitialPotential::zero, "electric.initial_Vm",
                 "{} has no effect with \"average\" in [electric.waveform]; accepted: zero");
-      refuse_if(electric.waveform->phase != 0.0, "electric.waveform", "phase",
+      refuse_if(electric.waveform->phase != 0.0, "electric.waveform.phase",
                 "{} has no effect with \"average\"; accepted: 0");
     }
     if (!has_relaxing_charge(scene_)) return;
-    refuse_if(electric.initial_potential == InitialPotential::file, "electric", "initial_Vm",
+    refuse_if(electric.initial_potential == InitialPotential::file, "electric.initial_Vm",
               "{} is file, but with \"displacement_current\" the charges of both faces count, which no file has; "
               "accepted: zero, steady");
-    refuse_if(steady && insulates, "electric", "initial_Vm",
+    refuse_if(steady && insulates, "electric.initial_Vm",
               "{} is steady, but a conductivity is 0; accepted with \"displacement_current\": zero");
   }
 
   void check_effects() const {
     const MembraneScene& membrane = scene_.membrane;
     const bool heavy = scene_.fluid.density_difference != 0.0;
-    refuse_if(scene_.gravity && !heavy && !is_heavy_, "gravity", "acceleration",
+    refuse_if(scene_.gravity && !heavy && !is_heavy_, "gravity.acceleration",
               "[gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
-    refuse_if(heavy && !scene_.gravity, "fluid", "density_difference", "{} has no effect without [gravity]");
-    refuse_if(scene_.gravity && scene_.gravity->acceleration == Triple{}, "gravity", "acceleration",
+    refuse_if(heavy && !scene_.gravity, "fluid.density_difference", "{} has no effect without [gravity]");
+    refuse_if(scene_.gravity && scene_.gravity->acceleration == Triple{}, "gravity.acceleration",
               "{} is 0; accepted: a vector that is not zero");
-    refuse_if(membrane.spontaneous_curvature != 0.0 && !(membrane.bending_modulus.value_or(0.0) > 0.0), "membrane",
-              "spontaneous_curvature", "{} has no effect without \"bending_modulus\"");
-    refuse_if(!membrane.mobile && !scene_.electric, "membrane", "mobile",
+    refuse_if(membrane.spontaneous_curvature != 0.0 && !(membrane.bending_modulus.value_or(0.0) > 0.0),
+              "membrane.spontaneous_curvature", "{} has no effect without \"bending_modulus\"");
+    refuse_if(!membrane.mobile && !scene_.electric, "membrane.mobile",
               "{} is false without [electric]: nothing would ever change");
   }
 
-  void check_waveform(std::string_view table, const std::optional<WaveformScene>& waveform) const {
+  void check_waveform(const std::string& table, const std::optional<WaveformScene>& waveform) const {
     if (!waveform) return;
     if (waveform->kind == WaveformKind::pulse_train) {
-      refuse_if(waveform->period <= waveform->duration, table, "period",
+      refuse_if(waveform->period <= waveform->duration, table + ".period",
                 "{} is {:g}; accepted: more than the duration {:g}", waveform->period, waveform->duration);
     }
     if (waveform->kind != WaveformKind::table) return;
     const auto& times = waveform->times;
-    refuse_if(times.size() != waveform->values.size(), table, "times",
+    refuse_if(times.size() != waveform->values.size(), table + ".times",
               "the table of [{1}] has {2} times and {3} values; accepted: as many of either", table, times.size(),
               waveform->values.size());
-    refuse_if(times.size() < 2, table, "times", "the table of [{1}] has {2} entries; accepted: at least 2", table,
+    refuse_if(times.size() < 2, table + ".times", "the table of [{1}] has {2} entries; accepted: at least 2", table,
               times.size());
     const auto fall = std::ranges::is_sorted_until(times);
     if (fall != times.end()) {
@@ -158,7 +160,7 @@ class SceneChecks {
                        *fall);
     }
     for (std::size_t i = 2; i < times.size(); ++i) {
-      refuse_if(times[i] == times[i - 2], table, "times",
+      refuse_if(times[i] == times[i - 2], table + ".times",
                 "the table of [{1}] has the time {2:g} three times; accepted: twice, which makes a jump", table,
                 times[i]);
     }
@@ -170,7 +172,7 @@ class SceneChecks {
     for (const ActingWaveform& acting : acting_waveforms(scene_)) {
       if (acting.waveform->kind != WaveformKind::ac) continue;
       const double steps = 1.0 / (acting.waveform->frequency * *scene_.numerics.dt);
-      refuse_if(steps < fewest_fixed_steps_a_period, acting.table, "frequency",
+      refuse_if(steps < fewest_fixed_steps_a_period, fmt::format("{}.frequency", acting.table),
                 "\"dt\" in [numerics] takes {1:.3g} steps a period of [{2}]; accepted: at least {3:g}", steps,
                 acting.table, fewest_fixed_steps_a_period);
     }
@@ -180,21 +182,21 @@ class SceneChecks {
   void require_few_steps() const {
     const NumericsScene& numerics = scene_.numerics;
     struct Demand {
-      std::string_view table, key;
+      std::string key;
       double steps;
     };
     std::vector<Demand> demands;
-    if (numerics.dt) demands.push_back({"numerics", "dt", numerics.end_time / *numerics.dt});
+    if (numerics.dt) demands.push_back({"numerics.dt", numerics.end_time / *numerics.dt});
     for (const ActingWaveform& acting : acting_waveforms(scene_)) {
       const WaveformKind kind = acting.waveform->kind;
       const char* key = kind == WaveformKind::ac ? "frequency" : kind == WaveformKind::pulse_train ? "period" : "kind";
-      demands.push_back({acting.table, key, fewest_steps(*acting.waveform, numerics.end_time)});
+      demands.push_back({fmt::format("{}.{}", acting.table, key), fewest_steps(*acting.waveform, numerics.end_time)});
     }
     double steps = 0.0;
     for (const Demand& demand : demands) steps += demand.steps;
-    if (steps <= most_steps) return;
+    if (demands.empty()) return;
     const Demand& largest = *std::ranges::max_element(demands, {}, &Demand::steps);
-    refuse_if(true, largest.table, largest.key, "{} asks for {:.3g} steps; accepted: at most {:g}", largest.steps,
+    refuse_if(steps > most_steps, largest.key, "{} asks for {:.3g} steps; accepted: at most {:g}", largest.steps,
               most_steps);
   }
 
@@ -202,7 +204,7 @@ class SceneChecks {
     const OutputScene& output = scene_.output;
     const double end = scene_.numerics.end_time;
     for (const OutputWindow& window : output.windows) {
-      refuse_if(!(window.every > 0.0 && window.to > window.from), "output", "window",
+      refuse_if(!(window.every > 0.0 && window.to > window.from), "output.window",
                 "{} goes from {:g} to {:g} every {:g}; accepted: a later \"to\" and an \"every\" > 0", window.from,
                 window.to, window.every);
     }
@@ -210,29 +212,29 @@ class SceneChecks {
     double count = 0.0;
     const auto add = [&](std::string_view key, double more) {
       count += more;
-      refuse_if(count > most_snapshots, "output", key, "{} asks for {:.3g} snapshots; accepted: at most {:g}", count,
+      refuse_if(count > most_snapshots, key, "{} asks for {:.3g} snapshots; accepted: at most {:g}", count,
                 most_snapshots);
     };
-    if (output.every) add("every", end / *output.every);
+    if (output.every) add("output.every", end / *output.every);
     double in_windows = 0.0;
     for (const OutputWindow& window : output.windows) {
       in_windows += std::max(0.0, std::min(window.to, end) - window.from) / window.every;
     }
-    add("window", in_windows);
-    add("times", static_cast<double>(output.times.size()));
+    add("output.window", in_windows);
+    add("output.times", static_cast<double>(output.times.size()));
     const auto fall = std::ranges::is_sorted_until(output.times);
     if (fall != output.times.end()) {
       file_.refuse_key("output", "times", "\"times\" in [output] falls to {:g}; accepted: ascending times", *fall);
     }
-    refuse_if(output.units == ResultUnits::si && !scene_.units, "output", "units",
+    refuse_if(output.units == ResultUnits::si && !scene_.units, "output.units",
               "{} is \"si\", but the scene has no table [units]");
   }
 
   /// Properties by place and the pump.
   void check_places() const {
-    enum class Sign { any, not_negative, positive };
+    enum class Sign { any, zero_or_more, above_zero };
     struct Property {
-      std::string_view table;
+      std::string table;
       const PlaceScene* places;
       bool is_electric;
       std::string_view key;  ///< in [membrane], of the value that is multiplied
@@ -242,63 +244,63 @@ class SceneChecks {
     const MembraneScene& m = scene_.membrane;
     const auto pointer = [](const auto& places) -> const PlaceScene* { return places ? &*places : nullptr; };
     const std::vector<Property> properties = {{"membrane.capacitance_by_place", pointer(m.capacitance_by_place), true,
-                                               "capacitance", m.capacitance, Sign::positive},
+                                               "capacitance", m.capacitance, Sign::above_zero},
                                               {"membrane.conductance_by_place", pointer(m.conductance_by_place), true,
-                                               "conductance", m.conductance, Sign::not_negative},
+                                               "conductance", m.conductance, Sign::zero_or_more},
                                               {"membrane.bending_by_place", pointer(m.bending_by_place), false,
-                                               "bending_modulus", m.bending_modulus.value_or(0.0), Sign::positive},
+                                               "bending_modulus", m.bending_modulus.value_or(0.0), Sign::above_zero},
                                               {"membrane.curvature_by_place", pointer(m.curvature_by_place), false,
                                                "spontaneous_curvature", m.spontaneous_curvature, Sign::any},
                                               {"membrane.pump", pointer(m.pump), true, "", 1.0, Sign::any}};
     for (const Property& property : properties) {
       if (property.places == nullptr) continue;
-      refuse_if(property.is_electric && !scene_.electric, property.table, "kind",
+      refuse_if(property.is_electric && !scene_.electric, property.table + ".kind",
                 "[{1}] has no effect without [electric]", property.table);
-      refuse_if(!property.is_electric && !m.mobile, property.table, "kind",
+      refuse_if(!property.is_electric && !m.mobile, property.table + ".kind",
                 "[{1}] has no effect while \"mobile\" in [membrane] is false", property.table);
       check_factor(property.table, *property.places);
     }
     for (const Property& property : properties) {
       if (property.places == nullptr) continue;
-      refuse_if(property.value == 0.0, property.table, "kind", "[{1}] has no effect: \"{2}\" in [membrane] is 0",
+      refuse_if(property.value == 0.0, property.table + ".kind", "[{1}] has no effect: \"{2}\" in [membrane] is 0",
                 property.table, property.key);
       if (property.sign == Sign::any) continue;
       const int degree = scene_.numerics.order;
       const Vector factor =
           SphereTransform(degree, make_grid(2 * degree)).synthesize(place_factor(*property.places, degree));
       const double least = factor.minCoeff();
-      const bool may_vanish = property.sign == Sign::not_negative;
+      const bool may_vanish = property.sign == Sign::zero_or_more;
       // A cut cap falls below zero.
-      refuse_if(!(may_vanish ? least >= -largest_truncation * factor.maxCoeff() : least > 0.0), property.table, "kind",
-                "the factor in [{1}] falls to {2:.3g}; accepted: {3} everywhere", property.table, least,
-                may_vanish ? ">= 0" : "> 0");
+      refuse_if(!(may_vanish ? least >= -largest_truncation * factor.maxCoeff() : least > 0.0),
+                property.table + ".kind", "the factor in [{1}] falls to {2:.3g}; accepted: {3} everywhere",
+                property.table, least, may_vanish ? ">= 0" : "> 0");
     }
     if (m.pump) check_pump(*m.pump);
   }
 
-  void check_factor(std::string_view table, const PlaceScene& places) const {
+  void check_factor(const std::string& table, const PlaceScene& places) const {
     const int degree = scene_.numerics.order;
     for (const HarmonicMode& mode : places.modes) {
-      refuse_if(mode.n > degree, table, "modes",
+      refuse_if(mode.n > degree, table + ".modes",
                 "{} has the degree n = {}; accepted: at most the degree {} of [numerics]", mode.n, degree);
     }
     if (places.kind != PlaceKind::cap) return;
-    refuse_if(places.axis == Triple{}, table, "axis", "{} is 0, 0, 0; accepted: a vector that is not zero");
-    refuse_if(places.angle_deg == 180.0, table, "angle_deg", "{} is 180; accepted: less");
+    refuse_if(places.axis == Triple{}, table + ".axis", "{} is 0, 0, 0; accepted: a vector that is not zero");
+    refuse_if(places.angle_deg == 180.0, table + ".angle_deg", "{} is 180; accepted: less");
     const double truncation = place_truncation(places, degree);
-    refuse_if(truncation > largest_truncation, table, "width_deg",
+    refuse_if(truncation > largest_truncation, table + ".width_deg",
               "the edge of the cap in [{1}] is wrong by {2:.2g} of its step at the degree {3} of [numerics]; accepted: "
               "at most {4:g}, by a wider \"width_deg\" or a higher degree",
               table, truncation, degree, largest_truncation);
   }
 
   void check_pump(const PumpScene& pump) const {
-    refuse_if(has_averaged_field(scene_), "membrane.pump", "current",
+    refuse_if(has_averaged_field(scene_), "membrane.pump.current",
               "\"average\" in [electric.waveform] is true with [membrane.pump], whose current has a time of its own; "
               "accepted: false");
-    refuse_if(pump.current == 0.0, "membrane.pump", "current", "{} is 0: it has no effect; accepted: any other");
+    refuse_if(pump.current == 0.0, "membrane.pump.current", "{} is 0: it has no effect; accepted: any other");
     refuse_if(scene_.membrane.conductance == 0.0 && scene_.electric->initial_potential == InitialPotential::steady,
-              "membrane.pump", "current",
+              "membrane.pump.current",
               "a pump and a steady \"initial_Vm\" in [electric] with \"conductance\" 0 in [membrane], where the pump "
               "never comes to rest; accepted: a conductance > 0, or zero");
   }
@@ -306,47 +308,44 @@ class SceneChecks {
   void check_shape_file() {
     const ShapeScene& shape = scene_.shape;
     if (shape.kind != ShapeKind::file) {
-      refuse_if(takes_stored_potential(scene_), "electric", "initial_Vm",
+      refuse_if(takes_stored_potential(scene_), "electric.initial_Vm",
                 "{} is file, but the shape is from none; accepted: zero, steady");
       return;
     }
     std::error_code error;
-    refuse_if(!std::filesystem::is_regular_file(shape.path, error), "shape", "path", "{} is {}: no such file",
-              shape.path);
+    refuse_if(!std::filesystem::is_regular_file(shape.path, error), "shape.path", "{} is {}: no such file", shape.path);
     const RunReader run(shape.path);
-    refuse_if(run.n_vesicles() > 1, "shape", "path", "{} is {}, which holds {} vesicles; accepted: a run of one",
+    refuse_if(run.n_vesicles() > 1, "shape.path", "{} is {}, which holds {} vesicles; accepted: a run of one",
               shape.path, run.n_vesicles());
     const auto units = units_of(run);
     if (!shape.area) {
-      require_scale(units, "length", &UnitsScene::length, "shape", "path", "\"area\" in [shape], which sets the size");
+      require_scale(units, "length", &UnitsScene::length, "shape.path", "\"area\" in [shape], which sets the size");
     }
     if (shape.time) {
-      require_scale(units, "time", &UnitsScene::time, "shape", "time", "no \"time\", for the last snapshot");
+      require_scale(units, "time", &UnitsScene::time, "shape.time", "no \"time\", for the last snapshot");
       const double factor = *conversion(units, scene_.units, &UnitsScene::time);
       const double time = *shape.time / factor;
-      refuse_if(!run.find(time), "shape", "time", "{} is {:g}, at which {} has no snapshot; the nearest is at {:g}",
+      refuse_if(!run.find(time), "shape.time", "{} is {:g}, at which {} has no snapshot; the nearest is at {:g}",
                 *shape.time, shape.path, run.times()[run.nearest(time)] * factor);
     }
     if (!scene_.electric || has_averaged_field(scene_) || has_relaxing_charge(scene_)) return;
-    const bool has_potential = ShapeFile(scene_).has_potential();
+    const bool has_potential = start_snapshot(run, scene_).has_field("Vm");
     if (has_potential && !file_.table["electric"]["initial_Vm"].is_string()) {
       scene_.electric->initial_potential = InitialPotential::file;
     }
     if (!takes_stored_potential(scene_)) return;
-    refuse_if(!has_potential, "electric", "initial_Vm", "{} is file, but {} has no V_m; accepted: zero, steady",
+    refuse_if(!has_potential, "electric.initial_Vm", "{} is file, but {} has no V_m; accepted: zero, steady",
               shape.path);
-    require_scale(units, "potential", &UnitsScene::potential, "electric", "initial_Vm",
-                  "\"initial_Vm\" zero or steady");
+    require_scale(units, "potential", &UnitsScene::potential, "electric.initial_Vm", "\"initial_Vm\" zero or steady");
   }
 
   /// @param way_out  what makes the scale unnecessary
   void require_scale(const std::optional<UnitsScene>& of_run, std::string_view name,
-                     std::optional<double> UnitsScene::*scale, std::string_view table, std::string_view key,
-                     std::string_view way_out) const {
+                     std::optional<double> UnitsScene::*scale, std::string_view key, std::string_view way_out) const {
     if (conversion(of_run, scene_.units, scale)) return;
     const bool run_has_it = of_run && *of_run.*scale;
     const std::string this_scene = "this scene";
-    refuse_if(true, table, key, "{} needs a reference {}, which {} has and {} has not; accepted: {}, or {}", name,
+    refuse_if(true, key, "{} needs a reference {}, which {} has and {} has not; accepted: {}, or {}", name,
               run_has_it ? scene_.shape.path : this_scene, run_has_it ? this_scene : scene_.shape.path,
               run_has_it ? fmt::format("\"{}\" in [units]", name) : "a run of a scene with [units]", way_out);
   }
@@ -365,34 +364,34 @@ class SceneChecks {
   }
 
   void check_poration(const PorationScene& poration) const {
-    refuse_if(has_averaged_field(scene_), "poration", "model",
+    refuse_if(has_averaged_field(scene_), "poration.model",
               "\"average\" in [electric.waveform] is true with [poration], which asks for V_m at every moment; "
               "accepted: false");
     if (poration.model == PorationModel::criterion) {
-      refuse_if(!poration.threshold_potential && !poration.lysis_tension, "poration", "model",
+      refuse_if(!poration.threshold_potential && !poration.lysis_tension, "poration.model",
                 "missing key \"threshold_Vm\" or \"lysis_tension\" in [poration]; accepted: one or both");
-      refuse_if(poration.threshold_potential && !scene_.electric, "poration", "threshold_Vm",
+      refuse_if(poration.threshold_potential && !scene_.electric, "poration.threshold_Vm",
                 "{} has no effect without [electric]");
       if (!poration.lysis_tension) return;
-      refuse_if(!(scene_.membrane.inextensible && scene_.membrane.mobile), "poration", "lysis_tension",
+      refuse_if(!(scene_.membrane.inextensible && scene_.membrane.mobile), "poration.lysis_tension",
                 "{} has no effect without a tension; accepted: \"inextensible\" and \"mobile\" in [membrane] true");
-      refuse_if(is_sphere(), "poration", "lysis_tension",
+      refuse_if(is_sphere(), "poration.lysis_tension",
                 "{} of a sphere: a uniform tension of any size moves nothing there, so the tension is not determined; "
                 "accepted: another [shape], or \"threshold_Vm\" alone");
       return;
     }
-    refuse_if(!scene_.electric, "poration", "model",
+    refuse_if(!scene_.electric, "poration.model",
               "[poration] acts on nothing without [electric]; accepted: model = criterion");
     const ElectricScene& electric = *scene_.electric;
-    refuse_if(electric.initial_potential == InitialPotential::steady, "poration", "model",
+    refuse_if(electric.initial_potential == InitialPotential::steady, "poration.model",
               "[poration] with a steady \"initial_Vm\" in [electric], under which a membrane would porate at once; "
               "accepted: zero or file");
     refuse_if(poration.model == PorationModel::porosity && poration.resealing_time <= poration.poration_time,
-              "poration", "resealing_time", "{} is {:g}; accepted: more than the \"poration_time\" {:g}",
+              "poration.resealing_time", "{} is {:g}; accepted: more than the \"poration_time\" {:g}",
               poration.resealing_time, poration.poration_time);
     refuse_if(poration.model == PorationModel::pores && !poration.pore_conductivity &&
                   (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0),
-              "poration", "model",
+              "poration.model",
               "missing key \"pore_conductivity\" in [poration]: a conductivity in [electric] is 0; accepted: > 0");
   }
 

@@ -22,7 +22,6 @@ constexpr std::array<TypeWords, 12> type_words = {{
     {"boolean", "true or false"},
     {"integer", "an integer, {}"},
     {"number", "a number {}"},
-    {"word", "{}"},
     {"text", "a text in quotes"},
     {"3 numbers", "3 numbers [x, y, z], each {}"},
     {"3 x 3 numbers", "3 rows of 3 finite numbers"},
@@ -30,6 +29,7 @@ constexpr std::array<TypeWords, 12> type_words = {{
     {"list of numbers", "a list of numbers, each {}"},
     {"list of {n, m, a}", "entries {{n = degree, m = -n ... n, a = finite number}}"},
     {"list of {from, to, every}", "entries {{from = time, to = time, every = time}}, each {}"},
+    {"word", "{}"},
     {"text with unit", "a positive number with its unit in quotes, {}"},
 }};
 
@@ -126,6 +126,14 @@ std::vector<std::string_view> key_names(std::string_view table) {
 const TableDescription* find_table(std::string_view name) {
   const auto found = std::ranges::find(scene_tables(), name, &TableDescription::name);
   return found == scene_tables().end() ? nullptr : &*found;
+}
+
+std::vector<std::string_view> tables_with(std::string_view key) {
+  std::vector<std::string_view> names;
+  for (const TableDescription& table : scene_tables()) {
+    if (find_key(table.name, key) != nullptr) names.push_back(table.name);
+  }
+  return names;
 }
 
 const KeyDescription* find_key(std::string_view table, std::string_view name) {

@@ -15,12 +15,16 @@
 /// scene.hpp.
 namespace vehd {
 
-/// `quantity` is a number that always has a unit, kept in SI; every other value is dimensionless once read.
+/// Value of a key of any type.
+using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, AxisAngle,
+                           std::vector<double>, std::vector<HarmonicMode>, std::vector<OutputWindow>>;
+
+/// The alternatives of a Value in their order, and two that have a type of them: a word is one of some texts, a
+/// quantity is a number that always has a unit, kept in SI. Every other value is dimensionless once read.
 enum class ValueType {
   boolean,
   integer,
   number,
-  word,
   text,
   triple,
   matrix,
@@ -28,12 +32,9 @@ enum class ValueType {
   numbers,
   modes,
   windows,
+  word,
   quantity
 };
-
-/// Value of a key of any type.
-using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, AxisAngle,
-                           std::vector<double>, std::vector<HarmonicMode>, std::vector<OutputWindow>>;
 
 /// Accepted interval of a number or of every component of an array.
 struct Range {
@@ -102,6 +103,9 @@ std::vector<std::string_view> key_names(std::string_view table);
 
 /// nullptr if there is none of that name.
 const TableDescription* find_table(std::string_view name);
+
+/// Names of the tables that have a key of that name.
+std::vector<std::string_view> tables_with(std::string_view key);
 
 /// The first key of either name, or nullptr. A table may have rows of one name for different kinds.
 const KeyDescription* find_key(std::string_view table, std::string_view name);

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <utility>
 
-#include "bie/scene/nearest_name.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/support/errors.hpp"
 
@@ -16,56 +15,38 @@ namespace {
 
 constexpr std::string_view option = "--set ";
 
-bool is_part_of_key(std::string_view part) {
-  const auto fits = [](unsigned char letter) { return std::isalnum(letter) != 0 || letter == '_' || letter == '-'; };
-  return !part.empty() && std::all_of(part.begin(), part.end(), fits);
-}
-
 std::string trimmed(const std::string& text) {
   const std::size_t start = text.find_first_not_of(" \t");
   return start == std::string::npos ? "" : text.substr(start, text.find_last_not_of(" \t") - start + 1);
 }
 
-/// Of "rate": flow.rate.
-std::vector<std::string> full_names(std::string_view key) {
-  std::vector<std::string> names;
-  for (const TableDescription& table : scene_tables()) {
-    if (find_key(table.name, key) != nullptr) names.push_back(fmt::format("{}.{}", table.name, key));
-  }
-  return names;
-}
-
-bool is_table(std::string_view name) {
-  const auto is_it = [&](const TableDescription& table) { return table.name == name; };
-  return std::any_of(scene_tables().begin(), scene_tables().end(), is_it);
+/// Names of letters, digits, _ and -, with points between them.
+bool is_dotted_name(const std::string& text) {
+  const auto fits = [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '_' || letter == '-' || letter == '.';
+  };
+  return !text.empty() && text.front() != '.' && text.back() != '.' && text.find("..") == std::string::npos &&
+         std::ranges::all_of(text, fits);
 }
 
 /// Name and value of a setting.
-struct Assignment {
-  std::string key;
-  std::string value;
-};
-
-Assignment assignment_of(const std::string& setting) {
-  constexpr const char* form = "accepted: table.key=value, as in flow.rate=2.5";
-  const std::string place = std::string(option) + setting;
+std::pair<std::string, std::string> assignment_of(const std::string& setting) {
+  const std::string form = "accepted: table.key=value, as in flow.rate=2.5";
+  const auto refuse = [&](const std::string& problem, const std::string& accepted) {
+    throw InputError(fmt::format("{}{}: {}; {}", option, setting, problem, accepted));
+  };
   const std::size_t equals = setting.find('=');
-  if (equals == std::string::npos) throw InputError(fmt::format("{}: no value; {}", place, form));
+  if (equals == std::string::npos) refuse("no value", form);
   const std::string key = trimmed(setting.substr(0, equals));
-  std::size_t n_parts = 0;
-  for (std::size_t start = 0; start <= key.size(); ++n_parts) {
-    const std::size_t end = std::min(key.find('.', start), key.size());
-    if (!is_part_of_key(std::string_view(key).substr(start, end - start))) {
-      throw InputError(fmt::format("{}: \"{}\" is no key; {}", place, key, form));
-    }
-    start = end + 1;
+  const auto n_points = std::ranges::count(key, '.');
+  if (!is_dotted_name(key) || (n_points > 2 && find_table(key.substr(0, key.rfind('.'))) == nullptr)) {
+    refuse(fmt::format("\"{}\" is no key", key), form);
   }
-  if (n_parts > 3 && !is_table(key.substr(0, key.rfind('.'))))
-    throw InputError(fmt::format("{}: \"{}\" is no key; {}", place, key, form));
-  if (n_parts == 1) {
-    const auto names = full_names(key);
-    throw InputError(fmt::format("{}: \"{}\" has no table; {}", place, key,
-                                 names.empty() ? form : fmt::format("accepted: {}", fmt::join(names, ", "))));
+  if (n_points == 0) {
+    std::vector<std::string> names;
+    for (const std::string_view table : tables_with(key)) names.push_back(fmt::format("{}.{}", table, key));
+    refuse(fmt::format("\"{}\" has no table", key),
+           names.empty() ? form : fmt::format("accepted: {}", fmt::join(names, ", ")));
   }
   return {key, trimmed(setting.substr(equals + 1))};
 }
@@ -105,10 +86,10 @@ void merge_tables(toml::table& to, toml::table&& from) {
 
 void apply_settings(toml::table& file, const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) {
-    const Assignment given = assignment_of(setting);
-    const std::string value = is_toml_value(given.value) ? given.value : to_toml(Value(given.value));
-    forget_other_name(file, given.key);
-    merge_tables(file, toml::parse(given.key + " = " + value + "\n", std::string(option) + setting));
+    const auto [key, given] = assignment_of(setting);
+    forget_other_name(file, key);
+    const std::string value = is_toml_value(given) ? given : to_toml(Value(given));
+    merge_tables(file, toml::parse(key + " = " + value + "\n", std::string(option) + setting));
   }
 }
 

@@ -1,5 +1,3 @@
-#include "bie/scene/suspension.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -15,6 +13,7 @@
 #include "bie/potentials/nearest_points.hpp"
 #include "bie/scene/initial_shape.hpp"
 #include "bie/scene/placement.hpp"
+#include "bie/scene/reading_steps.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/sphere/harmonics.hpp"
 
@@ -25,9 +24,6 @@ namespace {
 constexpr int kTries = 20000, kExactTries = 500;
 /// Degree in which shapes are compared: they are placed, not computed with.
 constexpr int kHighestOrder = 12;
-
-Vector3 point_of(const Triple& t) { return {t[0], t[1], t[2]}; }
-Triple triple_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Numbers that are the same everywhere.
 class Random {
@@ -41,10 +37,9 @@ class Random {
     return {x, y, z};
   }
   Vector3 in_ball() {
-    for (;;) {
-      const Vector3 v = in_cube();
-      if (v.squaredNorm() <= 1.0) return v;
-    }
+    Vector3 v = in_cube();
+    while (v.squaredNorm() > 1.0) v = in_cube();
+    return v;
   }
   /// Of equal density in all orientations.
   Eigen::Quaterniond rotation() {
@@ -78,18 +73,11 @@ struct CopiedShape {
     inner = s.position.rowwise().norm().minCoeff();
     outer = s.position.rowwise().norm().maxCoeff();
   }
-
-  [[nodiscard]] Matrix at(const Matrix3& rotation, const Vector3& centre) const {
-    Matrix moved = position * rotation.transpose();
-    moved.row(0) += std::sqrt(4.0 * std::numbers::pi) * centre.transpose();
-    return moved;
-  }
 };
 
 struct PlacedVesicle {
   Vector3 centre;
-  Matrix3 rotation;
-  std::optional<AxisAngle> axis_angle;
+  std::optional<AxisAngle> rotation;
 };
 
 class Placement {
@@ -101,85 +89,83 @@ class Placement {
     const int count = counted();
     std::vector<PlacedVesicle> placed;
     while (static_cast<int>(placed.size()) < count) {
-      std::optional<PlacedVesicle> next = next_beside(placed);
-      if (!next) {
-        file_.refuse_key("suspension", amount_key(),
-                         "no room for the vesicles of [suspension]: {} of {} found a place, {:.3g} of the volume; "
-                         "accepted: fewer, a larger region or a smaller \"gap\"",
-                         placed.size(), count, static_cast<double>(placed.size()) * shape_.volume / region_volume());
+      if (const auto next = next_beside(placed)) {
+        placed.push_back(*next);
+        continue;
       }
-      placed.push_back(std::move(*next));
+      refuse(
+          amount_key(),
+          "no room for the vesicles of [suspension]: {} of {} found a place, {:.3g} of the volume; accepted: fewer, a "
+          "larger region or a smaller \"gap\"",
+          placed.size(), count, static_cast<double>(placed.size()) * shape_.volume / region_volume());
     }
     return placed;
   }
 
  private:
+  template <typename... Arguments>
+  [[noreturn]] void refuse(std::string_view key, fmt::format_string<Arguments...> problem,
+                           Arguments&&... arguments) const {
+    file_.refuse_key("suspension", key, problem, std::forward<Arguments>(arguments)...);
+  }
+
   [[nodiscard]] bool is_box() const { return wanted_.kind == SuspensionKind::box; }
 
   [[nodiscard]] std::string_view amount_key() const { return wanted_.count ? "count" : "volume_fraction"; }
 
   [[nodiscard]] double region_volume() const {
-    if (is_box()) return wanted_.size[0] * wanted_.size[1] * wanted_.size[2];
-    return 4.0 / 3.0 * std::numbers::pi * std::pow(wanted_.radius, 3);
+    return is_box() ? wanted_.size[0] * wanted_.size[1] * wanted_.size[2]
+                    : 4.0 / 3.0 * std::numbers::pi * std::pow(wanted_.radius, 3);
   }
 
   [[nodiscard]] int counted() const {
     if (wanted_.count.has_value() == wanted_.volume_fraction.has_value()) {
-      file_.refuse_key("suspension", "kind", "[suspension] accepts one of \"count\" and \"volume_fraction\"");
+      refuse("kind", "[suspension] accepts one of \"count\" and \"volume_fraction\"");
     }
     const double most = static_cast<double>(most_vesicles);
     const double count = wanted_.count ? static_cast<double>(*wanted_.count)
                                        : std::round(*wanted_.volume_fraction * region_volume() / shape_.volume);
     if (wanted_.count && count > most) {
-      file_.refuse_key("suspension", "count", "\"count\" in [suspension] is {}; accepted: at most {}", *wanted_.count,
-                       most_vesicles);
+      refuse("count", "\"count\" in [suspension] is {}; accepted: at most {}", *wanted_.count, most_vesicles);
     }
     if (!(count >= 1.0 && count <= most)) {
-      file_.refuse_key("suspension", "volume_fraction",
-                       "\"volume_fraction\" in [suspension] makes {:.6g} vesicles; accepted: 1 to {}", count,
-                       most_vesicles);
+      refuse("volume_fraction", "\"volume_fraction\" in [suspension] makes {:.6g} vesicles; accepted: 1 to {}", count,
+             most_vesicles);
     }
     const double narrowest = is_box() ? *std::ranges::min_element(wanted_.size) : 2.0 * wanted_.radius;
     if (narrowest < 2.0 * shape_.outer) {
-      file_.refuse_key("suspension", is_box() ? "size" : "radius",
-                       "the region of [suspension] is {:.3g} wide, a vesicle {:.3g}; accepted: no room less", narrowest,
-                       2.0 * shape_.outer);
+      refuse(is_box() ? "size" : "radius",
+             "the region of [suspension] is {:.3g} wide, a vesicle {:.3g}; accepted: no room less", narrowest,
+             2.0 * shape_.outer);
     }
     if (count * shape_.volume > region_volume()) {
-      file_.refuse_key(
-          "suspension", amount_key(),
-          "{:.6g} vesicles have {:.3g} times the volume of the region of [suspension]; accepted: less than 1", count,
-          count * shape_.volume / region_volume());
+      refuse(amount_key(),
+             "{:.6g} vesicles have {:.3g} times the volume of the region of [suspension]; accepted: less than 1", count,
+             count * shape_.volume / region_volume());
     }
     return static_cast<int>(count);
-  }
-
-  /// With the whole vesicle within the region.
-  Vector3 random_centre() {
-    Vector3 offset;
-    if (is_box()) {
-      const Vector3 half = 0.5 * point_of(wanted_.size) - Vector3::Constant(shape_.outer);
-      offset = random_.in_cube().cwiseProduct(half.cwiseMax(0.0));
-    } else {
-      offset = (wanted_.radius - shape_.outer) * random_.in_ball();
-    }
-    return point_of(wanted_.centre) + offset;
   }
 
   std::optional<PlacedVesicle> next_beside(const std::vector<PlacedVesicle>& placed) {
     int exact_tries = 0;
     for (int i = 0; i < kTries && exact_tries < kExactTries; ++i) {
-      PlacedVesicle candidate{random_centre(), Matrix3::Identity(), one_.shape.rotation};
+      PlacedVesicle candidate{random_centre(), one_.shape.rotation};
       if (wanted_.orientation == SuspensionOrientation::random) {
-        const Eigen::Quaterniond turn = random_.rotation();
-        const Eigen::AngleAxisd axis(turn);
-        candidate.axis_angle =
-            AxisAngle{axis.axis().x(), axis.axis().y(), axis.axis().z(), axis.angle() * 180.0 / std::numbers::pi};
+        const Eigen::AngleAxisd turn(random_.rotation());
+        candidate.rotation =
+            AxisAngle{turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle() * 180.0 / std::numbers::pi};
       }
-      if (candidate.axis_angle) candidate.rotation = rotation_matrix(*candidate.axis_angle);
       if (is_free(candidate, placed, exact_tries)) return candidate;
     }
     return std::nullopt;
+  }
+
+  /// With the whole vesicle within the region.
+  Vector3 random_centre() {
+    const Vector3 centre = vector_of(wanted_.centre);
+    if (!is_box()) return centre + (wanted_.radius - shape_.outer) * random_.in_ball();
+    const Vector3 half = 0.5 * vector_of(wanted_.size) - Vector3::Constant(shape_.outer);
+    return centre + random_.in_cube().cwiseProduct(half.cwiseMax(0.0));
   }
 
   [[nodiscard]] bool is_free(const PlacedVesicle& candidate, const std::vector<PlacedVesicle>& placed,
@@ -193,18 +179,23 @@ class Placement {
     }
     if (neighbours.empty()) return true;
     ++exact_tries;
-    const Matrix own = shape_.at(candidate.rotation, candidate.centre);
-    return std::ranges::all_of(neighbours, [&](const PlacedVesicle* other) {
-      return are_apart(own, shape_.at(other->rotation, other->centre), gap);
-    });
+    const Matrix own = position_of(candidate);
+    const auto is_apart = [&](const PlacedVesicle* other) {
+      try {
+        const Matrix position = position_of(*other);
+        return arrangement_of(own, position) == Arrangement::apart && nearest_points(own, position).gap >= gap;
+      } catch (const ConvergenceError&) {
+        return false;
+      }
+    };
+    return std::ranges::all_of(neighbours, is_apart);
   }
 
-  static bool are_apart(const Matrix& a, const Matrix& b, double gap) {
-    try {
-      return arrangement_of(a, b) == Arrangement::apart && nearest_points(a, b).gap >= gap;
-    } catch (const ConvergenceError&) {
-      return false;
-    }
+  [[nodiscard]] Matrix position_of(const PlacedVesicle& vesicle) const {
+    const Matrix3 rotation = vesicle.rotation ? rotation_matrix(*vesicle.rotation) : Matrix3(Matrix3::Identity());
+    Matrix moved = shape_.position * rotation.transpose();
+    moved.row(0) += std::sqrt(4.0 * std::numbers::pi) * vesicle.centre.transpose();
+    return moved;
   }
 
   const Scene& one_;
@@ -222,8 +213,8 @@ Scene placed_suspension(const Scene& one, const TomlFile& file) {
   for (const PlacedVesicle& placed : Placement(one, file).run()) {
     Scene& scene = scenes.emplace_back(one);
     scene.suspension.reset();
-    scene.shape.centre = triple_of(placed.centre);
-    scene.shape.rotation = placed.axis_angle;
+    scene.shape.centre = {placed.centre.x(), placed.centre.y(), placed.centre.z()};
+    scene.shape.rotation = placed.rotation;
     names.push_back(fmt::format("{}", names.size()));
   }
   return together(scenes, names);

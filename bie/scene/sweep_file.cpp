@@ -241,18 +241,16 @@ void read_sweep_mode(const TomlFile& file, SweepFile& sweep) {
   }
   sweep.mode = mode == "zip" ? SweepMode::zip : SweepMode::grid;
   const VariedKey& first = sweep.keys.front();
-  std::size_t n_runs = sweep.mode == SweepMode::zip ? first.values.size() : 1;
   for (const VariedKey& key : sweep.keys) {
     if (sweep.mode == SweepMode::grid) {
       require_different_values(key, file);
-      n_runs *= key.values.size();
     } else if (key.values.size() != first.values.size()) {
       file.refuse(*node, "mode \"zip\": \"{}\" has {} values and \"{}\" has {}; accepted: as many", first.name,
                   first.values.size(), key.name, key.values.size());
     }
-    if (n_runs > most_runs) {
-      throw InputError(fmt::format("{}: asks for more runs than {}; accepted: at most as many", file.name, most_runs));
-    }
+  }
+  if (sweep.n_runs() > most_runs) {
+    throw InputError(fmt::format("{}: asks for more runs than {}; accepted: at most as many", file.name, most_runs));
   }
 }
 
@@ -275,7 +273,7 @@ void read_sweep_columns(const TomlFile& file, SweepFile& sweep) {
 std::size_t SweepFile::n_runs() const {
   if (mode == SweepMode::zip) return keys.front().values.size();
   std::size_t count = 1;
-  for (const VariedKey& key : keys) count *= key.values.size();
+  for (const VariedKey& key : keys) count = std::min(count * key.values.size(), most_runs + 1);
   return count;
 }
 

@@ -8,6 +8,9 @@
 
 namespace vehd {
 
+/// Most runs of one sweep.
+constexpr std::size_t most_runs = 100000;
+
 /// One value that a sweep gives to a key.
 struct VariedValue {
   std::string toml;   ///< as of SceneSource::settings
@@ -40,14 +43,11 @@ struct SweepFile {
   SweepMode mode = SweepMode::grid;
   std::vector<SweepColumn> columns;  ///< empty: the file names none
 
-  /// Of the runs that it asks for.
+  /// Of the runs that it asks for; most_runs + 1 stands for all larger numbers.
   [[nodiscard]] std::size_t n_runs() const;
   /// The values of one run, one for each key. The last key of a grid changes first.
   [[nodiscard]] std::vector<VariedValue> values_of(std::size_t run) const;
 };
-
-/// Most runs of one sweep.
-constexpr std::size_t most_runs = 100000;
 
 /// Reads and validates a sweep (docs/sweeps.md) and its base scene. Every value is one that its key accepts; whether a
 /// scene accepts it together with all others is found out when that scene is made.

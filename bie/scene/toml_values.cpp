@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "bie/scene/nearest_name.hpp"
-#include "bie/scene/reference_scales.hpp"
+#include "bie/scene/reading_steps.hpp"
 #include "bie/scene/settings.hpp"
 #include "bie/scene/units.hpp"
 

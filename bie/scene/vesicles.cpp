@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "bie/support/errors.hpp"
 
@@ -56,8 +55,7 @@ bool is_of_vesicle(std::string_view table, std::string_view key) {
   if (table == "membrane") return key != "mobile";
   if (table.starts_with("membrane.")) return true;
   if (table == "fluid") return key == "viscosity_ratio" || key == "density_difference";
-  constexpr std::array inside{"conductivity_in", "permittivity_ratio", "initial_Vm"};
-  return table == "electric" && std::find(inside.begin(), inside.end(), key) != inside.end();
+  return table == "electric" && (key == "conductivity_in" || key == "permittivity_ratio" || key == "initial_Vm");
 }
 
 bool is_of_vesicle(const KeyDescription& key) { return is_of_vesicle(key.table, key.name); }

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/initial_material.hpp"
+#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/units.hpp"

@@ -1,5 +1,3 @@
-#include "bie/scene/suspension.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
