@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 
 namespace vehd {

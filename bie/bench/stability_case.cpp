@@ -8,8 +8,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/scene/toml_values.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

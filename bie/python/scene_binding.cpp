@@ -9,8 +9,8 @@
 #include "bie/python/bindings.hpp"
 #include "bie/python/scene_run.hpp"
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/support/errors.hpp"
 

@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "bie/physics/sphere_in_ac_field.hpp"
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
-#include "bie/scene/placement.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/units.hpp"
 
 namespace vehd {

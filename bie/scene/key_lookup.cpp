@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/schema.hpp"
-#include "bie/scene/toml_values.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/support/errors.hpp"
 

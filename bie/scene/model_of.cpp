@@ -8,7 +8,7 @@
 #include "bie/physics/poiseuille_flow.hpp"
 #include "bie/physics/pore_density.hpp"
 #include "bie/physics/spontaneous_curvature.hpp"
-#include "bie/scene/placement.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/scene/waveforms.hpp"
 

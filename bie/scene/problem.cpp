@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/scene/vesicles.hpp"
 
 namespace vehd {

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "bie/scene/nearest_name.hpp"
+#include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/scene/toml_values.hpp"
 #include "bie/scene/units.hpp"
 
 namespace vehd {

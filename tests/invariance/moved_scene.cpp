@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bie/scene/model_of.hpp"
-#include "bie/scene/placement.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 
 namespace vehd::testing {

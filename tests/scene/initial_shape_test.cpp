@@ -1,4 +1,4 @@
-#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "bie/geometry/surface.hpp"
 #include "bie/scene/model_of.hpp"
-#include "bie/scene/placement.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
 #include "tests/scene/scene_text.hpp"

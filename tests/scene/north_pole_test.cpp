@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/diagnose.hpp"
 #include "bie/stepping/space/discretisation.hpp"

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/initial_shape.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "tests/scene/scene_text.hpp"

@@ -6,10 +6,10 @@
 
 #include "bie/files/run_file.hpp"
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/initial_shape.hpp"
-#include "bie/scene/placement.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"

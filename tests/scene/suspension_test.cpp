@@ -4,8 +4,8 @@
 
 #include "bie/potentials/nearest_points.hpp"
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/initial_shape.hpp"
-#include "bie/scene/placement.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "tests/scene/scene_text.hpp"
 

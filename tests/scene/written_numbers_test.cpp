@@ -7,7 +7,7 @@
 #include <random>
 
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/toml_values.hpp"
+#include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/units.hpp"
 #include "tests/scene/key_values.hpp"
 #include "tests/scene/scene_text.hpp"

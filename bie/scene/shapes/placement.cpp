@@ -1,4 +1,4 @@
-#include "bie/scene/placement.hpp"
+#include "bie/scene/shapes/placement.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "bie/potentials/nearest_points.hpp"
-#include "bie/scene/initial_shape.hpp"
-#include "bie/scene/placement.hpp"
 #include "bie/scene/problem.hpp"
-#include "bie/scene/reading_steps.hpp"
+#include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/schema.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/thresholds.hpp"

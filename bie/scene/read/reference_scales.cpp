@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/scene/reading_steps.hpp"
+#include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/units.hpp"
 
 namespace vehd {

@@ -6,10 +6,10 @@
 
 #include "bie/files/run_reader.hpp"
 #include "bie/geometry/roundness.hpp"
-#include "bie/scene/initial_shape.hpp"
-#include "bie/scene/placement.hpp"
+#include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/scene/reading_steps.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/scene/waveforms.hpp"
 #include "bie/sphere/harmonics.hpp"

@@ -1,13 +1,13 @@
-#include "bie/scene/initial_shape.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "bie/scene/placement.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/scene/shapes_of_revolution.hpp"
+#include "bie/scene/shapes/placement.hpp"
+#include "bie/scene/shapes/shapes_of_revolution.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/sphere/harmonics.hpp"
 

@@ -1,9 +1,9 @@
-#include "bie/scene/shapes_of_revolution.hpp"
+#include "bie/scene/shapes/shapes_of_revolution.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "bie/scene/placement.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {

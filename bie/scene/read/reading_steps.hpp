@@ -4,7 +4,7 @@
 #include <istream>
 #include <string>
 
-#include "bie/scene/toml_values.hpp"
+#include "bie/scene/read/toml_values.hpp"
 
 /// What parse_scene does with a scene file, in the order of its steps. Each throws InputError "file:line: ..." at the
 /// key to blame.

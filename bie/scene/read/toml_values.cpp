@@ -1,4 +1,4 @@
-#include "bie/scene/toml_values.hpp"
+#include "bie/scene/read/toml_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "bie/scene/nearest_name.hpp"
-#include "bie/scene/reading_steps.hpp"
+#include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/settings.hpp"
 #include "bie/scene/units.hpp"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "bie/scene/reading_steps.hpp"
+#include "bie/scene/read/reading_steps.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
