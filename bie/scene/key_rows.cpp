@@ -1,139 +1,19 @@
-#include "bie/scene/schema.hpp"
+#include "bie/scene/key_table.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 
-/// All tables and keys of a scene, in the order of reading and writing. A row names the key and the member of scene.hpp
-/// that holds its value; type, getter and setter follow from the member. A new key is a member and a row.
+/// All tables and keys of a scene. A new key is a member in scene.hpp and a row here.
 namespace vehd {
 namespace {
 
-constexpr Range any_number{};
-constexpr Range positive{0.0, any_number.upper, true};
-constexpr Range not_negative{0.0, any_number.upper, false};
+constexpr Range positive{0.0, Range{}.upper, true};
+constexpr Range not_negative{0.0, Range{}.upper, false};
 constexpr Range degrees{0.0, 180.0, true};
 constexpr bool required = true;
 
-/// How a member is stored in a Value.
-template <typename Member>
-struct StoredAs {
-  using Type = Member;
-};
-template <>
-struct StoredAs<int> {
-  using Type = std::int64_t;
-};
-template <typename Contained>
-struct StoredAs<std::optional<Contained>> : StoredAs<Contained> {};
-
-struct Rows {
-  std::vector<TableDescription> tables;
-  std::vector<KeyDescription> keys;
-};
-
-/// Words of a row.
-struct Text {
-  std::string_view symbol, unit, description;
-  bool is_required = false;
-};
-
-/// One table, to which keys and tables within it are added.
-template <typename Part>
-class Table {
- public:
-  /// @param part  maps a scene, const or not, to the struct of the table
-  Table(Rows& rows, TableDescription table, Part part) : rows_(&rows), table_(std::move(table)), part_(part) {}
-
-  /// A table that every scene has.
-  template <typename Owner, typename Member>
-  auto always(std::string_view name, Member Owner::*member, std::string_view description, bool is_required = false) {
-    const auto part = [ owner = part_, member ](auto& scene) -> auto& { return owner(scene).*member; };
-    rows_->tables.push_back({name, description, is_required, table_.present, table_.create});
-    return Table<decltype(part)>(*rows_, rows_->tables.back(), part);
-  }
-
-  /// One that makes the difference whether a scene has an effect; its owner comes with it.
-  template <typename Owner, typename Member>
-  auto optional(std::string_view name, std::optional<Member> Owner::*member, std::string_view description) {
-    const auto holder = [ owner = part_, member ](auto& scene) -> auto& { return owner(scene).*member; };
-    const auto part = [holder](auto& scene) -> auto& { return *holder(scene); };
-    const auto present = [owner = table_, holder](const Scene& scene) {
-      return owner.present(scene) && holder(scene).has_value();
-    };
-    const auto create = [owner = table_, holder](Scene& scene) {
-      if (!owner.present(scene)) owner.create(scene);
-      holder(scene).emplace();
-    };
-    rows_->tables.push_back({name, description, false, present, create});
-    return Table<decltype(part)>(*rows_, rows_->tables.back(), part);
-  }
-
-  /// For keys of some of its kinds alone.
-  template <typename... Kinds>
-  [[nodiscard]] Table of(Kinds... kinds) const {
-    Table result = *this;
-    result.kinds_ = {kinds...};
-    return result;
-  }
-
-  template <typename Owner, typename Member>
-  KeyDescription& key(std::string_view name, Member Owner::*member, Range range, const Text& text) {
-    using Stored = typename StoredAs<Member>::Type;
-    KeyDescription& key = add_row(name, Stored{}, range, text);
-    key.get = [part = part_, member](const Scene& scene) -> std::optional<Value> {
-      const Member& value = part(scene).*member;
-      if constexpr (std::is_same_v<Member, std::optional<Stored>>) {
-        return value ? std::optional<Value>(*value) : std::nullopt;
-      } else {
-        return Value(static_cast<Stored>(value));
-      }
-    };
-    key.set = [part = part_, member](Scene& scene, const Value& value) {
-      part(scene).*member = static_cast<Member>(std::get<Stored>(value));
-    };
-    return key;
-  }
-
-  /// @param words  one for each enumerator of the member, in their order
-  template <typename Owner, typename Enumeration>
-  void word(std::string_view name, Enumeration Owner::*member, std::vector<std::string_view> words,
-            std::string_view description, bool is_required = false) {
-    KeyDescription& key = add_row(name, std::string(), {}, {"", "", description, is_required});
-    key.type = ValueType::word;
-    key.words = words;
-    key.get = [part = part_, words, member](const Scene& scene) -> std::optional<Value> {
-      return Value(std::string(words.at(static_cast<std::size_t>(part(scene).*member))));
-    };
-    key.set = [part = part_, words, member](Scene& scene, const Value& value) {
-      const auto found = std::ranges::find(words, std::get<std::string>(value));
-      part(scene).*member = static_cast<Enumeration>(found - words.begin());
-    };
-  }
-
- private:
-  KeyDescription& add_row(std::string_view name, Value stored_as, Range range, const Text& text) {
-    KeyDescription& key = rows_->keys.emplace_back();
-    key.table = table_.name;
-    key.name = name;
-    key.type = static_cast<ValueType>(stored_as.index());
-    key.stored_as = std::move(stored_as);
-    key.symbol = text.symbol;
-    key.unit = text.unit;
-    key.range = range;
-    key.kinds = kinds_;
-    key.required = text.is_required;
-    key.description = text.description;
-    return key;
-  }
-
-  Rows* rows_;
-  TableDescription table_;
-  Part part_;
-  std::vector<std::string_view> kinds_;
-};
-
 void add_units(auto& scene) {
   auto units = scene.optional("units", &Scene::units, "what 1 means; absent: values are dimensionless");
-  const auto scale = [&](std::string_view name, std::optional<double> UnitsScene::*member, const Text& text) {
+  const auto scale = [&](std::string_view name, std::optional<double> UnitsScene::*member, const RowText& text) {
     units.key(name, member, positive, text).type = ValueType::quantity;
   };
   scale("length", &UnitsScene::length, {"L", "length", "reference length; absent: √(area/4π) of an area in SI units"});
@@ -165,26 +45,23 @@ void add_shape(auto& scene) {
   reduced_volume("biconcave", {0.5, 0.75}, false, definition);
   reduced_volume("stomatocyte", {0.1, 0.65}, required, "6√π V/A^{3/2}; size: area 4π; open towards −z");
   auto radial = shape.of("radial");
-  radial
-      .key("base", &ShapeScene::base, any_number,
-           {"", "length", "constant part of the radius; may be left out with area"})
+  radial.key("base", &ShapeScene::base, {"", "length", "constant part of the radius; may be left out with area"})
       .default_has_effect = [](const Scene& s) { return !s.shape.area; };
-  radial.key("amplitude", &ShapeScene::amplitude, any_number,
+  radial.key("amplitude", &ShapeScene::amplitude,
              {"", "length", "radius = base + amplitude exp(exponent s); absent: base + s"});
-  radial.key("exponent", &ShapeScene::exponent, any_number, {"", "1", "factor of s in the exponential"});
-  radial.key("modes", &ShapeScene::modes, any_number,
+  radial.key("exponent", &ShapeScene::exponent, {"", "1", "factor of s in the exponential"});
+  radial.key("modes", &ShapeScene::modes,
              {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|", required});
   auto file = shape.of("file");
-  file.key("path", &ShapeScene::path, any_number,
+  file.key("path", &ShapeScene::path,
            {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units", required});
   file.key("time", &ShapeScene::time, not_negative,
            {"t", "time", "time of the snapshot in that run; absent: the last one"});
   shape.key("area", &ShapeScene::area, positive, {"A", "area", "the shape is scaled to this area; not with scale"});
   shape.key("scale", &ShapeScene::scale, size_range, {"", "1", "the shape is scaled by this factor; not with area"});
-  shape.key("rotation", &ShapeScene::rotation, any_number,
+  shape.key("rotation", &ShapeScene::rotation,
             {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"});
-  shape.key("centre", &ShapeScene::centre, any_number,
-            {"", "length", "where the shape's origin is placed, after rotation"});
+  shape.key("centre", &ShapeScene::centre, {"", "length", "where the shape's origin is placed, after rotation"});
 }
 
 /// @param waveform  the table, of which only some kinds have an average
@@ -196,17 +73,16 @@ auto add_waveform(auto waveform) {
   auto ac = waveform.of("ac"), pulse = waveform.of("pulse", "pulse_train"), table = waveform.of("table");
   ac.key("frequency", &WaveformScene::frequency, positive,
          {"f", "1/time", "at least four steps a period are taken, unless it is averaged", required});
-  ac.key("phase", &WaveformScene::phase, any_number, {"", "1", "in radians; −π/2 makes a sine"});
-  pulse.key("start", &WaveformScene::start, any_number, {"", "time", "of the first pulse"});
+  ac.key("phase", &WaveformScene::phase, {"", "1", "in radians; −π/2 makes a sine"});
+  pulse.key("start", &WaveformScene::start, {"", "time", "of the first pulse"});
   pulse.key("duration", &WaveformScene::duration, positive, {"", "time", "of a pulse", required});
   waveform.of("pulse_train")
       .key("period", &WaveformScene::period, positive,
            {"", "time", "from pulse to pulse; longer than a pulse", required});
-  table.key("path", &WaveformScene::path, any_number,
+  table.key("path", &WaveformScene::path,
             {"", "", "text file of lines \"time factor\", relative to the scene file; absent: times and values"});
-  table.key("times", &WaveformScene::times, any_number, {"", "time", "ascending, two equal ones make a jump"});
-  table.key("values", &WaveformScene::values, any_number,
-            {"", "1", "factor at each of the times; constant beyond the ends"});
+  table.key("times", &WaveformScene::times, {"", "time", "ascending, two equal ones make a jump"});
+  table.key("values", &WaveformScene::values, {"", "1", "factor at each of the times; constant beyond the ends"});
   return ac;
 }
 
@@ -218,17 +94,17 @@ auto add_places(auto places) {
       "sphere of [shape]; times a factor within a round cap and another outside; as harmonics, of a text file",
       required);
   auto harmonics = places.of("harmonics", "file"), cap = places.of("cap");
-  harmonics.key("base", &PlaceScene::base, any_number, {"", "1", "constant part of the factor"});
-  harmonics.key("modes", &PlaceScene::modes, any_number,
+  harmonics.key("base", &PlaceScene::base, {"", "1", "constant part of the factor"});
+  harmonics.key("modes", &PlaceScene::modes,
                 {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|; absent: 0"});
-  places.of("file").key("path", &PlaceScene::path, any_number,
+  places.of("file").key("path", &PlaceScene::path,
                         {"", "", "text file of lines \"n m a\", relative to the scene file; absent: modes"});
-  cap.key("axis", &PlaceScene::axis, any_number, {"", "1", "through the middle of the cap"});
+  cap.key("axis", &PlaceScene::axis, {"", "1", "through the middle of the cap"});
   cap.key("angle_deg", &PlaceScene::angle_deg, degrees, {"α", "1", "from the axis to the edge, in degrees", required});
   cap.key("width_deg", &PlaceScene::width_deg, degrees,
           {"w", "1", "of the edge, in degrees: the share of the cap is ½ erfc((cos α − cos γ)/(w sin α))"});
-  cap.key("inside", &PlaceScene::inside, any_number, {"", "1", "factor within the cap", required});
-  cap.key("outside", &PlaceScene::outside, any_number, {"", "1", "factor outside"});
+  cap.key("inside", &PlaceScene::inside, {"", "1", "factor within the cap", required});
+  cap.key("outside", &PlaceScene::outside, {"", "1", "factor outside"});
   return places;
 }
 
@@ -236,11 +112,11 @@ void add_membrane(auto& scene) {
   auto membrane = scene.always("membrane", &Scene::membrane, "mechanical and electric properties of the membrane");
   membrane.key("bending_modulus", &MembraneScene::bending_modulus, not_negative,
                {"κ_B", "energy", "E = κ_B ∫H² dA, twice the Helfrich modulus κ_c; absent or 0: no bending"});
-  membrane.key("spontaneous_curvature", &MembraneScene::spontaneous_curvature, any_number,
+  membrane.key("spontaneous_curvature", &MembraneScene::spontaneous_curvature,
                {"c", "1/length",
                 "E = κ_B ∫(H − c)² dA; H = −1 on the unit sphere. The usual C₀ of (κ_c/2)∫(C₁ + C₂ − C₀)² dA, positive "
                 "where the membrane prefers to bulge outwards, is −2c"});
-  membrane.key("inextensible", &MembraneScene::inextensible, any_number,
+  membrane.key("inextensible", &MembraneScene::inextensible,
                {"", "", "local area is conserved by a tension, Eq. (1e)"});
   membrane
       .key("capacitance", &MembraneScene::capacitance, positive,
@@ -248,8 +124,7 @@ void add_membrane(auto& scene) {
       .default_has_effect = [](const Scene& s) { return s.electric.has_value(); };
   membrane.key("conductance", &MembraneScene::conductance, not_negative,
                {"G_m", "conductance/area", "used with [electric] only"});
-  membrane.key("mobile", &MembraneScene::mobile, any_number,
-               {"", "", "false: the shape is frozen and only the membrane charges"});
+  membrane.key("mobile", &MembraneScene::mobile, {"", "", "false: the shape is frozen and only the membrane charges"});
   add_places(membrane.optional("membrane.capacitance_by_place", &MembraneScene::capacitance_by_place,
                                "C_m from place to place; absent: uniform"));
   add_places(membrane.optional("membrane.conductance_by_place", &MembraneScene::conductance_by_place,
@@ -261,7 +136,7 @@ void add_membrane(auto& scene) {
   auto pump = add_places(membrane.optional("membrane.pump", &MembraneScene::pump,
                                            "current that the membrane pumps from place to place; absent: none"));
   pump.of("harmonics", "cap", "file")
-      .key("current", &PumpScene::current, any_number,
+      .key("current", &PumpScene::current,
            {"J_p", "current/area", "outwards, where the factor is 1: C_m dV_m/dt + G_m V_m + J_p = −σ_i ∂φ_i/∂n",
             required});
   add_waveform(
@@ -273,15 +148,15 @@ void add_fluid(auto& scene) {
   fluid.key("viscosity", &FluidScene::viscosity, positive, {"μ", "viscosity", "of the fluid outside"});
   fluid.key("viscosity_ratio", &FluidScene::viscosity_ratio, not_negative,
             {"μ_i/μ_e", "1", "inside over outside; 1: no double layer is evaluated"});
-  fluid.key("density_difference", &FluidScene::density_difference, any_number,
+  fluid.key("density_difference", &FluidScene::density_difference,
             {"ρ_i − ρ_e", "density", "inside minus outside; goes with [gravity]"});
 }
 
 void add_gravity_and_contact(auto& scene) {
   auto gravity = scene.optional("gravity", &Scene::gravity, "weight of the inner fluid; absent: none");
-  gravity.key("acceleration", &GravityScene::acceleration, any_number, {"g", "acceleration", "of free fall", required});
+  gravity.key("acceleration", &GravityScene::acceleration, {"g", "acceleration", "of free fall", required});
   auto contact = scene.optional("contact", &Scene::contact, "potential between different vesicles; absent: none");
-  contact.key("energy", &ContactScene::energy, any_number,
+  contact.key("energy", &ContactScene::energy,
               {"W", "force/length",
                "two flat membranes at distance d have W exp(−d²/range²) per area; positive repels, negative attracts",
                required});
@@ -295,12 +170,10 @@ void add_flow(auto& scene) {
             "z²)/radius²) along x",
             required);
   flow.of("shear", "planar_extension", "axisymmetric_extension")
-      .key("rate", &FlowScene::rate, any_number, {"γ̇", "1/time", "velocity gradient", required});
-  flow.of("gradient")
-      .key("gradient", &FlowScene::gradient, any_number, {"∇v", "1/time", "rows dv_i/dx_j of trace zero", required});
+      .key("rate", &FlowScene::rate, {"γ̇", "1/time", "velocity gradient", required});
+  flow.of("gradient").key("gradient", &FlowScene::gradient, {"∇v", "1/time", "rows dv_i/dx_j of trace zero", required});
   auto poiseuille = flow.of("poiseuille");
-  poiseuille.key("centre_velocity", &FlowScene::centre_velocity, any_number,
-                 {"v_c", "velocity", "on the axis", required});
+  poiseuille.key("centre_velocity", &FlowScene::centre_velocity, {"v_c", "velocity", "on the axis", required});
   poiseuille.key("radius", &FlowScene::radius, positive,
                  {"R", "length", "where the profile vanishes; there is no wall", required});
   add_waveform(flow.optional("flow.waveform", &FlowScene::waveform, "factor of the flow in time; absent: 1"));
@@ -308,7 +181,7 @@ void add_flow(auto& scene) {
 
 void add_electric(auto& scene) {
   auto electric = scene.optional("electric", &Scene::electric, "applied field; absent: nothing electric is assembled");
-  electric.key("field", &ElectricScene::field, any_number, {"E_∞", "field", "applied uniform field", required});
+  electric.key("field", &ElectricScene::field, {"E_∞", "field", "applied uniform field", required});
   electric.key("conductivity_in", &ElectricScene::conductivity_in, not_negative,
                {"σ_i", "conductivity", "of the fluid inside", required});
   electric.key("conductivity_out", &ElectricScene::conductivity_out, not_negative,
@@ -320,11 +193,11 @@ void add_electric(auto& scene) {
                 "transmembrane potential at time 0: none; that of a membrane fully charged; that of the file of "
                 "[shape], which is the default with a file that has one");
   electric.key(
-      "displacement_current", &ElectricScene::displacement_current, any_number,
+      "displacement_current", &ElectricScene::displacement_current,
       {"", "", "of both fluids, which matters in fields of some 100 kHz and pulses below some us; needs permittivity"});
   auto ac = add_waveform(
       electric.optional("electric.waveform", &ElectricScene::waveform, "factor of the field in time; absent: 1"));
-  ac.key("average", &WaveformScene::average, any_number,
+  ac.key("average", &WaveformScene::average,
          {"", "",
           "the shape follows the mean force of a period, and V_m is known by amplitude and phase; see "
           "docs/experiments/ac_field.md"});
@@ -389,7 +262,7 @@ void add_numerics(auto& scene) {
   numerics.word("symmetry", &NumericsScene::symmetry, {"auto", "off", "axisymmetric"},
                 "use what is found; use none; refuse a scene that is not axisymmetric about any axis");
   numerics.key(
-      "error_bars", &NumericsScene::error_bars, any_number,
+      "error_bars", &NumericsScene::error_bars,
       {"", "", "history_error.csv: the estimated error of every number of history.csv, for a third more time"});
 }
 
@@ -414,7 +287,7 @@ void add_suspension(auto& scene) {
                   required);
   suspension.of("box").key("size", &SuspensionScene::size, positive, {"", "length", "along x, y, z", required});
   suspension.of("ball").key("radius", &SuspensionScene::radius, positive, {"", "length", "of the ball", required});
-  suspension.key("centre", &SuspensionScene::centre, any_number, {"", "length", "of the region"});
+  suspension.key("centre", &SuspensionScene::centre, {"", "length", "of the region"});
   suspension.key("count", &SuspensionScene::count, {1.0, 1e9}, {"", "1", "number of vesicles; or volume_fraction"});
   suspension.key("volume_fraction", &SuspensionScene::volume_fraction, {0.0, 1.0, true},
                  {"", "1", "of the vesicles in the region; or count"});
@@ -425,10 +298,10 @@ void add_suspension(auto& scene) {
                  {"", "1", "least distance of two vesicles over the radius √(area/4π)"});
 }
 
-Rows make_rows() {
-  Rows rows;
+SchemaRows make_rows() {
+  SchemaRows rows;
   const auto whole = [](auto& scene) -> auto& { return scene; };
-  Table scene(rows, {"", "", true, [](const Scene&) { return true; }, [](Scene&) {}}, whole);
+  KeyTable scene(rows, {"", "", true, [](const Scene&) { return true; }, [](Scene&) {}}, whole);
   add_units(scene);
   add_shape(scene);
   add_membrane(scene);
@@ -443,8 +316,8 @@ Rows make_rows() {
   return rows;
 }
 
-const Rows& all_rows() {
-  static const Rows rows = make_rows();
+const SchemaRows& all_rows() {
+  static const SchemaRows rows = make_rows();
   return rows;
 }
 

@@ -21,47 +21,6 @@ constexpr double vacuum_permittivity = 8.8541878188e-12;
 /// k_B in J/K, exact.
 constexpr double boltzmann_constant = 1.380649e-23;
 
-std::vector<Dimension> make_dimensions() {
-  return {
-      {"length", {1, 0, 0, 0}, {{"m"}, {"mm", 1, 1e3}, {"um", 1, 1e6}, {"nm", 1, 1e9}}, 1},
-      {"area", {2, 0, 0, 0}, {{"m^2"}, {"mm^2", 1, 1e6}, {"um^2", 1, 1e12}}, 2},
-      {"1/length", {-1, 0, 0, 0}, {{"1/m"}, {"1/mm", 1e3}, {"1/um", 1e6}}},
-      {"time", {0, 1, 0, 0}, {{"s"}, {"ms", 1, 1e3}, {"us", 1, 1e6}, {"ns", 1, 1e9}}, 1},
-      {"1/time", {0, -1, 0, 0}, {{"1/s"}, {"1/ms", 1e3}, {"Hz"}, {"kHz", 1e3}, {"MHz", 1e6}}},
-      {"velocity", {1, -1, 0, 0}, {{"m/s"}, {"mm/s", 1, 1e3}, {"um/s", 1, 1e6}}, 1},
-      {"acceleration", {1, -2, 0, 0}, {{"m/s^2"}}},
-      {"density", {-2, 1, 1, 0}, {{"kg/m^3"}, {"g/cm^3", 1e3}}},
-      {"viscosity", {0, 0, 1, 0}, {{"Pa s"}, {"mPa s", 1, 1e3}, {"cP", 1, 1e3}}},
-      {"energy", {3, -1, 1, 0}, {{"J"}, {"aJ", 1, 1e18}, {"zJ", 1, 1e21}, {"kBT", boltzmann_constant, 1, true}}, 1},
-      {"potential", {0, 0, 0, 1}, {{"V"}, {"mV", 1, 1e3}}, 1},
-      {"field", {-1, 0, 0, 1}, {{"V/m"}, {"kV/m", 1e3}, {"V/cm", 1e2}, {"kV/cm", 1e5}}},
-      {"conductivity", {2, -2, 1, -2}, {{"S/m"}, {"mS/m", 1, 1e3}, {"mS/cm", 1, 1e1}, {"uS/cm", 1, 1e4}}},
-      {"permittivity", {2, -1, 1, -2}, {{"F/m"}, {"pF/m", 1, 1e12}, {"eps0", vacuum_permittivity}}},
-      {"capacitance/area", {1, -1, 1, -2}, {{"F/m^2"}, {"mF/m^2", 1, 1e3}, {"uF/cm^2", 1, 1e2}}, 0},
-      {"conductance/area", {1, -2, 1, -2}, {{"S/m^2"}, {"S/cm^2", 1e4}, {"mS/cm^2", 1e1}}, 0},
-      {"current/area",
-       {1, -2, 1, -1},
-       {{"A/m^2"}, {"mA/m^2", 1, 1e3}, {"mA/cm^2", 1e1}, {"uA/cm^2", 1, 1e2}, {"nA/cm^2", 1, 1e5}},
-       0},
-      {"1/area", {-2, 0, 0, 0}, {{"1/m^2"}, {"1/um^2", 1e12}}, 0},
-      {"1/(area time)", {-2, -1, 0, 0}, {{"1/(m^2 s)"}, {"1/(um^2 us)", 1e18}}},
-      {"temperature", {0, 0, 0, 0}, {{"K"}}},
-      // Of results alone, by the names that run.h5 has for them.
-      {"volume", {3, 0, 0, 0}, {{"m^3"}}, 3},
-      {"length^2", {2, 0, 0, 0}, {{"m^2"}}, 2},
-      {"force/area", {0, -1, 1, 0}, {{"Pa"}}, 1},
-      {"force/length",
-       {1, -1, 1, 0},
-       {{"N/m"}, {"mN/m", 1, 1e3}, {"J/m^2"}, {"mJ/m^2", 1, 1e3}, {"uJ/m^2", 1, 1e6}},
-       1},
-      {"potential/length", {-1, 0, 0, 1}, {{"V/m"}}, 1},
-      {"charge/area", {1, -1, 1, -1}, {{"C/m^2"}}},
-      {"dipole", {4, -1, 1, -1}, {{"C m"}}, 1},
-      {"power", {3, -2, 1, 0}, {{"W"}}, 1},
-      {"force", {2, -1, 1, 0}, {{"N"}}, 1},
-  };
-}
-
 std::string without_outer_spaces(std::string_view text) {
   const std::size_t start = text.find_first_not_of(' ');
   return start == std::string_view::npos ? "" : std::string(text.substr(start, text.find_last_not_of(' ') + 1 - start));
@@ -115,7 +74,44 @@ std::string Dimension::scale_text() const {
 }
 
 const std::vector<Dimension>& dimensions() {
-  static const std::vector<Dimension> all = make_dimensions();
+  static const std::vector<Dimension> all = {
+      {"length", {1, 0, 0, 0}, {{"m"}, {"mm", 1, 1e3}, {"um", 1, 1e6}, {"nm", 1, 1e9}}, 1},
+      {"area", {2, 0, 0, 0}, {{"m^2"}, {"mm^2", 1, 1e6}, {"um^2", 1, 1e12}}, 2},
+      {"1/length", {-1, 0, 0, 0}, {{"1/m"}, {"1/mm", 1e3}, {"1/um", 1e6}}},
+      {"time", {0, 1, 0, 0}, {{"s"}, {"ms", 1, 1e3}, {"us", 1, 1e6}, {"ns", 1, 1e9}}, 1},
+      {"1/time", {0, -1, 0, 0}, {{"1/s"}, {"1/ms", 1e3}, {"Hz"}, {"kHz", 1e3}, {"MHz", 1e6}}},
+      {"velocity", {1, -1, 0, 0}, {{"m/s"}, {"mm/s", 1, 1e3}, {"um/s", 1, 1e6}}, 1},
+      {"acceleration", {1, -2, 0, 0}, {{"m/s^2"}}},
+      {"density", {-2, 1, 1, 0}, {{"kg/m^3"}, {"g/cm^3", 1e3}}},
+      {"viscosity", {0, 0, 1, 0}, {{"Pa s"}, {"mPa s", 1, 1e3}, {"cP", 1, 1e3}}},
+      {"energy", {3, -1, 1, 0}, {{"J"}, {"aJ", 1, 1e18}, {"zJ", 1, 1e21}, {"kBT", boltzmann_constant, 1, true}}, 1},
+      {"potential", {0, 0, 0, 1}, {{"V"}, {"mV", 1, 1e3}}, 1},
+      {"field", {-1, 0, 0, 1}, {{"V/m"}, {"kV/m", 1e3}, {"V/cm", 1e2}, {"kV/cm", 1e5}}},
+      {"conductivity", {2, -2, 1, -2}, {{"S/m"}, {"mS/m", 1, 1e3}, {"mS/cm", 1, 1e1}, {"uS/cm", 1, 1e4}}},
+      {"permittivity", {2, -1, 1, -2}, {{"F/m"}, {"pF/m", 1, 1e12}, {"eps0", vacuum_permittivity}}},
+      {"capacitance/area", {1, -1, 1, -2}, {{"F/m^2"}, {"mF/m^2", 1, 1e3}, {"uF/cm^2", 1, 1e2}}, 0},
+      {"conductance/area", {1, -2, 1, -2}, {{"S/m^2"}, {"S/cm^2", 1e4}, {"mS/cm^2", 1e1}}, 0},
+      {"current/area",
+       {1, -2, 1, -1},
+       {{"A/m^2"}, {"mA/m^2", 1, 1e3}, {"mA/cm^2", 1e1}, {"uA/cm^2", 1, 1e2}, {"nA/cm^2", 1, 1e5}},
+       0},
+      {"1/area", {-2, 0, 0, 0}, {{"1/m^2"}, {"1/um^2", 1e12}}, 0},
+      {"1/(area time)", {-2, -1, 0, 0}, {{"1/(m^2 s)"}, {"1/(um^2 us)", 1e18}}},
+      {"temperature", {0, 0, 0, 0}, {{"K"}}},
+      // Of results alone, by the names that run.h5 has for them.
+      {"volume", {3, 0, 0, 0}, {{"m^3"}}, 3},
+      {"length^2", {2, 0, 0, 0}, {{"m^2"}}, 2},
+      {"force/area", {0, -1, 1, 0}, {{"Pa"}}, 1},
+      {"force/length",
+       {1, -1, 1, 0},
+       {{"N/m"}, {"mN/m", 1, 1e3}, {"J/m^2"}, {"mJ/m^2", 1, 1e3}, {"uJ/m^2", 1, 1e6}},
+       1},
+      {"potential/length", {-1, 0, 0, 1}, {{"V/m"}}, 1},
+      {"charge/area", {1, -1, 1, -1}, {{"C/m^2"}}},
+      {"dipole", {4, -1, 1, -1}, {{"C m"}}, 1},
+      {"power", {3, -2, 1, 0}, {{"W"}}, 1},
+      {"force", {2, -1, 1, 0}, {{"N"}}, 1},
+  };
   return all;
 }
 

@@ -15,21 +15,11 @@ bool is_zero(const FlowScene& flow) {
 
 }  // namespace
 
-Waveform waveform_of(const WaveformScene& waveform) {
-  const WaveformScene& w = waveform;
-  switch (w.kind) {
-    case WaveformKind::dc:
-      break;
-    case WaveformKind::ac:
-      return Waveform::alternating(1.0, w.frequency, w.phase);
-    case WaveformKind::pulse:
-      return Waveform::pulse(1.0, w.start, w.duration);
-    case WaveformKind::pulse_train:
-      return Waveform::pulse_train(1.0, w.start, w.duration, w.period);
-    case WaveformKind::table:
-      return Waveform::table(w.times, w.values);
-  }
-  return {};
+Waveform waveform_of(const WaveformScene& w) {
+  if (w.kind == WaveformKind::ac) return Waveform::alternating(1.0, w.frequency, w.phase);
+  if (w.kind == WaveformKind::pulse) return Waveform::pulse(1.0, w.start, w.duration);
+  if (w.kind == WaveformKind::pulse_train) return Waveform::pulse_train(1.0, w.start, w.duration, w.period);
+  return w.kind == WaveformKind::table ? Waveform::table(w.times, w.values) : Waveform();
 }
 
 std::vector<ActingWaveform> acting_waveforms(const Scene& scene) {
@@ -48,27 +38,22 @@ std::vector<ActingWaveform> acting_waveforms(const Scene& scene) {
 }
 
 double fewest_steps(const WaveformScene& waveform, double end) {
+  if (waveform.kind == WaveformKind::dc) return 0.0;
+  if (waveform.kind == WaveformKind::ac) return fewest_steps_a_period * waveform.frequency * end;
   const auto after_zero = [end](const auto& n_until) { return n_until(end) - n_until(0.0); };
-  const auto pulses_at = [&](double first) {
-    return
-        [=, period = waveform.period](double time) { return std::max(0.0, std::floor((time - first) / period) + 1.0); };
-  };
-  const double start = waveform.start, stop = waveform.start + waveform.duration;
-  switch (waveform.kind) {
-    case WaveformKind::dc:
-      return 0.0;
-    case WaveformKind::ac:
-      return fewest_steps_a_period * waveform.frequency * end;
-    case WaveformKind::pulse:
-      return after_zero([=](double time) { return double(start <= time) + double(stop <= time); });
-    case WaveformKind::pulse_train:
-      return after_zero(pulses_at(start)) + after_zero(pulses_at(stop));
-    case WaveformKind::table:
-      break;
+  if (waveform.kind == WaveformKind::table) {
+    return after_zero([&](double time) {
+      return static_cast<double>(std::ranges::upper_bound(waveform.times, time) - waveform.times.begin());
+    });
   }
-  return after_zero([&](double time) {
-    return static_cast<double>(std::ranges::upper_bound(waveform.times, time) - waveform.times.begin());
-  });
+  // Pulses that have begun, and those that have ended.
+  const bool repeats = waveform.kind == WaveformKind::pulse_train;
+  const auto since = [&](double first) {
+    return after_zero([=, period = waveform.period](double time) {
+      return repeats ? std::max(0.0, std::floor((time - first) / period) + 1.0) : double(first <= time);
+    });
+  };
+  return since(waveform.start) + since(waveform.start + waveform.duration);
 }
 
 }  // namespace vehd

@@ -95,12 +95,10 @@ class SceneChecks {
   }
 
   void check_gradient() const {
-    const TripleOfTriples& gradient = scene_.flow->gradient;
+    const auto& [x, y, z] = scene_.flow->gradient;
+    const double trace = x[0] + y[1] + z[2];
     double largest = 0.0;
-    for (const Triple& row : gradient) {
-      for (const double entry : row) largest = std::max(largest, std::abs(entry));
-    }
-    const double trace = gradient[0][0] + gradient[1][1] + gradient[2][2];
+    for (const Triple& row : {x, y, z}) largest = std::max(largest, vector_of(row).cwiseAbs().maxCoeff());
     refuse_if(!(std::abs(trace) <= trace_tolerance * largest), "flow.gradient",
               "{} has the trace {}; accepted: 0 (incompressible flow)", trace);
   }
@@ -181,23 +179,18 @@ class SceneChecks {
   /// Blames the key that asks for most of them.
   void require_few_steps() const {
     const NumericsScene& numerics = scene_.numerics;
-    struct Demand {
-      std::string key;
-      double steps;
-    };
-    std::vector<Demand> demands;
-    if (numerics.dt) demands.push_back({"numerics.dt", numerics.end_time / *numerics.dt});
+    std::vector<std::pair<double, std::string>> demands;
+    if (numerics.dt) demands.emplace_back(numerics.end_time / *numerics.dt, "numerics.dt");
     for (const ActingWaveform& acting : acting_waveforms(scene_)) {
       const WaveformKind kind = acting.waveform->kind;
       const char* key = kind == WaveformKind::ac ? "frequency" : kind == WaveformKind::pulse_train ? "period" : "kind";
-      demands.push_back({fmt::format("{}.{}", acting.table, key), fewest_steps(*acting.waveform, numerics.end_time)});
+      demands.emplace_back(fewest_steps(*acting.waveform, numerics.end_time), fmt::format("{}.{}", acting.table, key));
     }
     double steps = 0.0;
-    for (const Demand& demand : demands) steps += demand.steps;
-    if (demands.empty()) return;
-    const Demand& largest = *std::ranges::max_element(demands, {}, &Demand::steps);
-    refuse_if(steps > most_steps, largest.key, "{} asks for {:.3g} steps; accepted: at most {:g}", largest.steps,
-              most_steps);
+    for (const auto& [count, key] : demands) steps += count;
+    if (steps <= most_steps) return;
+    const auto& [count, key] = *std::ranges::max_element(demands);
+    refuse_if(true, key, "{} asks for {:.3g} steps; accepted: at most {:g}", count, most_steps);
   }
 
   void check_output() const {
@@ -230,52 +223,43 @@ class SceneChecks {
               "{} is \"si\", but the scene has no table [units]");
   }
 
+  enum class Sign { any, zero_or_more, above_zero };
+
   /// Properties by place and the pump.
   void check_places() const {
-    enum class Sign { any, zero_or_more, above_zero };
-    struct Property {
-      std::string table;
-      const PlaceScene* places;
-      bool is_electric;
-      std::string_view key;  ///< in [membrane], of the value that is multiplied
-      double value;
-      Sign sign;
-    };
     const MembraneScene& m = scene_.membrane;
-    const auto pointer = [](const auto& places) -> const PlaceScene* { return places ? &*places : nullptr; };
-    const std::vector<Property> properties = {{"membrane.capacitance_by_place", pointer(m.capacitance_by_place), true,
-                                               "capacitance", m.capacitance, Sign::above_zero},
-                                              {"membrane.conductance_by_place", pointer(m.conductance_by_place), true,
-                                               "conductance", m.conductance, Sign::zero_or_more},
-                                              {"membrane.bending_by_place", pointer(m.bending_by_place), false,
-                                               "bending_modulus", m.bending_modulus.value_or(0.0), Sign::above_zero},
-                                              {"membrane.curvature_by_place", pointer(m.curvature_by_place), false,
-                                               "spontaneous_curvature", m.spontaneous_curvature, Sign::any},
-                                              {"membrane.pump", pointer(m.pump), true, "", 1.0, Sign::any}};
-    for (const Property& property : properties) {
-      if (property.places == nullptr) continue;
-      refuse_if(property.is_electric && !scene_.electric, property.table + ".kind",
-                "[{1}] has no effect without [electric]", property.table);
-      refuse_if(!property.is_electric && !m.mobile, property.table + ".kind",
-                "[{1}] has no effect while \"mobile\" in [membrane] is false", property.table);
-      check_factor(property.table, *property.places);
-    }
-    for (const Property& property : properties) {
-      if (property.places == nullptr) continue;
-      refuse_if(property.value == 0.0, property.table + ".kind", "[{1}] has no effect: \"{2}\" in [membrane] is 0",
-                property.table, property.key);
-      if (property.sign == Sign::any) continue;
-      const int degree = scene_.numerics.order;
-      const Vector factor =
-          SphereTransform(degree, make_grid(2 * degree)).synthesize(place_factor(*property.places, degree));
-      const double least = factor.minCoeff();
-      const bool may_vanish = property.sign == Sign::zero_or_more;
-      // A cut cap falls below zero.
-      refuse_if(!(may_vanish ? least >= -largest_truncation * factor.maxCoeff() : least > 0.0),
-                property.table + ".kind", "the factor in [{1}] falls to {2:.3g}; accepted: {3} everywhere",
-                property.table, least, may_vanish ? ">= 0" : "> 0");
-    }
-    if (m.pump) check_pump(*m.pump);
+    check_property("capacitance_by_place", m.capacitance_by_place, true, "capacitance", m.capacitance,
+                   Sign::above_zero);
+    check_property("conductance_by_place", m.conductance_by_place, true, "conductance", m.conductance,
+                   Sign::zero_or_more);
+    check_property("bending_by_place", m.bending_by_place, false, "bending_modulus", m.bending_modulus.value_or(0.0),
+                   Sign::above_zero);
+    check_property("curvature_by_place", m.curvature_by_place, false, "spontaneous_curvature", m.spontaneous_curvature,
+                   Sign::any);
+    if (!m.pump) return;
+    check_property("pump", *m.pump, true, "current", 1.0, Sign::any);
+    check_pump(*m.pump);
+  }
+
+  /// @param value  in [membrane] under the key: the property where the factor is 1
+  /// @param sign   that the property must have
+  void check_property(std::string_view name, const std::optional<PlaceScene>& places, bool is_electric,
+                      std::string_view key, double value, Sign sign) const {
+    if (!places) return;
+    const std::string table = fmt::format("membrane.{}", name), kind = table + ".kind";
+    refuse_if(is_electric && !scene_.electric, kind, "[{1}] has no effect without [electric]", table);
+    refuse_if(!is_electric && !scene_.membrane.mobile, kind,
+              "[{1}] has no effect while \"mobile\" in [membrane] is false", table);
+    check_factor(table, *places);
+    refuse_if(value == 0.0, kind, "[{1}] has no effect: \"{2}\" in [membrane] is 0", table, key);
+    if (sign == Sign::any) return;
+    const int degree = scene_.numerics.order;
+    const Vector factor = SphereTransform(degree, make_grid(2 * degree)).synthesize(place_factor(*places, degree));
+    // A cut cap falls below zero.
+    const double least = factor.minCoeff(), cut = -largest_truncation * factor.maxCoeff();
+    refuse_if(!(sign == Sign::zero_or_more ? least >= cut : least > 0.0), kind,
+              "the factor in [{1}] falls to {2:.3g}; accepted: {3} everywhere", table, least,
+              sign == Sign::zero_or_more ? ">= 0" : "> 0");
   }
 
   void check_factor(const std::string& table, const PlaceScene& places) const {

@@ -43,12 +43,6 @@ class VesicleChecks {
   }
 
  private:
-  template <typename... Arguments>
-  [[noreturn]] void refuse(std::size_t vesicle, fmt::format_string<Arguments...> problem,
-                           Arguments&&... arguments) const {
-    file_.refuse(node_of(vesicle), problem, std::forward<Arguments>(arguments)...);
-  }
-
   /// Those of a suspension stand nowhere.
   [[nodiscard]] const toml::node& node_of(std::size_t vesicle) const {
     if (const toml::node* all = file_.table.get("vesicle")) return (*all->as_array())[vesicle];
@@ -88,16 +82,18 @@ class VesicleChecks {
     for (std::size_t a = 0; a < scene_.vesicles.size(); ++a) {
       const VesicleScene& vesicle = scene_.vesicles[a];
       if (is_steady(vesicle) != steady) {
-        refuse(a,
-               "{} {}start with a steady V_m, but {} does{}; accepted: \"initial_Vm\" steady for all vesicles or for "
-               "none",
-               called(a), steady ? "does not " : "", called(0), steady ? "" : " not");
+        file_.refuse(
+            node_of(a),
+            "{} {}start with a steady V_m, but {} does{}; accepted: \"initial_Vm\" steady for all vesicles or for "
+            "none",
+            called(a), steady ? "does not " : "", called(0), steady ? "" : " not");
       }
       if (vesicle.electric->conductivity_in > 0.0 && vesicle.electric->conductivity_out > 0.0) continue;
-      refuse(a,
-             "\"conductivity_in\" or \"conductivity_out\" of {} is 0; accepted with several vesicles: > 0, as small as "
-             "it has to be",
-             called(a));
+      file_.refuse(
+          node_of(a),
+          "\"conductivity_in\" or \"conductivity_out\" of {} is 0; accepted with several vesicles: > 0, as small as "
+          "it has to be",
+          called(a));
     }
   }
 
@@ -139,9 +135,11 @@ class VesicleChecks {
       const Triple& centre = scene_.vesicles[vesicle].shape.centre;
       return fmt::format("{}, about ({:g}, {:g}, {:g})", called(vesicle), centre[0], centre[1], centre[2]);
     };
-    if (arrangement == Arrangement::they_meet) refuse(b, "{}, overlaps {}; {}", placed(b), placed(a), accepted);
-    if (arrangement == Arrangement::first_is_inside) refuse(b, "{}, has {} inside; {}", placed(b), called(a), accepted);
-    refuse(b, "{}, is inside {}; {}", placed(b), called(a), accepted);
+    if (arrangement == Arrangement::they_meet)
+      file_.refuse(node_of(b), "{}, overlaps {}; {}", placed(b), placed(a), accepted);
+    if (arrangement == Arrangement::first_is_inside)
+      file_.refuse(node_of(b), "{}, has {} inside; {}", placed(b), called(a), accepted);
+    file_.refuse(node_of(b), "{}, is inside {}; {}", placed(b), called(a), accepted);
   }
 
   /// A run would stop where it starts.
@@ -154,8 +152,8 @@ class VesicleChecks {
     const double area = std::min(vehd::size_of(positions[a]).area, vehd::size_of(positions[b]).area);
     const double relative = gap / std::sqrt(area / (4.0 * std::numbers::pi));
     if (relative >= thresholds::smallest_gap) return;
-    refuse(b, "{} is {:.2g} radii from {}; accepted: at least {:g}", called(b), relative, called(a),
-           thresholds::smallest_gap);
+    file_.refuse(node_of(b), "{} is {:.2g} radii from {}; accepted: at least {:g}", called(b), relative, called(a),
+                 thresholds::smallest_gap);
   }
 
   void check_symmetry() const {

@@ -65,22 +65,13 @@ double factor_from(const RunReader& run, const Scene& scene, std::optional<doubl
 InitialMembrane unplaced_membrane(const Scene& scene) {
   const ShapeScene& shape = scene.shape;
   const int order = scene.numerics.order;
-  switch (shape.kind) {
-    case ShapeKind::ellipsoid:
-      return {ellipsoid_position(shape.axes, order), {}};
-    case ShapeKind::prolate:
-      return {ellipsoid_position(prolate_axes(shape.reduced_volume), order), {}};
-    case ShapeKind::oblate:
-      return {ellipsoid_position(oblate_axes(shape.reduced_volume), order), {}};
-    case ShapeKind::biconcave:
-      return {biconcave_position(shape.reduced_volume, order), {}};
-    case ShapeKind::stomatocyte:
-      return {stomatocyte_position(shape.reduced_volume, order), {}};
-    case ShapeKind::radial:
-      return {radial_position(scene), {}};
-    case ShapeKind::file:
-      break;
-  }
+  const double v = shape.reduced_volume;
+  if (shape.kind == ShapeKind::ellipsoid) return {ellipsoid_position(shape.axes, order), {}};
+  if (shape.kind == ShapeKind::prolate) return {ellipsoid_position(prolate_axes(v), order), {}};
+  if (shape.kind == ShapeKind::oblate) return {ellipsoid_position(oblate_axes(v), order), {}};
+  if (shape.kind == ShapeKind::biconcave) return {biconcave_position(v, order), {}};
+  if (shape.kind == ShapeKind::stomatocyte) return {stomatocyte_position(v, order), {}};
+  if (shape.kind == ShapeKind::radial) return {radial_position(scene), {}};
   const RunReader run(shape.path);
   const RunSnapshot start = start_snapshot(run, scene);
   const Matrix position = factor_from(run, scene, &UnitsScene::length) * start.coefficients("x", 3);
