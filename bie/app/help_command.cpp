@@ -4,8 +4,8 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/scene/dimensionless_groups.hpp"
-#include "bie/scene/schema_text.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/scene/schema_text.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/support/text_table.hpp"
 
