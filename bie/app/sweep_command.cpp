@@ -11,8 +11,7 @@
 #include "bie/app/scene_choice.hpp"
 #include "bie/app/slurm_script.hpp"
 #include "bie/estimate/sweep_packs.hpp"
-#include "bie/runs/sweep/run_result.hpp"
-#include "bie/runs/sweep/sweep_crew.hpp"
+#include "bie/runs/sweep/sweep_work.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/progress.hpp"
@@ -77,27 +76,14 @@ std::vector<std::size_t> order_of_runs(const SweepOptions& options, const Prepar
   return order;
 }
 
-void show_sweep(Progress& progress, const CrewStatus& status) {
-  const double done = status.share - status.start_share;
-  const std::string left = done > 0.0 ? duration_text(status.seconds / done * std::max(0.0, 1.0 - status.share)) : "?";
-  progress.update(status.share, fmt::format("{}/{} runs  left {}", status.n_finished, status.n_runs, left));
-}
-
-/// Where the time of this call has gone, on the clock.
-struct SweepTime {
-  double runs = 0.0;  ///< set-up, steps and files of runs
-  double own = 0.0;   ///< all else: scenes, claims, results and the table
-};
-
-nlohmann::json json_of(const SweepCount& count, const PreparedSweep& sweep, const SweepTime& time) {
+nlohmann::json json_of(const SweepCount& count, const PreparedSweep& sweep) {
   return {{"runs", sweep.runs.size()}, {"completed", count.completed},
           {"stopped", count.stopped},  {"refused", count.refused},
           {"crashed", count.crashed},  {"unfinished", count.unfinished},
-          {"seconds", count.seconds},  {"table", sweep.paths.table().string()},
-          {"run_seconds", time.runs},  {"own_seconds", time.own}};
+          {"seconds", count.seconds},  {"table", sweep.paths.table().string()}};
 }
 
-void print_count(const SweepCount& count, const PreparedSweep& sweep, const SweepTime& time) {
+void print_count(const SweepCount& count, const PreparedSweep& sweep) {
   std::string text = fmt::format("{} runs: {} completed", sweep.runs.size(), count.completed);
   const auto add = [&](std::int64_t number, const char* what) {
     if (number > 0) text += fmt::format(", {} {}", number, what);
@@ -106,9 +92,7 @@ void print_count(const SweepCount& count, const PreparedSweep& sweep, const Swee
   add(count.refused, "refused");
   add(count.crashed, "crashed");
   add(count.unfinished, "unfinished");
-  text += fmt::format("; {} of computing", duration_text(count.seconds));
-  if (time.runs > 0.0) text += fmt::format(", the sweep's own work {:.2g} % of it", 100.0 * time.own / time.runs);
-  fmt::print("{}\ntable: {}\n", text, sweep.paths.table().string());
+  fmt::print("{}; {} of computing\ntable: {}\n", text, duration_text(count.seconds), sweep.paths.table().string());
 }
 
 ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
@@ -157,43 +141,34 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
 ExitCode sweep(const SweepOptions& options) {
   // One thread until the workers are there: copies of this process are made, which have no other thread.
   const ThreadCount one(1);
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&start] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
   const PreparedSweep sweep = prepared(options);
   if (!options.emit.empty()) return emit_slurm(options, sweep);
-  CrewOutcome outcome;
-  SweepTime time{0.0, seconds()};
+  std::string problem;
   {
     Interruption interruption;
     Progress progress(options.quiet ? Progress::Style::none : Progress::suitable_style());
-    CrewTask task{sweep.paths,
-                  sweep.sweep,
-                  sweep.runs,
-                  order_of_runs(options, sweep),
-                  options.jobs(),
-                  options.n_threads,
-                  [&progress](const CrewStatus& status) { show_sweep(progress, status); }};
-    task.n_workers = std::min<int>(task.n_workers, std::max<int>(1, static_cast<int>(sweep.runs.size())));
-    outcome = work_as_crew(task, interruption);
+    const auto start = std::chrono::steady_clock::now();
+    const auto show = [&](std::int64_t n_finished, std::int64_t n_runs, double share) {
+      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+      const std::string left = share > 0.0 ? duration_text(seconds.count() * (1.0 / share - 1.0)) : "?";
+      progress.update(share, fmt::format("{}/{} runs  left {}", n_finished, n_runs, left));
+    };
+    const int n_workers = std::clamp<int>(static_cast<int>(sweep.runs.size()), 1, options.jobs());
+    problem = run_sweep(
+        {sweep.paths, sweep.sweep, sweep.runs, order_of_runs(options, sweep), n_workers, options.n_threads, show},
+        interruption);
     progress.finish();
   }
-  time.runs = outcome.run_seconds;
-  time.own += outcome.worker_seconds - outcome.run_seconds - seconds();
   const SweepCount count = write_sweep_table(sweep.paths, sweep.sweep, sweep.runs);
-  time.own += seconds();
-  print_count(count, sweep, time);
-  write_json(options.common, json_of(count, sweep, time));
-  if (outcome.interrupted || !outcome.problem.empty()) {
-    fmt::print(stderr, "{}; the same command goes on from here\n",
-               outcome.problem.empty() ? "a signal came" : outcome.problem);
+  print_count(count, sweep);
+  write_json(options.common, json_of(count, sweep));
+  if (!problem.empty()) {
+    fmt::print(stderr, "{}; the same command goes on from here\n", problem);
     return ExitCode::stopped_early;
   }
   if (count.unfinished > 0) {
     fmt::print(stderr,
-               "unfinished runs are in the hands of other workers; the same command takes over from those "
-               "that have ended\n");
+               "unfinished runs belong to other workers; the same command resumes those whose workers have ended\n");
   }
   return ExitCode::done;
 }

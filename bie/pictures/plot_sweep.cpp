@@ -23,7 +23,7 @@ constexpr const char *line_colour = "#1f5fa8", *stopped_colour = "#9a9a9a";
 
 std::vector<std::string> plain_names(const SweepRows& rows) {
   std::vector<std::string> names;
-  for (const std::string& header : rows.columns()) names.push_back(header.substr(0, header.find(" [")));
+  for (const std::string& header : rows.columns) names.push_back(header.substr(0, header.find(" [")));
   return names;
 }
 
@@ -64,7 +64,7 @@ std::optional<double> border_among(const std::vector<double>& numbers, const std
 
 void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, const SweepAxis& x, const Box& box,
                      std::optional<double> border) {
-  const std::string& header = rows.columns()[column];
+  const std::string& header = rows.columns[column];
   std::vector<double> numbers = numbers_of_column(rows, column);
   if (!border) border = border_among(numbers, header);
   // The axis has it in its range and knows its place.
@@ -99,8 +99,8 @@ void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, cons
 void draw_sweep_lines(const SweepPlotTask& task, const SweepRows& rows, const std::vector<std::size_t>& columns,
                       const PictureFile& picture) {
   std::vector<std::string> values;
-  for (std::size_t row = 0; row < rows.n_rows(); ++row) values.push_back(rows.value(row, 0));
-  const SweepRows::Key& key = rows.keys().front();
+  for (std::size_t row = 0; row < rows.n_rows(); ++row) values.push_back(rows.cells[row][0]);
+  const SweepRows::Key& key = rows.keys.front();
   const SweepAxis x = axis_of_values(key.name, values, key.is_logarithmic);
   if (columns.empty()) throw InputError(fmt::format("{}: has no column to draw", task.paths.table().string()));
   SweepPanels panels(columns.size());
@@ -121,8 +121,8 @@ std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task) {
   };
   std::vector<std::filesystem::path> pictures;
   const std::optional<std::size_t> seed = seed_key(rows);
-  const bool has_means = seed && rows.keys().size() > 1;
-  if (rows.keys().size() == 1 || !rows.is_grid() || has_means) {
+  const bool has_means = seed && rows.keys.size() > 1;
+  if (rows.keys.size() == 1 || !rows.is_grid || has_means) {
     if (!task.curves.empty()) {
       throw InputError(fmt::format("--curve {}: {} is of one key, curves are drawn over maps of two",
                                    task.curves.string(), task.paths.table().string()));
@@ -131,9 +131,9 @@ std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task) {
     draw_sweep_lines(task, rows, columns, file("lines"));
     return {file("lines").path};
   }
-  if (rows.keys().size() > 2) {
+  if (rows.keys.size() > 2) {
     throw InputError(fmt::format("{}: has {} keys; pictures are drawn of one or two, other programs read the table",
-                                 task.paths.table().string(), rows.keys().size()));
+                                 task.paths.table().string(), rows.keys.size()));
   }
   std::vector<SweepCurve> curves;
   if (!task.curves.empty()) curves = read_sweep_curves(task.curves, rows);

@@ -19,9 +19,9 @@ namespace {
 /// Where the values of one key stand in a map.
 class CellScale {
  public:
-  CellScale(const SweepRows& rows, std::size_t key, const std::string& file) : key_(rows.keys()[key]) {
+  CellScale(const SweepRows& rows, std::size_t key, const std::string& file) : key_(rows.keys[key]) {
     for (std::size_t row = 0; row < rows.n_rows(); ++row) {
-      const auto quantity = parse_quantity(rows.value(row, key));
+      const auto quantity = parse_quantity(rows.cells[row][key]);
       if (!quantity || (row > 0 && quantity->unit != unit_)) {
         throw InputError(fmt::format("{}: no curve can be drawn over \"{}\", whose values are no numbers of one unit",
                                      file, key_.name));
@@ -68,9 +68,9 @@ std::vector<SweepCurve> read_sweep_curves(const std::filesystem::path& path, con
   const std::vector<std::string> header = quoted_csv_cells(line);
   std::array<std::size_t, 2> cell_of_key{};
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto found = std::ranges::find(header, rows.keys()[k].name);
+    const auto found = std::ranges::find(header, rows.keys[k].name);
     if (found == header.end()) {
-      throw InputError(fmt::format("{}:1: names no \"{}\", a key of the sweep", file, rows.keys()[k].name));
+      throw InputError(fmt::format("{}:1: names no \"{}\", a key of the sweep", file, rows.keys[k].name));
     }
     cell_of_key[k] = static_cast<std::size_t>(found - header.begin());
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bie/pictures/page.hpp"
-#include "bie/runs/sweep/sweep_rows.hpp"
+#include "bie/pictures/sweep_rows.hpp"
 
 namespace vehd {
 

@@ -22,7 +22,7 @@ std::string hex_of(const Colour& colour) {
 std::vector<std::string> values_of_key(const SweepRows& rows, std::size_t key) {
   std::vector<std::string> values;
   for (std::size_t row = 0; row < rows.n_rows(); ++row) {
-    if (std::ranges::find(values, rows.value(row, key)) == values.end()) values.push_back(rows.value(row, key));
+    if (std::ranges::find(values, rows.cells[row][key]) == values.end()) values.push_back(rows.cells[row][key]);
   }
   return values;
 }
@@ -182,7 +182,7 @@ void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<dou
   const ColourRange range = cells.range();
   const ColourMap colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
   draw_cells(page, cells, range, colours);
-  if (!border) border = usual_border(rows.columns()[column], range.lower, range.upper);
+  if (!border) border = usual_border(rows.columns[column], range.lower, range.upper);
   if (border) draw_border(page, cells, *border);
   for (const SweepCurve& curve : curves) {
     PageLine line{{}, 1.6, "#d62728", false};
@@ -191,9 +191,9 @@ void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<dou
     }
     page.lines.push_back(std::move(line));
   }
-  draw_sweep_frame(page, box, axis_of_cells(rows.keys()[0].name, values_of_key(rows, 0)),
-                   axis_of_cells(rows.keys()[1].name, values_of_key(rows, 1)), false);
-  const std::string& header = rows.columns()[column];
+  draw_sweep_frame(page, box, axis_of_cells(rows.keys[0].name, values_of_key(rows, 0)),
+                   axis_of_cells(rows.keys[1].name, values_of_key(rows, 1)), false);
+  const std::string& header = rows.columns[column];
   const std::string label = column_label(header);
   const std::size_t at = label.find(" (");
   const std::string unit = at == std::string::npos ? "" : label.substr(at + 2, label.size() - at - 3);

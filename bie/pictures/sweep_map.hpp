@@ -7,7 +7,7 @@
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/sweep_axis.hpp"
 #include "bie/pictures/sweep_curves.hpp"
-#include "bie/runs/sweep/sweep_rows.hpp"
+#include "bie/pictures/sweep_rows.hpp"
 
 namespace vehd {
 

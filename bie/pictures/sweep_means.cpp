@@ -23,7 +23,7 @@ constexpr std::array line_colours = {"#1f5fa8", "#d62728", "#2a8a3a", "#8a4fb0",
 
 std::vector<std::size_t> other_keys(const SweepRows& rows, std::size_t seed) {
   std::vector<std::size_t> others;
-  for (std::size_t key = 0; key < rows.keys().size(); ++key) {
+  for (std::size_t key = 0; key < rows.keys.size(); ++key) {
     if (key != seed) others.push_back(key);
   }
   return others;
@@ -68,7 +68,7 @@ void draw_panel(Page& page, const SweepRows& rows, const std::vector<std::size_t
     const std::vector<double> ends = ends_of(means, sign);
     numbers.insert(numbers.end(), ends.begin(), ends.end());
   }
-  const SweepRows::Key& key = rows.keys()[keys.front()];
+  const SweepRows::Key& key = rows.keys[keys.front()];
   const SweepAxis x = axis_of_values(key.name, values, key.is_logarithmic);
   const SweepAxis y = axis_of_numbers(column_label(header), numbers);
   draw_sweep_frame(page, box, x, y, true);
@@ -90,7 +90,7 @@ void draw_panel(Page& page, const SweepRows& rows, const std::vector<std::size_t
     if (line.points.size() > 1) page.lines.push_back(std::move(line));
     if (keys.size() < 2) continue;
     const double below = box.top - 9.0 - 10.0 * static_cast<double>(s);
-    const std::string& name = rows.keys()[keys[1]].name;
+    const std::string& name = rows.keys[keys[1]].name;
     page.texts.push_back(
         {fmt::format("{} {}", gnuplot_literal(name.substr(name.rfind('.') + 1)), gnuplot_literal(series[s])),
          {box.left + 6.0, below},
@@ -103,7 +103,7 @@ void draw_panel(Page& page, const SweepRows& rows, const std::vector<std::size_t
 void write_means(const std::filesystem::path& file, const SweepRows& rows, const std::vector<std::size_t>& keys,
                  const std::vector<std::string>& headers, const std::vector<std::vector<SweepMean>>& means) {
   std::vector<std::string> names;
-  for (const std::size_t key : keys) names.push_back(rows.keys()[key].name);
+  for (const std::size_t key : keys) names.push_back(rows.keys[key].name);
   for (const std::string& header : headers) {
     names.push_back(header);
     names.push_back("standard error");
@@ -124,9 +124,9 @@ void write_means(const std::filesystem::path& file, const SweepRows& rows, const
 
 std::optional<std::size_t> seed_key(const SweepRows& rows) {
   const auto is_seed = [](const SweepRows::Key& key) { return key.name.ends_with(".seed"); };
-  const auto found = std::ranges::find_if(rows.keys(), is_seed);
-  if (found == rows.keys().end()) return std::nullopt;
-  return static_cast<std::size_t>(found - rows.keys().begin());
+  const auto found = std::ranges::find_if(rows.keys, is_seed);
+  if (found == rows.keys.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - rows.keys.begin());
 }
 
 std::vector<SweepMean> means_over_seeds(const SweepRows& rows, std::size_t seed, std::size_t column) {
@@ -134,7 +134,7 @@ std::vector<SweepMean> means_over_seeds(const SweepRows& rows, std::size_t seed,
   std::vector<std::vector<double>> numbers;
   for (std::size_t row = 0; row < rows.n_rows(); ++row) {
     std::vector<std::string> values;
-    for (const std::size_t key : other_keys(rows, seed)) values.push_back(rows.value(row, key));
+    for (const std::size_t key : other_keys(rows, seed)) values.push_back(rows.cells[row][key]);
     auto found = std::ranges::find(means, values, &SweepMean::values);
     if (found == means.end()) {
       means.push_back({values});
@@ -156,13 +156,13 @@ std::vector<std::filesystem::path> draw_sweep_means(const SweepRows& rows, std::
   const std::vector<std::size_t> keys = other_keys(rows, seed);
   if (keys.empty() || keys.size() > 2) {
     throw InputError(fmt::format("{}: has {} keys beside {}; means over it are drawn against one or two",
-                                 picture.path.string(), keys.size(), rows.keys()[seed].name));
+                                 picture.path.string(), keys.size(), rows.keys[seed].name));
   }
   std::vector<std::vector<SweepMean>> means;
   std::vector<std::string> headers;
   SweepPanels panels(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    headers.push_back(rows.columns()[columns[i]]);
+    headers.push_back(rows.columns[columns[i]]);
     means.push_back(means_over_seeds(rows, seed, columns[i]));
     draw_panel(panels.page, rows, keys, headers.back(), means.back(), panels.box(i));
   }

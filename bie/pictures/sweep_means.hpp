@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bie/pictures/picture_format.hpp"
-#include "bie/runs/sweep/sweep_rows.hpp"
+#include "bie/pictures/sweep_rows.hpp"
 
 namespace vehd {
 

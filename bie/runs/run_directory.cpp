@@ -9,9 +9,6 @@
 #include <cstring>
 #include <system_error>
 
-#include "bie/support/errors.hpp"
-#include "bie/support/output_error.hpp"
-
 namespace vehd {
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& lock_file)
@@ -24,12 +21,11 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& lock_file)
     const int problem = errno;
     ::close(descriptor_);
     if (problem == EWOULDBLOCK) {
-      throw InputError(
+      throw DirectoryBusy(
           fmt::format("{}: another run is writing in this directory; wait for it or choose another -o", directory));
     }
-    throw OutputError(
-        fmt::format("{}: cannot be locked against a second run: {}; choose an -o on a file system with flock",
-                    directory, std::strerror(problem)));
+    throw NoLocks(fmt::format("{}: cannot be locked against a second run: {}; choose an -o on a file system with flock",
+                              directory, std::strerror(problem)));
   }
 }
 

@@ -2,6 +2,9 @@
 
 #include <filesystem>
 
+#include "bie/support/errors.hpp"
+#include "bie/support/output_error.hpp"
+
 namespace vehd {
 
 /// Where the files of one run are.
@@ -23,11 +26,20 @@ struct RunPaths {
   [[nodiscard]] std::filesystem::path report() const { return directory / "report.html"; }
 };
 
+/// Another process has the lock of a run directory.
+struct DirectoryBusy : InputError {
+  using InputError::InputError;
+};
+
+/// The file system of a run directory has no locks.
+struct NoLocks : OutputError {
+  using OutputError::OutputError;
+};
+
 /// Exclusive use of a run directory until destruction; a killed process releases it as well.
 class DirectoryLock {
  public:
-  /// @throws InputError if another process holds it or the directory cannot be written
-  /// @throws OutputError if its file system has no locks
+  /// @throws DirectoryBusy, NoLocks, InputError if the directory cannot be written
   explicit DirectoryLock(const std::filesystem::path& lock_file);
   ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;

@@ -35,10 +35,10 @@ std::string imposed_symmetry(const Scene& scene) {
 }  // namespace
 
 RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
-                       Ranks ranks)
+                       Ranks ranks, bool is_claimed)
     : scene_(std::move(scene)), paths_{directory}, ranks_(std::move(ranks)) {
   ranks_.together([&] {
-    if (ranks_.is_first()) lock_ = lock_in(paths_);
+    if (ranks_.is_first() && !is_claimed) lock_ = lock_in(paths_);
   });
   if (!admit_run(paths_, resume)) return;
   checkpoint_ = read_checkpoint(paths_.checkpoint());

@@ -27,7 +27,7 @@ struct VariedKey {
 /// A column of history.csv that the table of a sweep shows.
 struct SweepColumn {
   std::string name;
-  std::string place;  ///< "file:line" where it is asked for
+  std::string place{};  ///< "file:line" where it is asked for
 };
 
 /// How the values of several keys meet: each of one with each of the other, or the first ones together, the second ones

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <sstream>
 
 #include "bie/support/output_error.hpp"
+#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {
@@ -103,6 +105,17 @@ void replace_file(const std::filesystem::path& path, const std::string& text) {
   } else {
     replace_regular_file(end.path, text);
   }
+}
+
+void replace_shared_file(const std::filesystem::path& path, const std::string& text) {
+  const TemporaryFile temporary(unique_name_beside(path));
+  replace_file(temporary.path(), text);
+  rename_file(temporary.path(), path);
+}
+
+std::filesystem::path unique_name_beside(const std::filesystem::path& path) {
+  const auto nanoseconds = std::chrono::system_clock::now().time_since_epoch().count();
+  return path.parent_path() / fmt::format(".{}.{}.{}", path.filename().string(), ::getpid(), nanoseconds);
 }
 
 void make_directory(const std::filesystem::path& directory) {

@@ -28,6 +28,12 @@ LinkEnd end_of_links(const std::filesystem::path& path);
 /// text is written; a pipe waits for its reader. @throws OutputError
 void replace_file(const std::filesystem::path& path, const std::string& text);
 
+/// Replaces a file in one step, also where processes of several machines do so at once. @throws OutputError
+void replace_shared_file(const std::filesystem::path& path, const std::string& text);
+
+/// A hidden name beside `path` that no other call gives, of whatever process and machine.
+std::filesystem::path unique_name_beside(const std::filesystem::path& path);
+
 /// Creates a folder with its parents; one that is there already is as good. @throws OutputError
 void make_directory(const std::filesystem::path& directory);
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <sys/stat.h>
+
+#include <set>
 #include <sstream>
 
-#include "bie/runs/sweep/claim.hpp"
 #include "bie/support/csv.hpp"
 #include "tests/app/program.hpp"
 
@@ -46,15 +48,24 @@ struct SweepWork {
     return cells;
   }
 
-  /// Claims that somebody holds.
-  [[nodiscard]] std::vector<vehd::ClaimState> held() const {
-    std::vector<vehd::ClaimState> held;
+  /// Processes that have the locks of run directories.
+  [[nodiscard]] std::vector<pid_t> workers() const {
+    std::set<std::string> locks;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(output + "/runs", ignored)) {
-      const vehd::ClaimState state = vehd::claim_state(entry.path());
-      if (entry.path().filename().string().starts_with('.')) continue;
-      if (state.kind == vehd::ClaimState::Kind::held) held.push_back(state);
+      struct stat facts {};
+      if (::stat((entry.path() / ".lock").c_str(), &facts) == 0) locks.insert(std::to_string(facts.st_ino));
     }
-    return held;
+    // "1: FLOCK  ADVISORY  WRITE 6679 fe:00:10953314 0 EOF"
+    std::vector<pid_t> workers;
+    std::istringstream table(file_text("/proc/locks"));
+    for (std::string line; std::getline(table, line);) {
+      std::istringstream words(line);
+      std::string number, kind, advisory, access, inode;
+      pid_t process = 0;
+      words >> number >> kind >> advisory >> access >> process >> inode;
+      if (kind == "FLOCK" && locks.contains(inode.substr(inode.rfind(':') + 1))) workers.push_back(process);
+    }
+    return workers;
   }
 };

@@ -109,12 +109,12 @@ BOOST_FIXTURE_TEST_CASE(a_signal_leaves_everything_to_the_next_call, SweepWork) 
   int n_stopped = 0;
   for (const int signal : {SIGINT, SIGTERM, SIGINT}) {
     RunningProgram program(command({"--jobs", "2"}));
-    BOOST_TEST(comes_true([&] { return program.ended() || !held().empty(); }, std::chrono::seconds(60)));
+    BOOST_TEST(comes_true([&] { return program.ended() || !workers().empty(); }, std::chrono::seconds(60)));
     program.send(signal);
     const ProgramResult result = program.wait();
     if (result.exit_code == 3) ++n_stopped;
     BOOST_TEST((result.exit_code == 3 || result.exit_code == 0), result.errors);
-    BOOST_TEST(held().empty());
+    BOOST_TEST(workers().empty());
     BOOST_TEST(table().size() == 5u);
   }
   BOOST_TEST(n_stopped > 0);
@@ -126,13 +126,32 @@ BOOST_FIXTURE_TEST_CASE(a_crash_is_a_row_and_the_other_runs_go_on, SweepWork) {
   // The first is met while it runs on any machine.
   write_sweep("\"numerics.end_time\" = {values = [100000.0, 0.5, 0.6, 0.7]}\n");
   RunningProgram program(command({"--jobs", "1"}));
-  BOOST_TEST(comes_true([&] { return !held().empty(); }, std::chrono::seconds(60)));
-  ::kill(static_cast<pid_t>(held().front().worker.process), SIGSEGV);
+  BOOST_TEST(comes_true([&] { return !workers().empty(); }, std::chrono::seconds(60)));
+  ::kill(workers().front(), SIGSEGV);
   BOOST_TEST(program.wait().exit_code == 0);
   const Cells verdicts = column("verdict");
   BOOST_TEST(std::ranges::count(verdicts, "crashed") == 1);
   BOOST_TEST(std::ranges::count(verdicts, "unfinished") == 0);
   BOOST_TEST(file_text(output + "/table.csv").find("signal 11") != std::string::npos);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_run_whose_workers_are_killed_again_and_again_is_given_up, SweepWork) {
+  write_sweep("\"numerics.end_time\" = {values = [100000.0, 0.5]}\n");
+  RunningProgram program(command({"--jobs", "1"}));
+  int n_kills = 0;
+  std::set<pid_t> killed;
+  BOOST_TEST(comes_true(
+      [&] {
+        for (const pid_t worker : workers()) {
+          if (killed.insert(worker).second && ::kill(worker, SIGKILL) == 0) ++n_kills;
+        }
+        return program.ended();
+      },
+      std::chrono::seconds(120)));
+  BOOST_TEST(program.wait().exit_code == 0);
+  BOOST_TEST(n_kills >= 20);
+  BOOST_TEST(column("verdict")[0] == "crashed");
+  BOOST_TEST(column("reason")[0] == "21 workers were killed at it");
 }
 
 BOOST_FIXTURE_TEST_CASE(what_a_sweep_finds_does_not_depend_on_units, SweepWork) {

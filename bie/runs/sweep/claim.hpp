@@ -2,88 +2,45 @@
 
 #include <chrono>
 #include <filesystem>
-#include <optional>
-#include <string>
+#include <memory>
+#include <thread>
 
-#include "bie/runs/sweep/worker_id.hpp"
+#include "bie/runs/run_directory.hpp"
 
-/// Who works at which run of a sweep.
-///
-/// Every run directory holds one file whose name says so: claim.free, claim.held with the worker and the number of
-/// takeovers, claim.done or claim.crashed with the signal. A claim changes by renaming that file: of several workers
-/// that try at once, also on different machines of a shared file system, one succeeds and the others find the old name
-/// gone. A new directory is renamed into its place with the claim in it, so that there is none without.
-///
-/// A claim whose worker has ended goes to the next that asks. On the machine of that worker the process table tells
-/// whether it has ended. Elsewhere the time of the claim tells, which its worker renews: it counts as ended after
-/// the patience of ClaimTimes, by the clock of the file system, so that clocks of machines need not agree.
 namespace vehd {
 
-/// When a worker says that it lives, and when others stop believing it.
-struct ClaimTimes {
-  std::chrono::seconds beat{20};
-  /// Network file systems show the time of a file up to a minute late; a dozen missed beats are no accident.
-  std::chrono::seconds patience{300};
-};
-
-/// What the claim file of a run directory says.
-struct ClaimState {
-  enum class Kind { absent, free, held, done, crashed, unknown };
-  Kind kind = Kind::absent;  ///< absent: there is no directory; unknown: no claim was seen in it
-  std::string name{};        ///< of the file
-  WorkerId worker{};         ///< that holds it
-  int takeovers = 0;         ///< from workers that ended while they held it, in a row
-  int signal = 0;            ///< of a crash
-};
-
-/// @param directory  of a run
-ClaimState claim_state(const std::filesystem::path& directory);
-
-/// A run that belongs to this process until it is given back.
+/// The right to work at a run of a sweep, until destruction.
+///
+/// On one machine it is the lock of the run directory, which ends with the process that has it. The locks of a file
+/// system that machines share may reach no further than each of them, and some file systems have none. So whoever has
+/// the lock also adds a file to the directory: claim.1, the next one claim.2, and so on. Of several workers that create
+/// the same one, one succeeds. The last one counts. It names the machine, and its worker renews its time. It is void if
+/// it is from this machine, where the lock was free, or older than 300 s by the clock of the file system.
 class Claim {
  public:
-  Claim(std::filesystem::path directory, std::string name) : directory_(std::move(directory)), name_(std::move(name)) {}
+  /// @param directory  of the run; created if it is missing
+  /// @param renewal    time between renewals
+  /// @return           null if another worker has the run
+  /// @throws OutputError, std::filesystem::filesystem_error if the directory cannot be used
+  static std::unique_ptr<Claim> take(const std::filesystem::path& directory,
+                                     std::chrono::milliseconds renewal = std::chrono::seconds(20));
+  /// Other workers need not wait.
+  ~Claim();
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
 
-  [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
-  [[nodiscard]] std::filesystem::path file() const { return directory_ / name_; }
-  /// Beginning of the name that the claim gets by a crash.
-  [[nodiscard]] std::filesystem::path crash_stem() const { return directory_ / "claim.crashed."; }
-  /// Nothing is left to do for anybody.
-  void finish() const;
-  /// Another worker may go on.
-  void release() const;
-
- private:
-  std::filesystem::path directory_;
-  std::string name_;
-};
-
-/// The claims of one worker.
-class Claims {
- public:
-  /// @param runs  the folder of run directories
-  /// @throws OutputError if it cannot be made
-  explicit Claims(std::filesystem::path runs, ClaimTimes times = {});
-
-  /// Claims a run unless somebody else has it, or it is done. @throws OutputError if the folder cannot be written
-  std::optional<Claim> take(const std::string& run) const;
-  /// Removes directories that workers which have ended could not put into their places any more.
-  void tidy() const;
-  [[nodiscard]] const std::filesystem::path& runs() const { return runs_; }
-  [[nodiscard]] const ClaimTimes& times() const { return times_; }
-
-  /// A run whose workers were ended so often, one after the other, is what ends them.
-  static constexpr int most_takeovers = 20;
+  /// Another worker has a later claim, since this process was suspended. The process has got a SIGTERM when this was
+  /// noticed, so that its run ends after the step in hand; an `Interruption` must be alive.
+  [[nodiscard]] bool is_lost() const;
 
  private:
-  [[nodiscard]] std::optional<Claim> create(const std::string& run) const;
-  [[nodiscard]] std::optional<Claim> rename(const std::filesystem::path& directory, const std::string& from,
-                                            const std::string& to) const;
-  [[nodiscard]] bool has_ended(const WorkerId& worker, const std::filesystem::path& claim) const;
+  Claim(std::unique_ptr<DirectoryLock> lock, const std::filesystem::path& directory, int number,
+        std::chrono::milliseconds renewal);
+  void renew(const std::stop_token& stop, std::chrono::milliseconds interval) const;
 
-  std::filesystem::path runs_;
-  ClaimTimes times_;
-  std::string me_;
+  std::unique_ptr<DirectoryLock> lock_;  ///< null where the file system has none
+  std::filesystem::path file_, next_;
+  std::jthread renewal_;
 };
 
 }  // namespace vehd

@@ -11,14 +11,6 @@
 #include "bie/support/errors.hpp"
 
 namespace vehd {
-namespace {
-
-std::vector<std::string_view> usual_columns(const Scene& scene) {
-  if (scene.vesicles.size() > 1) return {"time", "smallest_gap"};
-  return {"time", "reduced_volume", "aspect_ratio", "inclination_deg", "bending_energy_scaled"};
-}
-
-}  // namespace
 
 std::string hash_of(const std::string& text) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
@@ -46,11 +38,14 @@ std::vector<SweepRun> runs_of(const SweepFile& sweep) {
 }
 
 std::vector<HistoryColumn> columns_of(const SweepFile& sweep) {
+  std::vector<SweepColumn> wanted = {
+      {"time"}, {"reduced_volume"}, {"aspect_ratio"}, {"inclination_deg"}, {"bending_energy_scaled"}};
+  if (sweep.scene.vesicles.size() > 1) wanted = {{"time"}, {"smallest_gap"}};
+  if (!sweep.columns.empty()) wanted = sweep.columns;
   const std::vector<HistoryColumn>& known = history_columns(history_kind(sweep.scene));
   std::vector<HistoryColumn> columns;
-  const auto find = [&](std::string_view name) { return std::ranges::find(known, name, &HistoryColumn::name); };
-  for (const SweepColumn& column : sweep.columns) {
-    const auto found = find(column.name);
+  for (const SweepColumn& column : wanted) {
+    const auto found = std::ranges::find(known, column.name, &HistoryColumn::name);
     if (found == known.end()) {
       std::vector<std::string_view> names;
       for (const HistoryColumn& other : known) names.push_back(other.name);
@@ -58,10 +53,6 @@ std::vector<HistoryColumn> columns_of(const SweepFile& sweep) {
                                    column.place, shortened(column.name), suggestion(column.name, names)));
     }
     columns.push_back(*found);
-  }
-  if (!sweep.columns.empty()) return columns;
-  for (const std::string_view name : usual_columns(sweep.scene)) {
-    if (const auto found = find(name); found != known.end()) columns.push_back(*found);
   }
   return columns;
 }

@@ -1,166 +1,149 @@
 #include "bie/runs/sweep/sweep_table.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <csignal>
-#include <cstring>
+#include <cstdlib>
 #include <set>
 
 #include "bie/files/json_text.hpp"
-#include "bie/runs/sweep/claim.hpp"
-#include "bie/runs/sweep/run_result.hpp"
 #include "bie/support/csv.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
 
-/// A cell is one line, which any reader of tables understands.
+std::filesystem::path result_file(const std::filesystem::path& directory) { return directory / "result.json"; }
+
+/// A cell is one line.
 std::string table_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
 
-/// A crash as a result. @return nullopt of a run that has none
-std::optional<RunResult> crash_of(const std::filesystem::path& directory) {
-  const ClaimState state = claim_state(directory);
-  if (state.kind != ClaimState::Kind::crashed) return std::nullopt;
-  const std::string reason =
-      state.signal == SIGKILL
-          ? fmt::format("{} workers in a row were killed at it", Claims::most_takeovers + 1)
-          : fmt::format("ended its worker by signal {} ({})", state.signal, ::strsignal(state.signal));
-  return RunResult{"crashed", reason, 0.0, {}, {}};
+/// The counter to which a row belongs.
+std::int64_t& counter_of(const std::optional<RunResult>& result, SweepCount& count) {
+  if (!result) return count.unfinished;
+  if (result->verdict == "refused") return count.refused;
+  if (result->verdict == "crashed") return count.crashed;
+  return result->reason.empty() ? count.completed : count.stopped;
 }
 
-std::optional<RunResult> result_of_run(const SweepPaths& paths, const SweepRun& run) {
-  if (!run.scene) return RunResult{"refused", run.refusal, 0.0, {}, {}};
-  const std::filesystem::path directory = paths.runs() / run.name;
-  if (auto result = read_result(directory)) return result;
-  return crash_of(directory);
-}
-
-void count_result(const std::optional<RunResult>& result, SweepCount& count) {
-  if (!result) {
-    ++count.unfinished;
-  } else if (result->verdict == "refused") {
-    ++count.refused;
-  } else if (result->verdict == "crashed") {
-    ++count.crashed;
-  } else if (!result->reason.empty()) {
-    ++count.stopped;
-  } else {
-    ++count.completed;
-  }
-}
-
-/// Cells of the columns that a table shows, all rows in the units of the base scene.
-class ColumnCells {
+/// Makes the table of a sweep from the results that there are. All rows are in the units of the base scene.
+class TableWriter {
  public:
-  explicit ColumnCells(const SweepFile& sweep) : columns_(columns_of(sweep)) {
+  TableWriter(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs)
+      : paths_(paths), sweep_(sweep), runs_(runs), columns_(columns_of(sweep)) {
     const OutputUnits units(sweep.scene);
-    for (const HistoryColumn& column : columns_) symbols_.push_back(units.of(column.dimension).symbol);
-  }
-
-  [[nodiscard]] std::vector<std::string> headers() const {
-    std::vector<std::string> headers;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      headers.push_back(symbols_[i].empty() ? std::string(columns_[i].name)
-                                            : fmt::format("{} [{}]", columns_[i].name, symbols_[i]));
+    for (const HistoryColumn& column : columns_) {
+      const std::string symbol = units.of(column.dimension).symbol;
+      symbols_[std::string(column.dimension)] = symbol;
+      headers_.push_back(symbol.empty() ? std::string(column.name) : fmt::format("{} [{}]", column.name, symbol));
     }
-    return headers;
   }
 
-  [[nodiscard]] std::vector<std::string> of(const SweepRun& run, const std::optional<RunResult>& result) const {
-    std::vector<std::string> cells;
-    for (std::size_t i = 0; i < columns_.size(); ++i) cells.push_back(result ? cell(run, *result, i) : "");
-    return cells;
+  [[nodiscard]] nlohmann::json description() const {
+    nlohmann::json keys = nlohmann::json::array();
+    for (const VariedKey& key : sweep_.keys) {
+      keys.push_back({{"name", key.name}, {"scale", key.is_logarithmic ? "log" : "linear"}});
+    }
+    return {{"scene", std::filesystem::absolute(sweep_.scene_file).lexically_normal().string()},
+            {"mode", sweep_.mode == SweepMode::zip ? "zip" : "grid"},
+            {"keys", keys},
+            {"columns", headers_},
+            {"runs", sweep_.n_runs()}};
+  }
+
+  /// @param count  of its rows
+  [[nodiscard]] std::string table(SweepCount& count) const {
+    std::vector<std::string> header;
+    for (const VariedKey& key : sweep_.keys) header.push_back(key.name);
+    header.insert(header.end(), headers_.begin(), headers_.end());
+    header.insert(header.end(), {"verdict", "reason", "seconds", "run"});
+    std::string text = csv_line(header);
+    std::set<std::string> counted;
+    for (const SweepRun& run : runs_) {
+      const std::optional<RunResult> result =
+          run.scene ? read_result(paths_.run(run)) : RunResult{"refused", run.refusal};
+      ++counter_of(result, count);
+      // Rows of one scene share a run.
+      if (result && counted.insert(run.name).second) count.seconds += result->seconds;
+      std::vector<std::string> cells;
+      for (const VariedValue& value : run.values) cells.push_back(value.shown);
+      for (const HistoryColumn& column : columns_) cells.push_back(result ? cell(run, *result, column) : "");
+      cells.push_back(result ? table_line(result->verdict) : "unfinished");
+      cells.push_back(result ? table_line(result->reason) : "");
+      cells.push_back(result ? fmt::format("{:.3f}", result->seconds) : "");
+      cells.push_back(run.name);
+      text += csv_line(cells);
+    }
+    return text;
   }
 
  private:
-  [[nodiscard]] std::string cell(const SweepRun& run, const RunResult& result, std::size_t i) const {
-    const auto value = result.final_values.find(columns_[i].name);
+  [[nodiscard]] std::string cell(const SweepRun& run, const RunResult& result, const HistoryColumn& column) const {
+    const auto value = result.final_values.find(column.name);
     if (value == result.final_values.end()) return "";
-    const auto found = result.units.find(columns_[i].name);
-    const std::string unit = found == result.units.end() ? "" : found->second;
-    double number = 0.0;
-    const std::string& text = value->second;
-    if (std::from_chars(text.data(), text.data() + text.size(), number).ec != std::errc()) return text;
-    // The sign of what is no number means nothing.
-    if (std::isnan(number)) return "nan";
-    if (unit != symbols_[i] && run.scene) number *= factor(run, i, symbols_[i]) / factor(run, i, unit);
-    // No more digits than give the same number back.
-    return fmt::format("{}", number);
+    const OutputUnits own(*run.scene), shown(run.scene->units, symbols_);
+    const double number = std::strtod(value->second.c_str(), nullptr) *
+                          (shown.of(column.dimension).factor / own.of(column.dimension).factor);
+    // The sign of what is no number means nothing; others have no more digits than give the same number back.
+    return std::isnan(number) ? "nan" : fmt::format("{}", number);
   }
 
-  /// From a number of the scene to one in this unit.
-  [[nodiscard]] double factor(const SweepRun& run, std::size_t i, const std::string& symbol) const {
-    return OutputUnits(run.scene->units, {{std::string(columns_[i].dimension), symbol}})
-        .of(columns_[i].dimension)
-        .factor;
-  }
-
+  const SweepPaths& paths_;
+  const SweepFile& sweep_;
+  const std::vector<SweepRun>& runs_;
   std::vector<HistoryColumn> columns_;
-  std::vector<std::string> symbols_;
+  std::map<std::string, std::string, std::less<>> symbols_;  ///< of the dimensions of the columns
+  std::vector<std::string> headers_;
 };
-
-struct TableText {
-  std::string text;
-  SweepCount count;
-};
-
-TableText table_text(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs,
-                     const ColumnCells& columns) {
-  TableText table;
-  std::vector<std::string> cells;
-  for (const VariedKey& key : sweep.keys) cells.push_back(key.name);
-  for (const std::string& header : columns.headers()) cells.push_back(header);
-  for (const char* header : {"verdict", "reason", "seconds", "run"}) cells.emplace_back(header);
-  table.text = csv_line(cells);
-  std::set<std::string> counted;
-  for (const SweepRun& run : runs) {
-    const std::optional<RunResult> result = result_of_run(paths, run);
-    count_result(result, table.count);
-    cells.clear();
-    for (const VariedValue& value : run.values) cells.push_back(value.shown);
-    for (std::string& cell : columns.of(run, result)) cells.push_back(std::move(cell));
-    cells.push_back(result ? table_line(result->verdict) : "unfinished");
-    cells.push_back(result ? table_line(result->reason) : "");
-    cells.push_back(result ? fmt::format("{:.3f}", result->seconds) : "");
-    cells.push_back(run.name);
-    table.text += csv_line(cells);
-    // Rows of one scene share a run.
-    if (result && counted.insert(run.name).second) table.count.seconds += result->seconds;
-  }
-  return table;
-}
-
-nlohmann::json description_of(const SweepFile& sweep, const ColumnCells& columns) {
-  nlohmann::json json;
-  json["scene"] = std::filesystem::absolute(sweep.scene_file).lexically_normal().string();
-  json["mode"] = sweep.mode == SweepMode::zip ? "zip" : "grid";
-  json["keys"] = nlohmann::json::array();
-  for (const VariedKey& key : sweep.keys) {
-    json["keys"].push_back({{"name", key.name}, {"scale", key.is_logarithmic ? "log" : "linear"}});
-  }
-  json["columns"] = columns.headers();
-  json["runs"] = sweep.n_runs();
-  return json;
-}
 
 }  // namespace
 
-SweepCount write_sweep_table(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs) {
-  const ColumnCells columns(sweep);
-  replace_shared_file(paths.description(), json_text(description_of(sweep, columns)));
-  TableText table = table_text(paths, sweep, runs, columns);
-  // Whoever writes last has seen all: what another worker has finished meanwhile is looked for once more.
-  for (std::string written; table.text != written; table = table_text(paths, sweep, runs, columns)) {
-    replace_shared_file(paths.table(), table.text);
-    written = table.text;
+RunResult result_of(const RunPaths& paths, const nlohmann::json& summary) {
+  RunResult result{summary.value("verdict", ""), summary.value("reason", "")};
+  // The session has just written it or compared it with its checkpoint.
+  const HistoryTable history(paths.history());
+  if (history.n_rows() == 0) throw InputError(fmt::format("{}: holds no row", paths.history().string()));
+  for (const std::string& name : history.names()) {
+    result.final_values[name] = fmt::format("{:.17g}", history.column(name).back());
   }
-  return table.count;
+  return result;
+}
+
+void write_result(const std::filesystem::path& directory, const RunResult& result) {
+  replace_shared_file(result_file(directory), json_text({{"verdict", result.verdict},
+                                                         {"reason", result.reason},
+                                                         {"seconds", result.seconds},
+                                                         {"final", result.final_values}}));
+}
+
+std::optional<RunResult> read_result(const std::filesystem::path& directory) {
+  try {
+    const auto json = nlohmann::json::parse(text_of_file(result_file(directory)));
+    return RunResult{json.at("verdict"), json.at("reason"), json.at("seconds"), json.at("final")};
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+bool has_result(const std::filesystem::path& directory) { return ::access(result_file(directory).c_str(), F_OK) == 0; }
+
+SweepCount write_sweep_table(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs) {
+  const TableWriter writer(paths, sweep, runs);
+  replace_shared_file(paths.description(), json_text(writer.description()));
+  // Whoever writes last has seen all: results that other workers have added meanwhile are looked for once more.
+  for (std::string written;;) {
+    SweepCount count;
+    const std::string text = writer.table(count);
+    if (text == written) return count;
+    replace_shared_file(paths.table(), text);
+    written = text;
+  }
 }
 
 }  // namespace vehd

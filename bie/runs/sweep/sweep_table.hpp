@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bie/runs/run_directory.hpp"
 #include "bie/runs/sweep/sweep_runs.hpp"
 
 namespace vehd {
@@ -15,26 +18,42 @@ struct SweepPaths {
   std::filesystem::path directory;
 
   [[nodiscard]] std::filesystem::path table() const { return directory / "table.csv"; }
-  /// What the table shows: keys, columns, and the folders of the runs.
+  /// Keys and columns of the table, and where its runs come from.
   [[nodiscard]] std::filesystem::path description() const { return directory / "sweep.json"; }
   [[nodiscard]] std::filesystem::path runs() const { return directory / "runs"; }
-  /// What each member of an array of jobs begins with.
+  [[nodiscard]] std::filesystem::path run(const SweepRun& run) const { return runs() / run.name; }
+  /// The runs with which each member of an array of jobs begins.
   [[nodiscard]] std::filesystem::path packs() const { return directory / "packs.json"; }
   [[nodiscard]] std::filesystem::path slurm_script() const { return directory / "sweep.sbatch"; }
 };
 
-/// Rows of a table by how their runs came out.
+/// Result of a run, from which its row in the table is made.
+struct RunResult {
+  std::string verdict{};  ///< of the run, or "refused", or "crashed"
+  std::string reason{};   ///< why it did not reach its end; empty if it did
+  double seconds = 0.0;   ///< on the clock, from opening its directory until all its files are written
+  /// Of the last row of its history, by column, as written.
+  std::map<std::string, std::string, std::less<>> final_values{};
+};
+
+/// Of a session that has written its summary, without seconds. @throws InputError if the history cannot be read
+RunResult result_of(const RunPaths& paths, const nlohmann::json& summary);
+/// Writes result.json in the directory of a run, in one step. @throws OutputError
+void write_result(const std::filesystem::path& directory, const RunResult& result);
+/// nullopt where there is none, or none that can be read.
+std::optional<RunResult> read_result(const std::filesystem::path& directory);
+bool has_result(const std::filesystem::path& directory);
+
+/// Rows of a table by how their runs ended.
 struct SweepCount {
   std::int64_t completed = 0, stopped = 0, refused = 0, crashed = 0;
-  std::int64_t unfinished = 0;  ///< somebody is at them, or nobody yet
+  std::int64_t unfinished = 0;  ///< running or waiting
   double seconds = 0.0;         ///< of all runs together
-
-  [[nodiscard]] std::int64_t finished() const { return completed + stopped + refused + crashed; }
 };
 
 /// Writes table.csv: one row for each run in the order of the sweep, its values, the columns asked for, verdict,
-/// reason, seconds and the name of its directory; and sweep.json. What it says follows from the results alone, whoever
-/// computed them and in which order. Of several writers at once the last one has all.
+/// reason, seconds and the name of its directory; and sweep.json. The table follows from the results alone, whoever
+/// computed them and in which order. Of several writers at once the last one has all results.
 /// @throws OutputError
 SweepCount write_sweep_table(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs);
 

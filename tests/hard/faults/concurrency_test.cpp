@@ -50,12 +50,20 @@ BOOST_AUTO_TEST_CASE(a_file_system_without_locks_is_no_second_run) {
         with_fault(fault, vehd_command({"run", work.directory / "base.toml", "-o", work.directory / "run"})));
     BOOST_TEST(run.exit_code == 1);
     BOOST_TEST(run.errors.starts_with(work.directory / "run" + text), run.errors);
-    const ProgramResult sweep = run_command(with_fault(fault, work.command()));
-    BOOST_TEST(sweep.exit_code == 3);
-    BOOST_TEST(sweep.errors.find(text) != std::string::npos, sweep.errors);
+    // Workers of a sweep go by their claims alone. Locks of its own HDF5 does without only if it is not supported at
+    // all.
+    std::vector<std::string> command = with_fault(fault, work.command({"--jobs", "2"}));
+    if (problem == ENOLCK) {
+      const ProgramResult locked = run_command(command);
+      BOOST_TEST(locked.exit_code == 3);
+      BOOST_TEST(locked.errors.find(std::strerror(problem)) != std::string::npos, locked.errors);
+      command.insert(command.begin(), {"env", "HDF5_USE_FILE_LOCKING=FALSE"});
+    }
+    const ProgramResult sweep = run_command(command);
+    BOOST_TEST(sweep.exit_code == 0, sweep.errors);
+    BOOST_TEST(sweep.output.find("2 runs: 2 completed") == 0, sweep.output);
+    std::filesystem::remove_all(work.output);
   }
-  // Nothing of that is left that keeps a run from going on elsewhere.
-  BOOST_TEST(run_command(work.command()).exit_code == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   const ProgramResult submitted = run_command({"sbatch", "--parsable", work.output + "/sweep.sbatch"});
   BOOST_TEST_REQUIRE(submitted.exit_code == 0, submitted.errors);
   const std::string job = submitted.output.substr(0, submitted.output.find('\n'));
-  BOOST_TEST(comes_true([&] { return !work.held().empty(); }, std::chrono::seconds(60)));
+  BOOST_TEST(comes_true([&] { return !work.workers().empty(); }, std::chrono::seconds(60)));
   run_command({"scancel", "--signal=TERM", job + "_0"});
   // Slurm would wait two minutes before the next turn.
   BOOST_TEST(

@@ -1,11 +1,10 @@
+#include "bie/runs/sweep/sweep_work.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <fstream>
 #include <numeric>
 
 #include "bie/runs/session.hpp"
-#include "bie/runs/sweep/run_result.hpp"
-#include "bie/runs/sweep/sweep_table.hpp"
-#include "bie/runs/sweep/worker.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -52,7 +51,7 @@ struct CountedSweep {
   void leave_results() const {
     for (const vehd::SweepRun& run : runs) {
       std::filesystem::create_directories(paths.runs() / run.name);
-      vehd::write_result(paths.runs() / run.name, {"trustworthy", "", 1.0, {{"time", "0.5"}}, {}});
+      vehd::write_result(paths.runs() / run.name, {"trustworthy", "", 1.0, {{"time", "0.5"}}});
     }
   }
   void work() const {
@@ -60,8 +59,8 @@ struct CountedSweep {
     std::iota(order.begin(), order.end(), std::size_t{0});
     vehd::Interruption interruption;
     vehd::WorkerBoard board{};
-    BOOST_TEST(
-        (vehd::work_at_sweep(sweep, runs, order, paths.runs(), interruption, board) == vehd::WorkerEnd::nothing_left));
+    const vehd::SweepTask task{paths, sweep, runs, order};
+    BOOST_TEST((vehd::work_at_sweep(task, interruption, board) == vehd::WorkerEnd::nothing_left));
   }
 };
 
