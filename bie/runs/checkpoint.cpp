@@ -113,10 +113,8 @@ void visit_companion(CompanionType& companion, Visitor&& visit) {
   visit("lost", companion.lost);
   visit("bytes", companion.bytes);
   visit("checksum", companion.checksum);
-  visit("node", companion.node);
+  visit("former", companion.former);
   visit("waiting", companion.waiting);
-  visit("sizes", companion.sizes);
-  visit("work", companion.work);
 }
 
 struct WriteVisitor {
@@ -212,9 +210,9 @@ class SoundCheck {
       if constexpr (std::is_same_v<decltype(value), const std::int64_t&>) require(value >= 0, name);
     });
     require(companion.start_order >= lowest_order && companion.start_order <= highest_order, "start_order");
-    // Sizes are those of all rows so far; there is no error before the first comparison.
-    require(companion.waiting.size() == 0 || companion.waiting.cols() == companion.sizes.size(), state_of_companion);
-    require(companion.node.size() == 0 || companion.node.size() == companion.sizes.size(), state_of_companion);
+    // Nothing was compared before the first row is there.
+    const bool has_both = companion.waiting.size() > 0 && companion.former.size() > 0;
+    require(!has_both || companion.waiting.cols() == companion.former.size(), state_of_companion);
   }
 
  private:

@@ -23,13 +23,11 @@ struct RunTotals {
 
 /// What error bars need to go on, see ErrorBars. Rows have the columns of history.csv, without units.
 struct CompanionState {
-  State state;                   ///< of the companion
+  State state{};                 ///< of the companion
   std::int64_t start_order = 0;  ///< of it, see Checkpoint
   std::int64_t lost = 0;         ///< 1 where it cannot take a step
-  Vector node;                   ///< the last row of errors at which it was
-  Matrix waiting;                ///< rows of the history of which no error is known yet
-  Vector sizes;                  ///< largest magnitude in each column of the history so far
-  Vector work;                   ///< of the run and of the companion; empty: none
+  Vector former{};               ///< differences at the last comparison; empty: there was none
+  Matrix waiting{};              ///< rows of the history of which no error is known yet
   std::int64_t bytes = 0;        ///< of history_error.csv
   std::int64_t checksum = 0;     ///< of these bytes
 };

@@ -103,7 +103,6 @@ void RecordedRun::record(std::vector<Vector> errors) {
 
 void RecordedRun::start() {
   simulation_.start();
-  if (error_bars_) error_bars_->start();
   if (!is_recorded_) record({});
 }
 

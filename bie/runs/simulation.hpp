@@ -66,8 +66,6 @@ class Simulation {
   void step() { step(events_); }
   /// The same towards other times than those of the scene. @throws ConvergenceError
   void step(const EventTimes& events);
-  /// See Evolution::set_time_order.
-  void set_time_order(int order) { evolution_.set_time_order(order); }
   /// See Evolution::allow_steps.
   void allow_steps(double times) { evolution_.allow_steps(times); }
 

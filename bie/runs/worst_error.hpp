@@ -1,18 +1,15 @@
 #pragma once
 
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 
 #include "bie/runs/history.hpp"
 
 namespace vehd {
 
-/// By what errors of a column are divided: by its largest value, those of an angle by a radian. 0 where they do not
-/// count: of all but shape, energy, tension and potentials, and of what vanishes by symmetry.
-/// @param largest  magnitude in the column of this name
-double size_of_column(std::string_view name, const std::function<double(const std::string& name)>& largest);
+/// What errors of a column are divided by: its largest magnitude, a radian for an angle. 0 where they do not count: of
+/// all but shape, energy, tension and potentials, and of what vanishes by symmetry.
+double size_of_column(const HistoryTable& history, const std::string& name);
 
 /// The largest of the estimated errors, each over the largest value of its column; of angles over a radian. Counts
 /// shape, energy, tension and potentials, but for what vanishes by symmetry.

@@ -85,10 +85,15 @@ double share_of_good(const Files& run, const Files& exact, const std::string& co
   return good / static_cast<double>(values.n_rows() - 1);
 }
 
-/// Share of the rows at times `first`, `first` + `every`, … in which the largest error of shape, energy, tension and
-/// potential, over the size of its column, is estimated within a factor of five.
+/// Shares of rows whose bars hold.
+struct Shares {
+  double above_error = 0.0, below_30_errors = 0.0;
+};
+
+/// Of the rows at times `first`, `first` + `every`, …: the largest error of shape, energy, tension and potential, over
+/// the size of its column, against the largest bar.
 /// @param period  of the forcing, with which an error passes through zero: both are the largest of a period then
-double share_of_good_rows(const Files& run, const Files& exact, double first, double every, double period = 0.0) {
+Shares shares_of(const Files& run, const Files& exact, double first, double every, double period = 0.0) {
   const vehd::HistoryTable values = run.history(), errors = run.errors(), reference = exact.history();
   BOOST_TEST_REQUIRE(errors.n_rows() == values.n_rows());
   std::vector<double> error, estimate;
@@ -109,20 +114,25 @@ double share_of_good_rows(const Files& run, const Files& exact, double first, do
     return *std::max_element(of.begin() + std::max<std::ptrdiff_t>(0, row - around),
                              of.begin() + std::min(n_rows, row + around + 1));
   };
-  std::ptrdiff_t good = 0;
+  Shares shares;
   for (std::ptrdiff_t row = 0; row < n_rows; ++row) {
     const double wrong = largest(error, row), estimated = largest(estimate, row);
-    if (estimated > 0.2 * wrong && estimated < 5.0 * wrong) ++good;
+    if (estimated >= wrong) shares.above_error += 1.0 / static_cast<double>(n_rows);
+    if (estimated <= 30.0 * wrong) shares.below_30_errors += 1.0 / static_cast<double>(n_rows);
   }
-  return static_cast<double>(good) / static_cast<double>(n_rows);
+  return shares;
+}
+
+void check_nine_of_ten(const Shares& shares, const std::string& what) {
+  BOOST_TEST(shares.above_error >= 0.9, shares.above_error << " above the error, " << what);
+  BOOST_TEST(shares.below_30_errors >= 0.9, shares.below_30_errors << " below 30 times the error, " << what);
 }
 
 /// The largest error of a row, over the size of its column.
 double worst_of(const vehd::HistoryTable& history, const vehd::HistoryTable& errors, std::size_t row) {
-  const auto largest = [&](const std::string& name) { return history.largest_magnitude(name); };
   double worst = 0.0;
   for (const std::string& name : history.names()) {
-    const double size = vehd::size_of_column(name, largest);
+    const double size = vehd::size_of_column(history, name);
     if (size > 0.0) worst = std::max(worst, errors.column(name)[row] / size);
   }
   return worst;
@@ -175,64 +185,25 @@ BOOST_AUTO_TEST_CASE(a_shape_at_rest_is_wrong_by_its_degrees_alone) {
     const Files run;
     run.go_on(relaxing(tolerance));
     // From where steps leave less than a tenth of what the degrees do.
-    const double share = share_of_good_rows(run, exact, 7.0, 0.5);
-    BOOST_TEST(share == 1.0, share << " of the rows at " << tolerance);
+    check_nine_of_ten(shares_of(run, exact, 7.0, 0.5), tolerance);
   }
-}
-
-BOOST_AUTO_TEST_CASE(between_comparisons_errors_are_exponentials) {
-  const Files run;
-  run.go_on(
-      vehd::parse_scene("[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\n"
-                        "[numerics]\nend_time = 10\nerror_bars = true\ntolerance = 1e-2\n[output]\nevery = 0.02",
-                        "scene.toml", "."));
-  const vehd::HistoryTable table = run.errors(), history = run.history();
-  const std::vector<double>&times = table.column("time"), &errors = table.column("extent_z");
-  // They grow out of zero until the first comparison, which no exponential does.
-  const std::size_t from = vehd::testing::row_at(table, 2.5);
-  int exponential = 0, n_rows = 0;
-  for (std::size_t i = from; i + 1 < times.size(); ++i) {
-    // What the degrees leave out is said of each row by itself.
-    const auto follows = [&](std::size_t row) {
-      return worst_of(history, table, row) > 0.4 * history.column("truncation")[row];
-    };
-    if (!follows(i - 1) || !follows(i) || !follows(i + 1)) continue;
-    ++n_rows;
-    const double share = (times[i] - times[i - 1]) / (times[i + 1] - times[i - 1]);
-    const double expected = std::pow(errors[i - 1], 1.0 - share) * std::pow(errors[i + 1], share);
-    if (std::abs(errors[i] - expected) <= 1e-9 * expected) ++exponential;
-  }
-  BOOST_TEST_REQUIRE(n_rows > 20);
-  // All but those at which both runs are compared.
-  const double share = exponential / static_cast<double>(n_rows);
-  BOOST_TEST(share > 0.9, share);
-  BOOST_TEST(errors.back() < 0.5 * table.largest_magnitude("extent_z"));
 }
 
 BOOST_AUTO_TEST_CASE(largest_steps_of_both_make_differences) {
-  const Files run, exact;
-  run.go_on(alternating("1e-2"));
-  exact.go_on(alternating("1e-5"));
-  const double share = share_of_good_rows(run, exact, 0.1, 0.1, 0.5);
-  BOOST_TEST(share >= 0.9, share);
+  for (const std::string tolerance : {"1e-2", "1e-2\ntime_order = 3", "1e-3\ntime_order = 3"}) {
+    const Files run, exact;
+    run.go_on(alternating(tolerance));
+    exact.go_on(alternating("1e-5"));
+    check_nine_of_ten(shares_of(run, exact, 0.1, 0.1, 0.5), tolerance);
+  }
 }
 
-BOOST_AUTO_TEST_CASE(steps_of_another_order_are_wrong_otherwise) {
-  // The charging limits the steps, of one order more so much that both runs would take nearly the same.
+BOOST_AUTO_TEST_CASE(steps_that_the_charging_limits_make_differences) {
   const Files run, exact;
-  run.go_on(shipped("two_step_pulse", 1e-2));
+  run.go_on(shipped("two_step_pulse", 1e-3));
   exact.go_on(shipped("two_step_pulse", 1e-5));
   const double every = run.history().column("time").back() / 100.0;
-  const double share = share_of_good_rows(run, exact, every, every);
-  BOOST_TEST(share >= 0.9, share);
-}
-
-BOOST_AUTO_TEST_CASE(a_companion_that_takes_too_much_work_becomes_frugal) {
-  const Files run;
-  run.go_on(shipped("figure2", 1e-2));
-  const vehd::Vector work = vehd::read_checkpoint(run.paths.checkpoint()).companion->work;
-  BOOST_TEST_REQUIRE(work.size() == 2);
-  BOOST_TEST(work[1] < 0.4 * work[0], work[1] / work[0]);
+  check_nine_of_ten(shares_of(run, exact, every, every), "two_step_pulse");
 }
 
 BOOST_AUTO_TEST_CASE(no_row_is_wrong_by_less_than_a_part_of_what_its_degrees_leave_out) {
@@ -261,7 +232,7 @@ BOOST_AUTO_TEST_CASE(a_resumed_run_has_the_same_errors_bit_for_bit) {
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_is_killed_at_any_of_its_first_steps_has_the_same_errors) {
-  // Of fixed steps the companion makes one of three; with a tolerance its first one may pass several rows.
+  // Of fixed steps the companion makes one of two; with a tolerance its first one may pass several rows.
   for (const std::string numerics : {"degree = 4\ndt = 0.02", "tolerance = 1e-2\n[output]\nevery = 0.002"}) {
     vehd::Scene scene = pulsed(numerics);
     scene.numerics.end_time = 0.2;
