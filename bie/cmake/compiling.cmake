@@ -45,7 +45,8 @@ endif()
 # leaves out of line here must not take the place of theirs.
 add_link_options(-Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/own_templates.map)
 if(VEHD_SANITIZE)
-  target_compile_options(vehd_compilation INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
+  target_compile_options(vehd_compilation INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+    $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/undefined_elsewhere.txt>)
   target_link_options(vehd_compilation INTERFACE -fsanitize=address,undefined)
 endif()
 if(VEHD_FUZZ)

@@ -34,13 +34,13 @@ void refuse_or_read(Reader reader) {
 }
 
 void read_snapshot(const vehd::RunSnapshot& snapshot) {
-  for (const auto& [name, is_vector] : vehd::snapshot_fields()) {
-    if (!snapshot.has_field(name)) continue;
+  for (const vehd::SnapshotField& field : vehd::snapshot_fields()) {
+    if (!snapshot.has_field(field.name)) continue;
     refuse_or_read([&] {
-      const vehd::Matrix values = snapshot.coefficients(name);
+      const vehd::Matrix values = snapshot.coefficients(field.name);
       if (!values.allFinite()) throw std::logic_error("accepted values that are not finite");
     });
-    refuse_or_read([&] { (void)snapshot.coefficients(name, 3); });
+    refuse_or_read([&] { (void)snapshot.coefficients(field.name, 3); });
   }
 }
 
