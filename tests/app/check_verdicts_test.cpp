@@ -1,11 +1,21 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
+#include "bie/comparison/check.hpp"
 #include "bie/comparison/check_input.hpp"
+#include "bie/comparison/coupled_check_fields.hpp"
 #include "bie/files/hdf5_reader.hpp"
+#include "bie/files/run_reader.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
@@ -83,105 +93,260 @@ BOOST_AUTO_TEST_CASE(first_command_of_the_page_agrees) {
 
 namespace {
 
+using vehd::CheckFields;
 using vehd::FrozenState;
-using Stored = vehd::VesicleFields;
+using vehd::Matrix;
 
-/// A number of a snapshot and the share of it that docs/check.md says is noticed.
+/// The last snapshot of a run, and what boundary integrals find for it.
+struct Snapshot {
+  FrozenState frozen;
+  vehd::CheckContents contents;
+  std::vector<Matrix> forces;
+  std::vector<CheckFields> at_order, for_error;
+
+  explicit Snapshot(const std::string& scene) {
+    const FinishedRun run(scene);
+    frozen = vehd::read_frozen_state({run.output + "/run.h5", {}}, std::nullopt);
+    contents = vehd::check_contents(frozen);
+    forces = forces_of(frozen);
+    solve();
+  }
+
+  [[nodiscard]] std::vector<Matrix> forces_of(const FrozenState& state) const {
+    std::vector<Matrix> result(state.fields.vesicles.size());
+    for (std::size_t a = 0; contents.flow && a < result.size(); ++a) {
+      result[a] = vehd::total_force(state, state.fields.vesicles[a], a);
+    }
+    return result;
+  }
+  [[nodiscard]] int order() const { return vehd::order_of(frozen.state.vesicles.front().position.rows()); }
+  [[nodiscard]] std::vector<CheckFields> solved(const FrozenState& state, const std::vector<Matrix>& given,
+                                                int degree) const {
+    if (given.size() > 1) {
+      return vehd::coupled_check_fields(state, contents, given, std::vector<int>(given.size(), degree));
+    }
+    return {vehd::check_fields(state, contents, given.front(), degree, Matrix(0, 3))};
+  }
+  void solve() {
+    at_order = solved(frozen, forces, order());
+    for_error = solved(frozen, forces, vehd::estimate_order(order(), true));
+  }
+  void write(const std::filesystem::path& file) const {
+    const vehd::CheckSamples none{Matrix(0, 3), vehd::Vector(0), 0.0};
+    std::vector<vehd::CheckInput> inputs;
+    for (std::size_t a = 0; a < forces.size(); ++a) {
+      inputs.push_back({frozen, contents, forces[a], none, at_order[a], for_error[a], nullptr, a});
+    }
+    vehd::write_check_inputs(file, inputs);
+  }
+};
+
+/// A dataset of a snapshot whose numbers may be wrong by a share.
 struct Number {
-  std::string name;
-  double noticed;
-  /// The numbers of the snapshot if this one is wrong by a share.
-  std::function<Stored(const FrozenState& right, double share)> wrong;
+  std::string dataset;
+  std::string row;  ///< "stored/q": that sees it; empty: none does, however large the share
+  std::function<void(Snapshot&, double share)> make_wrong;
 };
 
 template <typename Values>
-Number scaled(const std::string& name, double noticed, Values Stored::*field) {
-  return {name, noticed, [=](const FrozenState& right, double share) {
-            Stored stored = right.fields.vesicles.front();
-            stored.*field *= 1.0 + share;
-            return stored;
-          }};
+Number stored(const std::string& dataset, const std::string& row, Values vehd::VesicleFields::*field) {
+  return {dataset, row,
+          [=](Snapshot& snapshot, double share) { snapshot.frozen.fields.vesicles.front().*field *= 1.0 + share; }};
 }
 
-/// Fields of another state, which does not belong to them then.
-Number of_state(const std::string& name, double noticed,
+/// A dataset that other stored numbers belong to: the elements know the right one, and these follow from the wrong one.
+Number decisive(const std::string& dataset, const std::string& row,
                 const std::function<void(vehd::VesicleState&, double)>& change) {
-  return {name, noticed, [=](const FrozenState& right, double share) {
-            FrozenState other = right;
+  return {dataset, row, [=](Snapshot& snapshot, double share) {
+            FrozenState other = snapshot.frozen;
             change(other.state.vesicles.front(), share);
-            const vehd::CheckFields of = vehd::check_fields(other, vehd::check_contents(other),
-                                                            vehd::Matrix::Zero(169, 3), 12, vehd::Matrix(0, 3));
-            Stored stored = right.fields.vesicles.front();
-            stored.charge = of.charge;
-            stored.force_electric = of.force_electric;
-            stored.force_bending = of.force_bending;
-            stored.force_tension = of.force_tension;
-            stored.tension = of.tension;
-            stored.velocity = of.velocity_of_shape;
-            return stored;
+            const CheckFields of = snapshot.solved(other, snapshot.forces, snapshot.order()).front();
+            vehd::VesicleFields& fields = snapshot.frozen.fields.vesicles.front();
+            fields.charge = of.charge;
+            fields.force_electric = of.force_electric;
+            fields.force_bending = of.force_bending;
+            fields.force_tension = of.force_tension;
+            fields.tension = of.tension;
+            fields.velocity = of.velocity_of_shape;
+            fields.potential = of.potential_of_charges;
           }};
 }
 
-}  // namespace
+/// A dataset from which nothing that is stored follows.
+Number given(const std::string& dataset, const std::string& row,
+             const std::function<void(vehd::VesicleState&, double)>& change) {
+  return {dataset, row, [=](Snapshot& snapshot, double share) {
+            change(snapshot.frozen.state.vesicles.front(), share);
+            snapshot.solve();
+          }};
+}
 
-// The table of docs/check.md. A bending force that was wrong by a percent passed at this modulus.
-BOOST_AUTO_TEST_CASE(damage_of_the_size_that_the_page_says_is_noticed) {
+/// The elements know the right force, and the stored velocities are those that they find for the wrong one.
+void make_contact_wrong(Snapshot& snapshot, double share) {
+  FrozenState other = snapshot.frozen;
+  for (vehd::VesicleFields& fields : other.fields.vesicles) fields.force_contact *= 1.0 + share;
+  const std::vector<CheckFields> of = snapshot.solved(other, snapshot.forces_of(other), snapshot.order());
+  for (std::size_t a = 0; a < of.size(); ++a) {
+    snapshot.frozen.fields.vesicles[a].velocity += of[a].velocity - snapshot.at_order[a].velocity;
+  }
+}
+
+bool is_noticed(const nlohmann::json& result, const Number& number) {
+  if (number.row.empty()) return result["verdict"] == "disagree";
+  const nlohmann::json::json_pointer row("/" + number.row + "/verdict");
+  const nlohmann::json vesicles = result.contains("vesicles") ? result["vesicles"] : nlohmann::json::array({result});
+  return std::ranges::any_of(vesicles, [&](const nlohmann::json& vesicle) { return vesicle[row] == "disagree"; });
+}
+
+/// Of the table in docs/check.md by dataset; 0 where it has no number.
+/// @param column  of the shape
+std::map<std::string, double> shares_of_page(std::size_t column) {
+  std::map<std::string, double> shares;
+  std::istringstream page(file_text(VEHD_SOURCE_DIR "/docs/check.md"));
+  std::string line;
+  while (std::getline(page, line) && !line.starts_with("| dataset |")) {
+  }
+  const std::regex row(R"(\| (.+?) \| (.+?) \| (.+?) \| .+ \|)"), dataset("`(\\w+)`");
+  while (std::getline(page, line) && line.starts_with("|")) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    const std::string names = cells[1], share = cells[1 + column];
+    for (std::sregex_iterator name(names.begin(), names.end(), dataset); name != std::sregex_iterator(); ++name) {
+      shares.emplace((*name)[1], share.ends_with(" %") ? std::stod(share) / 100.0 : 0.0);
+    }
+  }
+  return shares;
+}
+
+/// Makes one number after the other too large and too small, by less and less.
+void require_noticed(const std::string& scene, const std::vector<Number>& numbers, std::size_t column = 1) {
+  const std::map<std::string, double> of_page = shares_of_page(column);
+  const std::vector<double> shares{0.5,  0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
+                                   1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5};
   const TemporaryDirectory directory;
-  write_text(directory / "scene.toml",
-             "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
-             "[membrane]\nbending_modulus = 0.02\nconductance = 0.5\n[flow]\nkind = 'shear'\nrate = 1.0\n"
-             "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
-             "initial_Vm = 'steady'\n[numerics]\norder = 12\ndt = 0.1\nend_time = 0.0\n");
-  const FrozenState right = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
-  const vehd::CheckContents contents = vehd::check_contents(right);
-  const vehd::Matrix force = vehd::total_force(right, right.fields.vesicles.front());
-  const vehd::CheckSamples samples{vehd::Matrix(0, 3), vehd::Vector(0), 0.0};
-  const auto fields = [&](int order) { return vehd::check_fields(right, contents, force, order, samples.points); };
-  const vehd::CheckFields bie = fields(12), high = fields(18);
-  const auto write = [&](const std::string& name, const FrozenState& frozen) {
-    vehd::write_check_input(directory / name, {frozen, contents, force, samples, bie, high});
-    return directory / name;
-  };
-  const std::vector<Number> numbers{
-      of_state("x", 1e-2, [](vehd::VesicleState& state, double share) { state.position *= 1.0 + share; }),
-      of_state("Vm", 1e-2,
-               [](vehd::VesicleState& state, double share) { state.transmembrane_potential *= 1.0 + share; }),
-      scaled("q", 1e-2, &Stored::charge),
-      scaled("force_electric", 1e-2, &Stored::force_electric),
-      scaled("force_bending", 1e-2, &Stored::force_bending),
-      scaled("force_tension", 1e-2, &Stored::force_tension),
-      scaled("tension", 1e-2, &Stored::tension),
-      scaled("velocity", 1e-2, &Stored::velocity)};
-  std::vector<std::string> command{finite_element_program().string(),
-                                   "check",
-                                   write("right.h5", right),
-                                   "--quick",
-                                   "-o",
-                                   directory / "out",
-                                   "--json",
-                                   directory / "result.json"};
-  // Also smaller ones, which the message of each number tells of.
-  const std::vector<double> shares{1.0, 0.3, 0.1, 0.03, 0.01, 0.003};
+  const Snapshot right(scene);
+  right.write(directory / "right.h5");
+  std::vector<std::string> command{
+      finite_element_program().string(), "check", directory / "right.h5", "--quick", "-o", directory / "out", "--json",
+      directory / "result.json"};
   for (const Number& number : numbers) {
     for (const double share : shares) {
-      FrozenState wrong = right;
-      wrong.fields.vesicles.front() = number.wrong(right, share * number.noticed);
-      command.insert(command.end(), {"--further", write(number.name + std::to_string(share) + ".h5", wrong)});
+      for (const double sign : {1.0, -1.0}) {
+        Snapshot wrong = right;
+        number.make_wrong(wrong, sign * share);
+        const std::string file = directory / fmt::format("{}_{}.h5", number.dataset, sign * share);
+        wrong.write(file);
+        command.insert(command.end(), {"--further", file});
+      }
     }
   }
   const ProgramResult program = run_command(command);
   BOOST_TEST_REQUIRE(program.exit_code == 0, program.output + program.errors);
   const nlohmann::json json = json_of(directory / "result.json");
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    std::string message = numbers[i].name + " wrong by";
-    for (std::size_t j = 0; j < shares.size(); ++j) {
-      const nlohmann::json& result = json["further"][i * shares.size() + j];
-      message += fmt::format(" {:.0e}: {}{}", shares[j] * numbers[i].noticed, result["verdict"].get<std::string>(),
-                             j + 1 < shares.size() ? "," : "");
-      if (j == 0) BOOST_TEST(result["verdict"] == "disagree", numbers[i].name);
+  BOOST_TEST(json["verdict"] != "disagree", program.output);
+  auto result = json["further"].begin();
+  for (const Number& number : numbers) {
+    double least = std::numeric_limits<double>::infinity();
+    bool noticed = true;
+    for (const double share : shares) {
+      const nlohmann::json &larger = *result++, &smaller = *result++;
+      noticed = noticed && is_noticed(larger, number) && is_noticed(smaller, number);
+      if (noticed) least = share;
     }
+    const std::string message = fmt::format("{} is noticed from {} on by {}", number.dataset, least, number.row);
     BOOST_TEST_MESSAGE(message);
+    if (number.row.empty()) {
+      BOOST_TEST(std::isinf(least), message);
+    } else {
+      BOOST_TEST(least <= 1.001 * of_page.at(number.dataset), message);
+    }
   }
+}
+
+const std::string tilted = "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n",
+                  oblique_field =
+                      "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n",
+                  two_steps = "[numerics]\norder = 10\ntime_order = 2\ndt = 0.1\nend_time = 0.2\n";
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(table_of_the_page_has_every_dataset) {
+  const std::map<std::string, double> of_page = shares_of_page(1);
+  for (const vehd::SnapshotField& field : vehd::snapshot_fields()) BOOST_TEST(of_page.contains(field.name), field.name);
+}
+
+// A bending force that was wrong by a percent passed at this modulus.
+BOOST_AUTO_TEST_CASE(damage_of_the_size_that_the_page_says_is_noticed) {
+  using Stored = vehd::VesicleFields;
+  const std::vector<Number> numbers{
+      decisive("x", "stored/force_bending_work",
+               [](vehd::VesicleState& state, double share) { state.position *= 1.0 + share; }),
+      decisive("Vm", "stored/q",
+               [](vehd::VesicleState& state, double share) { state.transmembrane_potential *= 1.0 + share; }),
+      stored("q", "stored/q", &Stored::charge),
+      stored("force_electric", "stored/force", &Stored::force_electric),
+      stored("force_bending", "stored/force_bending_work", &Stored::force_bending),
+      stored("force_tension", "stored/force_tension_work", &Stored::force_tension),
+      stored("tension", "stored/tension", &Stored::tension),
+      stored("velocity", "stored/velocity", &Stored::velocity)};
+  const std::string physics =
+      "[membrane]\nbending_modulus = 0.02\nconductance = 0.5\n[flow]\nkind = 'shear'\nrate = 1.0\n" + oblique_field +
+      "initial_Vm = 'steady'\n[numerics]\ndt = 0.1\nend_time = 0.0\n";
+  require_noticed(tilted + physics + "order = 12\n", numbers, 1);
+  require_noticed(
+      "[shape]\nkind = 'radial'\nbase = 1.0\namplitude = 0.2\nexponent = -3.0\nmodes = [{n = 3, m = 2, a = 1.0}]\n" +
+          physics + "order = 24\n",
+      numbers, 2);
+}
+
+BOOST_AUTO_TEST_CASE(damage_of_free_charges_is_noticed) {
+  require_noticed(tilted + "[membrane]\nmobile = false\ncapacitance = 1.0\nconductance = 0.5\n" + oblique_field +
+                      "permittivity = 0.3\npermittivity_ratio = 0.8\ndisplacement_current = true\n" + two_steps,
+                  {decisive("free_charge_in", "stored/q",
+                            [](vehd::VesicleState& state, double share) {
+                              state.free_charge += share * state.transmembrane_potential;
+                              state.transmembrane_potential *= 1.0 + share;
+                            }),
+                   decisive("free_charge_out", "stored/q", [](vehd::VesicleState& state, double share) {
+                     state.free_charge += share * (state.free_charge - state.transmembrane_potential);
+                   })});
+}
+
+// Both methods take C_m, G_m and J_p by place from the snapshot; of pores boundary integrals take their state and the
+// elements G_m.
+BOOST_AUTO_TEST_CASE(damage_of_pores_is_noticed_and_that_of_places_is_not) {
+  const std::string membrane =
+      tilted +
+      "[membrane]\nmobile = false\ncapacitance = 0.5\nconductance = 0.3\n"
+      "[membrane.capacitance_by_place]\nkind = 'harmonics'\nmodes = [{n = 1, m = 1, a = 0.3}]\n"
+      "[membrane.pump]\ncurrent = 0.4\nkind = 'harmonics'\nmodes = [{n = 1, m = -1, a = 1.0}, {n = 2, m = 0, a = "
+      "0.5}]\n";
+  require_noticed(
+      membrane + oblique_field +
+          "permittivity = 0.3\n[poration]\nmodel = 'pores'\ncreation_rate = 1.0\ncreation_Vm = 0.5\nrest_density = "
+          "2.0\npore_radius = 0.1\nmembrane_thickness = 0.2\n" +
+          two_steps,
+      {given("poration", "fields/charging_current",
+             [](vehd::VesicleState& state, double share) { state.poration *= 1.0 + share; }),
+       stored("conductance", "fields/charging_current", &vehd::VesicleFields::conductance),
+       given("capacitance", "",
+             [](vehd::VesicleState& state, double share) { state.material.capacitance *= 1.0 + share; }),
+       given("pump_current", "",
+             [](vehd::VesicleState& state, double share) { state.material.pump_current *= 1.0 + share; })});
+  require_noticed(membrane +
+                      "[membrane.conductance_by_place]\nkind = 'harmonics'\nmodes = [{n = 1, m = 0, a = 0.5}]\n" +
+                      oblique_field + two_steps,
+                  {given("conductance", "",
+                         [](vehd::VesicleState& state, double share) { state.material.conductance *= 1.0 + share; })});
+}
+
+BOOST_AUTO_TEST_CASE(damage_of_contact_forces_is_noticed) {
+  require_noticed(tilted +
+                      "[membrane]\nbending_modulus = 0.02\n[contact]\nenergy = 0.1\nrange = 0.6\n"
+                      "[numerics]\norder = 12\ndt = 0.1\nend_time = 0.0\n[[vesicle]]\nname = 'left'\n"
+                      "[[vesicle]]\nname = 'right'\n[vesicle.shape]\ncentre = [2.0, 0.9, 1.2]\n"
+                      "rotation = [1.0, -0.4, 0.2, 80.0]\n",
+                  {{"force_contact", "stored/velocity", make_contact_wrong}});
 }
 
 BOOST_AUTO_TEST_SUITE_END()
