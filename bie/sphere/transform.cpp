@@ -1,5 +1,6 @@
 #include "bie/sphere/transform.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -127,6 +128,11 @@ void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, const Kind
   const Index n_fields = coefficients.cols();
   for (const int parity : {0, 1}) {
     const Index count = n_degrees(m, parity);
+    if (count == 0) {
+      // The table is empty, so it has no address to begin at.
+      std::fill_n(sums.of(m, parity), sums.stride / 2, 0.0);
+      continue;
+    }
     for (Index field = 0; field < n_fields; ++field) {
       const double* from = coefficients.col(field).data();
       double *cosine = gathered + field * count, *sine = gathered + (n_fields + field) * count;
