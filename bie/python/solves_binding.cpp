@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "bie/bench/example1.hpp"
-#include "bie/physics/electric.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/charge_density.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
 #include "bie/python/point_sources.hpp"
 #include "bie/python/surface_object.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/solve/tension_solve.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd::python {
@@ -77,12 +77,13 @@ TensionSolution solve_tension(const Shared& surface, const Matrix& velocity, dou
   require_size("velocity (components)", velocity.cols(), 3);
   const Membrane& membrane = surface->with({.stokes_single = true});
   const FlowParameters flow{.viscosity = viscosity};
-  const VelocityField driven = velocity_field(membrane, velocity, false);
-  const FlowRightHandSide rhs{{}, -weighted_divergence(membrane, driven.derivatives)};
-  FlowSystem system(flow, membrane, 0.0, {.pin_uniform_tension = uniform_tension_is_free(flow, membrane)});
-  FlowSystem::Solution solution = system.solve(rhs, {}, tolerance);
+  const std::vector<FlowMembrane> alone{{flow, membrane}};
+  const Interaction none;
+  MembraneFlow map(alone, none);
+  SolvedTensions solution = solve_tensions(alone, {uniform_tension_is_free(flow, membrane)}, map, {Matrix()},
+                                           {velocity}, {Vector()}, {RecycledSubspace{}}, tolerance);
   require_converged(solution.report, "tension, Eq. (27b)");
-  return {std::move(solution.unknowns.tension), velocity + solution.velocity, solution.report};
+  return {std::move(solution.tension.front()), std::move(solution.velocities.front()), solution.report};
 }
 
 template <auto member>

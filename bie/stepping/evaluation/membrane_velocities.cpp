@@ -71,8 +71,8 @@ void solve_tensions(const std::vector<VesicleTask>& tasks, const std::vector<For
     known.push_back(recycled ? recycled->in(task.space.subspace().scalars(), 1) : RecycledSubspace{});
   }
   MembraneFlow flow(membranes, *solved.interaction);
-  const TensionSolution tensions = solve_tensions(membranes, is_sphere, flow, std::move(weighted), background, start,
-                                                  known, tasks.front().settings.flow_tolerance);
+  const SolvedTensions tensions = solve_tensions(membranes, is_sphere, flow, std::move(weighted), background, start,
+                                                 known, tasks.front().settings.flow_tolerance);
   require_converged(tensions.report, "tensions, Eq. (27b)");
   solved.iterations_flow += tensions.report.iterations;
   for (std::size_t a = 0; a < tasks.size(); ++a) {

@@ -52,7 +52,7 @@ FlowLayout layout_of(const FlowParameters& parameters, const Membrane& membrane,
                     n_coefficients(options.curvature.of(membrane).order()),
                     n_coefficients(membrane.fine.order()),
                     options.entries,
-                    dt > 0.0 && parameters.bending.has_value(),
+                    parameters.bending.has_value(),
                     parameters.inextensible};
   if (layout.entries.empty()) {
     layout.entries.resize(static_cast<std::size_t>(layout.n_all));
@@ -146,7 +146,6 @@ LinearMap flow_map(const FlowParameters& parameters, const Membrane& membrane, d
     }
     if (layout.tension) {
       divergence = weighted_divergence(membrane, u.derivatives);
-      if (options.pin_uniform_tension) divergence[0] = mean_response(parameters, membrane) * unknowns.tension[0];
     }
     Vector result(layout.size() + u.coefficients.size());
     result.head(layout.size()) = entries_of(layout, curvature, divergence);
@@ -210,25 +209,20 @@ FlowSystem::FlowSystem(const FlowParameters& parameters, const Membrane& membran
     : layout_(layout_of(parameters, membrane, dt, options)),
       curvature_(options.curvature.of(membrane)),
       dt_(dt),
-      pinned_(layout_.tension && options.pin_uniform_tension),
-      // A pinned system is another operator, and cut to another degree responses are no longer those of their
-      // arguments.
-      known_(pinned_ || known.arguments.rows() != layout_.size() ? RecycledSubspace{} : std::move(known)),
+      // Cut to another degree responses are no longer those of their arguments.
+      known_(known.arguments.rows() != layout_.size() ? RecycledSubspace{} : std::move(known)),
       solver_(flow_map(parameters, membrane, dt, layout_, options),
               sphere_inverse(parameters, membrane, dt, layout_, options), layout_.size(), 3 * layout_.n_resolved,
               in_system(layout_, known_, dt)) {}
 
 FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance) {
-  Vector b = entries_of(layout_, rhs.curvature, rhs.divergence);
-  if (pinned_) b[layout_.n_curvature()] = 0.0;
+  const Vector b = entries_of(layout_, rhs.curvature, rhs.divergence);
   const Vector x = over_scales(layout_, entries_of(layout_, start.curvature, start.tension));
   RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, thresholds::most_flow_iterations});
   return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_resolved, 3)};
 }
 
-RecycledSubspace FlowSystem::learned() const {
-  return pinned_ ? RecycledSubspace{} : in_memory(layout_, solver_.learned(), dt_);
-}
+RecycledSubspace FlowSystem::learned() const { return in_memory(layout_, solver_.learned(), dt_); }
 
 RecycledSubspace FlowSystem::kept() const { return selected(known_, solver_.kept()); }
 

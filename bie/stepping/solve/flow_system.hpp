@@ -60,8 +60,6 @@ struct FlowRightHandSide {
 
 /// What the system leaves out and what it holds.
 struct FlowOptions {
-  /// Leaves the mean of the tension at zero and the mean of the divergence alone; see uniform_tension_is_free.
-  bool pin_uniform_tension = false;
   CurvatureOptions curvature{};
   /// Coefficients of h and, up to degree p, of λ that can differ from zero, ascending; empty: all.
   std::vector<Index> entries{};
@@ -95,16 +93,15 @@ struct FlowLayout {
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane);
 
 /// The semi-implicit system (27) with (28) for the increments (h, λ) on one frozen membrane, preconditioned with its
-/// exact inverse on the sphere of the same area for the actual κ_B, both viscosities and dt. dt = 0 leaves the tension
-/// problem alone. What one solve learns of the operator serves the next, and so does what solves on other membranes and
-/// for other dt have learned.
-/// Accuracy: the tolerance of the solve; solutions satisfy the system to 1e-8, in at most 40 iterations at every ratio
-/// of viscosities (tests/stepping/solve/flow_system_test.cpp)
-/// Source: paper Eqs. (27), (28); preconditioned with the spectrum of the sphere as Veerapaneni et al. 2011
+/// exact inverse on the sphere of the same area for the actual κ_B, both viscosities and dt. A solve recycles the
+/// search directions of former ones, also of those on other membranes and for other dt. Accuracy: the tolerance of the
+/// solve; solutions satisfy the system to 1e-8, in at most 40 iterations at every ratio of viscosities
+/// (tests/stepping/solve/flow_system_test.cpp) Source: paper Eqs. (27), (28); preconditioned with the spectrum of the
+/// sphere as Veerapaneni et al. 2011
 class FlowSystem {
  public:
   /// @param membrane  must outlive the system
-  /// @param known     of RecycledSubspaces, of the tension for dt = 0; forgotten if it is of another degree
+  /// @param known     of RecycledSubspaces; forgotten if it is of another degree
   FlowSystem(const FlowParameters& parameters, const Membrane& membrane, double dt, const FlowOptions& options = {},
              RecycledSubspace known = {});
 
@@ -128,7 +125,6 @@ class FlowSystem {
   FlowLayout layout_;
   SphereTransform curvature_;
   double dt_;
-  bool pinned_;
   RecycledSubspace known_;
   RecycledGcr solver_;
 };

@@ -280,10 +280,10 @@ void add_forces(const std::vector<OneTension>& all, const std::vector<std::size_
 
 }  // namespace
 
-TensionSolution solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
-                               MembraneFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
-                               const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
-                               double tolerance) {
+SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
+                              MembraneFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
+                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
+                              double tolerance) {
   std::vector<OneTension> all;
   const bool has_others = membranes.size() > 1;
   for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a], has_others);
@@ -350,7 +350,7 @@ TensionSolution solve_tensions(const std::vector<FlowMembrane>& membranes, const
     size = found;
   }
   solution.report.iterations = iterations;
-  TensionSolution result{{}, {}, {}, std::vector<RecycledSubspace>(all.size()), solution.report};
+  SolvedTensions result{{}, {}, {}, std::vector<RecycledSubspace>(all.size()), solution.report};
   if (recycles) {
     const RecycledSubspace learned =
         joined(solver.learned(), selected(former, solver.kept()), thresholds::most_recycled);

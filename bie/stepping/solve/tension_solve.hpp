@@ -9,7 +9,7 @@
 namespace vehd {
 
 /// Tensions that keep all membranes inextensible, with what they make of the flow.
-struct TensionSolution {
+struct SolvedTensions {
   std::vector<Vector> tension;     ///< λ of each, coefficients; empty where the membrane may extend
   std::vector<Matrix> force;       ///< f_λ on the fluid, values on the upsampled grid; empty likewise
   std::vector<Matrix> velocities;  ///< u + w of the membranes, coefficients
@@ -32,15 +32,15 @@ struct TensionSolution {
 /// @param is_sphere   of each membrane, see uniform_tension_is_free
 /// @param weighted    of J f, f the other forces, as MembraneFlow::velocities has them; likewise the background
 /// @param start       λ of each to start from; empty ones are zero. Their flow is found together with w.
-/// @param known       TensionSolution::learned on membranes that were nearly the same; counts if all of them have it
+/// @param known       SolvedTensions::learned on membranes that were nearly the same; counts if all of them have it
 /// @param tolerance   of the preconditioned residual, over the preconditioned ∇_γ·w or, from a start, over the tensions
 ///                    without their means, of which it is the error
 /// Accuracy: two spheres along their line of centres as Stimson and Jeffery say to 1e-8 down to gaps of half a radius
 /// (tests/stepping/solve/tension_solve_test.cpp)
 /// Source: paper Eq. (27b), the layers being those of all membranes
-TensionSolution solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
-                               MembraneFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
-                               const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
-                               double tolerance);
+SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
+                              MembraneFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
+                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
+                              double tolerance);
 
 }  // namespace vehd
