@@ -5,6 +5,7 @@
 
 import json
 import pathlib
+import shutil
 import sys
 
 from selenium import webdriver
@@ -50,7 +51,7 @@ def open_browser():
                    "--window-size=1200,1000"):
         options.add_argument(switch)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service("chromedriver"), options=options)
+    return webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
 
 
 def state(browser):
