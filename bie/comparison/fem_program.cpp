@@ -40,6 +40,9 @@ void prepare_mpirun() {
            // An mpirun that is told to end removes its processes at once.
            {"OMPI_MCA_odls_base_sigkill_timeout", "0"},
            {"PRTE_MCA_odls_base_sigkill_timeout", "0"},
+           // All processes are on this machine. Where there is no network, version 5 complains about TCP, which none
+           // needs.
+           {"OMPI_MCA_btl", "^tcp"},
            // Messages of its own beside those of the program; version 5 has no such variable.
            {"OMPI_MCA_orte_execute_quiet", "1"},
        }) {

@@ -35,6 +35,8 @@ struct AnyContainer {
     ::setenv("OMPI_MCA_odls_base_sigkill_timeout", "0", 1);
     ::setenv("PRTE_MCA_odls_base_sigkill_timeout", "0", 1);
     ::setenv("OMPI_MCA_orte_execute_quiet", "1", 1);
+    // All ranks are on this machine: Open MPI 5 complains about TCP where there is no network.
+    ::setenv("OMPI_MCA_btl", "^tcp", 1);
     // Ranks that wait leave the processors to other tests.
     ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
   }
@@ -113,7 +115,11 @@ BOOST_FIXTURE_TEST_CASE(wrong_input_is_said_once, AnyContainer) {
   write_text(run.scene, two_vesicles("-1"));
   const ProgramResult result = run_command(run.on("2"));
   BOOST_TEST(result.exit_code == 1);
-  BOOST_TEST(std::ranges::count(result.errors, '\n') == 1, result.errors);
+  // The mpirun of Open MPI 5 adds a page of its own about the exit code, between lines of dashes.
+  const std::string before_page = result.errors.substr(0, result.errors.find("-----"));
+  BOOST_TEST(std::ranges::count(before_page, '\n') == 1, result.errors);
+  BOOST_TEST(before_page.starts_with(run.scene), result.errors);
+  BOOST_TEST(result.errors.find(run.scene, 1) == std::string::npos, result.errors);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_signal_leaves_a_resumable_run, AnyContainer) {
