@@ -59,7 +59,8 @@ class Programs(InFolder):
     def test_error_bars_of_a_shipped_scene_are_compared_with_a_reference(self):
         result = subprocess.run([sys.executable, SOURCE / "docs/examples/error_bar_coverage.py", PROGRAM, "--tolerance",
                                  "1e-2", "relaxation"], capture_output=True, text=True, check=True)
-        match = re.fullmatch(r"relaxation at 1e-2: 20 rows, (\d+) % above the error, (\d+) % below 30 times, median .*\n",
+        match = re.fullmatch(r"relaxation at 1e-2: 20 rows, (\d+) % above the error, (\d+) % below 30 times, median .*\n"
+                             r"all: 20 rows, .*\n",
                              result.stdout)
         self.assertTrue(match, result.stdout)
         self.assertGreaterEqual(int(match[1]), 90)
