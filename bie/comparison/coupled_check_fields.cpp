@@ -17,8 +17,8 @@
 namespace vehd {
 namespace {
 
-std::vector<Fineness> finenesses_of(const std::vector<int>& orders) {
-  std::vector<Fineness> result;
+std::vector<ResolutionLevel> levels_of(const std::vector<int>& orders) {
+  std::vector<ResolutionLevel> result;
   for (const int order : orders) result.push_back({order, 1.0});
   return result;
 }
@@ -50,7 +50,7 @@ class CoupledFrozenSolver {
         settings_(settings_of(frozen, orders)),
         state_(resized_to(frozen.state, orders)),
         solved_(solve_fields(compared_model(frozen, contents),
-                             Discretisation(settings_, frozen.symmetry, finenesses_of(orders)), state_, instruments_)),
+                             Discretisation(settings_, frozen.symmetry, levels_of(orders)), state_, instruments_)),
         results(orders.size()) {
     for (std::size_t a = 0; a < orders.size(); ++a) {
       const VesicleModel& vesicle = frozen.model.vesicles[a];

@@ -32,10 +32,18 @@ constexpr std::array kOperators = {OperatorFlag{"laplace_single", &LayerSelectio
                                    OperatorFlag{"stokes_single", &LayerSelection::stokes_single},
                                    OperatorFlag{"stokes_double", &LayerSelection::stokes_double}};
 
-constexpr std::array kKnownEffects = {
-    "bending",         "inextensibility", "electric field",        "background flow",
-    "Poiseuille flow", "gravity",         "spontaneous curvature", "viscosity contrast",
-    "contact",         "poration",        "membrane by place",     "pump"};
+constexpr std::array kKnownEffects = {"bending",
+                                      "inextensibility",
+                                      "electric field",
+                                      "background flow",
+                                      "Poiseuille flow",
+                                      "gravity",
+                                      "spontaneous curvature",
+                                      "viscosity contrast",
+                                      "contact",
+                                      "poration",
+                                      "spatially varying membrane",
+                                      "pump"};
 
 /// The model without one of its effects.
 Model without(const Model& model, const std::string& name) {
@@ -47,7 +55,7 @@ Model without(const Model& model, const std::string& name) {
     if (name == "bending") vesicle.bending.reset();
     if (name == "inextensibility") vesicle.inextensible = false;
     if (name == "poration" || name == "electric field") vesicle.reaction.reset();
-    if (name == "membrane by place") vesicle.by_place = false;
+    if (name == "spatially varying membrane") vesicle.by_place = false;
     if (name == "pump" || name == "electric field") vesicle.pump.reset();
     if (name == "viscosity contrast") vesicle.viscosity_ratio = 1.0;
     erase_from(vesicle.effects);

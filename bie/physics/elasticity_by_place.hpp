@@ -8,7 +8,7 @@ namespace vehd {
 /// SpontaneousCurvatureEffect.
 bool bends_by_place(const Membrane& membrane);
 
-/// ∫κ_B (H − c)² dA of a membrane that bends by place.
+/// ∫κ_B (H − c)² dA of a membrane with spatially varying elasticity.
 /// Accuracy: spectral (tests/physics/elasticity_by_place_test.cpp)
 double elastic_energy(const Membrane& membrane);
 

@@ -68,9 +68,9 @@ class FootSearch {
 
   [[nodiscard]] bool is_done() const { return done_; }
   /// Where derivatives are wanted.
-  [[nodiscard]] const SpherePoint& asks_for() const { return asked_.point; }
+  [[nodiscard]] const SpherePoint& query() const { return asked_.point; }
 
-  void is_told(PointDerivatives y) {
+  void supply(PointDerivatives y) {
     const SquaredDistance q = squared_distance(y, target_);
     // The square of a tiny distance is flat to rounding: the gradient decides when the value cannot.
     const bool nearer = steps_ == 0 || q.value <= q_.value || q.gradient.norm() < q_.gradient.norm();
@@ -123,7 +123,7 @@ class FootSearch {
 FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Vector3& target) {
   require_size("position (Cartesian components)", position.cols(), 3);
   FootSearch search(start, target);
-  while (!search.is_done()) search.is_told(point_derivatives(position, search.asks_for()));
+  while (!search.is_done()) search.supply(point_derivatives(position, search.query()));
   return search.result();
 }
 
@@ -139,9 +139,9 @@ std::vector<FootPoint> find_foot_points(const Matrix& position, const Matrix& st
   std::vector<SpherePoint> points;
   while (!going_on.empty()) {
     points.clear();
-    for (const FootSearch* search : going_on) points.push_back(search->asks_for());
+    for (const FootSearch* search : going_on) points.push_back(search->query());
     std::vector<PointDerivatives> found = point_derivatives(position, points);
-    for (std::size_t i = 0; i < found.size(); ++i) going_on[i]->is_told(std::move(found[i]));
+    for (std::size_t i = 0; i < found.size(); ++i) going_on[i]->supply(std::move(found[i]));
     std::erase_if(going_on, [](const FootSearch* search) { return search->is_done(); });
   }
   std::vector<FootPoint> feet;

@@ -93,7 +93,7 @@ void bind_surface(py::module_& module) {
   py::class_<SurfaceObject, Shared>(module, "Surface")
       .def(py::init([](Matrix coefficients, int upsampling, double quadrature) {
              return std::make_shared<SurfaceObject>(std::move(coefficients),
-                                                    SurfaceObject::Fineness{upsampling, quadrature});
+                                                    SurfaceObject::ResolutionLevel{upsampling, quadrature});
            }),
            py::arg("coefficients"), py::arg("upsampling") = 2, py::arg("quadrature") = 1.15)
       .def_property_readonly("degree", &SurfaceObject::order)

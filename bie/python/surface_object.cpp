@@ -11,7 +11,7 @@
 
 namespace vehd::python {
 
-NumericalSettings settings_of(const Matrix& position, const SurfaceObject::Fineness& fineness) {
+NumericalSettings settings_of(const Matrix& position, const SurfaceObject::ResolutionLevel& level) {
   require_size("position (columns)", position.cols(), 3);
   NumericalSettings settings;
   settings.order = order_of(position.rows());
@@ -19,14 +19,14 @@ NumericalSettings settings_of(const Matrix& position, const SurfaceObject::Finen
     throw ShapeError(
         fmt::format("a surface of degree {}; accepted: {} ... {}", settings.order, lowest_order, highest_order));
   }
-  settings.upsampling = fineness.upsampling;
-  settings.quadrature_oversampling = fineness.quadrature_oversampling;
+  settings.upsampling = level.upsampling;
+  settings.quadrature_oversampling = level.quadrature_oversampling;
   return settings;
 }
 
-SurfaceObject::SurfaceObject(Matrix position, const Fineness& fineness)
+SurfaceObject::SurfaceObject(Matrix position, const ResolutionLevel& level)
     : position_(std::move(position)),
-      space_(settings_of(position_, fineness), {}),
+      space_(settings_of(position_, level), {}),
       membrane_(membrane_at(space_, position_, {}, 1.0, instruments_)) {
   // Squares of metrics overflow beyond; scenes have the same range.
   constexpr double kSmallest = 1e-30, kLargest = 1e30;

@@ -12,7 +12,7 @@ namespace vehd::python {
 class SurfaceObject {
  public:
   /// How fine it is.
-  struct Fineness {
+  struct ResolutionLevel {
     int upsampling = 2;                     ///< its grid is that of degree upsampling * p
     double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
   };
@@ -20,7 +20,7 @@ class SurfaceObject {
   /// @param position  coefficients of x, [n_coefficients x 3]
   /// @throws ShapeError if that is no field of a degree from lowest_order to highest_order
   /// @throws InputError if x_θ × x_φ does not point outwards
-  SurfaceObject(Matrix position, const Fineness& fineness);
+  SurfaceObject(Matrix position, const ResolutionLevel& level);
 
   [[nodiscard]] int order() const { return space_.order(); }
   /// Coefficients of x.
@@ -42,7 +42,7 @@ class SurfaceObject {
   std::mutex mutex_;  // operators are assembled while other threads of Python run
 };
 
-/// Settings of a degree and a fineness. @throws ShapeError if the degree is out of range
-NumericalSettings settings_of(const Matrix& position, const SurfaceObject::Fineness& fineness);
+/// Settings of a degree and a level. @throws ShapeError if the degree is out of range
+NumericalSettings settings_of(const Matrix& position, const SurfaceObject::ResolutionLevel& level);
 
 }  // namespace vehd::python

@@ -78,7 +78,7 @@ struct WaveformScene {
   bool operator==(const WaveformScene&) const = default;
 };
 
-/// Values of kind in a table of a property by place.
+/// Values of kind in the table of a spatially varying property.
 enum class PlaceKind { harmonics, cap, file };
 
 /// Factor of a property of the membrane over its parameter sphere; which members count depends on the kind.

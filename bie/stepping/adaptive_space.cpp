@@ -89,20 +89,20 @@ void Evolution::lower_order_if_idle(std::size_t a) {
   if (enough <= highest) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 
-void Evolution::try_economy(Economy economy, std::size_t a) {
+void Evolution::try_to_coarsen(Coarsening coarsening, std::size_t a) {
   try {
-    (this->*economy)(a);
+    (this->*coarsening)(a);
   } catch (const ConvergenceError&) {
     // What cannot be had for less goes on as it is.
   }
 }
 
-void Evolution::economise() {
+void Evolution::coarsen_if_idle() {
   if (state_.step % thresholds::economy_interval != 0) return;
   for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
     if (setup_.symmetry.exchange.is_image(a)) continue;
-    try_economy(&Evolution::lower_order_if_idle, a);
-    try_economy(&Evolution::lower_quadrature_if_idle, a);
+    try_to_coarsen(&Evolution::lower_order_if_idle, a);
+    try_to_coarsen(&Evolution::lower_quadrature_if_idle, a);
   }
 }
 

@@ -24,17 +24,17 @@ namespace {
 
 constexpr std::int64_t highest_level = thresholds::quadrature_levels.size() - 1;
 
-Fineness fineness_of(int order, std::int64_t quadrature_level) {
+ResolutionLevel level_of(int order, std::int64_t quadrature_level) {
   return {order, thresholds::quadrature_levels.at(static_cast<std::size_t>(quadrature_level))};
 }
 
 /// The spaces that the vesicles of a state are in.
 Discretisation discretisation_of(const EvolutionSetup& setup, const State& state) {
-  std::vector<Fineness> finenesses;
+  std::vector<ResolutionLevel> levels;
   for (const VesicleState& vesicle : state.vesicles) {
-    finenesses.push_back(fineness_of(order_of(vesicle.position.rows()), vesicle.quadrature_level));
+    levels.push_back(level_of(order_of(vesicle.position.rows()), vesicle.quadrature_level));
   }
-  return {setup.settings, setup.symmetry, finenesses, setup.ranks};
+  return {setup.settings, setup.symmetry, levels, setup.ranks};
 }
 
 /// Of the coarsest grid, over the radius.
@@ -111,7 +111,7 @@ Resolution Evolution::resolution(const State& state, std::size_t a) const {
     const int order = order_of(vesicle.position.rows());
     // A state of a former degree is only looked at.
     const Discretisation space =
-        order == this->order(a) ? discretisation_ : discretisation_.with(a, fineness_of(order, 0));
+        order == this->order(a) ? discretisation_ : discretisation_.with(a, level_of(order, 0));
     share = visible_share(space.vesicle(a).fine_transform(), vesicle);
   }
   if (!is_averaged(setup_.model) || evaluation_.vesicles.empty()) return {setup_.model, vesicle, share};
@@ -122,12 +122,12 @@ Resolution Evolution::resolution(const State& state, std::size_t a) const {
 
 void Evolution::start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start) {
   std::vector<StartMembrane> membranes = start;
-  std::vector<Fineness> finenesses;
+  std::vector<ResolutionLevel> levels;
   for (std::size_t a = 0; a < orders.size(); ++a) {
     membranes[a].position = resize_order(membranes[a].position, orders[a]);
-    finenesses.push_back(fineness_of(orders[a], 0));
+    levels.push_back(level_of(orders[a], 0));
   }
-  discretisation_ = Discretisation(setup_.settings, setup_.symmetry, finenesses, setup_.ranks);
+  discretisation_ = Discretisation(setup_.settings, setup_.symmetry, levels, setup_.ranks);
   state_ =
       initial_state(setup_.model, discretisation_, membranes, adapts() ? 0.0 : setup_.control.largest, instruments_);
 }
@@ -138,7 +138,7 @@ void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_l
   State state = state_;
   for (std::size_t b = 0; b < state.vesicles.size(); ++b) {
     if (setup_.symmetry.exchange.original(b) != a) continue;
-    discretisation = discretisation.with(b, fineness_of(order, quadrature_level));
+    discretisation = discretisation.with(b, level_of(order, quadrature_level));
     state.vesicles[b] = resized(std::move(state.vesicles[b]), order);
     state.vesicles[b].quadrature_level = quadrature_level;
   }
@@ -165,7 +165,7 @@ bool refine_quadrature(State& state, Discretisation& discretisation, const Evalu
     VesicleState& vesicle = state.vesicles[a];
     if (!evaluation.diagnostics.vesicles[a].quadrature_is_coarse || vesicle.quadrature_level >= highest_level) continue;
     ++vesicle.quadrature_level;
-    discretisation = discretisation.with(a, fineness_of(discretisation.vesicle(a).order(), vesicle.quadrature_level));
+    discretisation = discretisation.with(a, level_of(discretisation.vesicle(a).order(), vesicle.quadrature_level));
     refined = true;
   }
   return refined;
@@ -294,7 +294,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
   attempt.at_snapshot = (plan.reaches_event && plan.is_snapshot) ||
                         (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
   // Nothing is idle where the forcing has just changed.
-  if (!before_jump_) economise();
+  if (!before_jump_) coarsen_if_idle();
   return attempt;
 }
 

@@ -137,9 +137,9 @@ class Evolution {
   bool raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised);
   void lower_order_if_idle(std::size_t vesicle);
   void lower_quadrature_if_idle(std::size_t vesicle);
-  using Economy = void (Evolution::*)(std::size_t vesicle);
-  void try_economy(Economy economy, std::size_t vesicle);
-  void economise();
+  using Coarsening = void (Evolution::*)(std::size_t vesicle);
+  void try_to_coarsen(Coarsening coarsening, std::size_t vesicle);
+  void coarsen_if_idle();
 
   EvolutionSetup setup_;
   Instruments& instruments_;

@@ -42,13 +42,13 @@ constexpr int most_passes = 24;
 /// Relative tolerance of a pass. Every pass starts from the full residual, so it needs no more digits than its
 /// linearisation is worth (a step changes the shape by about a hundredth), nor more than are left to gain. Measured.
 constexpr double finest_pass = 1e-2;
-constexpr double roughest_pass = 0.3;
+constexpr double loosest_pass = 0.3;
 /// A pass that leaves more than this of its residual does not gain.
-constexpr double gainless_pass = 0.9;
+constexpr double stagnation_ratio = 0.9;
 /// So many may happen in a step that arrives all the same. After each further one passes are solved with this share of
 /// their tolerance, and not below the sharpest: the norm of the solve counts Eq. (28) at degree 64 a few thousandths of
 /// what it does at degree 1.
-constexpr int gainless_passes = 4;
+constexpr int stagnating_passes = 4;
 constexpr double sharper_pass = 0.1;
 constexpr double sharpest_pass = 1e-5;
 /// Changes of H smaller than this, relative to H, are those of a shape at rest: Eq. (28) to five digits of them is

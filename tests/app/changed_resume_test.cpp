@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_was_changed_resumes_bit_for_bit) {
 }
 
 BOOST_AUTO_TEST_CASE(a_change_before_the_first_step_starts_anew) {
-  EditedRun run(hopeless_scene);
+  EditedRun run(stopping_scene);
   BOOST_TEST(run.session().exit_code == 3);
   run.set("dt", "0.25");
   run.set("order", "8");

@@ -312,8 +312,8 @@ BOOST_AUTO_TEST_CASE(damage_of_free_charges_is_noticed) {
                    })});
 }
 
-// Both methods take C_m, G_m and J_p by place from the snapshot; of pores boundary integrals take their state and the
-// elements G_m.
+// Both methods take spatially varying C_m, G_m and J_p from the snapshot; of pores boundary integrals take their state
+// and the elements G_m.
 BOOST_AUTO_TEST_CASE(damage_of_pores_is_noticed_and_that_of_places_is_not) {
   const std::string membrane =
       tilted +

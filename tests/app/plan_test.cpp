@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(scene_that_cannot_be_stepped_is_a_finding) {
     BOOST_TEST(result.errors.starts_with(scene + ": cannot be stepped" + what), result.errors);
     return json_of(result_file);
   };
-  const nlohmann::json plan = finding(hopeless_scene, {}, ": no acceptable step from time 0: ");
+  const nlohmann::json plan = finding(stopping_scene, {}, ": no acceptable step from time 0: ");
   BOOST_TEST(plan["stops"].get<std::string>().starts_with("no acceptable step from time 0: "));
   BOOST_TEST(plan["effects"].size() == 3U);
   BOOST_TEST(plan["unknowns"].get<int>() > 0);

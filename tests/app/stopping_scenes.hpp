@@ -5,7 +5,7 @@
 /// Scenes in which no step is acceptable, at order 6.
 
 /// A shear whose very first step is much too long.
-inline const std::string hopeless_scene =
+inline const std::string stopping_scene =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n[membrane]\nbending_modulus = 0.1\n"
     "[flow]\nkind = \"shear\"\nrate = 1.0\n"
     "[numerics]\norder = 6\ndt = 1e6\nend_time = 1e7\n[output]\nevery = 1e6\n";

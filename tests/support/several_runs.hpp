@@ -22,9 +22,9 @@ inline State at_rest(const std::vector<Matrix>& positions) {
 /// Spaces in the degrees of the positions.
 inline Discretisation discretisation_of(const std::vector<Matrix>& positions, const NumericalSettings& settings = {},
                                         const Symmetry& symmetry = {}) {
-  std::vector<Fineness> finenesses;
-  for (const Matrix& position : positions) finenesses.push_back({order_of(position.rows()), 1.0});
-  return {settings, symmetry, finenesses};
+  std::vector<ResolutionLevel> levels;
+  for (const Matrix& position : positions) levels.push_back({order_of(position.rows()), 1.0});
+  return {settings, symmetry, levels};
 }
 
 inline State start(const Model& model, const Discretisation& discretisation, const std::vector<Matrix>& positions,

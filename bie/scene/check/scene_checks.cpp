@@ -225,7 +225,7 @@ class SceneChecks {
 
   enum class Sign { any, zero_or_more, above_zero };
 
-  /// Properties by place and the pump.
+  /// Spatially varying properties and the pump.
   void check_places() const {
     const MembraneScene& m = scene_.membrane;
     check_property("capacitance_by_place", m.capacitance_by_place, true, "capacitance", m.capacitance,

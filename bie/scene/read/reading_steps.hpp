@@ -21,8 +21,8 @@ void derive_reference_scales(UnitsScene& units, const TomlFile& file);
 /// What could have a unit to give a scale of [units], as it stands in messages: "area" in [shape].
 std::string source_of_scale(std::string_view scale);
 
-/// Replaces every `path` of a waveform or of a property by place with the numbers of its file: lines of numbers apart
-/// by blanks or a comma; # starts a comment. A run so knows them even when the file is gone.
+/// Replaces every `path` of a waveform or of a spatially varying property with the numbers of its file: lines of
+/// numbers apart by blanks or a comma; # starts a comment. A run so knows them even when the file is gone.
 /// @param folder  where a relative path starts
 void read_number_files(Scene& scene, const std::filesystem::path& folder);
 

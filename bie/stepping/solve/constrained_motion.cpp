@@ -18,7 +18,7 @@ namespace vehd {
 namespace {
 
 double pass_tolerance(double largest_excess) {
-  return std::clamp(thresholds::roughest_pass / largest_excess, thresholds::finest_pass, thresholds::roughest_pass);
+  return std::clamp(thresholds::loosest_pass / largest_excess, thresholds::finest_pass, thresholds::loosest_pass);
 }
 
 /// Share of the strain of former steps that this step takes back.
@@ -142,16 +142,17 @@ class Iteration {
       weighted_strain_[0] = errors_.area * context_.state.reference_area / std::sqrt(4.0 * std::numbers::pi);
       rhs_.divergence = -weighted_strain_ / dt_ - push * normal_divergence_;
     }
-    // The norm of the solve weighs curvature and strain together, those of high degrees least: with the roughest
-    // tolerance what is left of one may hide in what the other brings anew, the rounding of the area elements.
-    if (excess() > thresholds::gainless_pass * excess_before_) ++gainless_;
+    // The norm of the solve weighs curvature and strain together, those of high degrees least. With a loose
+    // tolerance the residual of one can hide behind the rounding of the other, that of the area elements.
+    if (excess() > thresholds::stagnation_ratio * excess_before_) ++stagnating_;
     excess_before_ = excess();
-    const double sharpening = std::pow(thresholds::sharper_pass, std::max(0, gainless_ - thresholds::gainless_passes));
+    const double sharpening =
+        std::pow(thresholds::sharper_pass, std::max(0, stagnating_ - thresholds::stagnating_passes));
     const double tolerance = std::max(sharpening * pass_tolerance(excess()), thresholds::sharpest_pass);
     const FlowSystem::Solution increment = flow.solve(rhs_, {}, tolerance);
     iterations += increment.report.iterations;
     // What a pass leaves the next one answers for, as long as it gains.
-    if (!increment.report.converged() && !(increment.report.residual < thresholds::gainless_pass)) {
+    if (!increment.report.converged() && !(increment.report.residual < thresholds::stagnation_ratio)) {
       throw ConvergenceError(fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
                                          increment.report.residual, increment.report.iterations));
     }
@@ -199,7 +200,7 @@ class Iteration {
   int pass_ = 0;
   bool is_torn_ = false;  // by the velocity so far, which bending is still to answer
   double excess_before_ = std::numeric_limits<double>::infinity();
-  int gainless_ = 0;
+  int stagnating_ = 0;
   Matrix velocity_;
   Vector curvature_;  // h of Eq. (28), accumulated
   Measure after_;

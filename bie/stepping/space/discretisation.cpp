@@ -52,9 +52,9 @@ Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry
     : Discretisation(settings, symmetry, {{settings.order, 1.0}}) {}
 
 Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry& symmetry,
-                               const std::vector<Fineness>& vesicles, const Ranks& ranks)
+                               const std::vector<ResolutionLevel>& vesicles, const Ranks& ranks)
     : settings_(settings), symmetry_(symmetry) {
-  for (const Fineness& fineness : vesicles) vesicles_.push_back(space_of(fineness));
+  for (const ResolutionLevel& level : vesicles) vesicles_.push_back(space_of(level));
   prepare_pairs(ranks);
 }
 
@@ -70,9 +70,9 @@ void Discretisation::prepare_pairs(const Ranks& ranks) {
   shares_ = Shares(ranks, costs, symmetry_.exchange.originals());
 }
 
-Discretisation Discretisation::with(std::size_t vesicle, const Fineness& fineness) const {
+Discretisation Discretisation::with(std::size_t vesicle, const ResolutionLevel& level) const {
   Discretisation result = *this;
-  result.vesicles_[vesicle] = space_of(fineness);
+  result.vesicles_[vesicle] = space_of(level);
   result.prepare_pairs(shares_.ranks());
   return result;
 }
@@ -92,10 +92,10 @@ bool Discretisation::leaves_threads_idle() const {
   return shares_.ranks().is_alone() && entries <= thresholds::most_entries_of_small_operators;
 }
 
-std::shared_ptr<const MembraneSpace> Discretisation::space_of(const Fineness& fineness) const {
+std::shared_ptr<const MembraneSpace> Discretisation::space_of(const ResolutionLevel& level) const {
   NumericalSettings settings = settings_;
-  settings.order = fineness.order;
-  settings.quadrature_oversampling *= fineness.quadrature_refinement;
+  settings.order = level.order;
+  settings.quadrature_oversampling *= level.quadrature_refinement;
   return std::make_shared<const MembraneSpace>(settings, symmetry_);
 }
 

@@ -65,7 +65,7 @@ class MembraneSpace {
 };
 
 /// How fine one membrane is resolved.
-struct Fineness {
+struct ResolutionLevel {
   int order = 16;                      ///< degree p
   double quadrature_refinement = 1.0;  ///< nodes of the singular quadrature, relative to those of the settings
 };
@@ -78,11 +78,11 @@ class Discretisation {
   explicit Discretisation(const NumericalSettings& settings, const Symmetry& symmetry = {});
   /// Vesicles each with its own degree and quadrature.
   /// @param ranks  that compute together; a single vesicle is computed by each of them
-  Discretisation(const NumericalSettings& settings, const Symmetry& symmetry, const std::vector<Fineness>& vesicles,
-                 const Ranks& ranks = {});
+  Discretisation(const NumericalSettings& settings, const Symmetry& symmetry,
+                 const std::vector<ResolutionLevel>& vesicles, const Ranks& ranks = {});
 
   /// The same but for one vesicle.
-  [[nodiscard]] Discretisation with(std::size_t vesicle, const Fineness& fineness) const;
+  [[nodiscard]] Discretisation with(std::size_t vesicle, const ResolutionLevel& level) const;
   /// The same but for the order of steps.
   [[nodiscard]] Discretisation with_time_order(int order) const;
 
@@ -101,7 +101,7 @@ class Discretisation {
 
  private:
   void prepare_pairs(const Ranks& ranks);
-  [[nodiscard]] std::shared_ptr<const MembraneSpace> space_of(const Fineness& fineness) const;
+  [[nodiscard]] std::shared_ptr<const MembraneSpace> space_of(const ResolutionLevel& level) const;
 
   NumericalSettings settings_;
   Symmetry symmetry_;

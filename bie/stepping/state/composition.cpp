@@ -25,7 +25,8 @@ std::vector<EffectDescription> implicit_effects(const Model& model, const Vesicl
   if (model.electric) result.push_back(electric_description(electric_parameters(model, vesicle)));
   if (vesicle.reaction) result.push_back(vesicle.reaction->description());
   if (vesicle.by_place) {
-    result.push_back({"membrane by place", "C_m, G_m, kappa_B or c as functions of the material point", {}, {}});
+    result.push_back(
+        {"spatially varying membrane", "C_m, G_m, kappa_B or c as functions of the material point", {}, {}});
   }
   if (model.electric && vesicle.pump) {
     result.push_back({"pump", "J_p in C_m dV_m/dt + G_m V_m + J_p = -sigma_i dphi_i/dn", {}, {}});

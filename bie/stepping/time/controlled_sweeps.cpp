@@ -155,7 +155,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   result.state = physics.end_state(y.node(y.last()));
   if (!pass_moments({physics, rule, dt, y, errors, derivatives}, goal, result)) return result;
   // Otherwise extrapolations would amplify stiff errors from step to step.
-  if (errors.visible.converge()) physics.remember(y.nodes(), result.state);
+  if (errors.visible.converge()) physics.store_past(y.nodes(), result.state);
   result.end = std::move(y.node(y.last()));
   return result;
 }

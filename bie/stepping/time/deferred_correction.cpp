@@ -18,7 +18,7 @@ CorrectedNode deferred_correction(StepOperations& physics, double dt, int order)
       y.replace(y.all_corrected(NodeEnd::material));
       continue;
     }
-    // Nodes do not hear of each other within a sweep, so the last one needs its end alone.
+    // Nodes are independent within a sweep, so the last one alone needs the end of the step.
     NodeSolution corrected = y.corrected(y.last(), NodeEnd::remapped);
     result.last_correction = physics.difference(y.node(y.last()), corrected);
     y.node(y.last()) = std::move(corrected);

@@ -101,7 +101,7 @@ class StepOperations {
   /// Makes the start and the nodes before the last the past of the state at the last one; collective. A rigid sphere
   /// turns on the spot, which no polynomial follows as exactly as its own motion: with one there is no past.
   /// @param nodes  the last one remapped
-  void remember(const std::vector<NodeSolution>& nodes, State& state) const;
+  void store_past(const std::vector<NodeSolution>& nodes, State& state) const;
 
   /// @param solves  of different sizes
   std::vector<NodeSolution> implicit_solves(const std::vector<ImplicitSolve>& solves);

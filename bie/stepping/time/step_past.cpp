@@ -58,7 +58,7 @@ NodeSolution StepOperations::extrapolated(double time) const {
   return result;
 }
 
-void StepOperations::remember(const std::vector<NodeSolution>& nodes, State& state) const {
+void StepOperations::store_past(const std::vector<NodeSolution>& nodes, State& state) const {
   const NodeSolution& end = nodes.back();
   state.past_times = {};
   if (std::ranges::any_of(at_start_.vesicles, &VesicleSolution::is_sphere)) return;

@@ -40,7 +40,7 @@ class ConvergedStep {
   /// At its end, with what it leaves to the next step.
   [[nodiscard]] State end() const {
     State state = physics_.end_state(y_.node(y_.last()));
-    physics_.remember(y_.nodes(), state);
+    physics_.store_past(y_.nodes(), state);
     return state;
   }
   /// Largest error of what the past of the start tells of the nodes: of x over the radius and V_m over its size.

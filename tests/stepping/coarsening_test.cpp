@@ -11,7 +11,7 @@
 using namespace vehd;
 using namespace vehd::testing;
 
-BOOST_AUTO_TEST_SUITE(economy)
+BOOST_AUTO_TEST_SUITE(coarsening)
 
 namespace {
 
