@@ -170,12 +170,8 @@ double distance_to(const std::vector<Point>& points, const Point& x) {
   return std::sqrt(smallest);
 }
 
-}  // namespace
-
-TetMesh make_tetrahedral_mesh(const FrozenShape& shape, const TetMeshOptions& options) {
-  require(options.surface_size > 0.0, "surface_size", options.surface_size);
-  require(options.growth > 0.0, "growth", options.growth);
-  require(options.largest_size > 0.0, "largest_size", options.largest_size);
+/// Of any quality.
+TetMesh filled_with_curved_tetrahedra(const FrozenShape& shape, const TetMeshOptions& options) {
   const Point centre = shape.centroid();
   const double reach = shape.largest_distance(centre);
   const double radius = options.outer_radius;
@@ -214,10 +210,26 @@ TetMesh make_tetrahedral_mesh(const FrozenShape& shape, const TetMeshOptions& op
   for (const MeshCell& cell : topology.cells) nodes.push_back(make_nodes(cell, topology.vertices, membrane, parts));
   find_interface(topology);
   if (options.split_interface) split_interface(topology);
-  TetMesh mesh(std::move(topology), std::move(nodes), centre, radius);
+  return {std::move(topology), std::move(nodes), centre, radius};
+}
+
+}  // namespace
+
+TetMesh make_tetrahedral_mesh(const FrozenShape& shape, const TetMeshOptions& options) {
+  require(options.surface_size > 0.0, "surface_size", options.surface_size);
+  require(options.growth > 0.0, "growth", options.growth);
+  require(options.largest_size > 0.0, "largest_size", options.largest_size);
   constexpr int kGaussPoints = 3;
-  require_quality(quality(mesh, shape, kGaussPoints), options.smallest_scaled_jacobian);
-  return mesh;
+  constexpr int kFurtherAttempts = 2;
+  TetMeshOptions tried = options;
+  for (int attempt = 0;; ++attempt) {
+    TetMesh mesh = filled_with_curved_tetrahedra(shape, tried);
+    const MeshQuality found = quality(mesh, shape, kGaussPoints);
+    if (found.smallest_scaled_jacobian >= options.smallest_scaled_jacobian) return mesh;
+    if (attempt == kFurtherAttempts) require_quality(found, options.smallest_scaled_jacobian);
+    // A single element may be too flat by chance. Slightly smaller ones lie elsewhere.
+    tried.surface_size *= 0.97;
+  }
 }
 
 }  // namespace vehd::meshes

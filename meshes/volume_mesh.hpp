@@ -141,8 +141,9 @@ class TetMesh final : public VolumeMesh {
   std::vector<Nodes> nodes_;
 };
 
+/// Where an element would be inverted or too flat, elements on the membrane are made smaller by 3 %, or 6 %.
 /// @throws MeshError if the mesher fails, the outer sphere does not hold the shape, or an element is inverted or too
-///         flat
+///         flat even so
 /// @throws std::invalid_argument if an option is out of range
 /// Accuracy: volume and area of an order above 3 in the size; vertices and edge midpoints on the shape to 1e-13
 /// (tests/meshes/tetrahedral_mesh_test.cpp)
