@@ -2,15 +2,22 @@
 
 #include <dlfcn.h>
 
+#include <array>
+#include <string>
+
 #include "fem_check/deal_ii.hpp"
 
 namespace vehd::fem_check {
 
 struct Session::Implementation {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi;
+  std::string program = "vehd_fem";
+  std::array<char*, 2> words{program.data(), nullptr};
+  int count = 1;
+  char** arguments = words.data();
+  dealii::Utilities::MPI::MPI_InitFinalize mpi{count, arguments, 1};
 };
 
-Session::Session(int& argc, char**& argv) : implementation_(new Implementation{{argc, argv, 1}}) {
+Session::Session() : implementation_(new Implementation) {
   // OpenBLAS, if it is the BLAS of this machine, starts threads of its own under every small dense product.
   using SetThreads = void (*)(int);
   if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(symbol)(1);

@@ -5,10 +5,10 @@
 namespace vehd::fem_check {
 
 /// MPI and the libraries under deal.II, from construction to destruction; one per process, first thing in main.
-/// Every rank runs on one thread.
+/// Every rank runs on one thread. None of them sees the arguments of the program: PETSc would take them for its own.
 class Session {
  public:
-  Session(int& argc, char**& argv);
+  Session();
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

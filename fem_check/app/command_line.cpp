@@ -121,7 +121,7 @@ int run_program(int argc, char** argv) {
     return program.exit(error) == 0 ? done : refused;
   }
   // Not for a page of help: MPI leaves files of its own where it is killed.
-  const Session session(argc, argv);
+  const Session session;
   try {
     if (mesh_command->parsed()) return mesh(mesh_task, json_file);
     if (sources_command->parsed()) {
