@@ -4,6 +4,7 @@
 
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/linear/stacked_entries.hpp"
+#include "bie/physics/real_maps.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/parallel.hpp"
 
@@ -15,13 +16,6 @@ PairSelection electric_pair_selection(const ElectricParameters& electric) {
           .laplace_single_normal = charged,
           .laplace_double = true,
           .laplace_double_normal = true};
-}
-
-Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density) {
-  Vector result = 0.5 * weighted_density;
-  if (eta != 0.0) result += eta * membrane.layers.laplace_adjoint.apply(weighted_density);
-  result[0] = 0.5 * (1.0 - eta) * weighted_density[0];
-  return result;
 }
 
 namespace {
@@ -124,7 +118,7 @@ class DensityEquations {
     std::vector<Vector> result(membranes_.size());
     const std::vector<Vector> of_others = fluxes_of_others(weighted);
     for_each_member(owned_, [&](std::size_t a) {
-      result[a] = second_kind_operator(*membranes_[a], contrasts_[a], weighted[a]);
+      result[a] = second_kind_operator<double>(*membranes_[a], contrasts_[a], weighted[a]);
       if (of_others[a].size() > 0) result[a] += of_others[a];
     });
     interaction_.gather_potentials(result);

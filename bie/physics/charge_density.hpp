@@ -10,12 +10,6 @@ namespace vehd {
 /// Which layers of this membrane the electric problem of the others needs.
 PairSelection electric_pair_selection(const ElectricParameters& electric);
 
-/// (½ + η S′) on weighted coefficients: J g ↦ J (½ g + η S′[g]); the left side of Eq. (12). Its entry of degree 0 is
-/// ½(1 − η) times that of J g exactly (∫S′[g] = −½∫g), also where the quadrature would only come close.
-/// @param weighted_density  coefficients of J g, [n_coefficients]
-/// Source: paper Eq. (12), divided by η
-Vector second_kind_operator(const Membrane& membrane, double eta, const Vector& weighted_density);
-
 /// J (E·n + Σ_b D′_ab[V_b]) for every membrane a of this rank, values on its upsampled grid.
 /// @param potentials  coefficients of each V_b
 /// Source: right-hand side of paper Eq. (12) with the potentials of all membranes
@@ -39,7 +33,7 @@ std::vector<SecondKindSolution> solve_second_kind(const std::vector<ElectricMemb
                                                   const Interaction& interaction,
                                                   const std::vector<Vector>& weighted_rhs, double tolerance);
 
-/// The same of one membrane alone, η given.
+/// The density of one membrane alone, with a given η.
 SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const Vector& weighted_rhs,
                                      double tolerance);
 

@@ -62,8 +62,7 @@ class LawEquation {
     Scalar mean = potential[0];
     if (stores()) {
       const Field stored = weighted<Scalar>(membrane_, of_potential(potential)) / size_;
-      result = 0.5 * stored;
-      if (law_.contrast() != 0.0) result += law_.contrast() * adjoint<Scalar>(membrane_, stored);
+      result = second_kind_operator<Scalar>(membrane_, law_.contrast(), stored);
       mean = stored[0];
     }
     if (conduction_ != 0.0) {

@@ -38,6 +38,18 @@ FieldOf<Scalar> adjoint(const Membrane& membrane, const FieldOf<Scalar>& weighte
                         weighted);
 }
 
+/// (½ + η S′) on weighted coefficients: J g ↦ J (½ g + η S′[g]); the left side of Eq. (12). Its entry of degree 0 is
+/// ½(1 − η) times that of J g exactly (∫S′[g] = −½∫g), also where the quadrature would only come close.
+/// @param weighted_density  coefficients of J g, [n_coefficients]
+/// Source: paper Eq. (12), divided by η
+template <typename Scalar>
+FieldOf<Scalar> second_kind_operator(const Membrane& membrane, Scalar eta, const FieldOf<Scalar>& weighted_density) {
+  FieldOf<Scalar> result = 0.5 * weighted_density;
+  if (eta != 0.0) result += eta * adjoint<Scalar>(membrane, weighted_density);
+  result[0] = 0.5 * (1.0 - eta) * weighted_density[0];
+  return result;
+}
+
 /// J D′[V], values.
 template <typename Scalar>
 FieldOf<Scalar> hypersingular(const Membrane& membrane, const FieldOf<Scalar>& potential) {
