@@ -74,12 +74,6 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       discretisation_(discretisation_of(setup_, with_images(setup_.symmetry.exchange, state))),
       state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
-void Evolution::set_time_order(int order) {
-  if (setup_.settings.time_order == order) return;
-  setup_.settings.time_order = order;
-  discretisation_ = discretisation_.with_time_order(order);
-}
-
 /// Growth under the present tension and under that after the next discontinuity of the forcing before `end`: a membrane
 /// that is elongated now may be compressed then, and no later degree restores what was truncated before.
 void Evolution::expect_growth(double end) {

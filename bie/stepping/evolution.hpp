@@ -74,9 +74,6 @@ class Evolution {
     if (adapts()) setup_.control.largest *= times;
   }
 
-  /// Steps to come have this order, 1 … highest_time_order.
-  void set_time_order(int order);
-
   /// Called before state and evaluation change, so that callers who view them without a copy can keep them alive. May
   /// be empty.
   void keep_former(KeepFormer keep) { keep_former_ = std::move(keep); }
@@ -99,8 +96,6 @@ class Evolution {
   [[nodiscard]] const std::vector<Moment>& passed() const { return passed_; }
   /// Degree of a vesicle at present.
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
-  /// See growth_of_wrinkles: at the beginning of the last step; 1 without a tolerance.
-  [[nodiscard]] double growth() const { return growth_; }
   /// Estimated share of what the degrees leave out, see Resolution; of the vesicle that loses most.
   [[nodiscard]] double truncation() const { return truncation(state_); }
   /// The same of another state of this run.

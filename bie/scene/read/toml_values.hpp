@@ -14,7 +14,7 @@
 /// TOML files, and from their nodes to values of the key table.
 namespace vehd {
 
-/// Text of a TOML file that somebody has written.
+/// Text of a TOML file as its author wrote it.
 /// @param what  it is, for messages: "a scene file"
 /// @throws InputError if it is missing, no file or far too long
 std::string text_of_toml_file(const std::filesystem::path& path, std::string_view what);

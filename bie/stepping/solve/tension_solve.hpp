@@ -26,9 +26,10 @@ struct SolvedTensions {
 /// The mean of λ stays zero on a sphere. An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp):
 /// where it acts on others a force c n, c of degrees 2 … p − 1, less its mean holds it in shape, the limit of a large
 /// uniform tension on a shape that hardly differs from a sphere; it is an unknown beside λ, and counts as force of the
-/// tension. Alone it has the velocity of Eq. (27b). Of several
-/// ranks, see Interaction, each needs the forces on its own membranes and gets forces and velocities of these, the
-/// tensions and what is learned of all.
+/// tension. Alone it has the velocity of Eq. (27b).
+///
+/// Of several ranks, see Interaction, each needs the forces on its own membranes. It gets forces and velocities of
+/// these, and the tensions and recycled directions of all.
 /// @param is_sphere   of each membrane, see uniform_tension_is_free
 /// @param weighted    of J f, f the other forces, as MembraneFlow::velocities has them; likewise the background
 /// @param start       λ of each to start from; empty ones are zero. Their flow is found together with w.

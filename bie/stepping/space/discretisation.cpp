@@ -77,12 +77,6 @@ Discretisation Discretisation::with(std::size_t vesicle, const ResolutionLevel& 
   return result;
 }
 
-Discretisation Discretisation::with_time_order(int order) const {
-  Discretisation result = *this;
-  result.settings_.time_order = order;
-  return result;
-}
-
 bool Discretisation::leaves_threads_idle() const {
   double entries = 0.0;
   for (const auto& space : vesicles_) {

@@ -83,8 +83,6 @@ class Discretisation {
 
   /// The same but for one vesicle.
   [[nodiscard]] Discretisation with(std::size_t vesicle, const ResolutionLevel& level) const;
-  /// The same but for the order of steps.
-  [[nodiscard]] Discretisation with_time_order(int order) const;
 
   [[nodiscard]] const NumericalSettings& settings() const { return settings_; }
   [[nodiscard]] const Symmetry& symmetry() const { return symmetry_; }
