@@ -57,6 +57,42 @@ std::vector<double> steps_from(double first, int count) {
   return steps;
 }
 
+const BenchCell& cell_of(const BenchTable& table, std::size_t row, const std::string& key) {
+  const auto column = std::ranges::find(table.columns, key, &BenchColumn::key);
+  return table.rows[row][static_cast<std::size_t>(column - table.columns.begin())];
+}
+
+/// One row for each scene: its largest error over the tolerance, and the steps, degree and seconds of every second
+/// tolerance. The last tolerance is the reference.
+/// @param rows  of all scenes, one for each tolerance
+BenchTable scenes_table(const BenchTable& rows, std::size_t n_tolerances) {
+  BenchTable table{"scenes",
+                   {{"scene", "scene", "{}", false, 24},
+                    {"time", "t", "{:g}"},
+                    {"error_over_tolerance", "error/tolerance at most", "{:.2f}"}}};
+  const std::vector<BenchColumn> repeated = {
+      {"steps", "steps"}, {"order", "degree"}, {"seconds", "seconds", "{:.2g}", true}};
+  for (const BenchColumn& column : repeated) {
+    for (std::size_t i = 0; i + 1 < n_tolerances; i += 2) {
+      const std::string tolerance = fmt::format("{:.0e}", std::get<double>(cell_of(rows, i, "tolerance")));
+      table.columns.push_back(
+          {column.key + "_" + tolerance, column.heading + ", " + tolerance, column.format, column.timing});
+    }
+  }
+  for (std::size_t first = 0; first < rows.rows.size(); first += n_tolerances) {
+    double error = 0.0;
+    for (std::size_t i = first; i + 1 < first + n_tolerances; ++i) {
+      error = std::max(error, std::get<double>(cell_of(rows, i, "error_over_tolerance")));
+    }
+    std::vector<BenchCell> row{cell_of(rows, first, "scene"), cell_of(rows, first, "time"), error};
+    for (const BenchColumn& column : repeated) {
+      for (std::size_t i = 0; i + 1 < n_tolerances; i += 2) row.push_back(cell_of(rows, first + i, column.key));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 /// The whole of what bench all does, one bench after the other.
 class AllBenches {
  public:
@@ -91,9 +127,10 @@ class AllBenches {
     record_[result.name] = write_bench(result, task_.output, observer_);
     for (std::size_t i = 0; i < result.tables.size(); ++i) {
       const std::string name = name_of_table(result, i);
-      const std::string text =
-          fmt::format("{}\n*{}{}; medians of up to {} repeats.*\n", markdown_of(result.tables[i]),
-                      text_of(result.machine), task_.quick ? "; a trial, not for comparison" : "", result.repeats);
+      const std::string text = fmt::format(
+          "{}\n*{}{}; {}.*\n", markdown_of(result.tables[i]), text_of(result.machine),
+          task_.quick ? "; a trial, not for comparison" : "",
+          result.repeats == 1 ? "one run each" : fmt::format("medians of up to {} repeats", result.repeats));
       if (put_table(task_.docs, name, text) > 0) wanted_.erase(name);
       keep_picture(name);
     }
@@ -169,11 +206,7 @@ class AllBenches {
                                           .snapshots = events_of(asked).snapshots},
                                          observer_);
       const BenchTable& rows = one.tables.front();
-      const auto cell = [&](std::size_t row, const std::string& key) {
-        const auto column = std::find_if(rows.columns.begin(), rows.columns.end(),
-                                         [&](const BenchColumn& candidate) { return candidate.key == key; });
-        return rows.rows[row][static_cast<std::size_t>(column - rows.columns.begin())];
-      };
+      const auto cell = [&](std::size_t row, const std::string& key) { return cell_of(rows, row, key); };
       for (std::size_t row = 0; row < rows.rows.size(); ++row) {
         const auto predicted = [&](auto of_row) { return costs.empty() ? BenchCell() : BenchCell(of_row(costs[row])); };
         all.tables.front().rows.push_back(
@@ -183,6 +216,7 @@ class AllBenches {
              predicted([](const CostRow& cost) { return cost.seconds - cost.file_seconds; })});
       }
     }
+    all.tables.push_back(scenes_table(all.tables.front(), extent_.tolerances.size()));
     keep(all);
   }
 
