@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 
 #include "bie/scene/schema.hpp"
 #include "bie/scene/units.hpp"
@@ -18,33 +19,30 @@ constexpr const char* page_start =
 
 A scene is a TOML file with the tables below. A key that is left out has its default, and an effect whose table is left
 out is absent. Unknown keys, wrong types, wrong units and values out of range are errors that name the line. A run
-writes the scene that it really used, with every default spelled out, to `scene.toml`. This page is printed by
+writes the scene with every default to `scene.toml`. This page is printed by
 
 ```sh
 build/vehd help scene --markdown > docs/scene_keys.md
 ```
 
-Values are dimensionless: any consistent scales will do. `build/vehd help groups SCENE.toml` prints the numbers that do
-not depend on them. With a table `[units]`, even an empty one, any number that has a dimension may instead be a text
-with an SI unit, `"10 um"`, and so may each component of a vector, `[0, 0, "1 kV/cm"]`; it is divided by the reference
-scale of its dimension (section Units). A plain number stays what it is, in units of the reference scale; an integer of
-any size is the double nearest to it, as if it were written with a point. A key whose default is a number with a
-dimension, other than 0, is then required: as one reference unit it would be another quantity with other `[units]`. Results are then shown in SI units as well
+Values are dimensionless, in any consistent scales; `build/vehd help groups SCENE.toml` prints the numbers that do
+not depend on them. With a table `[units]`, even an empty one, a number that has a dimension may instead be a text
+with an SI unit, `"10 um"`, also as a component of a vector, `[0, 0, "1 kV/cm"]`; it is divided by the reference
+scale of its dimension (section Units). A plain number is in units of the reference scale. A key whose default is a
+number with a dimension, other than 0, is then required. Results are shown in SI units as well
 ([files of a run](run_files.md#units)). Energies may be in `kBT` where `[units]` has a `temperature`.
 )";
 
 constexpr const char* page_end = R"(
 ## A shape from a file
 
-`kind = "file"` starts with one snapshot of the run.h5 of another run. Taken are the position of the membrane, in any
-degree, and its V_m, unless `initial_Vm` says otherwise; V_m turns with the shape and is not scaled with it. Lengths,
-`time` and V_m are converted from the units of that run to those of the scene. Where neither has a reference scale, the
-numbers are taken as they are; where one of them alone has a scale that a value needs, that is an error. A scene with
-`area`, without `time` and with `initial_Vm` zero or steady needs none.
+`kind = "file"` starts with one snapshot of the run.h5 of another run. It takes the position of the membrane, in any
+degree, and its V_m, unless `initial_Vm` is given; V_m turns with the shape and is not scaled with it. Lengths,
+`time` and V_m are converted from the units of that run to those of the scene. If neither has a reference scale, the
+numbers are taken as they are; if only one of them has a scale that a value needs, that is an error.
 
-Nothing else is taken. The new run starts at its own time 0, so a waveform that should go on is moved by the time of the
-snapshot (`start`, `phase` or `times`). The start is what its area, volume and area elements are compared with: it has no
-strain, whatever the former run had gathered. Velocity, tension and charge are solved for anew.
+The new run starts at its own time 0, so a waveform that should go on is shifted by the time of the
+snapshot (`start`, `phase` or `times`). Area, volume and strain are compared with the new start.
 )";
 
 constexpr const char* several_text = R"(
@@ -101,6 +99,24 @@ TextTable key_table(const TableDescription& table) {
   return rows;
 }
 
+/// The keys of a table on the page. Those that it shares with a table before it stand there alone.
+std::string keys_markdown(const TableDescription& table) {
+  const TextTable rows = key_table(table);
+  for (const TableDescription& earlier : scene_tables()) {
+    if (earlier.name == table.name) break;
+    const TextTable shared = key_table(earlier);
+    if (shared.size() > rows.size() || !std::ranges::equal(shared, std::span(rows).first(shared.size()))) continue;
+    std::string anchor(earlier.name);
+    std::erase(anchor, '.');
+    const std::string text = fmt::format("The keys of [{}](#{})", earlier.name, anchor);
+    if (shared.size() == rows.size()) return text + ".\n";
+    TextTable further = {rows.front()};
+    further.insert(further.end(), rows.begin() + static_cast<std::ptrdiff_t>(shared.size()), rows.end());
+    return text + ", and\n\n" + markdown_table(further);
+  }
+  return markdown_table(rows);
+}
+
 /// The dimensions that some key has.
 TextTable unit_table() {
   TextTable rows = {{"dimension", "reference scale", "units"}};
@@ -143,7 +159,7 @@ std::string scene_help_markdown() {
   std::string text = page_start;
   for (const TableDescription& table : scene_tables()) {
     text += fmt::format("\n## [{}]\n\n{}{}.\n\n", table.name, table.description, presence(table));
-    text += markdown_table(key_table(table));
+    text += keys_markdown(table);
   }
   text += several_text + markdown_table(own_keys()) + several_rules;
   return text + "\n## Units\n\n" + markdown_table(unit_table()) + page_end;
