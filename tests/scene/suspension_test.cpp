@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
              "scene.toml:11: \"volume_fraction\" in [suspension] makes 8.14873e+09 vesicles; accepted: 1 to 500");
   BOOST_TEST(message_of(with(box)) == "scene.toml:9: [suspension] accepts one of \"count\" and \"volume_fraction\"");
   BOOST_TEST(message_of(with("kind = \"box\"\nsize = [2.5, 8, 8]\ncount = 2\n")) ==
-             "scene.toml:10: the region of [suspension] is 2.5 wide, a vesicle 3; accepted: no room less");
+             "scene.toml:10: the region of [suspension] is 2.5 wide; accepted: at least 3, the width of a vesicle");
   BOOST_TEST(
       message_of(with(box + "count = 100\n")) ==
       "scene.toml:11: 100 vesicles have 1.23 times the volume of the region of [suspension]; accepted: less than 1");

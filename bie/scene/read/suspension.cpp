@@ -135,7 +135,7 @@ class Placement {
     const double narrowest = is_box() ? *std::ranges::min_element(wanted_.size) : 2.0 * wanted_.radius;
     if (narrowest < 2.0 * shape_.outer) {
       refuse(is_box() ? "size" : "radius",
-             "the region of [suspension] is {:.3g} wide, a vesicle {:.3g}; accepted: no room less", narrowest,
+             "the region of [suspension] is {:.3g} wide; accepted: at least {:.3g}, the width of a vesicle", narrowest,
              2.0 * shape_.outer);
     }
     if (count * shape_.volume > region_volume()) {
