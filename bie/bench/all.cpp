@@ -57,11 +57,6 @@ std::vector<double> steps_from(double first, int count) {
   return steps;
 }
 
-const BenchCell& cell_of(const BenchTable& table, std::size_t row, const std::string& key) {
-  const auto column = std::ranges::find(table.columns, key, &BenchColumn::key);
-  return table.rows[row][static_cast<std::size_t>(column - table.columns.begin())];
-}
-
 /// One row for each scene: its largest error over the tolerance, and the steps, degree and seconds of every second
 /// tolerance. The last tolerance is the reference.
 /// @param rows  of all scenes, one for each tolerance

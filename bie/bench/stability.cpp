@@ -90,9 +90,9 @@ BenchTable empty_stability_table() {
            {"bound", "bound", "{:.2g}"},
            {"steps", "steps"},
            {"rejected", "rejected"},
-           {"iterations_flow", ""},
-           {"iterations_electric", ""},
-           {"seconds", ""},
+           {"iterations_flow", "flow it.", "{:.0f}"},
+           {"iterations_electric", "el. it.", "{:.0f}"},
+           {"seconds", "seconds", "{:.2f}"},
            {"verdict", "verdict", "{}", false, 8}}};
 }
 
@@ -119,6 +119,44 @@ std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, con
           history.largest_magnitude("iterations_electric"),
           read_checkpoint(run.paths.checkpoint()).totals.seconds,
           failed ? "FAILS: " + problem : "holds" + (end.empty() ? "" : ", " + end)};
+}
+
+/// One row for each family: the criterion that came closest to its bound in all its cases.
+/// @param rows  of all cases, ordered by family
+BenchTable families_table(const BenchTable& rows) {
+  BenchTable table{"families",
+                   {{"family", "family", "{}"},
+                    {"cases", "cases"},
+                    {"criterion", "nearest criterion", "{}"},
+                    {"case", "of", "{}"},
+                    {"worst", "worst", "{:.2g}"},
+                    {"bound", "bound", "{:.2g}"}}};
+  const auto family = [&](std::size_t row) { return std::get<std::string>(cell_of(rows, row, "family")); };
+  const auto share = [&](std::size_t row) {
+    const auto number = [&](const char* key) { return std::get<double>(cell_of(rows, row, key)); };
+    return Finding{"", number("worst"), number("bound")}.share();
+  };
+  for (std::size_t first = 0; first < rows.rows.size();) {
+    std::size_t worst = first, end = first;
+    for (; end < rows.rows.size() && family(end) == family(first); ++end) {
+      if (share(end) > share(worst)) worst = end;
+    }
+    table.rows.push_back({cell_of(rows, first, "family"), static_cast<std::int64_t>(end - first),
+                          cell_of(rows, worst, "criterion"), cell_of(rows, worst, "case"),
+                          cell_of(rows, worst, "worst"), cell_of(rows, worst, "bound")});
+    first = end;
+  }
+  return table;
+}
+
+/// The cases that end otherwise than with a trustworthy run, or fail.
+BenchTable faults_table(const BenchTable& rows) {
+  BenchTable table{"faults", {{"case", "case", "{}"}, {"verdict", "verdict", "{}"}}};
+  for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+    const std::string verdict = std::get<std::string>(cell_of(rows, row, "verdict"));
+    if (verdict != "holds") table.rows.push_back({cell_of(rows, row, "case"), verdict});
+  }
+  return table;
 }
 
 }  // namespace
@@ -169,10 +207,11 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
     outcome.n_failed += failed ? 1 : 0;
     if (task.output.plot) {
       draw_case(paths, task.output.directory / "shapes");
-      outcome.result.tables.back().rows.push_back(
-          {hard.name, fmt::format("![{0}](images/hard_cases/{0}.png)", hard.name)});
+      outcome.result.tables[1].rows.push_back({hard.name, fmt::format("![{0}](images/hard_cases/{0}.png)", hard.name)});
     }
   }
+  outcome.result.tables.push_back(families_table(outcome.result.tables.front()));
+  outcome.result.tables.push_back(faults_table(outcome.result.tables.front()));
   outcome.result.facts["failed"] = outcome.n_failed;
   return outcome;
 }

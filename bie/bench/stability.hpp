@@ -29,8 +29,9 @@ struct StabilityOutcome {
 /// @throws InputError if the run cannot be read or gnuplot is missing
 std::filesystem::path draw_case(const RunPaths& paths, const std::filesystem::path& folder);
 
-/// Runs every case as `vehd run` would and prints, for each, the criterion that came closest to its bound. The further
-/// table "pictures" shows the shapes to the pages, which look for them in images/hard_cases.
+/// Runs every case as `vehd run` would and prints, for each, the criterion that came closest to its bound. Further
+/// tables are for the pages: "pictures" with the shapes, which they look for in images/hard_cases, "families" with one
+/// row for each family, and "faults" with the cases whose verdict names a fault.
 /// @throws InputError for a scene or criterion that cannot be read, Interrupted
 StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption, BenchObserver& observer);
 

@@ -84,6 +84,11 @@ std::string line(const BenchTable& table, const char* before, const char* betwee
 
 }  // namespace
 
+const BenchCell& cell_of(const BenchTable& table, std::size_t row, const std::string& key) {
+  const auto column = std::ranges::find(table.columns, key, &BenchColumn::key);
+  return table.rows[row][static_cast<std::size_t>(column - table.columns.begin())];
+}
+
 std::string csv_of(const BenchTable& table) {
   std::string text;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {

@@ -30,6 +30,9 @@ struct BenchTable {
   std::vector<std::vector<BenchCell>> rows{};
 };
 
+/// The cell of a column, which the table has.
+const BenchCell& cell_of(const BenchTable& table, std::size_t row, const std::string& key);
+
 /// The table as CSV.
 std::string csv_of(const BenchTable& table);
 /// The rows as an array of objects.
