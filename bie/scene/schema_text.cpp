@@ -48,16 +48,14 @@ snapshot (`start`, `phase` or `times`). Area, volume and strain are compared wit
 constexpr const char* several_text = R"(
 ## Several vesicles
 
-Each table `[[vesicle]]` is one vesicle. The tables above are for all; a vesicle's own `[vesicle.shape]`,
-`[vesicle.membrane]`, `[vesicle.fluid]` and `[vesicle.electric]` say what is different. Keys of a vesicle:
+The tables above are for all [vesicles of a scene](several_vesicles.md); each table `[[vesicle]]` has the keys that
+differ for one of them:
 
 )";
 
 constexpr const char* several_rules = R"(
-A `[vesicle.shape]` with a `kind` takes the place of `[shape]` as a whole; without one it changes single keys, such as
-`centre`. `name` is free, by default the number from 0. Scales of `[units]` that are not given follow from the first
-vesicle. Vesicles that overlap are refused, and so is a steady `initial_Vm` of some alone or a conductivity of 0. A run of
-several writes [files of its own](several_vesicles.md).
+A `[vesicle.shape]` with a `kind` replaces `[shape]`; without one it changes single keys, such as
+`centre`. `name` is by default the number from 0. Scales of `[units]` that are not given follow from the first vesicle.
 )";
 
 std::string range_text(const KeyDescription& key) {
