@@ -30,19 +30,8 @@ not depend on them. With a table `[units]`, even an empty one, a number that has
 with an SI unit, `"10 um"`, also as a component of a vector, `[0, 0, "1 kV/cm"]`; it is divided by the reference
 scale of its dimension (section Units). A plain number is in units of the reference scale. A key whose default is a
 number with a dimension, other than 0, is then required. Results are shown in SI units as well
-([files of a run](run_files.md#units)). Energies may be in `kBT` where `[units]` has a `temperature`.
-)";
-
-constexpr const char* page_end = R"(
-## A shape from a file
-
-`kind = "file"` starts with one snapshot of the run.h5 of another run. It takes the position of the membrane, in any
-degree, and its V_m, unless `initial_Vm` is given; V_m turns with the shape and is not scaled with it. Lengths,
-`time` and V_m are converted from the units of that run to those of the scene. If neither has a reference scale, the
-numbers are taken as they are; if only one of them has a scale that a value needs, that is an error.
-
-The new run starts at its own time 0, so a waveform that should go on is shifted by the time of the
-snapshot (`start`, `phase` or `times`). Area, volume and strain are compared with the new start.
+([files of a run](run_files.md#units)). Energies may be in `kBT` where `[units]` has a `temperature`. Shapes of other
+runs: [starting from a shape](continuing.md#starting-from-a-shape-kind--file).
 )";
 
 constexpr const char* several_text = R"(
@@ -160,7 +149,7 @@ std::string scene_help_markdown() {
     text += keys_markdown(table);
   }
   text += several_text + markdown_table(own_keys()) + several_rules;
-  return text + "\n## Units\n\n" + markdown_table(unit_table()) + page_end;
+  return text + "\n## Units\n\n" + markdown_table(unit_table());
 }
 
 }  // namespace vehd
