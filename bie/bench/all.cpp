@@ -19,7 +19,6 @@
 #include "bie/estimate/cost.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -219,12 +218,6 @@ class AllBenches {
     Scene sheared = scene("figure5_no_field");
     if (extent_.threads_order > 0) sheared.numerics.order = extent_.threads_order;
     keep(bench_threads(sheared, thread_counts(), extent_.repeats, observer_));
-    observer_.section("threads: figure5_two.toml, order 5");
-    Scene corrected = scene("figure5_two");
-    corrected.numerics.time_order = highest_time_order;
-    BenchResult result = bench_threads(corrected, thread_counts(), extent_.repeats, observer_);
-    result.name = "threads_figure5_two";
-    keep(result);
   }
 
   void symmetry() {
