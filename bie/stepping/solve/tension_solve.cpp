@@ -17,32 +17,25 @@ namespace vehd {
 
 namespace {
 
-/// Two scalars on one membrane: c and λ as unknowns, u·n and J ∇_γ·u as what they have to make vanish. Those that a
-/// membrane does not have are empty.
-struct ScalarPair {
-  Vector normal, tension;
-};
-
-template <MaybeConst<ScalarPair> Pair, typename Visit>
-void visit_members(Pair& pair, Visit& visit) {
-  visit(pair.normal, pair.tension);
-}
-
-/// The problem on one membrane.
+/// The problem on one membrane. Its unknowns are the coefficients that can differ from zero: of c where a force c n
+/// holds a sphere in shape, and after them of λ. Residuals u·n and J ∇_γ·u have the same entries.
 class OneTension {
  public:
   /// @param holds_shape  whether a sphere is kept one by forces along its normal
   OneTension(const FlowMembrane& one, bool is_sphere, bool holds_shape)
       : one_(one),
         membrane_(one.membrane),
-        inextensible_(one.parameters.inextensible),
         is_sphere_(is_sphere),
-        holds_shape_(is_sphere && holds_shape),
         mean_response_(
             uniform_tension_response(one.membrane.radius, one.parameters.viscosity, one.parameters.viscosity_ratio)) {
-    const SphereFlow sphere{membrane_.radius, one.parameters.viscosity, 0.0, 0.0, one.parameters.viscosity_ratio};
+    if (!one.parameters.inextensible) return;
+    tension_ = membrane_.subspace.scalars();
     const int order = membrane_.fine.order();
-    inverse_.resize(n_coefficients(order), 4);
+    // Of the highest degree truncation leaves a single velocity, which λ rules alone: its harmonic V is of one degree
+    // more.
+    const auto is_held = [&](int n) { return is_sphere && holds_shape && n >= 2 && n < order; };
+    const SphereFlow sphere{membrane_.radius, one.parameters.viscosity, 0.0, 0.0, one.parameters.viscosity_ratio};
+    Matrix inverse(order + 1, 4);
     for (int n = 0; n <= order; ++n) {
       Eigen::Matrix2d block = Eigen::Matrix2d::Identity();
       if (is_held(n)) {
@@ -50,78 +43,103 @@ class OneTension {
       } else {
         block(1, 1) = n == 0 ? mean_response_ : sphere_flow_block(sphere, n)(1, 1);
       }
-      const Eigen::Matrix2d inverse = block.inverse();
-      auto of_degree = inverse_.middleRows(coefficient_index(n, -n), 2 * n + 1);
-      of_degree.rowwise() = Eigen::RowVector4d(inverse(0, 0), inverse(0, 1), inverse(1, 0), inverse(1, 1));
+      inverse.row(n) = block.inverse().reshaped<Eigen::RowMajor>().transpose();
     }
+    std::vector<int> degrees;
+    for (const Index i : tension_) {
+      degrees.push_back(degree_of(i));
+      if (is_held(degrees.back())) normal_.push_back(i);
+    }
+    inverse_ = inverse(degrees, Eigen::all);
+    if (!normal_.empty()) first_held_ = std::ranges::find(tension_, normal_.front()) - tension_.begin();
   }
 
   /// What approximate_inverse goes by from now on, unless it is a sphere.
   void find_inverse(const TensionGrid& grid) {
-    if (is_sphere_ || !inextensible_) return;
-    of_membrane_.emplace(one_, grid, tension_entries(), mean_response_);
+    if (is_sphere_ || tension_.empty()) return;
+    of_membrane_.emplace(one_, grid, tension_, mean_response_);
   }
 
   [[nodiscard]] const Membrane& membrane() const { return membrane_; }
-  [[nodiscard]] std::vector<Index> normal_entries() const {
-    std::vector<Index> entries;
-    for (const Index i : membrane_.subspace.scalars()) {
-      if (is_held(degree_of(i))) entries.push_back(i);
-    }
-    return entries;
+  [[nodiscard]] Index size() const { return n_normal() + n_tension(); }
+  [[nodiscard]] Index n_normal() const { return std::ssize(normal_); }
+
+  /// λ and, where there is one, c: coefficients, [n_coefficients x 1 or 2].
+  [[nodiscard]] Matrix fields(const Vector& unknowns) const {
+    Matrix result = Matrix::Zero(n_coefficients(membrane_.fine.order()), normal_.empty() ? 1 : 2);
+    result.col(0)(tension_) = unknowns.tail(n_tension());
+    if (!normal_.empty()) result.col(1)(normal_) = unknowns.head(n_normal());
+    return result;
   }
-  /// Is there a force c n of this degree? Of the highest one truncation leaves a single velocity, which λ rules alone:
-  /// its harmonic V is of one degree more.
-  [[nodiscard]] bool is_held(int degree) const {
-    return holds_shape_ && degree >= 2 && degree < membrane_.fine.order();
+  /// The other way.
+  [[nodiscard]] Vector unknowns(const Matrix& fields) const {
+    Vector result(size());
+    result.tail(n_tension()) = fields.col(0)(tension_);
+    if (!normal_.empty()) result.head(n_normal()) = fields.col(1)(normal_);
+    return result;
   }
-  [[nodiscard]] std::vector<Index> tension_entries() const {
-    return inextensible_ ? membrane_.subspace.scalars() : std::vector<Index>();
+  /// Those of a tension to start from; c, and the mean on a sphere, which does nothing there, are zero.
+  [[nodiscard]] Vector guess(const Vector& tension) const {
+    Vector result = Vector::Zero(size());
+    if (tension.size() > 0) result.tail(n_tension()) = tension(tension_);
+    if (is_sphere_) result[n_normal()] = 0.0;
+    return result;
+  }
+  /// λ, coefficients; empty where the membrane may extend.
+  [[nodiscard]] Vector tension(const Vector& unknowns) const {
+    return tension_.empty() ? Vector() : Vector(fields(unknowns).col(0));
   }
 
   /// Force on the fluid; empty where there is none.
-  [[nodiscard]] Matrix force(const ScalarPair& unknowns) const {
-    if (!inextensible_) return {};
-    Matrix result = tension_force(membrane_, unknowns.tension);
-    if (holds_shape_) {
-      const Matrix normal = Vector(membrane_.fine.synthesize(unknowns.normal)).asDiagonal() * membrane_.surface.normal;
+  [[nodiscard]] Matrix force(const Vector& unknowns) const {
+    if (tension_.empty()) return {};
+    const Matrix of_all = fields(unknowns);
+    Matrix result = tension_force(membrane_, of_all.col(0));
+    if (!normal_.empty()) {
+      const Matrix normal = Vector(membrane_.fine.synthesize(of_all.col(1))).asDiagonal() * membrane_.surface.normal;
       result += without_mean(normal);
     }
     return result;
   }
 
   /// u·n and J ∇_γ·u.
-  [[nodiscard]] ScalarPair constraints(const Matrix& velocity) const {
+  [[nodiscard]] Vector constraints(const Matrix& velocity) const {
+    if (tension_.empty()) return {};
     const SphereDerivatives u = membrane_.fine.synthesize_first_derivatives(velocity);
-    ScalarPair result{Vector::Zero(velocity.rows()), weighted_divergence(membrane_, u)};
-    if (is_sphere_) result.tension[0] = 0.0;
-    if (holds_shape_) {
+    const Vector divergence = weighted_divergence(membrane_, u);
+    Vector result(size());
+    result.tail(n_tension()) = divergence(tension_);
+    if (is_sphere_) result[n_normal()] = 0.0;
+    if (!normal_.empty()) {
       const Matrix moving = without_mean(membrane_.fine.synthesize(velocity));
-      result.normal = membrane_.fine.analyze(moving.cwiseProduct(membrane_.surface.normal).rowwise().sum());
+      const Vector along = membrane_.fine.analyze(moving.cwiseProduct(membrane_.surface.normal).rowwise().sum());
+      result.head(n_normal()) = along(normal_);
     }
     return result;
   }
 
   /// The same of the velocity that the unknowns make; a uniform tension of a sphere, which makes none, stays zero.
-  [[nodiscard]] ScalarPair response(const Matrix& velocity, const ScalarPair& unknowns) const {
-    ScalarPair result = constraints(velocity);
-    if (is_sphere_) result.tension[0] = mean_response_ * unknowns.tension[0];
+  [[nodiscard]] Vector response(const Matrix& velocity, const Vector& unknowns) const {
+    Vector result = constraints(velocity);
+    if (is_sphere_) result[n_normal()] = mean_response_ * unknowns[n_normal()];
     return result;
   }
 
-  [[nodiscard]] ScalarPair approximate_inverse(const ScalarPair& residual) const {
-    if (of_membrane_) {
-      const std::vector<Index> entries = tension_entries();
-      ScalarPair of_all = residual;
-      of_all.tension(entries) = of_membrane_->apply(residual.tension(entries));
-      return of_all;
-    }
-    if (!holds_shape_) return {residual.normal, inverse_.col(3).cwiseProduct(residual.tension)};
-    return {inverse_.col(0).cwiseProduct(residual.normal) + inverse_.col(1).cwiseProduct(residual.tension),
-            inverse_.col(2).cwiseProduct(residual.normal) + inverse_.col(3).cwiseProduct(residual.tension)};
+  [[nodiscard]] Vector approximate_inverse(const Vector& residual) const {
+    if (of_membrane_) return of_membrane_->apply(residual);
+    Vector result(size());
+    result.tail(n_tension()) = inverse_.col(3).cwiseProduct(residual.tail(n_tension()));
+    if (normal_.empty()) return result;
+    const auto held = inverse_.middleRows(first_held_, n_normal());
+    const auto normal = residual.head(n_normal());
+    result.head(n_normal()) = held.col(0).cwiseProduct(normal) +
+                              held.col(1).cwiseProduct(residual.segment(n_normal() + first_held_, n_normal()));
+    result.segment(n_normal() + first_held_, n_normal()) += held.col(2).cwiseProduct(normal);
+    return result;
   }
 
  private:
+  [[nodiscard]] Index n_tension() const { return std::ssize(tension_); }
   /// Degrees of c and u·n are those of the parameter sphere, so on points that have flowed degrees from 2 on have a
   /// part of degree 1 in space. Without the mean they neither hold a translation nor exert a net force.
   [[nodiscard]] Matrix without_mean(const Matrix& values) const {
@@ -130,96 +148,80 @@ class OneTension {
 
   const FlowMembrane& one_;
   const Membrane& membrane_;
-  bool inextensible_, is_sphere_, holds_shape_;
+  bool is_sphere_;
   double mean_response_;
-  Eigen::Matrix<double, Eigen::Dynamic, 4> inverse_;  ///< of a sphere, row by row for each coefficient
+  std::vector<Index> normal_, tension_;               ///< coefficients; those of c are also in a row among those of λ
+  Index first_held_ = 0;                              ///< from there on
+  Eigen::Matrix<double, Eigen::Dynamic, 4> inverse_;  ///< of a sphere, row by row for each coefficient of λ
   std::optional<TensionInverse> of_membrane_;
 };
 
-/// The scalars of all membranes as one vector: normal forces, behind them tensions.
+/// The unknowns of all membranes one behind the other.
 class Layout {
  public:
-  explicit Layout(const std::vector<OneTension>& all)
-      : normal_(stacked(all, &OneTension::normal_entries)), tension_(stacked(all, &OneTension::tension_entries)) {}
+  explicit Layout(const std::vector<OneTension>& all) {
+    for (const OneTension& one : all) firsts_.push_back(firsts_.back() + one.size());
+  }
 
-  [[nodiscard]] Index size() const { return normal_.size() + tension_.size(); }
+  [[nodiscard]] Index size() const { return firsts_.back(); }
+  [[nodiscard]] Index first(std::size_t a) const { return firsts_[a]; }
+  [[nodiscard]] Index count(std::size_t a) const { return firsts_[a + 1] - firsts_[a]; }
 
-  [[nodiscard]] Vector stack(const std::vector<ScalarPair>& scalars) const {
-    std::vector<Vector> normal, tension;
-    for (const ScalarPair& of_one : scalars) {
-      normal.push_back(of_one.normal);
-      tension.push_back(of_one.tension);
-    }
+  [[nodiscard]] Vector stack(const std::vector<Vector>& parts) const {
     Vector result(size());
-    result << normal_.stack(normal), tension_.stack(tension);
+    for (std::size_t a = 0; a < parts.size(); ++a) result.segment(first(a), count(a)) = parts[a];
+    return result;
+  }
+  [[nodiscard]] std::vector<Vector> parts(const Vector& stacked) const {
+    std::vector<Vector> result;
+    for (std::size_t a = 0; a + 1 < firsts_.size(); ++a) result.emplace_back(stacked.segment(first(a), count(a)));
     return result;
   }
 
-  [[nodiscard]] std::vector<ScalarPair> scalars(const Vector& stacked) const {
-    const std::vector<Vector> normal = normal_.parts(stacked.head(normal_.size()));
-    const std::vector<Vector> tension = tension_.parts(stacked.tail(tension_.size()));
-    std::vector<ScalarPair> result;
-    for (std::size_t a = 0; a < normal.size(); ++a) result.push_back({normal[a], tension[a]});
-    return result;
-  }
-
-  /// Of membranes without normal forces: what is known of each of its rows, as rows of all. Nothing where one has
-  /// something else.
+  /// What is known of the rows of each membrane, as rows of all. Nothing where one has something else.
   [[nodiscard]] RecycledSubspace joined(const std::vector<RecycledSubspace>& of_each, const Vector& scales) const {
-    const Index count = of_each.front().count();
-    RecycledSubspace result{Matrix(size(), count), Matrix(size(), count)};
+    const Index columns = of_each.front().count();
+    RecycledSubspace result{Matrix(size(), columns), Matrix(size(), columns)};
     for (std::size_t a = 0; a < of_each.size(); ++a) {
-      const Index first = tension_.first_of(a), n = tension_.count_of(a);
-      if (of_each[a].count() != count || of_each[a].arguments.rows() != n) return {};
-      result.arguments.middleRows(first, n) = of_each[a].arguments;
-      result.responses.middleRows(first, n) = of_each[a].responses;
+      if (of_each[a].count() != columns || of_each[a].arguments.rows() != count(a)) return {};
+      result.arguments.middleRows(first(a), count(a)) = of_each[a].arguments;
+      result.responses.middleRows(first(a), count(a)) = of_each[a].responses;
     }
     result.arguments = scales.cwiseInverse().asDiagonal() * result.arguments;
     return result;
   }
-
   /// The other way.
   [[nodiscard]] std::vector<RecycledSubspace> of_each(const RecycledSubspace& all, const Vector& scales) const {
     const Matrix arguments = scales.asDiagonal() * all.arguments;
     std::vector<RecycledSubspace> result;
-    for (std::size_t a = 0; a < tension_.n_parts(); ++a) {
-      const Index first = tension_.first_of(a), n = tension_.count_of(a);
-      result.push_back({arguments.middleRows(first, n), all.responses.middleRows(first, n)});
+    for (std::size_t a = 0; a + 1 < firsts_.size(); ++a) {
+      result.push_back({arguments.middleRows(first(a), count(a)), all.responses.middleRows(first(a), count(a))});
     }
-    return result;
-  }
-
-  /// The uniform parts of the tensions left out.
-  [[nodiscard]] Vector without_means(Vector stacked) const {
-    for (std::size_t a = 0; a < tension_.n_parts(); ++a) {
-      if (tension_.count_of(a) > 0) stacked[normal_.size() + tension_.first_of(a)] = 0.0;
-    }
-    return stacked;
-  }
-
-  /// c and λ over their scales, which are alike for membranes of any size.
-  [[nodiscard]] Vector scales(const std::vector<OneTension>& all) const {
-    std::vector<double> radii;
-    for (const OneTension& one : all) radii.push_back(one.membrane().radius);
-    Vector result(size());
-    result << Vector::Ones(normal_.size()), tension_.spread(radii);
     return result;
   }
 
  private:
-  using Entries = std::vector<Index> (OneTension::*)() const;
-  static StackedEntries stacked(const std::vector<OneTension>& all, Entries entries_of) {
-    std::vector<Index> sizes;
-    std::vector<std::vector<Index>> entries;
-    for (const OneTension& one : all) {
-      sizes.push_back(n_coefficients(one.membrane().fine.order()));
-      entries.push_back((one.*entries_of)());
-    }
-    return {std::move(sizes), std::move(entries)};
-  }
-
-  StackedEntries normal_, tension_;
+  std::vector<Index> firsts_{0};
 };
+
+/// c and λ over their scales, which are alike for membranes of any size.
+Vector scales_of(const std::vector<OneTension>& all, const Layout& layout) {
+  Vector result = Vector::Ones(layout.size());
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    result.segment(layout.first(a), layout.count(a))
+        .tail(layout.count(a) - all[a].n_normal())
+        .setConstant(all[a].membrane().radius);
+  }
+  return result;
+}
+
+/// The uniform parts of the tensions left out.
+Vector without_means(const std::vector<OneTension>& all, const Layout& layout, Vector stacked) {
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    if (layout.count(a) > 0) stacked[layout.first(a) + all[a].n_normal()] = 0.0;
+  }
+  return stacked;
+}
 
 /// Velocities on the membranes of this rank as one vector.
 class OwnVelocities {
@@ -269,7 +271,7 @@ void find_inverses(std::vector<OneTension>& all, const std::vector<std::size_t>&
 
 /// Adds J f_λ (and J c n on spheres) of the membranes of this rank.
 void add_forces(const std::vector<OneTension>& all, const std::vector<std::size_t>& own,
-                const std::vector<ScalarPair>& unknowns, std::vector<Matrix>& weighted) {
+                const std::vector<Vector>& unknowns, std::vector<Matrix>& weighted) {
   for_each_member(own, [&](std::size_t a) {
     const Matrix force = all[a].force(unknowns[a]);
     if (force.size() == 0) return;
@@ -288,23 +290,22 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   const bool has_others = membranes.size() > 1;
   for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a], has_others);
   const std::vector<std::size_t> own = flow.shares().own(all.size());
-  const auto gather = [&flow](std::vector<ScalarPair>& scalars) {
-    flow.shares().gather(scalars, [&flow](const ScalarPair& of_original, std::size_t a) -> ScalarPair {
-      const ImageOfFields& image = flow.exchange().image(a);
-      return {image.scalar(of_original.normal), image.scalar(of_original.tension)};
+  const auto gather = [&](std::vector<Vector>& unknowns) {
+    flow.shares().gather(unknowns, [&](const Vector& of_original, std::size_t a) {
+      return all[a].unknowns(flow.exchange().image(a).scalar(all[a].fields(of_original)));
     });
   };
   const bool many = are_many(static_cast<Index>(all.size()));
   if (many) find_inverses(all, own);
   const Layout layout(all);
-  const Vector scales = layout.scales(all);
+  const Vector scales = scales_of(all, layout);
   const OwnVelocities of_own(all, own);
   const LinearMap map = [&](const Vector& v) {
-    const std::vector<ScalarPair> unknowns = layout.scalars(v.cwiseProduct(scales));
+    const std::vector<Vector> unknowns = layout.parts(v.cwiseProduct(scales));
     std::vector<Matrix> of_tensions(all.size());
     add_forces(all, own, unknowns, of_tensions);
     const std::vector<Matrix> velocities = flow.velocities(of_tensions);
-    std::vector<ScalarPair> result(all.size());
+    std::vector<Vector> result(all.size());
     for_each_member(own, [&](std::size_t a) { result[a] = all[a].response(velocities[a], unknowns[a]); });
     gather(result);
     // The velocities go along: those of the solution are then known without another application.
@@ -313,7 +314,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     return response;
   };
   const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
-    std::vector<ScalarPair> parts = layout.scalars(residual);
+    std::vector<Vector> parts = layout.parts(residual);
     // Those of spheres, which few membranes have, every rank has for all.
     if (many) {
       for_each_member(own, [&](std::size_t a) { parts[a] = all[a].approximate_inverse(parts[a]); });
@@ -323,16 +324,11 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
     }
     return layout.stack(parts).cwiseQuotient(scales);
   };
-  std::vector<ScalarPair> guess;
-  for (std::size_t a = 0; a < all.size(); ++a) {
-    const Vector none = Vector::Zero(n_coefficients(all[a].membrane().fine.order()));
-    guess.push_back({none, start[a].size() > 0 ? start[a] : none});
-    // The mean does nothing on a sphere, and is none of the unknowns' business.
-    if (is_sphere[a]) guess.back().tension[0] = 0.0;
-  }
+  std::vector<Vector> guess;
+  for (std::size_t a = 0; a < all.size(); ++a) guess.push_back(all[a].guess(start[a]));
   add_forces(all, own, guess, weighted);
   const std::vector<Matrix> before = flow.velocities(weighted, background);
-  std::vector<ScalarPair> left(all.size());
+  std::vector<Vector> left(all.size());
   for (const std::size_t a : own) left[a] = all[a].constraints(-before[a]);
   gather(left);
   const bool recycles = !many && std::ranges::count(is_sphere, true) == 0;
@@ -342,10 +338,10 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   RecycledGcr::Solution solution;
   int iterations = 0;
   // A start that was much larger than the solution says nothing of the tensions: then they do themselves.
-  for (double size = layout.without_means(first).norm();;) {
+  for (double size = without_means(all, layout, first).norm();;) {
     solution = solver.solve(rhs, {}, {tolerance, thresholds::most_flow_iterations}, size);
     iterations += solution.report.iterations;
-    const double found = layout.without_means(first + solution.x).norm();
+    const double found = without_means(all, layout, first + solution.x).norm();
     if (!solution.report.converged() || size <= 2.0 * found || size <= solution.size_of_rhs) break;
     size = found;
   }
@@ -356,10 +352,10 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
         joined(solver.learned(), selected(former, solver.kept()), thresholds::most_recycled);
     if (learned.count() > 0) result.learned = layout.of_each(learned, scales);
   }
-  const std::vector<ScalarPair> unknowns = layout.scalars((first + solution.x).cwiseProduct(scales));
+  const std::vector<Vector> unknowns = layout.parts((first + solution.x).cwiseProduct(scales));
   result.velocities = of_own.velocities(of_own.stack(before) + solution.further);
   for (std::size_t a = 0; a < all.size(); ++a) {
-    result.tension.push_back(membranes[a].parameters.inextensible ? unknowns[a].tension : Vector());
+    result.tension.push_back(all[a].tension(unknowns[a]));
     result.force.push_back(flow.shares().owns(a) ? all[a].force(unknowns[a]) : Matrix());
   }
   return result;
