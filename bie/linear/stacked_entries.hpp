@@ -6,60 +6,62 @@
 
 namespace vehd {
 
-/// Several vectors of which only some entries can differ from zero, one behind the other as a solver sees them.
+/// Fields of several bodies, in coefficients of which only some can differ from zero, one behind the other as a solver
+/// sees them. A field has one or more columns: the parts of a complex scalar, the components of a vector.
 class StackedEntries {
  public:
-  /// @param sizes    of each vector
-  /// @param entries  of each vector, ascending
-  StackedEntries(std::vector<Index> sizes, std::vector<std::vector<Index>> entries)
-      : sizes_(std::move(sizes)), entries_(std::move(entries)) {
-    for (const std::vector<Index>& of_one : entries_) size_ += static_cast<Index>(of_one.size());
+  /// One more field, [n_rows x n_columns].
+  /// @param entries  positions of those in the column-major field, ascending
+  void add(Index n_rows, Index n_columns, std::vector<Index> entries) {
+    size_ += std::ssize(entries);
+    fields_.push_back({n_rows, n_columns, std::move(entries)});
   }
 
   [[nodiscard]] Index size() const { return size_; }
 
-  [[nodiscard]] std::size_t n_parts() const { return entries_.size(); }
-  /// Where the entries of a vector begin, and how many it has.
-  [[nodiscard]] Index first_of(std::size_t part) const {
-    Index first = 0;
-    for (std::size_t a = 0; a < part; ++a) first += count_of(a);
-    return first;
-  }
-  [[nodiscard]] Index count_of(std::size_t part) const { return static_cast<Index>(entries_[part].size()); }
-
-  [[nodiscard]] Vector stack(const std::vector<Vector>& parts) const {
+  template <typename Field>
+  [[nodiscard]] Vector stack(const std::vector<Field>& fields) const {
     Vector result(size_);
     Index first = 0;
-    for (std::size_t a = 0; a < entries_.size(); ++a) {
-      const auto n = static_cast<Index>(entries_[a].size());
-      result.segment(first, n) = parts[a](entries_[a]);
-      first += n;
+    for (std::size_t a = 0; a < fields_.size(); ++a) {
+      const std::vector<Index>& entries = fields_[a].entries;
+      result.segment(first, std::ssize(entries)) = fields[a].reshaped()(entries);
+      first += std::ssize(entries);
     }
     return result;
   }
 
-  /// The other way, zero elsewhere.
-  [[nodiscard]] std::vector<Vector> parts(const Vector& stacked) const {
-    std::vector<Vector> result;
+  /// The other way, zero elsewhere. @tparam Field  Matrix, or Vector where all have one column
+  template <typename Field>
+  [[nodiscard]] std::vector<Field> fields(const Vector& stacked) const {
+    std::vector<Field> result;
     Index first = 0;
-    for (std::size_t a = 0; a < entries_.size(); ++a) {
-      const auto n = static_cast<Index>(entries_[a].size());
-      result.emplace_back(Vector::Zero(sizes_[a]))(entries_[a]) = stacked.segment(first, n);
-      first += n;
+    for (const auto& [n_rows, n_columns, entries] : fields_) {
+      result.emplace_back(Field::Zero(n_rows, n_columns)).reshaped()(entries) =
+          stacked.segment(first, std::ssize(entries));
+      first += std::ssize(entries);
     }
     return result;
   }
 
-  /// A number of each vector, at all of its entries.
+  /// A number of each field, at all of its entries.
   [[nodiscard]] Vector spread(const std::vector<double>& numbers) const {
-    std::vector<Vector> all;
-    for (std::size_t a = 0; a < sizes_.size(); ++a) all.emplace_back(Vector::Constant(sizes_[a], numbers[a]));
-    return stack(all);
+    Vector result(size_);
+    Index first = 0;
+    for (std::size_t a = 0; a < fields_.size(); ++a) {
+      const Index n = std::ssize(fields_[a].entries);
+      result.segment(first, n).setConstant(numbers[a]);
+      first += n;
+    }
+    return result;
   }
 
  private:
-  std::vector<Index> sizes_;
-  std::vector<std::vector<Index>> entries_;
+  struct Field {
+    Index n_rows, n_columns;
+    std::vector<Index> entries;
+  };
+  std::vector<Field> fields_;
   Index size_ = 0;
 };
 

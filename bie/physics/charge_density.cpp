@@ -67,10 +67,12 @@ class DensityEquations {
       : membranes_(std::move(membranes)),
         contrasts_(std::move(contrasts)),
         interaction_(interaction),
-        owned_(interaction.shares().own(membranes_.size())),
-        entries_(entries_of(membranes_)) {
+        owned_(interaction.shares().own(membranes_.size())) {
     std::vector<double> areas;
-    for (const Membrane* membrane : membranes_) areas.push_back(membrane->radius * membrane->radius);
+    for (const Membrane* membrane : membranes_) {
+      entries_.add(membrane->subspace.n_coefficients(), 1, membrane->subspace.potentials());
+      areas.push_back(membrane->radius * membrane->radius);
+    }
     scale_ = entries_.spread(areas);
   }
 
@@ -87,7 +89,7 @@ class DensityEquations {
     interaction_.gather_potentials(right_sides);
     const LinearMap map = [&](const Vector& unknowns) { return entries_.stack(left_side(densities_of(unknowns))); };
     const LinearMap preconditioner = [&](const Vector& residual) -> Vector {
-      std::vector<Vector> parts = entries_.parts(residual);
+      std::vector<Vector> parts = entries_.fields<Vector>(residual);
       for (std::size_t a = 0; a < parts.size(); ++a) parts[a] = second_kind_sphere_inverse(contrasts_[a], parts[a]);
       return entries_.stack(parts).cwiseQuotient(scale_);
     };
@@ -100,18 +102,8 @@ class DensityEquations {
  private:
   static constexpr int kMostIterations = 60;
 
-  static StackedEntries entries_of(const std::vector<const Membrane*>& membranes) {
-    std::vector<Index> sizes;
-    std::vector<std::vector<Index>> entries;
-    for (const Membrane* membrane : membranes) {
-      sizes.push_back(n_coefficients(membrane->fine.order()));
-      entries.push_back(membrane->subspace.potentials());
-    }
-    return {std::move(sizes), std::move(entries)};
-  }
-
   [[nodiscard]] std::vector<Vector> densities_of(const Vector& unknowns) const {
-    return entries_.parts(unknowns.cwiseProduct(scale_));
+    return entries_.fields<Vector>(unknowns.cwiseProduct(scale_));
   }
 
   [[nodiscard]] std::vector<Vector> left_side(const std::vector<Vector>& weighted) const {

@@ -191,31 +191,31 @@ class StackedPotentials {
  public:
   using Field = FieldOf<Scalar>;
 
-  explicit StackedPotentials(const std::vector<ChargingMembrane>& membranes) : entries_(entries_of(membranes)) {
+  explicit StackedPotentials(const std::vector<ChargingMembrane>& membranes) {
+    constexpr Index kParts = std::is_same_v<Scalar, double> ? 1 : 2;
     std::vector<double> radii;
-    for (const ChargingMembrane& one : membranes) radii.insert(radii.end(), kParts, one.in_field.membrane.radius);
+    for (const ChargingMembrane& one : membranes) {
+      const SymmetrySubspace& subspace = one.in_field.membrane.subspace;
+      std::vector<Index> entries;
+      for (Index part = 0; part < kParts; ++part) {
+        for (const Index i : subspace.potentials()) entries.push_back(part * subspace.n_coefficients() + i);
+      }
+      entries_.add(subspace.n_coefficients(), kParts, std::move(entries));
+      radii.push_back(one.in_field.membrane.radius);
+    }
     radius_ = entries_.spread(radii);
   }
 
   [[nodiscard]] Index size() const { return entries_.size(); }
 
   [[nodiscard]] Vector stack(const std::vector<Field>& fields) const {
-    std::vector<Vector> parts;
-    for (const Field& field : fields) {
-      const Matrix of_one = parts_of(field);
-      for (Index part = 0; part < of_one.cols(); ++part) parts.emplace_back(of_one.col(part));
-    }
+    std::vector<Matrix> parts;
+    for (const Field& field : fields) parts.push_back(parts_of(field));
     return entries_.stack(parts);
   }
-
   [[nodiscard]] std::vector<Field> fields(const Vector& stacked) const {
-    const std::vector<Vector> parts = entries_.parts(stacked);
     std::vector<Field> result;
-    for (std::size_t i = 0; i < parts.size(); i += kParts) {
-      Matrix of_one(parts[i].size(), static_cast<Index>(kParts));
-      for (std::size_t part = 0; part < kParts; ++part) of_one.col(static_cast<Index>(part)) = parts[i + part];
-      result.push_back(from_parts<Scalar>(of_one));
-    }
+    for (const Matrix& parts : entries_.template fields<Matrix>(stacked)) result.push_back(from_parts<Scalar>(parts));
     return result;
   }
 
@@ -227,19 +227,6 @@ class StackedPotentials {
   }
 
  private:
-  static constexpr std::size_t kParts = std::is_same_v<Scalar, double> ? 1 : 2;
-
-  static StackedEntries entries_of(const std::vector<ChargingMembrane>& membranes) {
-    std::vector<Index> sizes;
-    std::vector<std::vector<Index>> entries;
-    for (const ChargingMembrane& one : membranes) {
-      const Membrane& membrane = one.in_field.membrane;
-      sizes.insert(sizes.end(), kParts, n_coefficients(membrane.fine.order()));
-      entries.insert(entries.end(), kParts, membrane.subspace.potentials());
-    }
-    return {std::move(sizes), std::move(entries)};
-  }
-
   StackedEntries entries_;
   Vector radius_;  // of each entry
 };

@@ -11,28 +11,6 @@ namespace {
 /// The velocities of a solve inside another one are exact next to its tolerance.
 constexpr SolveOptions kWithinSolve{1e-12, 100};
 
-StackedEntries stacked_vectors(const std::vector<FlowMembrane>& membranes) {
-  std::vector<Index> sizes;
-  std::vector<std::vector<Index>> entries;
-  for (const FlowMembrane& one : membranes) {
-    sizes.push_back(3 * n_coefficients(one.membrane.fine.order()));
-    entries.push_back(one.membrane.subspace.vectors());
-  }
-  return {std::move(sizes), std::move(entries)};
-}
-
-std::vector<Vector> columns(const std::vector<Matrix>& fields) {
-  std::vector<Vector> result;
-  for (const Matrix& field : fields) result.emplace_back(field.reshaped());
-  return result;
-}
-
-std::vector<Matrix> matrices(const std::vector<Vector>& fields) {
-  std::vector<Matrix> result;
-  for (const Vector& field : fields) result.emplace_back(field.reshaped(field.size() / 3, 3));
-  return result;
-}
-
 }  // namespace
 
 PairSelection flow_pair_selection(const FlowParameters& parameters) {
@@ -40,12 +18,15 @@ PairSelection flow_pair_selection(const FlowParameters& parameters) {
 }
 
 MembraneFlow::MembraneFlow(const std::vector<FlowMembrane>& membranes, const Interaction& interaction)
-    : membranes_(membranes), interaction_(interaction), contrast_(false), stacked_(stacked_vectors(membranes)) {
+    : membranes_(membranes), interaction_(interaction), contrast_(false) {
   if (interaction.is_empty()) return;
   for (const FlowMembrane& one : membranes) contrast_ = contrast_ || one.parameters.viscosity_ratio != 1.0;
   if (!contrast_) return;
+  for (const FlowMembrane& one : membranes) {
+    stacked_.add(one.membrane.subspace.n_coefficients(), 3, one.membrane.subspace.vectors());
+  }
   const LinearMap map = [&membranes, &interaction, stacked = stacked_](const Vector& v) -> Vector {
-    std::vector<Matrix> jumps = matrices(stacked.parts(v));
+    std::vector<Matrix> jumps = stacked.fields<Matrix>(v);
     for (std::size_t b = 0; b < jumps.size(); ++b) {
       const double ratio = membranes[b].parameters.viscosity_ratio;
       jumps[b] = ratio == 1.0 ? Matrix() : Matrix((1.0 - ratio) * jumps[b]);
@@ -54,7 +35,7 @@ MembraneFlow::MembraneFlow(const std::vector<FlowMembrane>& membranes, const Int
     for_each_member(interaction.shares().own(of_others.size()),
                     [&](std::size_t a) { of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a])); });
     interaction.gather_vectors(of_others);
-    return v - stacked.stack(columns(of_others));
+    return v - stacked.stack(of_others);
   };
   solver_ = std::make_unique<RecycledGcr>(
       map, [](const Vector& r) { return r; }, stacked_.size());
@@ -78,9 +59,9 @@ std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted
   });
   if (!contrast_) return result;
   interaction_.gather_vectors(result);
-  const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(columns(result)), {}, kWithinSolve);
+  const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(result), {}, kWithinSolve);
   require_converged(solution.report, "velocities of membranes with a viscosity contrast");
-  return matrices(stacked_.parts(solution.x));
+  return stacked_.fields<Matrix>(solution.x);
 }
 
 }  // namespace vehd

@@ -76,7 +76,7 @@ std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks,
   std::vector<Unknowns> charges;
   std::vector<Vector> guess;
   for (const VesicleTask& task : tasks) {
-    charges.push_back(task.state);
+    charges.push_back({{}, task.state.transmembrane_potential, task.state.free_charge});
     guess.push_back(task.state.transmembrane_potential);
   }
   std::vector<RelaxingField> fields = fields_of_charges(membranes, *solved.interaction, charges,

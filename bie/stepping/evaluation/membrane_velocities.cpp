@@ -53,7 +53,7 @@ Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
 }
 
 /// Velocities under the forcing and the tensions, Eq. (27b).
-void solve_tensions(const std::vector<VesicleTask>& tasks, const std::vector<Forcing>& forcing, SolvedFields& solved) {
+void solve_flow(const std::vector<VesicleTask>& tasks, const std::vector<Forcing>& forcing, SolvedFields& solved) {
   std::vector<FlowMembrane> membranes;
   const std::vector<std::size_t> own = solved.interaction->shares().own(tasks.size());
   std::vector<Matrix> weighted(tasks.size()), background;
@@ -116,7 +116,7 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<M
     Forcing of_image = no_forcing(tasks[a]);
     add_effects(tasks[a], time, limit, of_image);
   }
-  solve_tensions(tasks, forcing, solved);
+  solve_flow(tasks, forcing, solved);
 }
 
 }  // namespace vehd
