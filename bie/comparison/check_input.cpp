@@ -9,8 +9,6 @@
 #include <vector>
 
 #include "bie/files/hdf5_writer.hpp"
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
@@ -76,12 +74,8 @@ struct FurtherForces {
 FurtherForces further_forces(const VesicleModel& vesicle) {
   FurtherForces result;
   for (const auto& effect : vesicle.effects) {
-    if (const auto* curvature = dynamic_cast<const SpontaneousCurvatureEffect*>(effect.get())) {
-      result.spontaneous_curvature = curvature->parameters().curvature;
-    }
-    if (const auto* gravity = dynamic_cast<const GravityEffect*>(effect.get())) {
-      result.weight += gravity->parameters().density_difference * gravity->parameters().acceleration;
-    }
+    result.spontaneous_curvature += effect->spontaneous_curvature();
+    result.weight += effect->weight();
   }
   return result;
 }

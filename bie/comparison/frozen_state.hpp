@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "bie/physics/model.hpp"
 #include "bie/scene/settings.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/fields.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/bending.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
@@ -18,7 +17,7 @@ LocalForces local_forces(const FrozenState& frozen, const Membrane& membrane, co
   forces.order = membrane.fine.order();
   if (model.bending) forces.bending = membrane.fine.analyze(bending_force(*model.bending, membrane));
   for (const auto& effect : model.effects) {
-    if (dynamic_cast<const SpontaneousCurvatureEffect*>(effect.get()) == nullptr) continue;
+    if (effect->spontaneous_curvature() == 0.0) continue;
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), {}};
     effect->add({membrane, position, frozen.state.time}, forcing);
     forces.curvature = membrane.fine.analyze(forcing.force);

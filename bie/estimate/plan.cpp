@@ -32,39 +32,17 @@ constexpr std::array kOperators = {OperatorFlag{"laplace_single", &LayerSelectio
                                    OperatorFlag{"stokes_single", &LayerSelection::stokes_single},
                                    OperatorFlag{"stokes_double", &LayerSelection::stokes_double}};
 
-constexpr std::array kKnownEffects = {"bending",
-                                      "inextensibility",
-                                      "electric field",
-                                      "background flow",
-                                      "Poiseuille flow",
-                                      "gravity",
-                                      "spontaneous curvature",
-                                      "viscosity contrast",
-                                      "contact",
-                                      "poration",
-                                      "spatially varying membrane",
-                                      "pump"};
-
 /// The model without one of its effects.
-Model without(const Model& model, const std::string& name) {
-  Model result = model;
+Model without(Model model, const EffectRow& row) {
   const auto erase_from = [&](auto& effects) {
-    std::erase_if(effects, [&](const auto& effect) { return effect->description().name == name; });
+    std::erase_if(effects, [&](const auto& effect) { return effect->description().name == row.name; });
   };
-  for (VesicleModel& vesicle : result.vesicles) {
-    if (name == "bending") vesicle.bending.reset();
-    if (name == "inextensibility") vesicle.inextensible = false;
-    if (name == "poration" || name == "electric field") vesicle.reaction.reset();
-    if (name == "spatially varying membrane") vesicle.by_place = false;
-    if (name == "pump" || name == "electric field") vesicle.pump.reset();
-    if (name == "viscosity contrast") vesicle.viscosity_ratio = 1.0;
+  for (VesicleModel& vesicle : model.vesicles) {
+    if (row.remove != nullptr) row.remove(model, vesicle);
     erase_from(vesicle.effects);
   }
-  if (name == "electric field") result.electric.reset();
-  if (name == "background flow") result.flow.reset();
-  if (name == "contact") result.contact.reset();
-  erase_from(result.effects);
-  return result;
+  erase_from(model.effects);
+  return model;
 }
 
 /// Independent coefficients per scalar field.
@@ -206,15 +184,16 @@ RunPlan plan_of(const Scene& scene) {
   plan.symmetry = symmetry_text(problem.symmetry, problem.frame);
   plan.vesicles = vesicle_names(scene);
   const std::vector<EffectDescription> acting_effects = effects_of(acting);
-  for (const EffectDescription& effect : effects) {
-    const bool acts = std::ranges::count(acting_effects, effect.name, &EffectDescription::name) > 0;
+  for (const EffectRow& row : effect_table()) {
+    const auto effect = std::ranges::find(effects, row.name, &EffectDescription::name);
+    if (effect == effects.end()) {
+      plan.absent.emplace_back(row.name);
+      continue;
+    }
+    const bool acts = std::ranges::count(acting_effects, row.name, &EffectDescription::name) > 0;
     plan.effects.push_back(
-        {effect.name, effect.adds,
-         difference_text(scene, acting, without(acting, effect.name), plan, acts ? effect.unknowns.size() : 0)});
-  }
-  for (const char* name : kKnownEffects) {
-    const auto present = [&](const EffectDescription& effect) { return effect.name == name; };
-    if (std::none_of(effects.begin(), effects.end(), present)) plan.absent.emplace_back(name);
+        {effect->name, effect->adds,
+         difference_text(scene, acting, without(acting, row), plan, acts ? effect->unknowns.size() : 0)});
   }
   for (const OperatorFlag& op : kOperators) {
     const std::size_t n_vesicles = vesicles_with(op, acting, symmetry.exchange);

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "bie/physics/effects/poration.hpp"
 #include "bie/physics/electric.hpp"
 #include "bie/physics/interaction.hpp"
-#include "bie/physics/poration_reaction.hpp"
 #include "bie/support/complex_columns.hpp"
 
 namespace vehd {

@@ -77,31 +77,4 @@ Matrix electric_force(double permittivity, const Membrane& membrane, const Elect
          maxwell_traction(permittivity, membrane, traces.potential_out, traces.flux_out);
 }
 
-EffectDescription electric_description(const ElectricParameters& electric) {
-  EffectDescription d;
-  d.name = "electric field";
-  d.adds = "f_E = [[n.Sigma_el]], Eqs. (3), (11)-(15); C_m dV/dt + G_m V = -sigma_i dphi_i/dn, Eq. (30)";
-  d.operators = {{&LayerSelection::laplace_single, "D' of V_m, Eq. (24)"},
-                 {&LayerSelection::laplace_double, "potentials on the membrane, Eq. (11)"},
-                 {&LayerSelection::stokes_single, "velocity of f_E, Eq. (5)"}};
-  d.unknowns = {"V_m"};
-  if (electric.displacement_current) {
-    d.adds =
-        "f_E = [[n.Sigma_el]], Eqs. (3), (11), (15); free charge of both faces, D q_i/Dt = sigma_i E_i - G_m V, "
-        "D q_e/Dt = G_m V - sigma_e E_e";
-  }
-  if (electric.averaged_frequency) {
-    d.adds = std::string(
-                 "mean of f_E over a period; (1/2 + eta S') y V - kappa D'[V] = kappa E.n, y = G_m + i omega C_m, "
-                 "eta and kappa of K = sigma") +
-             (electric.displacement_current ? " + i omega epsilon" : "");
-    d.unknowns = {"Re V_m", "Im V_m"};
-  }
-  if (carries_charge(electric)) {
-    d.operators.push_back({&LayerSelection::laplace_adjoint, "charge density, Eq. (12)"});
-    if (!electric.averaged_frequency && !electric.displacement_current) d.unknowns.emplace_back("g");
-  }
-  return d;
-}
-
 }  // namespace vehd

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bie/linear/solve_report.hpp"
-#include "bie/physics/effect.hpp"
 #include "bie/physics/membrane.hpp"
 #include "bie/physics/parameters.hpp"
 #include "bie/support/complex_columns.hpp"
@@ -74,8 +73,5 @@ ElectricTraces electric_traces(const ElectricParameters& electric, const Membran
 /// Source: paper Eqs. (3), (15), (32); Melcher and Taylor 1969
 Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces,
                       double permittivity_ratio = 1.0);
-
-/// What the electric problem asks of a step, charging included.
-EffectDescription electric_description(const ElectricParameters& electric);
 
 }  // namespace vehd

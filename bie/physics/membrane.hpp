@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "bie/geometry/surface.hpp"
-#include "bie/physics/membrane_material.hpp"
-#include "bie/physics/viscosity_contrast.hpp"
+#include "bie/physics/effects/membrane_material.hpp"
+#include "bie/physics/effects/viscosity_contrast.hpp"
 #include "bie/potentials/layer_operators.hpp"
 #include "bie/sphere/symmetry.hpp"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
 #include "bie/python/surface_object.hpp"

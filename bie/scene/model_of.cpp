@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/membrane_porosity.hpp"
-#include "bie/physics/poiseuille_flow.hpp"
-#include "bie/physics/pore_density.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/poiseuille_flow.hpp"
+#include "bie/physics/effects/poration.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/scene/waveforms.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "bie/physics/model.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/stepping/space/discretisation.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/time/step_control.hpp"
 
 namespace vehd {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bie/comparison/check_input.hpp"
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"

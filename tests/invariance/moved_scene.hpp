@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/effects/effect.hpp"
 #include "bie/scene/scene.hpp"
 
 namespace vehd::testing {

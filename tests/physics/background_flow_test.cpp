@@ -1,4 +1,4 @@
-#include "bie/physics/background_flow.hpp"
+#include "bie/physics/effects/background_flow.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,4 +1,4 @@
-#include "bie/physics/bending.hpp"
+#include "bie/physics/effects/bending.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <numbers>

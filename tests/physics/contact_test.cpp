@@ -1,4 +1,4 @@
-#include "bie/physics/contact.hpp"
+#include "bie/physics/effects/contact.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,9 +1,7 @@
-#include "bie/physics/elasticity_by_place.hpp"
-
 #include <boost/test/unit_test.hpp>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "tests/support/membrane.hpp"
 #include "tests/support/shapes.hpp"
 

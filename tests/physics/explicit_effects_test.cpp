@@ -1,10 +1,10 @@
 #include <boost/test/unit_test.hpp>
 
-#include "bie/physics/background_flow.hpp"
-#include "bie/physics/bending.hpp"
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/poiseuille_flow.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/background_flow.hpp"
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/poiseuille_flow.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "tests/support/membrane.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "tests/support/electric.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "bie/physics/membrane_porosity.hpp"
-#include "bie/physics/pore_density.hpp"
+#include "bie/physics/effects/poration.hpp"
 
 BOOST_AUTO_TEST_SUITE(poration_reaction)
 

@@ -1,4 +1,4 @@
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/tension.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"

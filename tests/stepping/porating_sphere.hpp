@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/poration_reaction.hpp"
+#include "bie/physics/effects/poration.hpp"
 #include "bie/sphere/grid.hpp"
 #include "bie/support/types.hpp"
 

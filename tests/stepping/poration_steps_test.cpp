@@ -3,8 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/membrane_porosity.hpp"
-#include "bie/physics/pore_density.hpp"
+#include "bie/physics/effects/poration.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "tests/stepping/porating_sphere.hpp"
 #include "tests/support/runs.hpp"

@@ -3,7 +3,7 @@
 #include <complex>
 #include <numbers>
 
-#include "bie/physics/pore_density.hpp"
+#include "bie/physics/effects/poration.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "tests/stepping/by_place.hpp"
 #include "tests/stepping/relaxing_sphere.hpp"

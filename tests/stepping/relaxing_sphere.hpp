@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/membrane_material.hpp"
+#include "bie/physics/effects/membrane_material.hpp"
+#include "bie/physics/effects/poration.hpp"
 #include "bie/physics/parameters.hpp"
-#include "bie/physics/poration_reaction.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
 

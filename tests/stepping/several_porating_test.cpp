@@ -1,8 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "bie/physics/membrane_porosity.hpp"
-#include "bie/physics/pore_density.hpp"
+#include "bie/physics/effects/poration.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "tests/stepping/by_place.hpp"
 #include "tests/support/several_runs.hpp"

@@ -3,8 +3,8 @@
 #include <functional>
 #include <numbers>
 
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/poiseuille_flow.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/poiseuille_flow.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "tests/support/several_runs.hpp"

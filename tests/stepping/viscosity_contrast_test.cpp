@@ -1,4 +1,4 @@
-#include "bie/physics/viscosity_contrast.hpp"
+#include "bie/physics/effects/viscosity_contrast.hpp"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "bie/physics/model.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/initial_state.hpp"
 #include "bie/stepping/space/discretisation.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/time/step_control.hpp"
 #include "tests/support/fields.hpp"

@@ -7,9 +7,7 @@
 #include <optional>
 #include <tuple>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/elasticity_by_place.hpp"
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/bending.hpp"
 #include "bie/sphere/axis_crossing.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/maximum.hpp"
@@ -188,8 +186,7 @@ void check_operators(const MembraneSpace& space, double tolerance, const Vesicle
 DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle) {
   DiagnosedModel result{flow_parameters(model, vesicle)};
   for (const auto& effect : vesicle.effects) {
-    const auto* curvature = dynamic_cast<const SpontaneousCurvatureEffect*>(effect.get());
-    if (curvature != nullptr) result.spontaneous_curvature = curvature->parameters().curvature;
+    result.spontaneous_curvature += effect->spontaneous_curvature();
   }
   if (model.electric) result.field = model.electric->field;
   result.criterion = vesicle.criterion;

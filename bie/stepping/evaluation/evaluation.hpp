@@ -5,9 +5,9 @@
 
 #include "bie/physics/interaction.hpp"
 #include "bie/physics/membrane.hpp"
+#include "bie/physics/model.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/fields.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 #include "bie/support/instruments.hpp"
 

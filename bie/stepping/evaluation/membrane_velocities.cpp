@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/elasticity_by_place.hpp"
+#include "bie/physics/effects/bending.hpp"
 #include "bie/stepping/solve/rigid_sphere.hpp"
 #include "bie/stepping/solve/tension_solve.hpp"
 #include "bie/stepping/state/composition.hpp"

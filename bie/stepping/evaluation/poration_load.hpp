@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/poration_criterion.hpp"
+#include "bie/physics/effects/poration.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 
 namespace vehd {

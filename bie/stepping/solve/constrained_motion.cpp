@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"

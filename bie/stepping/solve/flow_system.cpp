@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bie/geometry/roundness.hpp"
-#include "bie/physics/bending.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "bie/stepping/thresholds.hpp"

@@ -1,6 +1,6 @@
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 
-#include "bie/physics/viscosity_contrast.hpp"
+#include "bie/physics/effects/viscosity_contrast.hpp"
 
 namespace vehd {
 namespace {

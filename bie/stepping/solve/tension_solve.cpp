@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "bie/linear/recycled_gcr.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "bie/stepping/solve/tension_inverse.hpp"

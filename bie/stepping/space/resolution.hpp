@@ -1,8 +1,8 @@
 #pragma once
 
+#include "bie/physics/model.hpp"
 #include "bie/physics/parameters.hpp"
 #include "bie/stepping/space/visible_share.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
 namespace vehd {

@@ -3,33 +3,19 @@
 #include <algorithm>
 #include <utility>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/electric.hpp"
-#include "bie/physics/tension.hpp"
-
 namespace vehd {
 
 namespace {
 
 void append(std::vector<EffectDescription>& effects, EffectDescription effect) {
-  const bool known = std::any_of(effects.begin(), effects.end(), [&](const auto& e) { return e.name == effect.name; });
-  if (!known) effects.push_back(std::move(effect));
+  if (std::ranges::count(effects, effect.name, &EffectDescription::name) == 0) effects.push_back(std::move(effect));
 }
 
-/// Those that bring unknowns.
-std::vector<EffectDescription> implicit_effects(const Model& model, const VesicleModel& vesicle) {
-  std::vector<EffectDescription> result;
-  if (model.mobile && vesicle.bending) result.push_back(bending_description());
-  if (model.mobile && vesicle.inextensible) result.push_back(tension_description());
-  if (model.mobile && vesicle.viscosity_ratio != 1.0) result.push_back(viscosity_contrast_description());
-  if (model.electric) result.push_back(electric_description(electric_parameters(model, vesicle)));
-  if (vesicle.reaction) result.push_back(vesicle.reaction->description());
-  if (vesicle.by_place) {
-    result.push_back(
-        {"spatially varying membrane", "C_m, G_m, kappa_B or c as functions of the material point", {}, {}});
-  }
-  if (model.electric && vesicle.pump) {
-    result.push_back({"pump", "J_p in C_m dV_m/dt + G_m V_m + J_p = -sigma_i dphi_i/dn", {}, {}});
+/// Those that rows of the table make.
+std::vector<MadeEffect> registered_effects(const Model& model, const VesicleModel& vesicle) {
+  std::vector<MadeEffect> result;
+  for (const EffectRow& row : effect_table()) {
+    if (MadeEffect made = row.made == nullptr ? nullptr : row.made(model, vesicle)) result.push_back(std::move(made));
   }
   return result;
 }
@@ -44,24 +30,28 @@ std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model&
   return result;
 }
 
-std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model& model) {
-  std::vector<std::shared_ptr<const ExplicitEffect>> result;
-  if (model.flow) result.push_back(std::make_shared<LinearFlowEffect>(*model.flow));
+std::vector<MadeEffect> effects_on(const Model& model, const VesicleModel& vesicle) {
+  std::vector<MadeEffect> result = registered_effects(model, vesicle);
+  for (auto& effect : explicit_effects(model, vesicle)) result.push_back(std::move(effect));
+  return result;
+}
+
+std::vector<MadeEffect> effects_on_all(const Model& model) {
+  std::vector<MadeEffect> result;
   for (const VesicleModel& vesicle : model.vesicles) {
-    result.insert(result.end(), vesicle.effects.begin(), vesicle.effects.end());
+    for (MadeEffect& effect : effects_on(model, vesicle)) result.push_back(std::move(effect));
   }
-  result.insert(result.end(), model.effects.begin(), model.effects.end());
   return result;
 }
 
 std::vector<EffectDescription> effects_of(const Model& model) {
   std::vector<EffectDescription> result;
   for (const VesicleModel& vesicle : model.vesicles) {
-    for (EffectDescription& effect : implicit_effects(model, vesicle)) append(result, std::move(effect));
+    // Flows and forces move nothing where shapes are frozen.
+    for (const MadeEffect& effect : model.mobile ? effects_on(model, vesicle) : registered_effects(model, vesicle)) {
+      append(result, effect->description());
+    }
   }
-  if (!model.mobile) return result;
-  for (const auto& effect : explicit_effects(model)) append(result, effect->description());
-  if (model.contact) append(result, contact_description());
   return result;
 }
 
@@ -79,12 +69,14 @@ bool electric_inactive(const Model& model, const State& state, Limit limit) {
 }
 
 LayerSelection needed_layers(const Model& model, const VesicleModel& vesicle, bool electric_active) {
-  Model active = model;
-  if (!electric_active) active.electric.reset();
-  active.vesicles = {vesicle};
+  if (model.electric && !electric_active) {
+    Model without_field = model;
+    without_field.electric.reset();
+    return needed_layers(without_field, vesicle, false);
+  }
   LayerSelection result;
-  for (const EffectDescription& effect : effects_of(active)) {
-    for (const OperatorNeed& need : effect.operators) result.*need.layer = true;
+  for (const MadeEffect& effect : effects_on(model, vesicle)) {
+    for (const OperatorNeed& need : effect->description().operators) result.*need.layer = true;
   }
   // A frozen shape has no velocity.
   if (!model.mobile) result.stokes_single = false;
@@ -93,23 +85,15 @@ LayerSelection needed_layers(const Model& model, const VesicleModel& vesicle, bo
 
 std::optional<double> next_discontinuity(const Model& model, double time) {
   std::optional<double> result;
-  const auto add = [&](const std::optional<double>& discontinuity) {
-    if (discontinuity) result = std::min(*discontinuity, result.value_or(*discontinuity));
-  };
-  if (model.electric) add(model.electric->waveform.next_discontinuity(time));
-  for (const VesicleModel& vesicle : model.vesicles) {
-    if (vesicle.pump) add(vesicle.pump->next_discontinuity(time));
+  for (const MadeEffect& effect : effects_on_all(model)) {
+    const std::optional<double> next = effect->next_discontinuity(time);
+    if (next) result = std::min(*next, result.value_or(*next));
   }
-  for (const auto& effect : explicit_effects(model)) add(effect->next_discontinuity(time));
   return result;
 }
 
 bool jumps_at(const Model& model, double time) {
-  if (model.electric && model.electric->waveform.jumps_at(time)) return true;
-  const auto pump_jumps = [&](const VesicleModel& vesicle) { return vesicle.pump && vesicle.pump->jumps_at(time); };
-  if (std::any_of(model.vesicles.begin(), model.vesicles.end(), pump_jumps)) return true;
-  const auto effects = explicit_effects(model);
-  return std::any_of(effects.begin(), effects.end(), [&](const auto& effect) { return effect->jumps_at(time); });
+  return std::ranges::any_of(effects_on_all(model), [&](const MadeEffect& effect) { return effect->jumps_at(time); });
 }
 
 }  // namespace vehd

@@ -3,20 +3,21 @@
 #include <optional>
 #include <vector>
 
-#include "bie/physics/effect.hpp"
-#include "bie/stepping/state/model.hpp"
+#include "bie/physics/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
 /// What a step is composed of: everything here follows from which effects the model has.
 namespace vehd {
 
-/// Every effect that some vesicle has, implicit ones first, each once.
-std::vector<EffectDescription> effects_of(const Model& model);
-
-/// The effects that enter explicitly, those of all vesicles among them.
-std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model& model);
-/// Those that act on one vesicle.
+/// The effects on one vesicle: those of the effect_table, implicit ones first, and whatever else the model lists.
+std::vector<MadeEffect> effects_on(const Model& model, const VesicleModel& vesicle);
+/// Those on all vesicles, one after the other.
+std::vector<MadeEffect> effects_on_all(const Model& model);
+/// The effects on one vesicle that enter explicitly.
 std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model& model, const VesicleModel& vesicle);
+
+/// Every effect that some vesicle has in a step, each once.
+std::vector<EffectDescription> effects_of(const Model& model);
 
 /// Nothing electric needs to be done: no field and no V_m on any membrane, and no change of that before the next
 /// discontinuity of the waveform or, with Limit::before, at the time of the state and before a jump there.

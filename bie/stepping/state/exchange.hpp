@@ -2,9 +2,9 @@
 
 #include <type_traits>
 
+#include "bie/physics/model.hpp"
 #include "bie/sphere/exchange.hpp"
 #include "bie/stepping/state/field_table.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
 namespace vehd {

@@ -31,8 +31,7 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
     const auto parallel = [&](const Vector3& known) { return are_parallel(known, axis); };
     if (std::none_of(result.begin(), result.end(), parallel)) result.push_back(axis.normalized());
   };
-  if (model.electric) add(model.electric->field);
-  for (const auto& effect : explicit_effects(model)) {
+  for (const MadeEffect& effect : effects_on_all(model)) {
     for (const Vector3& axis : effect->axis_candidates()) add(axis);
   }
   for (const VesicleState& vesicle : state.vesicles) {
@@ -51,8 +50,8 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
 }
 
 bool is_same_everywhere(const Model& model) {
-  const auto effects = explicit_effects(model);
-  return std::all_of(effects.begin(), effects.end(), [](const auto& effect) { return effect->is_same_everywhere(); });
+  return std::ranges::all_of(effects_on_all(model),
+                             [](const MadeEffect& effect) { return effect->is_same_everywhere(); });
 }
 
 /// Mean over the parameter spheres.

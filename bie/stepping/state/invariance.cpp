@@ -11,29 +11,21 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-template <typename Difference, typename Field>
-bool is_small(const Eigen::MatrixBase<Difference>& difference, const Eigen::MatrixBase<Field>& field) {
-  return difference.cwiseAbs().maxCoeff() <= kRounding * field.cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
 int potential_sign(const Model& model, const Reflection& g) {
-  const auto effects = explicit_effects(model);
-  const auto is_invariant = [&](const auto& effect) { return effect->is_invariant_under(g); };
-  if (!std::all_of(effects.begin(), effects.end(), is_invariant)) return 0;
-  if (!model.electric) return 1;
-  const Vector3& field = model.electric->field;
-  const Vector3 image(g.x * field.x(), g.y * field.y(), g.z * field.z());
-  if (is_small(image - field, field)) return 1;
-  return is_small(image + field, field) ? -1 : 0;
+  bool is_reversed = false;
+  for (const MadeEffect& effect : effects_on_all(model)) {
+    const int sign = effect->potential_sign(g);
+    if (sign == 0) return 0;
+    is_reversed = is_reversed || sign < 0;
+  }
+  return is_reversed ? -1 : 1;
 }
 
 bool is_invariant_under_rotations(const Model& model) {
-  const auto effects = explicit_effects(model);
-  return (!model.electric || model.electric->field.head<2>().isZero(0.0)) &&
-         std::all_of(effects.begin(), effects.end(),
-                     [](const auto& effect) { return effect->is_invariant_under_rotations(); });
+  return std::ranges::all_of(effects_on_all(model),
+                             [](const MadeEffect& effect) { return effect->is_invariant_under_rotations(); });
 }
 
 bool are_same(const SurfaceFields& image, const SurfaceFields& fields) {

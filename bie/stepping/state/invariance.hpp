@@ -1,7 +1,7 @@
 #pragma once
 
+#include "bie/physics/model.hpp"
 #include "bie/sphere/reflection.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/surface_fields.hpp"
 
 /// What is its own image; deviations within 1e-12 of the size count as rounding.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "bie/physics/model.hpp"
 #include "bie/stepping/state/fields.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
 namespace vehd {

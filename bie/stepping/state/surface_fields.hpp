@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/membrane_material.hpp"
+#include "bie/physics/effects/membrane_material.hpp"
 #include "bie/physics/unknowns.hpp"
 
 namespace vehd {

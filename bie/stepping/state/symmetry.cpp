@@ -71,7 +71,6 @@ State symmetric_part(const Symmetry& symmetry, State state) {
 
 Symmetry find_symmetry(const Model& model, const State& state) {
   Symmetry result;
-  const auto effects = explicit_effects(model);
   for (int bits = 1; bits < 8; ++bits) {
     const Reflection g{bits & 1 ? -1 : 1, bits & 2 ? -1 : 1, bits & 4 ? -1 : 1};
     const int sign = potential_sign(model, g);
@@ -82,10 +81,8 @@ Symmetry find_symmetry(const Model& model, const State& state) {
   }
   Symmetry axis;
   axis.axisymmetric = true;
-  const bool field_is_axial = !model.electric || (model.electric->field.x() == 0.0 && model.electric->field.y() == 0.0);
-  const auto is_axisymmetric = [](const auto& effect) { return effect->is_axisymmetric(); };
-  result.axisymmetric =
-      field_is_axial && std::all_of(effects.begin(), effects.end(), is_axisymmetric) && has(axis, state);
+  const auto is_axisymmetric = [](const MadeEffect& effect) { return effect->is_axisymmetric(); };
+  result.axisymmetric = std::ranges::all_of(effects_on_all(model), is_axisymmetric) && has(axis, state);
   if (!result.axisymmetric) result.fold = find_fold(model, state);
   result.exchange = find_exchange(model, state);
   return result;

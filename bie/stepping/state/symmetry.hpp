@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
+#include "bie/physics/model.hpp"
 #include "bie/sphere/symmetry.hpp"
-#include "bie/stepping/state/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
 namespace vehd {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "bie/stepping/evaluation/diagnose.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"

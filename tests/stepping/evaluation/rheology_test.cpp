@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/gravity.hpp"
+#include "bie/physics/effects/gravity.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/state/rotated.hpp"
 #include "tests/support/several_runs.hpp"

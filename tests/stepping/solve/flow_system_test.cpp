@@ -2,8 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "bie/physics/bending.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "bie/stepping/solve/tension_solve.hpp"
 #include "tests/support/membrane.hpp"

@@ -1,8 +1,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/poiseuille_flow.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/poiseuille_flow.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"

@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "tests/support/membrane.hpp"

@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/tension.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "tests/stepping/stimson_jeffery.hpp"
 #include "tests/support/several.hpp"
 #include "tests/support/several_runs.hpp"

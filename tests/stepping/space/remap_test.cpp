@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "bie/physics/bending.hpp"
+#include "bie/physics/effects/bending.hpp"
 #include "tests/support/shapes.hpp"
 
 using namespace vehd;

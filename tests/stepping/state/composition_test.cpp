@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "bie/physics/gravity.hpp"
+#include "bie/physics/effects/gravity.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 

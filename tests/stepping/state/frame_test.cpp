@@ -2,8 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "bie/physics/gravity.hpp"
-#include "bie/physics/poiseuille_flow.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/poiseuille_flow.hpp"
 #include "bie/stepping/evaluation/lab_frame_output.hpp"
 #include "bie/stepping/state/rotated.hpp"
 #include "tests/support/runs.hpp"

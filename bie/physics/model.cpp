@@ -1,4 +1,4 @@
-#include "bie/stepping/state/model.hpp"
+#include "bie/physics/model.hpp"
 
 namespace vehd {
 

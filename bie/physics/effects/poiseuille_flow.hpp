@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/effects/effect.hpp"
 #include "bie/physics/waveform.hpp"
 
 namespace vehd {
@@ -20,6 +20,8 @@ struct PoiseuilleParameters {
 /// Accuracy: the written profile to 1e-12 (tests/physics/explicit_effects_test.cpp)
 class PoiseuilleFlowEffect : public ExplicitEffect {
  public:
+  static constexpr const char* kName = "Poiseuille flow";
+
   explicit PoiseuilleFlowEffect(PoiseuilleParameters parameters) : parameters_(std::move(parameters)) {}
 
   [[nodiscard]] EffectDescription description() const override;

@@ -1,11 +1,11 @@
-#include "bie/physics/poiseuille_flow.hpp"
+#include "bie/physics/effects/poiseuille_flow.hpp"
 
 #include "bie/physics/rotated.hpp"
 
 namespace vehd {
 
 EffectDescription PoiseuilleFlowEffect::description() const {
-  return {"Poiseuille flow", "v_inf = v_c (1 - (y^2 + z^2)/R^2) e_x on the right of Eq. (5)", {}, {}};
+  return {kName, "v_inf = v_c (1 - (y^2 + z^2)/R^2) e_x on the right of Eq. (5)", {}, {}};
 }
 
 void PoiseuilleFlowEffect::add(const EffectInput& input, Forcing& forcing) const {

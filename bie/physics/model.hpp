@@ -4,11 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "bie/physics/background_flow.hpp"
-#include "bie/physics/contact.hpp"
+#include "bie/physics/effects/background_flow.hpp"
+#include "bie/physics/effects/contact.hpp"
+#include "bie/physics/effects/poration.hpp"
 #include "bie/physics/parameters.hpp"
-#include "bie/physics/poration_criterion.hpp"
-#include "bie/physics/poration_reaction.hpp"
 
 namespace vehd {
 

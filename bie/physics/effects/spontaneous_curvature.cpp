@@ -1,12 +1,9 @@
-#include "bie/physics/spontaneous_curvature.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
 
 namespace vehd {
 
 EffectDescription SpontaneousCurvatureEffect::description() const {
-  return {"spontaneous curvature",
-          "f_c = -2 kappa_B c (K - c H) n",
-          {{&LayerSelection::stokes_single, "velocity of f_c, Eq. (5)"}},
-          {}};
+  return {kName, "f_c = -2 kappa_B c (K - c H) n", {{&LayerSelection::stokes_single, "velocity of f_c, Eq. (5)"}}, {}};
 }
 
 void SpontaneousCurvatureEffect::add(const EffectInput& input, Forcing& forcing) const {
@@ -14,11 +11,6 @@ void SpontaneousCurvatureEffect::add(const EffectInput& input, Forcing& forcing)
   const double c = parameters_.curvature;
   const Vector magnitude = -2.0 * parameters_.bending_modulus * c * (s.gauss_curvature - c * s.mean_curvature);
   forcing.force += magnitude.asDiagonal() * s.normal;
-}
-
-bool SpontaneousCurvatureEffect::is_same_as(const ExplicitEffect& other) const {
-  const auto* curvature = dynamic_cast<const SpontaneousCurvatureEffect*>(&other);
-  return curvature != nullptr && curvature->parameters_ == parameters_;
 }
 
 }  // namespace vehd

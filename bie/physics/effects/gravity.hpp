@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/effects/effect.hpp"
 
 namespace vehd {
 
@@ -18,6 +18,8 @@ struct GravityParameters {
 /// with the speed of Hadamard and Rybczynski or of Stokes to 1e-9 (tests/stepping/state/composition_test.cpp)
 class GravityEffect : public ExplicitEffect {
  public:
+  static constexpr const char* kName = "gravity";
+
   explicit GravityEffect(GravityParameters parameters) : parameters_(std::move(parameters)) {}
 
   [[nodiscard]] const GravityParameters& parameters() const { return parameters_; }
@@ -26,9 +28,10 @@ class GravityEffect : public ExplicitEffect {
   void add(const EffectInput& input, Forcing& forcing) const override;
   [[nodiscard]] bool is_invariant_under(const Reflection& g) const override;
   [[nodiscard]] bool is_axisymmetric() const override;
-  [[nodiscard]] bool is_same_as(const ExplicitEffect& other) const override;
+  [[nodiscard]] bool is_same_as(const ExplicitEffect& other) const override { return has_parameters_of(*this, other); }
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const override;
   [[nodiscard]] std::vector<Vector3> axis_candidates() const override;
+  [[nodiscard]] Vector3 weight() const override { return parameters_.density_difference * parameters_.acceleration; }
 
  private:
   GravityParameters parameters_;

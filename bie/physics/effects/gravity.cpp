@@ -1,12 +1,11 @@
-#include "bie/physics/gravity.hpp"
+#include "bie/physics/effects/gravity.hpp"
 
 #include "bie/physics/rotated.hpp"
 
 namespace vehd {
 
 EffectDescription GravityEffect::description() const {
-  return {
-      "gravity", "f_g = (rho_i - rho_e)(g.x) n", {{&LayerSelection::stokes_single, "velocity of f_g, Eq. (5)"}}, {}};
+  return {kName, "f_g = (rho_i - rho_e)(g.x) n", {{&LayerSelection::stokes_single, "velocity of f_g, Eq. (5)"}}, {}};
 }
 
 void GravityEffect::add(const EffectInput& input, Forcing& forcing) const {
@@ -26,11 +25,6 @@ bool GravityEffect::is_invariant_under(const Reflection& g) const {
 
 bool GravityEffect::is_axisymmetric() const {
   return parameters_.acceleration.x() == 0.0 && parameters_.acceleration.y() == 0.0;
-}
-
-bool GravityEffect::is_same_as(const ExplicitEffect& other) const {
-  const auto* gravity = dynamic_cast<const GravityEffect*>(&other);
-  return gravity != nullptr && gravity->parameters_ == parameters_;
 }
 
 std::shared_ptr<const ExplicitEffect> GravityEffect::rotated(const Matrix3& rotation) const {

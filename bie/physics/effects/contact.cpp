@@ -1,4 +1,4 @@
-#include "bie/physics/contact.hpp"
+#include "bie/physics/effects/contact.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "bie/physics/model.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
+
+constexpr const char* kContact = "contact";
 
 /// Beyond so many ranges the potential is below rounding.
 constexpr double kReach = 6.0;
@@ -140,11 +143,16 @@ double contact_energy(const ContactParameters& contact, const std::vector<Contac
   return 0.5 * sum;
 }
 
-EffectDescription contact_description() {
-  return {"contact",
-          "f_c = -dE/dx of E = sum of energy/(pi range^2) exp(-r^2/range^2) over both membranes",
-          {{&LayerSelection::stokes_single, "velocity of f_c, Eq. (5)"}},
-          {}};
+EffectRow contact_row() {
+  return {kContact,
+          [](const Model& model, const VesicleModel&) -> MadeEffect {
+            if (!model.mobile || !model.contact) return nullptr;
+            return described({kContact,
+                              "f_c = -dE/dx of E = sum of energy/(pi range^2) exp(-r^2/range^2) over both membranes",
+                              {{&LayerSelection::stokes_single, "velocity of f_c, Eq. (5)"}},
+                              {}});
+          },
+          [](Model& model, VesicleModel&) { model.contact.reset(); }};
 }
 
 }  // namespace vehd

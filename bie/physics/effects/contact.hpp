@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/effects/effect.hpp"
 #include "bie/physics/membrane.hpp"
 
 namespace vehd {
@@ -31,7 +31,6 @@ std::vector<Matrix> contact_forces(const ContactParameters& contact, const std::
 /// Accuracy: as the forces
 double contact_energy(const ContactParameters& contact, const std::vector<ContactMembrane>& membranes);
 
-/// What the potential asks of a step.
-EffectDescription contact_description();
+EffectRow contact_row();
 
 }  // namespace vehd

@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-struct EffectDescription;
+struct EffectRow;
 
 /// Fluids of different viscosity inside and outside.
 struct ViscosityContrastParameters {
@@ -64,7 +64,6 @@ struct ContrastSpectrum {
 /// At n = 0 there is only V, the expansion: its entry is max(1, ratio), see ViscosityContrast; the others are 1.
 ContrastSpectrum contrast_spectrum(double ratio, int n);
 
-/// What a viscosity contrast asks of a step.
-EffectDescription viscosity_contrast_description();
+EffectRow viscosity_contrast_row();
 
 }  // namespace vehd

@@ -1,4 +1,4 @@
-#include "bie/physics/viscosity_contrast.hpp"
+#include "bie/physics/effects/viscosity_contrast.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/model.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
 
 namespace {
+
+constexpr const char* kViscosityContrast = "viscosity contrast";
 
 /// Orthonormal basis of the translations and rotations among the unknowns.
 Matrix rigid_motions(const Matrix& position, double radius, const std::vector<Index>& entries) {
@@ -96,11 +98,16 @@ ContrastSpectrum contrast_spectrum(double ratio, int n) {
   return {mean - contrast / (2.0 * n + 3.0), mean + contrast / (2.0 * n - 1.0), mean + contrast};
 }
 
-EffectDescription viscosity_contrast_description() {
-  return {"viscosity contrast",
-          "(1 + ratio)/2 v - (1 - ratio) D[v] = v_inf + S[f]/mu in place of Eq. (5)",
-          {{&LayerSelection::stokes_double, "D of the velocity map"}},
-          {}};
+EffectRow viscosity_contrast_row() {
+  return {kViscosityContrast,
+          [](const Model& model, const VesicleModel& vesicle) -> MadeEffect {
+            if (!model.mobile || vesicle.viscosity_ratio == 1.0) return nullptr;
+            return described({kViscosityContrast,
+                              "(1 + ratio)/2 v - (1 - ratio) D[v] = v_inf + S[f]/mu in place of Eq. (5)",
+                              {{&LayerSelection::stokes_double, "D of the velocity map"}},
+                              {}});
+          },
+          [](Model&, VesicleModel& vesicle) { vesicle.viscosity_ratio = 1.0; }};
 }
 
 }  // namespace vehd

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/effects/effect.hpp"
 #include "bie/physics/waveform.hpp"
 #include "bie/support/types.hpp"
 
@@ -43,5 +43,8 @@ class LinearFlowEffect : public ExplicitEffect {
  private:
   BackgroundFlow flow_;
 };
+
+/// Of the flow of a model, which is none of its lists: it is made where these are read (explicit_effects).
+EffectRow background_flow_row();
 
 }  // namespace vehd

@@ -1,9 +1,16 @@
-#include "bie/physics/background_flow.hpp"
+#include "bie/physics/effects/background_flow.hpp"
 
+#include "bie/physics/model.hpp"
 #include "bie/physics/rotated.hpp"
 #include "bie/sphere/principal_axes.hpp"
 
 namespace vehd {
+
+namespace {
+
+constexpr const char* kBackgroundFlow = "background flow";
+
+}  // namespace
 
 BackgroundFlow shear_flow(double rate) {
   BackgroundFlow flow;
@@ -24,8 +31,12 @@ BackgroundFlow axisymmetric_extension(double rate) {
   return flow;
 }
 
+EffectRow background_flow_row() {
+  return {kBackgroundFlow, nullptr, [](Model& model, VesicleModel&) { model.flow.reset(); }};
+}
+
 EffectDescription LinearFlowEffect::description() const {
-  return {"background flow", "v_inf = gradient x on the right of Eq. (5)", {}, {}};
+  return {kBackgroundFlow, "v_inf = gradient x on the right of Eq. (5)", {}, {}};
 }
 
 void LinearFlowEffect::add(const EffectInput& input, Forcing& forcing) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/effects/effect.hpp"
 #include "bie/physics/membrane.hpp"
 
 namespace vehd {
@@ -20,7 +20,6 @@ Matrix tension_force(const Membrane& membrane, const Vector& tension);
 /// Source: paper Eqs. (1e), (27b)
 Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& velocity);
 
-/// What inextensibility asks of a step.
-EffectDescription tension_description();
+EffectRow tension_row();
 
 }  // namespace vehd

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/effect.hpp"
+#include "bie/physics/effects/effect.hpp"
 
 namespace vehd {
 
@@ -17,6 +17,8 @@ struct SpontaneousCurvatureParameters {
 /// Accuracy: spectral; with bending the slope of the energy to 1e-5 (tests/physics/explicit_effects_test.cpp)
 class SpontaneousCurvatureEffect : public ExplicitEffect {
  public:
+  static constexpr const char* kName = "spontaneous curvature";
+
   explicit SpontaneousCurvatureEffect(SpontaneousCurvatureParameters parameters) : parameters_(parameters) {}
 
   [[nodiscard]] const SpontaneousCurvatureParameters& parameters() const { return parameters_; }
@@ -26,7 +28,8 @@ class SpontaneousCurvatureEffect : public ExplicitEffect {
   [[nodiscard]] bool is_invariant_under(const Reflection&) const override { return true; }
   [[nodiscard]] bool is_axisymmetric() const override { return true; }
   [[nodiscard]] bool is_same_everywhere() const override { return true; }
-  [[nodiscard]] bool is_same_as(const ExplicitEffect& other) const override;
+  [[nodiscard]] bool is_same_as(const ExplicitEffect& other) const override { return has_parameters_of(*this, other); }
+  [[nodiscard]] double spontaneous_curvature() const override { return parameters_.curvature; }
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3&) const override {
     return std::make_shared<SpontaneousCurvatureEffect>(parameters_);
   }

@@ -1,0 +1,43 @@
+#include "bie/physics/effects/bending.hpp"
+#include "bie/physics/effects/electric_field.hpp"
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/physics/effects/poiseuille_flow.hpp"
+#include "bie/physics/effects/spontaneous_curvature.hpp"
+#include "bie/physics/effects/tension.hpp"
+#include "bie/physics/model.hpp"
+
+namespace vehd {
+
+namespace {
+
+class DescribedEffect : public Effect {
+ public:
+  explicit DescribedEffect(EffectDescription description) : description_(std::move(description)) {}
+  [[nodiscard]] EffectDescription description() const override { return description_; }
+
+ private:
+  EffectDescription description_;
+};
+
+}  // namespace
+
+MadeEffect described(EffectDescription description) {
+  return std::make_shared<DescribedEffect>(std::move(description));
+}
+
+std::vector<EffectRow> effect_table() {
+  return {bending_row(),
+          tension_row(),
+          viscosity_contrast_row(),
+          applied_field_row(),
+          poration_row(),
+          spatial_variation_row(),
+          pump_row(),
+          background_flow_row(),
+          {SpontaneousCurvatureEffect::kName},
+          {GravityEffect::kName},
+          {PoiseuilleFlowEffect::kName},
+          contact_row()};
+}
+
+}  // namespace vehd
