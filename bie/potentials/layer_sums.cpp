@@ -34,7 +34,7 @@ void weigh_densities(const NodeColumns& columns, Index n_nodes, Index stride, do
   }
 }
 
-void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayerSums& sums) {
+void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayersAt& sums) {
   const double* px = nodes.column(columns.position);
   const double* py = nodes.column(columns.position + 1);
   const double* pz = nodes.column(columns.position + 2);
@@ -60,8 +60,8 @@ void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Ve
       angle += kernel;
       potential += kernel * f[i];
     }
-    sums.solid_angle += angle;
-    if (columns.double_layer >= 0) sums.double_layer += potential;
+    sums.enclosure += angle;
+    if (columns.double_layer >= 0) sums.of[LayersAt::double_layer][0] += potential;
   }
   if (columns.single >= 0) {
     const double* f = nodes.column(columns.single);
@@ -76,8 +76,8 @@ void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Ve
       sy += field * r.y;
       sz += field * r.z;
     }
-    sums.single += s;
-    if (columns.single_gradient) sums.single_gradient -= Vector3(sx, sy, sz);
+    sums.of[LayersAt::single][0] += s;
+    if (columns.single_gradient) sums.of[LayersAt::single_gradient] -= Vector3(sx, sy, sz);
   }
   if (columns.double_1 >= 0) {
     const double* f1 = nodes.column(columns.double_1);
@@ -95,7 +95,7 @@ void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Ve
       gy += kernel * (r.z * wx - r.x * wz);
       gz += kernel * (r.x * wy - r.y * wx);
     }
-    sums.double_gradient -= Vector3(gx, gy, gz);
+    sums.of[LayersAt::double_gradient] -= Vector3(gx, gy, gz);
   }
   if (columns.stokes >= 0) {
     const double* fx = nodes.column(columns.stokes);
@@ -110,7 +110,7 @@ void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Ve
       sy += weight[i] * (g[1] * fx[i] + g[3] * fy[i] + g[4] * fz[i]);
       sz += weight[i] * (g[2] * fx[i] + g[4] * fy[i] + g[5] * fz[i]);
     }
-    sums.stokes += Vector3(sx, sy, sz);
+    sums.of[LayersAt::stokes] += Vector3(sx, sy, sz);
   }
   if (columns.stokes_double >= 0) {
     const double* fx = nodes.column(columns.stokes_double);
@@ -127,7 +127,7 @@ void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Ve
       sy += weight[i] * (k[1] * fx[i] + k[3] * fy[i] + k[4] * fz[i]);
       sz += weight[i] * (k[2] * fx[i] + k[4] * fy[i] + k[5] * fz[i]);
     }
-    sums.stokes_double += Vector3(sx, sy, sz);
+    sums.of[LayersAt::stokes_double] += Vector3(sx, sy, sz);
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -17,15 +19,22 @@ struct NodeColumns {
   bool plain = false;  ///< densities of the single layers are f until weigh_densities()
 };
 
-/// Integrals over the membrane for one target, without prefactors.
-struct LayerSums {
-  double single = 0.0;                        ///< ∫ (J f)/|r| dω
-  Vector3 single_gradient = Vector3::Zero();  ///< −∫ (J f) r/|r|³ dω
-  double double_layer = 0.0;                  ///< ∫ f r·J n/|r|³ dω
-  Vector3 double_gradient = Vector3::Zero();  ///< −∫ r/|r|³ × (J n×∇_γ f) dω
-  Vector3 stokes = Vector3::Zero();           ///< ∫ (I/|r| + r rᵀ/|r|³)(J f) dω
-  Vector3 stokes_double = Vector3::Zero();    ///< ∫ r rᵀ v r·J n/|r|⁵ dω
-  double solid_angle = 0.0;                   ///< ∫ r·J n/|r|³ dω: −4π inside, 0 outside
+/// The layers at one target. Scalar ones are first components.
+struct LayersAt {
+  enum Layer : std::size_t {
+    single,           ///< ∫ (J f)/|r| dω
+    single_gradient,  ///< −∫ (J f) r/|r|³ dω
+    double_layer,     ///< ∫ f r·J n/|r|³ dω
+    double_gradient,  ///< −∫ r/|r|³ × (J n×∇_γ f) dω
+    stokes,           ///< ∫ (I/|r| + r rᵀ/|r|³)(J f) dω
+    stokes_double,    ///< ∫ r rᵀ v r·J n/|r|⁵ dω
+    count
+  };
+  /// Without prefactors in sums, with them elsewhere.
+  std::array<Vector3, count> of;
+  double enclosure = 0.0;  ///< ∫ r·J n/|r|³ dω, with its prefactor D[1]
+
+  LayersAt() { of.fill(Vector3::Zero()); }
 };
 
 /// Quadrature nodes in columns of equal stride.
@@ -46,6 +55,6 @@ void weigh_densities(const NodeColumns& columns, Index n_nodes, Index stride, do
 /// @param offset  target minus origin of the positions in the block, so that near targets lose no digits
 /// Accuracy: rounding of the sums; vectorised, equal bits for any count of threads
 /// Source: paper Eqs. (6), (8); ∇D in the form ∫ ∇G × (n×∇_γ f) dA, as paper Eq. (24)
-void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayerSums& sums);
+void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayersAt& sums);
 
 }  // namespace vehd

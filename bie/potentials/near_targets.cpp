@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 
 #include "bie/potentials/near_rule.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -114,30 +114,18 @@ struct NearRowMaker {
   [[nodiscard]] Matrix rows(const std::vector<Index>& near) const {
     const Index n = static_cast<Index>(near.size());
     Matrix result(at.source.rows(), n * columns.count);
-    std::vector<std::exception_ptr> exceptions(near.size());
-    const auto guarded = [&exceptions](Index i, const auto& work) {
-      try {
-        work();
-      } catch (...) {
-        exceptions[i] = std::current_exception();
-      }
-    };
-    const auto rethrow = [&exceptions] {
-      for (const std::exception_ptr& exception : exceptions) {
-        if (exception) std::rethrow_exception(exception);
-      }
-    };
+    Exceptions exceptions(n);
     // Targets that are looked for together: enough to fill registers, few enough for all threads to have some.
     constexpr Index kTogether = 16;
     const Index n_batches = (n + kTogether - 1) / kTogether;
     std::vector<std::vector<NearTarget>> batches(static_cast<std::size_t>(n_batches));
 #pragma omp parallel for schedule(dynamic, 1)
     for (Index i = 0; i < n_batches; ++i) {
-      guarded(i, [&] {
+      exceptions.keep(i, [&] {
         batches[i] = locate({near.begin() + i * kTogether, near.begin() + std::min(n, (i + 1) * kTogether)});
       });
     }
-    rethrow();
+    exceptions.rethrow_first();
 
     std::map<NearRule, std::vector<NearTarget>> groups;
     for (const std::vector<NearTarget>& batch : batches) {
@@ -151,7 +139,7 @@ struct NearRowMaker {
 #pragma omp parallel for schedule(dynamic, 1)
       for (Index i = 0; i < n_members; ++i) {
         const Index place = std::lower_bound(near.begin(), near.end(), members[i].index) - near.begin();
-        guarded(place, [&] {
+        exceptions.keep(place, [&] {
           const auto known = settled.rows.find(static_cast<std::size_t>(i));
           const NearRows found = known != settled.rows.end() ? known->second : rows_by(settled, members[i]);
           // A solid angle that is off betrays another part of the membrane that no node has seen.
@@ -163,7 +151,7 @@ struct NearRowMaker {
           result.middleCols(place * columns.count, columns.count) = found.rows.transpose();
         });
       }
-      rethrow();
+      exceptions.rethrow_first();
     }
     return result;
   }

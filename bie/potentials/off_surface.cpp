@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/point_derivatives.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 
@@ -39,8 +39,8 @@ struct FreeTarget {
   NearRule rule;
   Side side = Side::exterior;
   double distance = 0.0;
-  TargetValues values;
-  LayerSizes last_change;
+  LayersAt values;
+  LayerSizes last_change{};
   bool resolved = false;
 };
 
@@ -108,18 +108,20 @@ struct OffSurfaceLayers::Data {
   }
 
   /// Values from the sums about the foot point.
-  [[nodiscard]] TargetValues near_values(const FreeTarget& target, const TargetFrame& frame,
-                                         const FootDensities& at_foot, const LayerSums& sums) const {
-    TargetValues v = with_prefactors(sums);
-    if (fields.double_layer >= 0) v.double_layer += frame.pole()[fields.double_layer] * enclosure_of(target.side);
+  [[nodiscard]] LayersAt near_values(const FreeTarget& target, const TargetFrame& frame, const FootDensities& at_foot,
+                                     const LayersAt& sums) const {
+    LayersAt v = with_prefactors(sums);
+    if (fields.double_layer >= 0)
+      v.of[LayersAt::double_layer][0] += frame.pole()[fields.double_layer] * enclosure_of(target.side);
     if (fields.stokes_double >= 0) {
-      v.stokes_double += frame.pole().segment<3>(fields.stokes_double).transpose() * enclosure_of(target.side);
+      v.of[LayersAt::stokes_double] +=
+          frame.pole().segment<3>(fields.stokes_double).transpose() * enclosure_of(target.side);
     }
     if (target.on_membrane) {
       // The sums are principal values there; the interior limits add ½ f n to ∇S and −½ ∇_γ f to ∇D.
       const double jump = enclosure_of(Side::principal_value) - enclosure_of(target.side);
-      v.single_gradient += jump * at_foot.single * target.foot.normal;
-      v.double_gradient -= jump * at_foot.surface_gradient;
+      v.of[LayersAt::single_gradient] += jump * at_foot.single * target.foot.normal;
+      v.of[LayersAt::double_gradient] -= jump * at_foot.surface_gradient;
     }
     return v;
   }
@@ -131,7 +133,7 @@ struct OffSurfaceLayers::Data {
     const Vector3 offset = target.on_membrane ? Vector3::Zero() : Vector3(target.point - target.foot.position);
     Index nodes = 0;
     for (const GradedRule& r : rules) {
-      const TargetValues next = near_values(target, frame, at_foot, frame.integrate(r, offset));
+      const LayersAt next = near_values(target, frame, at_foot, frame.integrate(r, offset));
       nodes += r.n_nodes();
       if (!first) {
         target.last_change = change(next, target.values);
@@ -157,57 +159,48 @@ OffSurfaceLayers& OffSurfaceLayers::operator=(OffSurfaceLayers&&) noexcept = def
 
 namespace {
 
-void rethrow_first(const std::vector<std::exception_ptr>& exceptions) {
-  for (const std::exception_ptr& exception : exceptions) {
-    if (exception) std::rethrow_exception(exception);
-  }
+/// A layer: whether it was requested, and where its values go.
+struct RequestedLayer {
+  bool requested;
+  LayerField OffSurfaceValues::*field;
+  Index components;
+  const char* kernel;  ///< as instruments name it
+};
+
+/// In the order of LayersAt.
+std::array<RequestedLayer, LayersAt::count> layers_of(const NodeColumns& columns) {
+  using Values = OffSurfaceValues;
+  return {{{columns.single >= 0, &Values::laplace_single, 1, "laplace_single"},
+           {columns.single_gradient, &Values::laplace_single_gradient, 3, "laplace_single_gradient"},
+           {columns.double_layer >= 0, &Values::laplace_double, 1, "laplace_double"},
+           {columns.double_1 >= 0, &Values::laplace_double_gradient, 3, "laplace_double_gradient"},
+           {columns.stokes >= 0, &Values::stokes_single, 3, "stokes_single"},
+           {columns.stokes_double >= 0, &Values::stokes_double, 3, "stokes_double"}}};
 }
 
 OffSurfaceValues collect(const std::vector<FreeTarget>& targets, const NodeColumns& columns) {
-  const Index n = static_cast<Index>(targets.size());
+  const Index n = std::ssize(targets);
   OffSurfaceValues out;
-  const auto prepare = [n](LayerField& field, bool wanted, Index components) {
-    field.values.resize(wanted ? n : 0, wanted ? components : 0);
-    field.error.resize(wanted ? n : 0);
-  };
-  prepare(out.laplace_single, columns.single >= 0, 1);
-  prepare(out.laplace_single_gradient, columns.single_gradient, 3);
-  prepare(out.laplace_double, columns.double_layer >= 0, 1);
-  prepare(out.laplace_double_gradient, columns.double_1 >= 0, 3);
-  prepare(out.stokes_single, columns.stokes >= 0, 3);
-  prepare(out.stokes_double, columns.stokes_double >= 0, 3);
+  const auto layers = layers_of(columns);
+  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+    if (!layers[layer].requested) continue;
+    LayerField& field = out.*layers[layer].field;
+    field.values.resize(n, layers[layer].components);
+    field.error.resize(n);
+    for (Index i = 0; i < n; ++i) {
+      field.values.row(i) = targets[i].values.of[layer].head(field.values.cols()).transpose();
+      field.error[i] = targets[i].last_change[layer];
+    }
+  }
   out.side.resize(targets.size());
   out.distance.resize(n);
   out.resolved.resize(n);
-  const auto put = [](LayerField& field, Index i, const auto& value, double error) {
-    if (field.values.rows() == 0) return;
-    field.values.row(i) = value;
-    field.error[i] = error;
-  };
   for (Index i = 0; i < n; ++i) {
-    const FreeTarget& t = targets[i];
-    const Eigen::Matrix<double, 1, 1> single(t.values.single);
-    const Eigen::Matrix<double, 1, 1> double_layer(t.values.double_layer);
-    put(out.laplace_single, i, single, t.last_change.single);
-    put(out.laplace_single_gradient, i, t.values.single_gradient.transpose(), t.last_change.single_gradient);
-    put(out.laplace_double, i, double_layer, t.last_change.double_layer);
-    put(out.laplace_double_gradient, i, t.values.double_gradient.transpose(), t.last_change.double_gradient);
-    put(out.stokes_single, i, t.values.stokes.transpose(), t.last_change.stokes);
-    put(out.stokes_double, i, t.values.stokes_double.transpose(), t.last_change.stokes_double);
-    out.side[i] = t.side;
-    out.distance[i] = t.distance;
-    out.resolved[i] = t.resolved;
+    out.side[i] = targets[i].side;
+    out.distance[i] = targets[i].distance;
+    out.resolved[i] = targets[i].resolved;
   }
   return out;
-}
-
-void count(Instruments& instruments, const NodeColumns& columns, std::uint64_t evaluations) {
-  if (columns.single >= 0) instruments.count_kernel("laplace_single", evaluations);
-  if (columns.single_gradient) instruments.count_kernel("laplace_single_gradient", evaluations);
-  if (columns.double_layer >= 0) instruments.count_kernel("laplace_double", evaluations);
-  if (columns.double_1 >= 0) instruments.count_kernel("laplace_double_gradient", evaluations);
-  if (columns.stokes >= 0) instruments.count_kernel("stokes_single", evaluations);
-  if (columns.stokes_double >= 0) instruments.count_kernel("stokes_double", evaluations);
 }
 
 }  // namespace
@@ -218,20 +211,18 @@ OffSurfaceValues OffSurfaceLayers::evaluate(const Matrix& points, Side side, Ins
   const Data& data = *data_;
   const Index n = points.rows();
   std::vector<FreeTarget> targets(n);
-  std::vector<std::exception_ptr> exceptions(n);
+  Exceptions exceptions(n);
   std::uint64_t evaluations = 0;
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : evaluations)
   for (Index i = 0; i < n; ++i) {
-    try {
+    exceptions.keep(i, [&] {
       FreeTarget& target = targets[i];
       target.point = points.row(i).transpose();
       evaluations += data.try_far(target);
       if (target.near) data.locate(target, side);
-    } catch (...) {
-      exceptions[i] = std::current_exception();
-    }
+    });
   }
-  rethrow_first(exceptions);
+  exceptions.rethrow_first();
 
   // Targets that share the tables of their rules.
   for (int stage = 1; stage < data.settings.max_rules; ++stage) {
@@ -250,7 +241,9 @@ OffSurfaceValues OffSurfaceLayers::evaluate(const Matrix& points, Side side, Ins
     }
     if (groups.empty()) break;
   }
-  count(instruments, data.fields.columns, evaluations);
+  for (const RequestedLayer& layer : layers_of(data.fields.columns)) {
+    if (layer.requested) instruments.count_kernel(layer.kernel, evaluations);
+  }
   return collect(targets, data.fields.columns);
 }
 

@@ -69,8 +69,8 @@ SmoothGrid make_smooth_grid(const LayerFields& fields, const SphereTransform& tr
   return smooth;
 }
 
-LayerSums smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const Vector3& target) {
-  LayerSums sums;
+LayersAt smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const Vector3& target) {
+  LayersAt sums;
   add_layer_sums(columns, {grid.nodes.data(), grid.n_nodes(), grid.n_nodes(), grid.weight.data()}, target, sums);
   return sums;
 }

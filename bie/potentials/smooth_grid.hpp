@@ -26,7 +26,7 @@ SmoothGrid make_smooth_grid(const LayerFields& fields, const SphereTransform& tr
 /// Sums of the smooth rule: error about exp(−2π distance/spacing).
 /// @param target  off the surface, in the coordinates of the grid
 /// Source: paper Eq. (22); error of the trapezoidal rule near a singularity: Trefethen and Weideman 2014
-LayerSums smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const Vector3& target);
+LayersAt smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const Vector3& target);
 
 /// √(area/4π).
 double mean_radius(const SmoothGrid& grid);

@@ -133,10 +133,10 @@ RowMatrix TargetFrame::rotated_back(const std::vector<RowMatrix>& rotated) const
   return result;
 }
 
-LayerSums TargetFrame::integrate(const GradedRule& rule, const Vector3& offset) const {
+LayersAt TargetFrame::integrate(const GradedRule& rule, const Vector3& offset) const {
   const Index n_theta = rule.theta.size();
   const RowMatrix values = nodes(rule);
-  LayerSums sums;
+  LayersAt sums;
   for (int k = 0; k < rule.n_phi; ++k) {
     add_layer_sums(fields_.columns, {values.row(k).data(), n_theta, n_theta, rule.weight.data()}, offset, sums);
   }

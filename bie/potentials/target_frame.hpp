@@ -32,7 +32,7 @@ class TargetFrame {
 
   /// Sums over the nodes of a rule for a target at `offset` from the position of the pole. The double layers are those
   /// of f − f(pole): the rest of D is the caller's.
-  [[nodiscard]] LayerSums integrate(const GradedRule& rule, const Vector3& offset) const;
+  [[nodiscard]] LayersAt integrate(const GradedRule& rule, const Vector3& offset) const;
 
  private:
   /// Amplitudes of cos mψ and sin mψ on the circles of the rule, [2 order + 1 x filled_up(columns * n_theta)].

@@ -8,16 +8,14 @@
 
 namespace vehd {
 
-TargetValues with_prefactors(const LayerSums& sums) {
-  TargetValues v;
-  v.single = kLaplacePrefactor * sums.single;
-  v.single_gradient = kLaplacePrefactor * sums.single_gradient;
-  v.double_layer = kLaplacePrefactor * sums.double_layer;
-  v.double_gradient = kLaplacePrefactor * sums.double_gradient;
-  v.stokes = stokes_single_layer_prefactor(1.0) * sums.stokes;
-  v.stokes_double = kStokesDoubleLayerPrefactor * sums.stokes_double;
-  v.enclosure = kLaplacePrefactor * sums.solid_angle;
-  return v;
+LayersAt with_prefactors(LayersAt sums) {
+  for (std::size_t layer = 0; layer < LayersAt::count; ++layer) {
+    sums.of[layer] *= layer == LayersAt::stokes          ? stokes_single_layer_prefactor(1.0)
+                      : layer == LayersAt::stokes_double ? kStokesDoubleLayerPrefactor
+                                                         : kLaplacePrefactor;
+  }
+  sums.enclosure *= kLaplacePrefactor;
+  return sums;
 }
 
 double enclosure_of(Side side) {
@@ -32,48 +30,43 @@ double enclosure_of(Side side) {
   return -0.5;
 }
 
-LayerSizes change(const TargetValues& a, const TargetValues& b) {
-  return {std::abs(a.single - b.single),
-          std::abs(a.double_layer - b.double_layer),
-          (a.single_gradient - b.single_gradient).norm(),
-          (a.double_gradient - b.double_gradient).norm(),
-          (a.stokes - b.stokes).norm(),
-          (a.stokes_double - b.stokes_double).norm()};
+LayerSizes change(const LayersAt& a, const LayersAt& b) {
+  LayerSizes sizes{};
+  for (std::size_t layer = 0; layer < sizes.size(); ++layer) sizes[layer] = (a.of[layer] - b.of[layer]).norm();
+  return sizes;
 }
 
 LayerSizes density_sizes(const SmoothGrid& grid, const NodeColumns& columns) {
   const double radius = mean_radius(grid);
   const Vector area = grid.area_vectors.rowwise().norm();
-  LayerSizes sizes;
+  LayerSizes sizes{};
   if (columns.single >= 0) {
-    sizes.single_gradient = grid.nodes.col(columns.single).cwiseQuotient(area).cwiseAbs().maxCoeff();
-    sizes.single = radius * sizes.single_gradient;
+    sizes[LayersAt::single_gradient] = grid.nodes.col(columns.single).cwiseQuotient(area).cwiseAbs().maxCoeff();
+    sizes[LayersAt::single] = radius * sizes[LayersAt::single_gradient];
   }
-  if (columns.double_layer >= 0) sizes.double_layer = grid.nodes.col(columns.double_layer).cwiseAbs().maxCoeff();
+  if (columns.double_layer >= 0)
+    sizes[LayersAt::double_layer] = grid.nodes.col(columns.double_layer).cwiseAbs().maxCoeff();
   if (columns.double_1 >= 0) {
     for (Index i = 0; i < area.size(); ++i) {
       const auto node = grid.nodes.row(i);
       const Vector3 rotated_gradient = (node[columns.double_1] * node.segment<3>(columns.tangent_2) -
                                         node[columns.double_2] * node.segment<3>(columns.tangent_1))
                                            .transpose();
-      sizes.double_gradient = std::max(sizes.double_gradient, rotated_gradient.norm() / area[i]);
+      sizes[LayersAt::double_gradient] = std::max(sizes[LayersAt::double_gradient], rotated_gradient.norm() / area[i]);
     }
   }
   if (columns.stokes >= 0) {
     const Vector weighted = grid.nodes.middleCols(columns.stokes, 3).rowwise().norm();
-    sizes.stokes = radius * weighted.cwiseQuotient(area).maxCoeff();
+    sizes[LayersAt::stokes] = radius * weighted.cwiseQuotient(area).maxCoeff();
   }
   if (columns.stokes_double >= 0) {
-    sizes.stokes_double = grid.nodes.middleCols(columns.stokes_double, 3).rowwise().norm().maxCoeff();
+    sizes[LayersAt::stokes_double] = grid.nodes.middleCols(columns.stokes_double, 3).rowwise().norm().maxCoeff();
   }
   return sizes;
 }
 
 bool is_small(const LayerSizes& change, const LayerSizes& sizes, double tolerance) {
-  return change.single <= tolerance * sizes.single && change.double_layer <= tolerance * sizes.double_layer &&
-         change.single_gradient <= tolerance * sizes.single_gradient &&
-         change.double_gradient <= tolerance * sizes.double_gradient && change.stokes <= tolerance * sizes.stokes &&
-         change.stokes_double <= tolerance * sizes.stokes_double;
+  return std::ranges::equal(change, sizes, [=](double moved, double size) { return moved <= tolerance * size; });
 }
 
 }  // namespace vehd
