@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bie/potentials/axis_translation.hpp"
-#include "bie/potentials/moment_sums.hpp"
-#include "bie/potentials/shared_transforms.hpp"
+#include "bie/potentials/smooth_grid.hpp"
+#include "bie/potentials/solid_harmonics.hpp"
 #include "bie/support/ranks/shares.hpp"
 
 namespace vehd {

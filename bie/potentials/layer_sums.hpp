@@ -6,6 +6,9 @@
 
 namespace vehd {
 
+/// Which limit a potential takes at a point on the membrane. Points off the membrane stand on a side of their own.
+enum class Side { interior, exterior, principal_value };
+
 /// Where each field stands among the columns of a block of quadrature nodes: the position y, its tangents y_1, y_2 in
 /// the frame of the unit sphere, and what the wanted layers need of their densities. −1: absent.
 struct NodeColumns {
@@ -56,5 +59,27 @@ void weigh_densities(const NodeColumns& columns, Index n_nodes, Index stride, do
 /// Accuracy: rounding of the sums; vectorised, equal bits for any count of threads
 /// Source: paper Eqs. (6), (8); ∇D in the form ∫ ∇G × (n×∇_γ f) dA, as paper Eq. (24)
 void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayersAt& sums);
+
+/// Densities as spherical-harmonic coefficients of the order of the surface; an empty one costs nothing.
+struct LayerDensities {
+  Vector laplace_single;   ///< J f, or f where `plain`, [n_coefficients]
+  Vector laplace_double;   ///< f, [n_coefficients]
+  Matrix stokes_single;    ///< likewise, [n_coefficients x 3]
+  Matrix stokes_double;    ///< v, [n_coefficients x 3]
+  bool gradients = false;  ///< of the Laplace layers
+  bool plain = false;      ///< J is multiplied at the nodes, so that nothing of J f is cut to degree p
+};
+
+/// Position and densities side by side: what is rotated and synthesised together, and which node columns follow.
+struct LayerFields {
+  Matrix coefficients;  ///< [n_coefficients x fields], the position first
+  /// First field of each density, −1 if absent.
+  int single = -1, double_layer = -1, stokes = -1, stokes_double = -1;
+  NodeColumns columns;
+};
+
+/// @throws ShapeError if a density does not match the order of the position
+/// @param position  coefficients of x, [n_coefficients x 3]
+LayerFields make_layer_fields(const Matrix& position, const LayerDensities& densities);
 
 }  // namespace vehd

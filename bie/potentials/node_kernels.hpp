@@ -36,10 +36,19 @@ class NodeKernels {
 
   /// @param kernels  must outlive this
   /// @param chunk    targets at a time, a multiple of kLanes
-  NodeKernels(const KernelColumns& kernels, int chunk);
+  NodeKernels(const KernelColumns& kernels, int chunk)
+      : kernels_(kernels), chunk_(chunk), targets_(static_cast<std::size_t>(6 * chunk)) {}
 
   /// The targets that follow; as many as the chunk.
-  void set_targets(std::span<const Target> targets);
+  void set_targets(std::span<const Target> targets) {
+    for (Index t = 0; t < chunk_; ++t) {
+      const Target& target = targets[static_cast<std::size_t>(t)];
+      for (Index i = 0; i < 3; ++i) {
+        targets_[static_cast<std::size_t>(i * chunk_ + t)] = target.position[i];
+        targets_[static_cast<std::size_t>((i + 3) * chunk_ + t)] = target.area_vector[i];
+      }
+    }
+  }
   /// @param first   of the targets that the lanes stand for
   /// @param weight  of the quadrature
   template <int kWidth>

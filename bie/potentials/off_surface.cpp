@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "bie/kernels/laplace.hpp"
+#include "bie/kernels/stokes.hpp"
 #include "bie/potentials/near_rule.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/potentials/target_frame.hpp"
-#include "bie/potentials/target_values.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/point_derivatives.hpp"
 #include "bie/support/errors.hpp"
@@ -22,6 +24,76 @@ namespace {
 
 /// Distance over spacing of the coarser smooth grid from which the smooth rule has a chance: exp(−2π 3.5) = 3e-10.
 constexpr double kFarSpacings = 3.5;
+
+/// Sums times 1/(4π), 1/(8π) for the Stokes single layer at μ = 1 and 3/(4π) for the Stokes double layer, Eqs. (6),
+/// (9).
+LayersAt with_prefactors(LayersAt sums) {
+  for (std::size_t layer = 0; layer < LayersAt::count; ++layer) {
+    sums.of[layer] *= layer == LayersAt::stokes          ? stokes_single_layer_prefactor(1.0)
+                      : layer == LayersAt::stokes_double ? kStokesDoubleLayerPrefactor
+                                                         : kLaplacePrefactor;
+  }
+  sums.enclosure *= kLaplacePrefactor;
+  return sums;
+}
+
+/// D[1]: −1 inside, 0 outside, −½ on the membrane.
+double enclosure_of(Side side) {
+  switch (side) {
+    case Side::interior:
+      return -1.0;
+    case Side::exterior:
+      return 0.0;
+    case Side::principal_value:
+      break;
+  }
+  return -0.5;
+}
+
+/// One size per layer: of a change, or of what a change is small against.
+using LayerSizes = std::array<double, LayersAt::count>;
+
+/// Absolute change of every layer from one evaluation to another.
+LayerSizes change(const LayersAt& a, const LayersAt& b) {
+  LayerSizes sizes{};
+  for (std::size_t layer = 0; layer < sizes.size(); ++layer) sizes[layer] = (a.of[layer] - b.of[layer]).norm();
+  return sizes;
+}
+
+/// Largest densities on the membrane: times √(area/4π) for the single layers, ∇_γ f for ∇D. What a change of the layers
+/// is small against.
+LayerSizes density_sizes(const SmoothGrid& grid, const NodeColumns& columns) {
+  const double radius = mean_radius(grid);
+  const Vector area = grid.area_vectors.rowwise().norm();
+  LayerSizes sizes{};
+  if (columns.single >= 0) {
+    sizes[LayersAt::single_gradient] = grid.nodes.col(columns.single).cwiseQuotient(area).cwiseAbs().maxCoeff();
+    sizes[LayersAt::single] = radius * sizes[LayersAt::single_gradient];
+  }
+  if (columns.double_layer >= 0)
+    sizes[LayersAt::double_layer] = grid.nodes.col(columns.double_layer).cwiseAbs().maxCoeff();
+  if (columns.double_1 >= 0) {
+    for (Index i = 0; i < area.size(); ++i) {
+      const auto node = grid.nodes.row(i);
+      const Vector3 rotated_gradient = (node[columns.double_1] * node.segment<3>(columns.tangent_2) -
+                                        node[columns.double_2] * node.segment<3>(columns.tangent_1))
+                                           .transpose();
+      sizes[LayersAt::double_gradient] = std::max(sizes[LayersAt::double_gradient], rotated_gradient.norm() / area[i]);
+    }
+  }
+  if (columns.stokes >= 0) {
+    const Vector weighted = grid.nodes.middleCols(columns.stokes, 3).rowwise().norm();
+    sizes[LayersAt::stokes] = radius * weighted.cwiseQuotient(area).maxCoeff();
+  }
+  if (columns.stokes_double >= 0) {
+    sizes[LayersAt::stokes_double] = grid.nodes.middleCols(columns.stokes_double, 3).rowwise().norm().maxCoeff();
+  }
+  return sizes;
+}
+
+bool is_small(const LayerSizes& change, const LayerSizes& sizes, double tolerance) {
+  return std::ranges::equal(change, sizes, [=](double moved, double size) { return moved <= tolerance * size; });
+}
 
 /// What the one-sided limits of the gradients take from the densities at the foot point.
 struct FootDensities {

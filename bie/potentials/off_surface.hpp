@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "bie/potentials/layer_fields.hpp"
-#include "bie/potentials/side.hpp"
+#include "bie/potentials/layer_sums.hpp"
 #include "bie/support/instruments.hpp"
 #include "bie/support/types.hpp"
 

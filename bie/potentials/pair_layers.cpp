@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "bie/potentials/far_rule.hpp"
-#include "bie/potentials/near_targets.hpp"
+#include "bie/potentials/near_rows.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/errors.hpp"

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bie/potentials/near_rows.hpp"
-#include "bie/potentials/shared_transforms.hpp"
+#include "bie/potentials/smooth_grid.hpp"
 #include "bie/support/instruments.hpp"
 
 namespace vehd {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bie/potentials/graded_rule.hpp"
-#include "bie/potentials/layer_fields.hpp"
+#include "bie/potentials/layer_sums.hpp"
 #include "bie/sphere/rotation.hpp"
 #include "bie/support/types.hpp"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace vehd {
 
 /// Velocities of the 2:1 prolate, semi-axes 1, 1, 2, at μ = 1 under the density (x·n) e, along its axis and across it.
@@ -13,6 +15,12 @@ struct ProlateSpeeds {
 };
 /// See ProlateSpeeds.
 /// Source: Kim and Karrila 1991, Table 3.4
-ProlateSpeeds translating_prolate_speeds();
+inline ProlateSpeeds translating_prolate_speeds() {
+  const double e = std::sqrt(0.75);
+  const double logarithm = std::log((1.0 + e) / (1.0 - e));
+  const double along = 8.0 / 3.0 * e * e * e / (-2.0 * e + (1.0 + e * e) * logarithm);
+  const double across = 16.0 / 3.0 * e * e * e / (2.0 * e + (3.0 * e * e - 1.0) * logarithm);
+  return {2.0 / (3.0 * along), 2.0 / (3.0 * across)};
+}
 
 }  // namespace vehd

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/sphere_in_ac_field.hpp"
+#include "bie/physics/averaged_field.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <regex>
 
-#include "bie/physics/sphere_in_ac_field.hpp"
+#include "bie/physics/averaged_field.hpp"
 #include "bie/scene/units.hpp"
 #include "tests/app/sweep_folder.hpp"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/sphere_in_ac_field.hpp"
 #include "bie/support/complex_columns.hpp"
 #include "tests/support/electric.hpp"
 #include "tests/support/several.hpp"

@@ -1,5 +1,3 @@
-#include "bie/physics/charge_relaxation.hpp"
-
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "bie/physics/averaged_field.hpp"
-#include "bie/physics/charge_relaxation.hpp"
+#include "bie/physics/membrane_charging.hpp"
 #include "bie/support/complex_columns.hpp"
 #include "tests/physics/coupled_spheres.hpp"
 #include "tests/support/electric.hpp"

@@ -1,10 +1,9 @@
-#include "bie/potentials/azimuth_sums.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "bie/potentials/graded_rule.hpp"
 #include "bie/support/errors.hpp"
 
 using namespace vehd;

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "bie/physics/averaged_field.hpp"
-#include "bie/physics/sphere_in_ac_field.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "tests/support/runs.hpp"

@@ -3,7 +3,7 @@
 #include <complex>
 #include <tuple>
 
-#include "bie/physics/sphere_in_ac_field.hpp"
+#include "bie/physics/averaged_field.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/complex_columns.hpp"
 #include "tests/support/several_runs.hpp"

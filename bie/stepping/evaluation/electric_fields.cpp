@@ -4,7 +4,7 @@
 
 #include "bie/physics/averaged_field.hpp"
 #include "bie/physics/charge_density.hpp"
-#include "bie/physics/charge_relaxation.hpp"
+#include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/support/parallel.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bie/potentials/rotated_quadrature.hpp"
-#include "bie/potentials/shared_transforms.hpp"
+#include "bie/potentials/smooth_grid.hpp"
 #include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/ranks/shares.hpp"
