@@ -12,6 +12,9 @@ namespace vehd {
 /// Source: paper Eq. (6)
 constexpr double stokes_single_layer_prefactor(double viscosity) { return 1.0 / (8.0 * std::numbers::pi * viscosity); }
 
+/// Which of the blocks xx, xy, xz, yy, yz, zz of a symmetric kernel takes component j to component i.
+constexpr int kStokesBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+
 /// Upper triangle xx, xy, xz, yy, yz, zz of δ_ij/|r| + r_i r_j/|r|³, Eq. (6) without prefactor.
 /// @param inverse_r  1/|r|
 /// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11

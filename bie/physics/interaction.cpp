@@ -57,23 +57,21 @@ struct Interaction::Parts {
     for_each_member(shares.own(n()), body);
   }
 
-  /// @param layer     of one membrane at the nodes of those that are near to it
-  /// @param expanded  of all at those that are far
-  template <class Field, class Layer, class Expanded>
-  [[nodiscard]] std::vector<Field> sums(const std::vector<Field>& densities, Index components, const Layer& layer,
-                                        const Expanded& expanded) const {
+  /// A layer of all membranes on each of this rank.
+  template <class Field>
+  [[nodiscard]] std::vector<Field> sums(PairLayer layer, const std::vector<Field>& densities) const {
     require_size("densities of membranes", static_cast<long>(densities.size()), static_cast<long>(n()));
     std::vector<Matrix> values;
     if (expansions) {
-      values = expanded(*expansions, densities);
+      values = expansions->apply(layer, std::vector<Matrix>(densities.begin(), densities.end()));
     } else {
       for (const SphereTransform& nodes : targets) {
-        values.emplace_back(Matrix::Zero(nodes.grid().n_points(), components));
+        values.emplace_back(Matrix::Zero(nodes.grid().n_points(), is_stokes(layer) ? 3 : 1));
       }
     }
     std::vector<Matrix> from(n());
     for_each_membrane([&](std::size_t b) {
-      if (densities[b].size() > 0 && !near[b].empty()) from[b] = layer(*layers[b], densities[b]);
+      if (densities[b].size() > 0 && !near[b].empty()) from[b] = layers[b]->apply(layer, densities[b]);
     });
     std::vector<Matrix> of_images(n());
     add_near(from, values, of_images);
@@ -165,10 +163,8 @@ struct Interaction::Parts {
     }
   }
 
-  template <class Layer, class Expanded>
-  [[nodiscard]] std::vector<Vector> fluxes(const std::vector<Vector>& densities, const Layer& layer,
-                                           const Expanded& expanded) const {
-    std::vector<Vector> result = sums(densities, 1, layer, expanded);
+  [[nodiscard]] std::vector<Vector> fluxes(PairLayer layer, const std::vector<Vector>& densities) const {
+    std::vector<Vector> result = sums(layer, densities);
     for (Vector& flux : result) {
       if (flux.size() > 0) flux[0] = 0.0;
     }
@@ -237,39 +233,22 @@ const Shares& Interaction::shares() const { return parts_->shares; }
 const Exchange& Interaction::exchange() const { return parts_->exchange; }
 
 std::vector<Vector> Interaction::weighted_single_flux(const std::vector<Vector>& weighted) const {
-  return parts_->fluxes(
-      weighted, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single_normal(f); },
-      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_single_normal(f); });
+  return parts_->fluxes(PairLayer::laplace_single_normal, weighted);
 }
-
 std::vector<Vector> Interaction::weighted_double_flux(const std::vector<Vector>& densities) const {
-  return parts_->fluxes(
-      densities, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double_normal(f); },
-      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_double_normal(f); });
+  return parts_->fluxes(PairLayer::laplace_double_normal, densities);
 }
-
 std::vector<Vector> Interaction::single_potential(const std::vector<Vector>& weighted) const {
-  return parts_->sums(
-      weighted, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_single(f); },
-      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_single(f); });
+  return parts_->sums(PairLayer::laplace_single, weighted);
 }
-
 std::vector<Vector> Interaction::double_potential(const std::vector<Vector>& densities) const {
-  return parts_->sums(
-      densities, 1, [](const PairLayers& layers, const Vector& f) { return layers.laplace_double(f); },
-      [](const FarExpansions& far, const std::vector<Vector>& f) { return far.laplace_double(f); });
+  return parts_->sums(PairLayer::laplace_double, densities);
 }
-
 std::vector<Matrix> Interaction::stokes_single(const std::vector<Matrix>& weighted) const {
-  return parts_->sums(
-      weighted, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_single(f); },
-      [](const FarExpansions& far, const std::vector<Matrix>& f) { return far.stokes_single(f); });
+  return parts_->sums(PairLayer::stokes_single, weighted);
 }
-
 std::vector<Matrix> Interaction::stokes_double(const std::vector<Matrix>& velocities) const {
-  return parts_->sums(
-      velocities, 3, [](const PairLayers& layers, const Matrix& f) { return layers.stokes_double(f); },
-      [](const FarExpansions& far, const std::vector<Matrix>& f) { return far.stokes_double(f); });
+  return parts_->sums(PairLayer::stokes_double, velocities);
 }
 
 PairCounts Interaction::counts() const {

@@ -1,6 +1,7 @@
 #include "bie/potentials/far_expansions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -119,30 +120,32 @@ Matrix FarExpansions::dipole_moments(const Place& place, const std::vector<Matri
   return moments(sums);
 }
 
-std::vector<Matrix> FarExpansions::single_moments(const std::vector<Vector>& weighted) const {
-  std::vector<Matrix> result(places_.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (!has_density(b, weighted[b])) continue;
-    const Place& place = places_[b];
-    const Vector charges = place.weight.cwiseProduct(place.nodes.synthesize(weighted[b]).col(0));
-    result[b] = moments(place.sums.of(charges));
+Matrix FarExpansions::moments_of(PairLayer layer, const Place& place, const Matrix& density) const {
+  const Matrix charges = place.weight.asDiagonal() * place.nodes.synthesize(density);
+  const Matrix& n = place.area_vectors;
+  // The last column of four is that of B, see values_of.
+  const auto with_centre_sums = [&](Matrix vectors) {
+    vectors.conservativeResize(vectors.rows(), 4);
+    vectors.col(3) = place.from_centre.cwiseProduct(vectors.leftCols(3)).rowwise().sum();
+    return vectors;
+  };
+  if (layer == PairLayer::laplace_single || layer == PairLayer::laplace_single_normal) {
+    return moments(place.sums.of(charges));
   }
-  return result;
-}
-
-std::vector<Matrix> FarExpansions::double_moments(const std::vector<Vector>& densities) const {
-  std::vector<Matrix> result(places_.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (!has_density(b, densities[b])) continue;
-    const Place& place = places_[b];
-    const Vector charges = place.weight.cwiseProduct(place.nodes.synthesize(densities[b]).col(0));
-    std::vector<Matrix> dipoles;
-    for (int k = 0; k < 3; ++k) dipoles.emplace_back(charges.cwiseProduct(place.area_vectors.col(k)));
-    result[b] = dipole_moments(place, dipoles);
+  if (layer == PairLayer::stokes_single) return moments(place.sums.of(with_centre_sums(charges)));
+  std::vector<Matrix> dipoles;
+  for (int k = 0; k < 3; ++k) {
+    if (layer != PairLayer::stokes_double) {
+      dipoles.emplace_back(charges.cwiseProduct(n.col(k)));
+      continue;
+    }
+    Matrix of_axis(charges.rows(), 3);
+    for (int j = 0; j < 3; ++j) {
+      of_axis.col(j) = 0.5 * (charges.col(j).cwiseProduct(n.col(k)) + n.col(j).cwiseProduct(charges.col(k)));
+    }
+    dipoles.push_back(with_centre_sums(std::move(of_axis)));
   }
-  return result;
+  return dipole_moments(place, dipoles);
 }
 
 std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, bool is_stokes) const {
@@ -166,105 +169,53 @@ std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, boo
   return result;
 }
 
-std::vector<Matrix> FarExpansions::scalar_values(const std::vector<Matrix>& moments, double factor) const {
-  std::vector<Matrix> values = local(moments, false);
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < places_.size(); ++a) {
-    if (shares_.owns(a)) values[a] = factor * (places_[a].target_regular * values[a]);
-  }
-  return values;
-}
-
-std::vector<Matrix> FarExpansions::scalar_slopes(const std::vector<Matrix>& moments, double factor) const {
-  std::vector<Matrix> values = local(moments, false);
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < places_.size(); ++a) {
-    if (!shares_.owns(a)) continue;
-    const Place& place = places_[a];
-    Vector slope = Vector::Zero(place.target_regular.rows());
-    for (int k = 0; k < 3; ++k) {
-      const Vector derivative = derivative_[static_cast<std::size_t>(k)] * values[a];
-      slope += place.target_normals.col(k).cwiseProduct(place.target_regular * derivative);
-    }
-    values[a] = factor * slope;
-  }
-  return values;
-}
-
-std::vector<Matrix> FarExpansions::stokes_values(const std::vector<Matrix>& moments, double factor) const {
-  std::vector<Matrix> values = local(moments, true);
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t a = 0; a < places_.size(); ++a) {
-    if (!shares_.owns(a)) continue;
-    const Place& place = places_[a];
-    // u_i = A_i + ∂_i B − x_j ∂_i A_j
-    Matrix coefficients(values[a].rows(), 12);
+/// Stokes layers are four harmonic functions,
+///   u_i = A_i − x_j ∂_i A_j + ∂_i B,
+/// x from the centre. f_i/r + r_i r·f/r³ has A = f/r, B = y·f/r; 3 r_i r_j r_k S_jk/r⁵ with S = ½(v nᵀ + n vᵀ) has
+/// A_j = S_jk ∂(1/r)/∂y_k, B = y_j A_j.
+Matrix FarExpansions::values_of(PairLayer layer, const Place& place, const Matrix& coefficients) const {
+  if (is_stokes(layer)) {
+    Matrix all(coefficients.rows(), 12);
     for (int i = 0; i < 3; ++i) {
-      const Matrix slope = derivative_[static_cast<std::size_t>(i)] * values[a];
-      coefficients.col(i) = values[a].col(i) + slope.col(3);
-      coefficients.middleCols(3 + 3 * i, 3) = slope.leftCols(3);
+      const Matrix slope = derivative_[static_cast<std::size_t>(i)] * coefficients;
+      all.col(i) = coefficients.col(i) + slope.col(3);
+      all.middleCols(3 + 3 * i, 3) = slope.leftCols(3);
     }
-    const Matrix at_targets = place.target_regular * coefficients;
+    const Matrix at_targets = place.target_regular * all;
     Matrix u = at_targets.leftCols(3);
     for (int i = 0; i < 3; ++i) {
       u.col(i) -= place.target_from_centre.cwiseProduct(at_targets.middleCols(3 + 3 * i, 3)).rowwise().sum();
     }
-    values[a] = factor * u;
+    return u;
+  }
+  if (layer == PairLayer::laplace_single || layer == PairLayer::laplace_double) {
+    return place.target_regular * coefficients;
+  }
+  Vector slope = Vector::Zero(place.target_regular.rows());
+  for (int k = 0; k < 3; ++k) {
+    const Vector derivative = derivative_[static_cast<std::size_t>(k)] * coefficients;
+    slope += place.target_normals.col(k).cwiseProduct(place.target_regular * derivative);
+  }
+  return slope;
+}
+
+std::vector<Matrix> FarExpansions::apply(PairLayer layer, const std::vector<Matrix>& densities) const {
+  std::vector<Matrix> moments(places_.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t b = 0; b < places_.size(); ++b) {
+    if (densities[b].size() > 0 && shares_.owns(b)) moments[b] = moments_of(layer, places_[b], densities[b]);
+  }
+  // With lengths over scale_.
+  const double of_single = 1.0 / (4.0 * kPi * scale_);
+  const std::array factors{of_single,       of_single / scale_, of_single / scale_, of_single / (scale_ * scale_),
+                           0.5 * of_single, of_single / scale_};
+  const double factor = factors[static_cast<std::size_t>(layer)];
+  std::vector<Matrix> values = local(moments, is_stokes(layer));
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t a = 0; a < places_.size(); ++a) {
+    if (shares_.owns(a)) values[a] = factor * values_of(layer, places_[a], values[a]);
   }
   return values;
-}
-
-std::vector<Matrix> FarExpansions::laplace_single(const std::vector<Vector>& weighted) const {
-  return scalar_values(single_moments(weighted), 1.0 / (4.0 * kPi * scale_));
-}
-
-std::vector<Matrix> FarExpansions::laplace_single_normal(const std::vector<Vector>& weighted) const {
-  return scalar_slopes(single_moments(weighted), 1.0 / (4.0 * kPi * scale_ * scale_));
-}
-
-std::vector<Matrix> FarExpansions::laplace_double(const std::vector<Vector>& densities) const {
-  return scalar_values(double_moments(densities), 1.0 / (4.0 * kPi * scale_ * scale_));
-}
-
-std::vector<Matrix> FarExpansions::laplace_double_normal(const std::vector<Vector>& densities) const {
-  return scalar_slopes(double_moments(densities), 1.0 / (4.0 * kPi * scale_ * scale_ * scale_));
-}
-
-std::vector<Matrix> FarExpansions::stokes_single(const std::vector<Matrix>& weighted) const {
-  // f_i/r + r_i r·f/r³ = A_i − x_j ∂_i A_j + ∂_i B, A = f/r, B = y·f/r.
-  std::vector<Matrix> all(places_.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (!has_density(b, weighted[b])) continue;
-    const Place& place = places_[b];
-    Matrix charges(place.weight.size(), 4);
-    charges.leftCols(3) = place.weight.asDiagonal() * place.nodes.synthesize(weighted[b]);
-    charges.col(3) = place.from_centre.cwiseProduct(charges.leftCols(3)).rowwise().sum();
-    all[b] = moments(place.sums.of(charges));
-  }
-  return stokes_values(all, 1.0 / (8.0 * kPi * scale_));
-}
-
-std::vector<Matrix> FarExpansions::stokes_double(const std::vector<Matrix>& velocities) const {
-  // 3 r_i r_j r_k S_jk/r⁵ = A_i − x_j ∂_i A_j + ∂_i B, A_j = S_jk ∂(1/r)/∂y_k, B = y_j A_j, S = ½(v nᵀ + n vᵀ).
-  std::vector<Matrix> all(places_.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (!has_density(b, velocities[b])) continue;
-    const Place& place = places_[b];
-    const Matrix v = place.weight.asDiagonal() * place.nodes.synthesize(velocities[b]);
-    const Matrix& n = place.area_vectors;
-    std::vector<Matrix> dipoles;
-    for (int k = 0; k < 3; ++k) {
-      Matrix& of_axis = dipoles.emplace_back(v.rows(), 4);
-      for (int j = 0; j < 3; ++j) {
-        of_axis.col(j) = 0.5 * (v.col(j).cwiseProduct(n.col(k)) + n.col(j).cwiseProduct(v.col(k)));
-      }
-      of_axis.col(3) = place.from_centre.cwiseProduct(of_axis.leftCols(3)).rowwise().sum();
-    }
-    all[b] = dipole_moments(place, dipoles);
-  }
-  return stokes_values(all, 1.0 / (4.0 * kPi * scale_ * scale_));
 }
 
 }  // namespace vehd

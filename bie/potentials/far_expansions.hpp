@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bie/potentials/axis_translation.hpp"
+#include "bie/potentials/near_rows.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/potentials/solid_harmonics.hpp"
 #include "bie/support/ranks/shares.hpp"
@@ -34,21 +35,10 @@ class FarExpansions {
   /// How many targets of all pairs are, of the membranes of this rank.
   [[nodiscard]] Index n_targets() const;
 
-  // For each membrane of this rank the sum over all that are far from it, at its points. Of densities those of its own
-  // membranes count; empty ones count as zero.
-
-  /// S[f] from J f. @return [n_targets]
-  [[nodiscard]] std::vector<Matrix> laplace_single(const std::vector<Vector>& weighted) const;
-  /// N·∇S[f] from J f.
-  [[nodiscard]] std::vector<Matrix> laplace_single_normal(const std::vector<Vector>& weighted) const;
-  /// D[f] from f.
-  [[nodiscard]] std::vector<Matrix> laplace_double(const std::vector<Vector>& densities) const;
-  /// N·∇D[f] from f.
-  [[nodiscard]] std::vector<Matrix> laplace_double_normal(const std::vector<Vector>& densities) const;
-  /// Stokes single layer at μ = 1 from J f. @return [n_targets x 3]
-  [[nodiscard]] std::vector<Matrix> stokes_single(const std::vector<Matrix>& weighted) const;
-  /// Stokes double layer from v.
-  [[nodiscard]] std::vector<Matrix> stokes_double(const std::vector<Matrix>& velocities) const;
+  /// For each membrane of this rank the sum of a layer over all that are far from it, at its points.
+  /// @param densities  see PairLayer; those of its own membranes count, empty ones count as zero
+  /// @return           [n_targets x 1], of a Stokes layer [n_targets x 3]
+  [[nodiscard]] std::vector<Matrix> apply(PairLayer layer, const std::vector<Matrix>& densities) const;
 
  private:
   /// Lengths are over scale_. Of membranes of other ranks the first two alone.
@@ -71,19 +61,14 @@ class FarExpansions {
   [[nodiscard]] Place place_of(const ExpandedMembrane& membrane, const Vector3& centre,
                                const SphereTransform& nodes) const;
   [[nodiscard]] int degree_of(const Place& a, const Place& b) const;
-  template <class Density>
-  [[nodiscard]] bool has_density(std::size_t source, const Density& density) const {
-    return density.size() > 0 && shares_.owns(source);
-  }
   [[nodiscard]] Matrix dipole_moments(const Place& place, const std::vector<Matrix>& components) const;
   /// @param moments     of each membrane, [n_solid x columns] or empty
   /// @param is_stokes   the last of four columns is about the centre of its source
   [[nodiscard]] std::vector<Matrix> local(const std::vector<Matrix>& moments, bool is_stokes) const;
-  [[nodiscard]] std::vector<Matrix> scalar_values(const std::vector<Matrix>& moments, double factor) const;
-  [[nodiscard]] std::vector<Matrix> scalar_slopes(const std::vector<Matrix>& moments, double factor) const;
-  [[nodiscard]] std::vector<Matrix> stokes_values(const std::vector<Matrix>& moments, double factor) const;
-  [[nodiscard]] std::vector<Matrix> single_moments(const std::vector<Vector>& weighted) const;
-  [[nodiscard]] std::vector<Matrix> double_moments(const std::vector<Vector>& densities) const;
+  /// Moments of what one membrane contributes.
+  [[nodiscard]] Matrix moments_of(PairLayer layer, const Place& place, const Matrix& density) const;
+  /// A layer without its factor at the targets of one membrane, from local coefficients.
+  [[nodiscard]] Matrix values_of(PairLayer layer, const Place& place, const Matrix& coefficients) const;
 
   Shares shares_;
   double tolerance_, scale_ = 1.0;

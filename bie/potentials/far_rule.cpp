@@ -145,32 +145,25 @@ Matrix FarRule::charges(const Matrix& density) const {
   return result;
 }
 
-Vector FarRule::laplace_single(const Matrix& points, const Matrix& charges) const {
-  return scalar_sums(nodes_, points, charges, [](Index) { return kSingle; });
-}
-
-Vector FarRule::laplace_single_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const {
-  return scalar_sums(nodes_, points, charges,
-                     [&normals](Index target) { return SingleNormal{normals.row(target).transpose()}; });
-}
-
-Vector FarRule::laplace_double(const Matrix& points, const Matrix& charges) const {
-  return scalar_sums(nodes_, points, charges, [](Index) { return kDouble; });
-}
-
-Vector FarRule::laplace_double_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const {
-  return scalar_sums(nodes_, points, charges,
-                     [&normals](Index target) { return DoubleNormal{normals.row(target).transpose()}; });
-}
-
-Matrix FarRule::stokes_single(const Matrix& points, const Matrix& charges) const {
-  return flow_sums(
-      nodes_, points, charges, stokes_single_layer_prefactor(1.0),
-      [](const NodeSeparation& r, const Few& fx, const Few& fy, const Few& fz)
-          __attribute__((always_inline)) { return stokeslet_flow(r.x, r.y, r.z, r.inverse, fx, fy, fz); });
-}
-
-Matrix FarRule::stokes_double(const Matrix& points, const Matrix& charges) const {
+Matrix FarRule::sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges) const {
+  const auto scalar = [&](const auto& kernel_at) -> Matrix { return scalar_sums(nodes_, points, charges, kernel_at); };
+  switch (layer) {
+    case PairLayer::laplace_single:
+      return scalar([](Index) { return kSingle; });
+    case PairLayer::laplace_single_normal:
+      return scalar([&](Index target) { return SingleNormal{normals.row(target).transpose()}; });
+    case PairLayer::laplace_double:
+      return scalar([](Index) { return kDouble; });
+    case PairLayer::laplace_double_normal:
+      return scalar([&](Index target) { return DoubleNormal{normals.row(target).transpose()}; });
+    case PairLayer::stokes_single:
+      return flow_sums(
+          nodes_, points, charges, stokes_single_layer_prefactor(1.0),
+          [](const NodeSeparation& r, const Few& fx, const Few& fy, const Few& fz)
+              __attribute__((always_inline)) { return stokeslet_flow(r.x, r.y, r.z, r.inverse, fx, fy, fz); });
+    case PairLayer::stokes_double:
+      break;
+  }
   return flow_sums(
       nodes_, points, charges, kStokesDoubleLayerPrefactor,
       [](const NodeSeparation& r, const Few& vx, const Few& vy, const Few& vz) __attribute__((always_inline)) {
@@ -178,32 +171,25 @@ Matrix FarRule::stokes_double(const Matrix& points, const Matrix& charges) const
       });
 }
 
-template <class Kernel>
-Matrix FarRule::normal_rows(const Matrix& points, const Matrix& normals) const {
-  Matrix kernels(nodes_.rows(), points.rows());
+Matrix FarRule::rows(PairLayer layer, const Matrix& points, const Matrix& normals) const {
+  const Index n_columns = is_stokes(layer) ? 6 : 1;
+  Matrix kernels(nodes_.rows(), n_columns * points.rows());
   for (Index i = 0; i < points.rows(); ++i) {
-    const Vector3 normal = normals.row(i).transpose();
-    scalar_kernels(nodes_, points.row(i).transpose(), Kernel{normal}, kernels.col(i).data());
+    const Vector3 point = points.row(i).transpose(), normal = normals.row(i).transpose();
+    double* to = kernels.col(n_columns * i).data();
+    if (layer == PairLayer::laplace_single_normal) {
+      scalar_kernels(nodes_, point, SingleNormal{normal}, to);
+    } else if (layer == PairLayer::laplace_double_normal) {
+      scalar_kernels(nodes_, point, DoubleNormal{normal}, to);
+    } else {
+      stokes_double_kernels(nodes_, point, to);
+    }
   }
   return transform_.analyze(kernels.topRows(n_nodes_));
 }
 
-Matrix FarRule::single_normal_rows(const Matrix& points, const Matrix& normals) const {
-  return normal_rows<SingleNormal>(points, normals);
+Vector FarRule::enclosures(const Matrix& points) const {
+  return sums(PairLayer::laplace_double, points, points, weight_);
 }
-
-Matrix FarRule::double_normal_rows(const Matrix& points, const Matrix& normals) const {
-  return normal_rows<DoubleNormal>(points, normals);
-}
-
-Matrix FarRule::stokes_double_rows(const Matrix& points) const {
-  Matrix kernels(nodes_.rows(), 6 * points.rows());
-  for (Index i = 0; i < points.rows(); ++i) {
-    stokes_double_kernels(nodes_, points.row(i).transpose(), kernels.col(6 * i).data());
-  }
-  return transform_.analyze(kernels.topRows(n_nodes_));
-}
-
-Vector FarRule::enclosures(const Matrix& points) const { return laplace_double(points, weight_); }
 
 }  // namespace vehd

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bie/potentials/near_rows.hpp"
 #include "bie/sphere/transform.hpp"
 
 namespace vehd {
@@ -20,33 +21,22 @@ class FarRule {
   /// A density at the nodes times their weights. @param density  [n_coefficients x fields] @return [n x fields]
   [[nodiscard]] Matrix charges(const Matrix& density) const;
 
-  /// Sums over the nodes for targets with normals N there, [n_targets x 3], prefactors included: S, N·∇S of J f; D,
-  /// N·∇D of f.
-  /// @param points   targets, [n_targets x 3]
-  /// @param charges  of J f or f
-  [[nodiscard]] Vector laplace_single(const Matrix& points, const Matrix& charges) const;
-  [[nodiscard]] Vector laplace_single_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const;
-  [[nodiscard]] Vector laplace_double(const Matrix& points, const Matrix& charges) const;
-  [[nodiscard]] Vector laplace_double_normal(const Matrix& points, const Matrix& normals, const Matrix& charges) const;
-  /// Stokes single layer at μ = 1 of J f and double layer of v. @param charges  [n x 3] @return [n_targets x 3]
-  [[nodiscard]] Matrix stokes_single(const Matrix& points, const Matrix& charges) const;
-  [[nodiscard]] Matrix stokes_double(const Matrix& points, const Matrix& charges) const;
+  /// A layer summed over the nodes for targets with normals N there, prefactors included.
+  /// @param points, normals   [n_targets x 3]
+  /// @param charges           of its density
+  /// @return                  [n_targets x 1], of a Stokes layer [n_targets x 3]
+  [[nodiscard]] Matrix sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges) const;
 
-  /// Layers at several targets as rows over the coefficients of their densities: quadrature and the adjoint of the
-  /// synthesis in one. N·∇S and N·∇D. @param points, normals  [n_targets x 3] @return [n_coefficients x n_targets]
-  [[nodiscard]] Matrix single_normal_rows(const Matrix& points, const Matrix& normals) const;
-  [[nodiscard]] Matrix double_normal_rows(const Matrix& points, const Matrix& normals) const;
-  /// The Stokes double layer. @return [n_coefficients x 6] of xx, xy, xz, yy, yz, zz, of one target behind the other
-  [[nodiscard]] Matrix stokes_double_rows(const Matrix& points) const;
+  /// A layer at several targets as rows over the coefficients of its density: quadrature and the adjoint of the
+  /// synthesis in one. For N·∇S, N·∇D and the Stokes double layer.
+  /// @return [n_coefficients x PairColumns::count of that layer alone], of one target behind the other
+  [[nodiscard]] Matrix rows(PairLayer layer, const Matrix& points, const Matrix& normals) const;
 
   /// D[1] at targets: 0 outside, −1 inside, up to the error of the rule.
   [[nodiscard]] Vector enclosures(const Matrix& points) const;
   [[nodiscard]] Index n_nodes() const { return n_nodes_; }
 
  private:
-  template <class Kernel>
-  [[nodiscard]] Matrix normal_rows(const Matrix& points, const Matrix& normals) const;
-
   SphereTransform transform_;
   Index n_nodes_;
   Matrix nodes_;   ///< y and J n, filled up to whole instructions, [n x 6]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bie/kernels/stokes.hpp"
 #include "bie/potentials/few_nodes.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
@@ -87,7 +88,6 @@ double StokesOperator::multiplications() const {
 }
 
 Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& entries) const {
-  constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
   const std::vector<Index>& known = entries_.empty() ? active_ : entries_;
   // Where the matrices have each entry, −1: nowhere.
   std::vector<Index> place;
@@ -102,7 +102,7 @@ Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& e
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < n; ++i) {
       if (place[i] < 0 || place[j] < 0) continue;
-      const int block = kBlock[entries[i] / n_coefficients][entries[j] / n_coefficients];
+      const int block = kStokesBlock[entries[i] / n_coefficients][entries[j] / n_coefficients];
       result(i, j) = !entries_.empty()       ? on_entries_(place[j], place[i])
                      : symmetric_.size() > 0 ? symmetric_.at(block, place[i], place[j])
                                              : transposed_[block](place[j], place[i]);

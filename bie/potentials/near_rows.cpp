@@ -19,18 +19,11 @@
 namespace vehd {
 
 PairColumns::PairColumns(const PairSelection& selection) {
-  if (selection.laplace_single) single = count++;
-  if (selection.laplace_single_normal) single_normal = count++;
-  if (selection.laplace_double) double_layer = count++;
-  if (selection.laplace_double_normal) double_normal = count++;
-  constexpr int kStokesBlocks = 6;
-  if (selection.stokes_single) {
-    stokes = count;
-    count += kStokesBlocks;
-  }
-  if (selection.stokes_double) {
-    stokes_double = count;
-    count += kStokesBlocks;
+  const std::array selected{selection.laplace_single,        selection.laplace_single_normal, selection.laplace_double,
+                            selection.laplace_double_normal, selection.stokes_single,         selection.stokes_double};
+  for (std::size_t layer = 0; layer < n_pair_layers; ++layer) {
+    first[layer] = selected[layer] ? count : -1;
+    if (selected[layer]) count += is_stokes(static_cast<PairLayer>(layer)) ? 6 : 1;
   }
 }
 
@@ -46,15 +39,16 @@ struct KernelKind {
 
 /// Of every row.
 std::vector<KernelKind> kinds_of(const PairColumns& columns) {
-  std::vector<KernelKind> kinds(columns.count);
-  if (columns.single >= 0) kinds[columns.single] = {NodeFactor::value, kLaplacePrefactor};
-  if (columns.single_normal >= 0) kinds[columns.single_normal] = {NodeFactor::value, kLaplacePrefactor};
-  if (columns.double_layer >= 0) kinds[columns.double_layer] = {NodeFactor::difference, kLaplacePrefactor};
-  if (columns.double_normal >= 0) kinds[columns.double_normal] = {NodeFactor::tangents, kLaplacePrefactor};
-  for (int i = 0; i < 6; ++i) {
-    if (columns.stokes >= 0) kinds[columns.stokes + i] = {NodeFactor::value, stokes_single_layer_prefactor(1.0)};
-    if (columns.stokes_double >= 0)
-      kinds[columns.stokes_double + i] = {NodeFactor::difference, kStokesDoubleLayerPrefactor};
+  constexpr std::array<KernelKind, n_pair_layers> kKinds{{{NodeFactor::value, kLaplacePrefactor},
+                                                          {NodeFactor::value, kLaplacePrefactor},
+                                                          {NodeFactor::difference, kLaplacePrefactor},
+                                                          {NodeFactor::tangents, kLaplacePrefactor},
+                                                          {NodeFactor::value, stokes_single_layer_prefactor(1.0)},
+                                                          {NodeFactor::difference, kStokesDoubleLayerPrefactor}}};
+  std::vector<KernelKind> kinds;
+  for (std::size_t layer = 0; layer < n_pair_layers; ++layer) {
+    if (columns.first[layer] < 0) continue;
+    kinds.insert(kinds.end(), is_stokes(static_cast<PairLayer>(layer)) ? 6 : 1, kKinds[layer]);
   }
   return kinds;
 }
@@ -82,25 +76,23 @@ double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& 
     const Few area = x * (uy * vz - uz * vy) + y * (uz * vx - ux * vz) + z * (ux * vy - uy * vx);  // r·(u × v)
     const Few solid_angle = w * laplace_double_kernel(area, inverse);
     angle += sum(solid_angle, next - i);
-    if (columns.single >= 0) put(columns.single, w * laplace_single_kernel(inverse));
-    if (columns.single_normal >= 0) {
-      put(columns.single_normal, w * laplace_adjoint_kernel(dot(normal, x, y, z), inverse));
+    const auto put_blocks = [&](PairLayer layer, const std::array<Few, 6>& blocks) {
+      for (int k = 0; k < 6; ++k) put(columns[layer] + k, w * blocks[static_cast<std::size_t>(k)]);
+    };
+    using enum PairLayer;
+    if (columns.has(laplace_single)) put(columns[laplace_single], w * laplace_single_kernel(inverse));
+    if (columns.has(laplace_single_normal)) {
+      put(columns[laplace_single_normal], w * laplace_adjoint_kernel(dot(normal, x, y, z), inverse));
     }
-    if (columns.double_layer >= 0) put(columns.double_layer, solid_angle);
-    if (columns.double_normal >= 0) {
+    if (columns.has(laplace_double)) put(columns[laplace_double], solid_angle);
+    if (columns.has(laplace_double_normal)) {
       // −N·r/|r|³ × (f_1 v − f_2 u)
       const Few factor = w * inverse * inverse * inverse;
-      put(columns.double_normal, -factor * dot(normal, y * vz - z * vy, z * vx - x * vz, x * vy - y * vx));
+      put(columns[laplace_double_normal], -factor * dot(normal, y * vz - z * vy, z * vx - x * vz, x * vy - y * vx));
       put(columns.count, factor * dot(normal, y * uz - z * uy, z * ux - x * uz, x * uy - y * ux));
     }
-    if (columns.stokes >= 0) {
-      const std::array<Few, 6> g = stokeslet(x, y, z, inverse);
-      for (int k = 0; k < 6; ++k) put(columns.stokes + k, w * g[k]);
-    }
-    if (columns.stokes_double >= 0) {
-      const std::array<Few, 6> g = stokes_double_kernel(x, y, z, area, inverse);
-      for (int k = 0; k < 6; ++k) put(columns.stokes_double + k, w * g[k]);
-    }
+    if (columns.has(stokes_single)) put_blocks(stokes_single, stokeslet(x, y, z, inverse));
+    if (columns.has(stokes_double)) put_blocks(stokes_double, stokes_double_kernel(x, y, z, area, inverse));
   }
   return angle;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bie/potentials/smooth_grid.hpp"
@@ -7,12 +8,24 @@
 
 namespace vehd {
 
-/// Layers of one membrane that are wanted at points of another; N is the normal there.
+/// A layer of one membrane at points of another; N is the normal there.
+enum class PairLayer : std::size_t {
+  laplace_single,         ///< S[f] from J f
+  laplace_single_normal,  ///< N·∇S[f] from J f: S′ where source and target are the same membrane
+  laplace_double,         ///< D[f] from f
+  laplace_double_normal,  ///< N·∇D[f] from f
+  stokes_single,          ///< of J f at μ = 1, three components
+  stokes_double           ///< of v, stokes_double_kernel
+};
+constexpr std::size_t n_pair_layers = 6;
+constexpr bool is_stokes(PairLayer layer) { return layer >= PairLayer::stokes_single; }
+
+/// Layers that are wanted, in the order of PairLayer.
 struct PairSelection {
   bool laplace_single = false;
-  bool laplace_single_normal = false;  ///< N·∇S, S′ where source and target are the same membrane
+  bool laplace_single_normal = false;
   bool laplace_double = false;
-  bool laplace_double_normal = false;  ///< N·∇D
+  bool laplace_double_normal = false;
   bool stokes_single = false;
   bool stokes_double = false;
 };
@@ -20,10 +33,12 @@ struct PairSelection {
 /// Which rows belong to which layer: one for a scalar layer, six (xx, xy, xz, yy, yz, zz) for a Stokes layer, −1 for a
 /// layer that is not selected.
 struct PairColumns {
-  int single = -1, single_normal = -1, double_layer = -1, double_normal = -1, stokes = -1, stokes_double = -1;
+  std::array<int, n_pair_layers> first;
   int count = 0;
 
   explicit PairColumns(const PairSelection& selection);
+  [[nodiscard]] int operator[](PairLayer layer) const { return first[static_cast<std::size_t>(layer)]; }
+  [[nodiscard]] bool has(PairLayer layer) const { return (*this)[layer] >= 0; }
 };
 
 /// Layers at one target outside the membrane as rows over the coefficients of their densities.

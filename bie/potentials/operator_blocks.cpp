@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "bie/kernels/stokes.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
@@ -65,7 +66,6 @@ SymmetricLayout symmetric_layout(const KernelColumns& kernels, const SymmetrySub
   const Index n_all = subspace.n_coefficients();
   std::vector<Index> of_component[3];
   for (const Index entry : layout.entries) of_component[entry / n_all].push_back(entry % n_all);
-  constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
   for (const int first_kernel : {kernels.stokes, kernels.stokes_double}) {
     if (first_kernel < 0) continue;
     layout.first_matrix[first_kernel] = layout.sizes.size();
@@ -74,7 +74,7 @@ SymmetricLayout symmetric_layout(const KernelColumns& kernels, const SymmetrySub
       Index first_out = 0;
       for (int out = 0; out < 3; ++out) {
         blocks.add(of_component[in], of_component[out],
-                   {first_kernel + kBlock[out][in], layout.sizes.size(), first_in, first_out});
+                   {first_kernel + kStokesBlock[out][in], layout.sizes.size(), first_in, first_out});
         first_out += static_cast<Index>(of_component[out].size());
       }
       first_in += static_cast<Index>(of_component[in].size());

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bie/kernels/stokes.hpp"
 #include "bie/potentials/far_rule.hpp"
 #include "bie/potentials/near_rows.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -48,14 +49,14 @@ void for_each_batch(const std::vector<Index>& targets, const Body& body) {
   }
 }
 
-/// A kind of layers at far targets: some by rows, the others summed at every application.
+/// A layer at far targets: some by rows, the others summed at every application.
 struct FarLayers {
   bool selected;
   RowTargets by_rows;
   std::vector<FarGroup> groups;
 };
 
-/// @param rows  those layers that rows serve as far as there is room
+/// @param rows  the layer where rows serve it as far as there is room
 FarLayers far_layers(bool selected, const PairSelection& rows = {}) {
   return {selected, {PairColumns(rows), {}, {}}, {}};
 }
@@ -246,75 +247,49 @@ struct PairLayers::Data {
 
   void fill_rows(const FarGroup& group, Index first, RowTargets& all) const {
     const Index n_columns = all.columns.count;
+    const auto layer = static_cast<PairLayer>(std::ranges::find(all.columns.first, 0) - all.columns.first.begin());
     for_each_batch(group.targets, [&](Index start, const std::vector<Index>& batch) {
       all.rows.middleCols((first + start) * n_columns, static_cast<Index>(batch.size()) * n_columns) =
-          all.columns.single_normal >= 0   ? group.rule->single_normal_rows(points(batch), normals(batch))
-          : all.columns.double_normal >= 0 ? group.rule->double_normal_rows(points(batch), normals(batch))
-                                           : group.rule->stokes_double_rows(points(batch));
+          group.rule->rows(layer, points(batch), normals(batch));
     });
-  }
-
-  /// Every target that is summed: `sum(rule, targets, charges)`.
-  template <class Sum>
-  static void add_sums(const FarLayers& far, const Matrix& density, Matrix& values, const Sum& sum) {
-    for (const FarGroup& group : far.groups) {
-      const Matrix charges = group.rule->charges(density);
-      for_each_batch(group.targets, [&](Index, const std::vector<Index>& batch) {
-        values(batch, Eigen::all) = sum(*group.rule, batch, charges);
-      });
-    }
-  }
-
-  /// Every target that has rows: `value(its rows, k, first column)`.
-  template <class Value>
-  static void add_rows(const RowTargets& all, int PairColumns::*first, Matrix& values, const Value& value) {
-    const Index n = static_cast<Index>(all.targets.size());
-#pragma omp parallel for schedule(static)
-    for (Index k = 0; k < n; ++k) values.row(all.targets[k]) = value(all, k, all.columns.*first);
   }
 
   [[nodiscard]] Matrix points(const std::vector<Index>& targets) const { return at.points(targets, Eigen::all); }
   [[nodiscard]] Matrix normals(const std::vector<Index>& targets) const { return at.normals(targets, Eigen::all); }
 
-  void require_selected(int PairColumns::*column) const {
-    if (near.columns.*column < 0) throw std::logic_error("a layer between two membranes was not selected");
+  [[nodiscard]] const FarLayers& far(PairLayer layer) const {
+    switch (layer) {
+      case PairLayer::laplace_single:
+      case PairLayer::stokes_single:
+        return single;
+      case PairLayer::laplace_single_normal:
+        return single_normal;
+      case PairLayer::laplace_double:
+        return double_layer;
+      case PairLayer::laplace_double_normal:
+        return double_normal;
+      case PairLayer::stokes_double:
+        break;
+    }
+    return stokes_double_layer;
   }
 
-  /// A scalar layer.
-  template <class Sum>
-  [[nodiscard]] Vector scalar(const FarLayers& far, int PairColumns::*column, const Vector& density,
-                              const Sum& sum) const {
-    require_selected(column);
-    require_size("density", density.size(), at.source.rows());
-    Matrix values(at.points.rows(), 1);
-    add_sums(far, density, values, sum);
-    const auto value = [&density](const RowTargets& all, Index k, int first) {
-      return Eigen::Matrix<double, 1, 1>(all.row(k, first).dot(density));
-    };
-    add_rows(near, column, values, value);
-    add_rows(far.by_rows, column, values, value);
-    return values;
-  }
-
-  /// A Stokes layer of blocks xx, xy, xz, yy, yz, zz.
-  template <class Sum>
-  [[nodiscard]] Matrix stokes(const FarLayers& far, int PairColumns::*column, const Matrix& density,
-                              const Sum& sum) const {
-    require_selected(column);
-    require_size("density", density.rows(), at.source.rows());
-    Matrix values(at.points.rows(), 3);
-    add_sums(far, density, values, sum);
-    const auto value = [&density](const RowTargets& all, Index k, int first) {
-      constexpr int kBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-      Eigen::RowVector3d v = Eigen::RowVector3d::Zero();
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) v[i] += all.row(k, first + kBlock[i][j]).dot(density.col(j));
+  /// The targets that have rows.
+  static void put_rows(const RowTargets& all, PairLayer layer, const Matrix& density, Matrix& values) {
+    const Index n = std::ssize(all.targets);
+    const int first = all.columns[layer];
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < n; ++k) {
+      auto value = values.row(all.targets[k]);
+      if (!is_stokes(layer)) {
+        value[0] = all.row(k, first).dot(density.col(0));
+        continue;
       }
-      return v;
-    };
-    add_rows(near, column, values, value);
-    add_rows(far.by_rows, column, values, value);
-    return values;
+      value.setZero();
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) value[i] += all.row(k, first + kStokesBlock[i][j]).dot(density.col(j));
+      }
+    }
   }
 };
 
@@ -335,46 +310,20 @@ PairLayers& PairLayers::operator=(PairLayers&&) noexcept = default;
 
 const PairCounts& PairLayers::counts() const { return data_->counts; }
 
-Vector PairLayers::laplace_single(const Vector& weighted) const {
-  return data_->scalar(data_->single, &PairColumns::single, weighted,
-                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
-                         return rule.laplace_single(data_->points(targets), charges);
-                       });
-}
-
-Vector PairLayers::laplace_single_normal(const Vector& weighted) const {
-  return data_->scalar(data_->single_normal, &PairColumns::single_normal, weighted,
-                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
-                         return rule.laplace_single_normal(data_->points(targets), data_->normals(targets), charges);
-                       });
-}
-
-Vector PairLayers::laplace_double(const Vector& density) const {
-  return data_->scalar(data_->double_layer, &PairColumns::double_layer, density,
-                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
-                         return rule.laplace_double(data_->points(targets), charges);
-                       });
-}
-
-Vector PairLayers::laplace_double_normal(const Vector& density) const {
-  return data_->scalar(data_->double_normal, &PairColumns::double_normal, density,
-                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
-                         return rule.laplace_double_normal(data_->points(targets), data_->normals(targets), charges);
-                       });
-}
-
-Matrix PairLayers::stokes_single(const Matrix& weighted) const {
-  return data_->stokes(data_->single, &PairColumns::stokes, weighted,
-                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
-                         return rule.stokes_single(data_->points(targets), charges);
-                       });
-}
-
-Matrix PairLayers::stokes_double(const Matrix& velocity) const {
-  return data_->stokes(data_->stokes_double_layer, &PairColumns::stokes_double, velocity,
-                       [this](const FarRule& rule, const std::vector<Index>& targets, const Matrix& charges) {
-                         return rule.stokes_double(data_->points(targets), charges);
-                       });
+Matrix PairLayers::apply(PairLayer layer, const Matrix& density) const {
+  if (!data_->near.columns.has(layer)) throw std::logic_error("a layer between two membranes was not selected");
+  require_size("density", density.rows(), data_->at.source.rows());
+  Matrix values(data_->at.points.rows(), is_stokes(layer) ? 3 : 1);
+  const FarLayers& far = data_->far(layer);
+  for (const FarGroup& group : far.groups) {
+    const Matrix charges = group.rule->charges(density);
+    for_each_batch(group.targets, [&](Index, const std::vector<Index>& batch) {
+      values(batch, Eigen::all) = group.rule->sums(layer, data_->points(batch), data_->normals(batch), charges);
+    });
+  }
+  Data::put_rows(data_->near, layer, density, values);
+  if (!far.by_rows.targets.empty()) Data::put_rows(far.by_rows, layer, density, values);
+  return values;
 }
 
 }  // namespace vehd

@@ -59,20 +59,13 @@ class PairLayers {
   PairLayers(PairLayers&&) noexcept;
   PairLayers& operator=(PairLayers&&) noexcept;
 
-  // Each throws std::logic_error if it was not selected, and ShapeError for a density of another degree.
-
-  /// S[f] at the targets from the coefficients of J f. @return [n_targets]
-  [[nodiscard]] Vector laplace_single(const Vector& weighted) const;
-  /// N·∇S[f] from J f. @return [n_targets]
-  [[nodiscard]] Vector laplace_single_normal(const Vector& weighted) const;
-  /// D[f] from f. @return [n_targets]
-  [[nodiscard]] Vector laplace_double(const Vector& density) const;
-  /// N·∇D[f] from f. @return [n_targets]
-  [[nodiscard]] Vector laplace_double_normal(const Vector& density) const;
-  /// Stokes single layer at μ = 1 from J f, [n_coefficients x 3]. @return [n_targets x 3]
-  [[nodiscard]] Matrix stokes_single(const Matrix& weighted) const;
-  /// Stokes double layer from v, [n_coefficients x 3]. @return [n_targets x 3]
-  [[nodiscard]] Matrix stokes_double(const Matrix& velocity) const;
+  /// A layer at the targets.
+  /// @param density  coefficients of what the layer is from, see PairLayer; [n_coefficients x 1], of a Stokes layer
+  ///                 [n_coefficients x 3]
+  /// @return         [n_targets x 1] or [n_targets x 3]
+  /// @throws std::logic_error if the layer was not selected
+  /// @throws ShapeError for a density of another degree
+  [[nodiscard]] Matrix apply(PairLayer layer, const Matrix& density) const;
 
   [[nodiscard]] const PairCounts& counts() const;
 

@@ -61,8 +61,7 @@ double largest_error(const std::vector<Matrix>& found, const std::vector<Matrix>
 
 BOOST_AUTO_TEST_CASE(give_what_direct_sums_do) {
   const std::vector<ExpandedMembrane> all = expanded(shapes());
-  std::vector<Vector> scalars;
-  std::vector<Matrix> vectors;
+  std::vector<Matrix> scalars, vectors;
   for (unsigned b = 0; b < all.size(); ++b) {
     vectors.push_back(smooth_coefficients(kOrder, 5, 3, 40 + b));
     scalars.emplace_back(vectors.back().col(0));
@@ -77,15 +76,12 @@ BOOST_AUTO_TEST_CASE(give_what_direct_sums_do) {
       const double error = largest_error(found, direct(all, far, layer));
       BOOST_TEST(error < tolerance, error);
     };
-    using Pair = const PairLayers&;
-    check(far.laplace_single(scalars), [&](Pair p, std::size_t b) -> Matrix { return p.laplace_single(scalars[b]); });
-    check(far.laplace_single_normal(scalars),
-          [&](Pair p, std::size_t b) -> Matrix { return p.laplace_single_normal(scalars[b]); });
-    check(far.laplace_double(scalars), [&](Pair p, std::size_t b) -> Matrix { return p.laplace_double(scalars[b]); });
-    check(far.laplace_double_normal(scalars),
-          [&](Pair p, std::size_t b) -> Matrix { return p.laplace_double_normal(scalars[b]); });
-    check(far.stokes_single(vectors), [&](Pair p, std::size_t b) { return p.stokes_single(vectors[b]); });
-    check(far.stokes_double(vectors), [&](Pair p, std::size_t b) { return p.stokes_double(vectors[b]); });
+    for (std::size_t i = 0; i < n_pair_layers; ++i) {
+      const auto layer = static_cast<PairLayer>(i);
+      const std::vector<Matrix>& densities = is_stokes(layer) ? vectors : scalars;
+      check(far.apply(layer, densities),
+            [&](const PairLayers& pair, std::size_t b) { return pair.apply(layer, densities[b]); });
+    }
   }
 }
 
@@ -97,7 +93,8 @@ BOOST_AUTO_TEST_CASE(do_not_know_the_unit_of_length) {
   const FarExpansions small(expanded(positions, kLength), 1e-7, transforms);
   std::vector<Matrix> vectors;
   for (unsigned b = 0; b < positions.size(); ++b) vectors.push_back(smooth_coefficients(kOrder, 5, 3, 40 + b));
-  const std::vector<Matrix> one = far.stokes_single(vectors), other = small.stokes_single(vectors);
+  const std::vector<Matrix> one = far.apply(PairLayer::stokes_single, vectors),
+                            other = small.apply(PairLayer::stokes_single, vectors);
   for (std::size_t a = 0; a < positions.size(); ++a) BOOST_TEST((one[a] / kLength - other[a]).norm() == 0.0);
 }
 

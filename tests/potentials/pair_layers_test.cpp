@@ -63,8 +63,10 @@ BOOST_AUTO_TEST_CASE(layers_of_harmonics_on_a_sphere_are_exact_at_every_gap) {
     for (const auto& [n, m] : {std::pair{0, 0}, {1, -1}, {4, 3}, {12, -5}}) {
       const Vector y = harmonic(kOrder, n, m);
       const Vector weighted = radius * radius * y;
-      const Vector single = layers.laplace_single(weighted), flux = layers.laplace_single_normal(weighted);
-      const Vector double_layer = layers.laplace_double(y), double_flux = layers.laplace_double_normal(y);
+      const Vector single = layers.apply(PairLayer::laplace_single, weighted),
+                   flux = layers.apply(PairLayer::laplace_single_normal, weighted);
+      const Vector double_layer = layers.apply(PairLayer::laplace_double, y),
+                   double_flux = layers.apply(PairLayer::laplace_double_normal, y);
       double error = 0.0;
       for (Index i = 0; i < points.rows(); ++i) {
         const double r = radius + gap;
@@ -94,7 +96,7 @@ BOOST_AUTO_TEST_CASE(stokes_layers_of_rigid_motions_of_a_sphere_are_exact_at_eve
     motion.row(i) = rotation.cross(Vector3(position.row(i).transpose())).transpose();
   }
   motion.row(0) += std::sqrt(4.0 * std::numbers::pi) * force.transpose();
-  const Matrix found = layers.stokes_single(weighted);
+  const Matrix found = layers.apply(PairLayer::stokes_single, weighted);
   for (Index i = 0; i < points.rows(); ++i) {
     // F·[(I + r̂r̂)/r + R²(I − 3r̂r̂)/(3r³)]/(8π)
     const Vector3 x = points.row(i).transpose();
@@ -105,7 +107,7 @@ BOOST_AUTO_TEST_CASE(stokes_layers_of_rigid_motions_of_a_sphere_are_exact_at_eve
         (8.0 * std::numbers::pi);
     BOOST_TEST((found.row(i).transpose() - exact).norm() < 1e-10);
   }
-  BOOST_TEST(layers.stokes_double(motion).cwiseAbs().maxCoeff() < 1e-9);
+  BOOST_TEST(layers.apply(PairLayer::stokes_double, motion).cwiseAbs().maxCoeff() < 1e-9);
 }
 
 // Shapes without symmetry, densities up to the degree of the membrane; the layers off the membrane take another way.
@@ -127,15 +129,19 @@ BOOST_AUTO_TEST_CASE(layers_of_given_densities_agree_with_those_off_the_membrane
     const auto along = [&normals](const Matrix& gradient) -> Vector {
       return gradient.cwiseProduct(normals).rowwise().sum();
     };
-    BOOST_TEST(max_difference(layers.laplace_single(densities.laplace_single), v.laplace_single.values) < 1e-9);
-    BOOST_TEST(max_difference(layers.laplace_single_normal(densities.laplace_single),
+    BOOST_TEST(max_difference(layers.apply(PairLayer::laplace_single, densities.laplace_single),
+                              v.laplace_single.values) < 1e-9);
+    BOOST_TEST(max_difference(layers.apply(PairLayer::laplace_single_normal, densities.laplace_single),
                               along(v.laplace_single_gradient.values)) < 1e-9);
-    BOOST_TEST(max_difference(layers.laplace_double(densities.laplace_double), v.laplace_double.values) < 1e-9);
+    BOOST_TEST(max_difference(layers.apply(PairLayer::laplace_double, densities.laplace_double),
+                              v.laplace_double.values) < 1e-9);
     const double steepest = along(v.laplace_double_gradient.values).cwiseAbs().maxCoeff();
-    BOOST_TEST(max_difference(layers.laplace_double_normal(densities.laplace_double),
+    BOOST_TEST(max_difference(layers.apply(PairLayer::laplace_double_normal, densities.laplace_double),
                               along(v.laplace_double_gradient.values)) < 1e-9 * std::max(1.0, steepest));
-    BOOST_TEST(max_difference(layers.stokes_single(densities.stokes_single), v.stokes_single.values) < 1e-9);
-    BOOST_TEST(max_difference(layers.stokes_double(densities.stokes_double), v.stokes_double.values) < 1e-9);
+    BOOST_TEST(max_difference(layers.apply(PairLayer::stokes_single, densities.stokes_single), v.stokes_single.values) <
+               1e-9);
+    BOOST_TEST(max_difference(layers.apply(PairLayer::stokes_double, densities.stokes_double), v.stokes_double.values) <
+               1e-9);
   }
 }
 
@@ -148,8 +154,9 @@ BOOST_AUTO_TEST_CASE(sources_within_shape_33_are_seen_at_every_gap) {
   const Matrix points = points_at_all_gaps(field.position, 9);
   const Matrix normals = any_normals(points.rows());
   const PairLayers layers = pair_layers(field.position, points, normals);
-  const Vector found = layers.laplace_double(value) - layers.laplace_single(flux);
-  const Vector slope = layers.laplace_double_normal(value) - layers.laplace_single_normal(flux);
+  const Vector found = layers.apply(PairLayer::laplace_double, value) - layers.apply(PairLayer::laplace_single, flux);
+  const Vector slope =
+      layers.apply(PairLayer::laplace_double_normal, value) - layers.apply(PairLayer::laplace_single_normal, flux);
   double error = 0.0, slope_error = 0.0;
   for (Index i = 0; i < points.rows(); ++i) {
     const Vector3 r = points.row(i).transpose() - field.inner;
@@ -174,12 +181,18 @@ BOOST_AUTO_TEST_CASE(rows_of_far_targets_are_the_sums_of_their_rule) {
     Instruments instruments;
     SharedTransforms transforms;
     const PairLayers sums(position, points, normals, kEveryLayer, {.row_bytes = bytes}, transforms, instruments);
-    BOOST_TEST(max_difference(rows.laplace_single(density), sums.laplace_single(density)) < 1e-13);
-    BOOST_TEST(max_difference(rows.laplace_single_normal(density), sums.laplace_single_normal(density)) < 1e-13);
-    BOOST_TEST(max_difference(rows.laplace_double(density), sums.laplace_double(density)) < 1e-13);
-    BOOST_TEST(max_difference(rows.laplace_double_normal(density), sums.laplace_double_normal(density)) < 1e-13);
-    BOOST_TEST(max_difference(rows.stokes_single(vectors), sums.stokes_single(vectors)) < 1e-13);
-    BOOST_TEST(max_difference(rows.stokes_double(vectors), sums.stokes_double(vectors)) < 1e-13);
+    BOOST_TEST(max_difference(rows.apply(PairLayer::laplace_single, density),
+                              sums.apply(PairLayer::laplace_single, density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.apply(PairLayer::laplace_single_normal, density),
+                              sums.apply(PairLayer::laplace_single_normal, density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.apply(PairLayer::laplace_double, density),
+                              sums.apply(PairLayer::laplace_double, density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.apply(PairLayer::laplace_double_normal, density),
+                              sums.apply(PairLayer::laplace_double_normal, density)) < 1e-13);
+    BOOST_TEST(max_difference(rows.apply(PairLayer::stokes_single, vectors),
+                              sums.apply(PairLayer::stokes_single, vectors)) < 1e-13);
+    BOOST_TEST(max_difference(rows.apply(PairLayer::stokes_double, vectors),
+                              sums.apply(PairLayer::stokes_double, vectors)) < 1e-13);
   }
 }
 
@@ -211,8 +224,8 @@ BOOST_AUTO_TEST_CASE(layers_that_were_not_selected_are_refused) {
   const Matrix points = points_at_all_gaps(sphere(6), 2);
   const PairLayers layers(sphere(6), points, any_normals(points.rows()), {.laplace_single = true}, {}, transforms,
                           instruments);
-  BOOST_CHECK_THROW((void)layers.laplace_double(harmonic(6, 1, 0)), std::logic_error);
-  BOOST_CHECK_THROW((void)layers.stokes_single(Matrix::Zero(49, 3)), std::logic_error);
+  BOOST_CHECK_THROW((void)layers.apply(PairLayer::laplace_double, harmonic(6, 1, 0)), std::logic_error);
+  BOOST_CHECK_THROW((void)layers.apply(PairLayer::stokes_single, Matrix::Zero(49, 3)), std::logic_error);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
