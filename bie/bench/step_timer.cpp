@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "bie/potentials/assembly_arithmetic.hpp"
+#include "bie/bench/assembly_arithmetic.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/composition.hpp"

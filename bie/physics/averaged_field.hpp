@@ -14,8 +14,6 @@ struct ComplexConductivities {
 
   /// (K_i − K_e)/(K_i + K_e), as η of Eq. (11).
   [[nodiscard]] std::complex<double> contrast() const { return (inside - outside) / (inside + outside); }
-  /// K_i K_e/(K_i + K_e), as κ of Eq. (14).
-  [[nodiscard]] std::complex<double> series() const { return inside * (outside / (inside + outside)); }
 };
 
 /// @param electric  of an averaged frequency

@@ -304,20 +304,11 @@ TracesOf<Scalar> traces_of(const ElectricMembrane& of, const CurrentLaw<Scalar>&
                            const FieldOf<Scalar>& weighted_jump, const OfOthers<Scalar>& others) {
   const Membrane& membrane = of.membrane;
   FieldOf<Scalar> weighted_mean = applied_flux<Scalar>(of) + hypersingular<Scalar>(membrane, potential);
-  const Vector applied = membrane.fine.analyze(-(membrane.surface.position * of.electric.field));
-  FieldOf<Scalar> between =
-      applied.cast<Scalar>() -
-      mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.layers.laplace_double.apply(parts); },
-                     potential);
   if (weighted_jump.size() > 0) {
     weighted_mean -= values_of<Scalar>(membrane, adjoint<Scalar>(membrane, weighted_jump));
-    between += mapped<Scalar>(
-        [&](const Matrix& parts) -> Matrix { return membrane.layers.laplace_single.apply(parts); }, weighted_jump);
   }
-  if (others.flux.size() > 0) {
-    weighted_mean += values_of<Scalar>(membrane, others.flux);
-    between += others.potential;
-  }
+  if (others.flux.size() > 0) weighted_mean += values_of<Scalar>(membrane, others.flux);
+  const FieldOf<Scalar> between = mean_potential<Scalar>(of, potential, weighted_jump, others.potential);
   const FieldOf<Scalar> mean = weighted_mean.cwiseQuotient(membrane.surface.area_element.cast<Scalar>());
   TracesOf<Scalar> traces;
   traces.charge = 2.0 * law.contrast() * mean + (2.0 / (law.k_in + law.k_out)) * (law.s_in + law.s_out);

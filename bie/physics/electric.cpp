@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bie/physics/real_maps.hpp"
+
 namespace vehd {
 
 namespace {
@@ -42,17 +44,14 @@ Vector weighted_field_flux(const Membrane& membrane, const Vector3& field) {
 
 ElectricTraces electric_traces(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
                                const SecondKindSolution& density, const Vector& of_others) {
-  const Surface& s = membrane.surface;
   const double sum = electric.conductivity_in + electric.conductivity_out;
   const double eta = conductivity_contrast(electric);
   ElectricTraces traces;
   traces.flux_in = -(electric.conductivity_out / sum) * density.values;
   traces.flux_out = -(electric.conductivity_in / sum) * density.values;
   traces.charge = eta * density.values;
-  const Vector applied = membrane.fine.analyze(-(s.position * electric.field));
-  Vector mean = applied - membrane.layers.laplace_double.apply(potential);
-  if (eta != 0.0) mean += membrane.layers.laplace_single.apply(eta * density.weighted);
-  if (of_others.size() > 0) mean += of_others;
+  const Vector weighted_charge = eta == 0.0 ? Vector() : Vector(eta * density.weighted);
+  const Vector mean = mean_potential<double>({electric, membrane}, potential, weighted_charge, of_others);
   traces.potential_in = mean + 0.5 * potential;
   traces.potential_out = mean - 0.5 * potential;
   return traces;

@@ -19,6 +19,35 @@ Vector stored_charge(const ChargingMembrane& of, const Vector& potential) {
   return capacitance_of(of.charging, membrane).cwiseProduct(Vector(membrane.fine.synthesize(potential)));
 }
 
+/// The charges q_i and q_e of the faces as a law between V and both fields: a = C_m, k = ε, s_i = q_i, s_e = q_e.
+/// Without displacement currents q_i = −q_e = C_m V_m, and ε counts as zero.
+CurrentLaw<double> law_of_charges(const ChargingMembrane& of, const Unknowns& charges) {
+  const auto& [electric, membrane] = of.in_field;
+  const Vector capacitance = capacitance_of(of.charging, membrane);
+  if (!electric.displacement_current) {
+    const Vector stored = stored_charge(of, charges.transmembrane_potential);
+    return {capacitance, 0.0, 0.0, stored, -stored};
+  }
+  const double c = of.charging.capacitance;
+  const Vector outer = charges.free_charge - charges.transmembrane_potential;
+  return {capacitance, electric.permittivity_in(), electric.permittivity,
+          c * membrane.fine.synthesize(charges.transmembrane_potential), c * membrane.fine.synthesize(outer)};
+}
+
+/// Backward Euler of D q_i/Dt = σ_i E_i − I, D q_e/Dt = −σ_e E_e + I with a current I = G V + J through the membrane,
+/// which is (4e) without displacement currents: a = C_m/dt + G, k = σ + ε/dt, s_i = q_i/dt − J and s_e = q_e/dt + J.
+/// @param dt      > 0
+/// @param before  the charges at the start of the step
+/// Source: paper Eqs. (4e), (30); docs/theory/electric.md
+CurrentLaw<double> law_of_step(const ChargingMembrane& of, const MembraneCurrent& current, double dt,
+                               const Unknowns& before) {
+  const ElectricParameters& electric = of.in_field.electric;
+  const CurrentLaw<double> held = law_of_charges(of, before);
+  return {held.a / dt + current.conductance, electric.conductivity_in + held.k_in / dt,
+          electric.conductivity_out + held.k_out / dt, held.s_in / dt - current.constant,
+          held.s_out / dt + current.constant};
+}
+
 /// The charges at the end of a step that ends in V.
 Unknowns charges_after(const ChargingMembrane& of, const CurrentLaw<double>& law, const Vector& potential) {
   const auto& [electric, membrane] = of.in_field;
@@ -146,28 +175,6 @@ SolveReport find_potentials(const std::vector<ChargingMembrane>& membranes, cons
 }
 
 }  // namespace
-
-CurrentLaw<double> law_of_charges(const ChargingMembrane& of, const Unknowns& charges) {
-  const auto& [electric, membrane] = of.in_field;
-  const Vector capacitance = capacitance_of(of.charging, membrane);
-  if (!electric.displacement_current) {
-    const Vector stored = stored_charge(of, charges.transmembrane_potential);
-    return {capacitance, 0.0, 0.0, stored, -stored};
-  }
-  const double c = of.charging.capacitance;
-  const Vector outer = charges.free_charge - charges.transmembrane_potential;
-  return {capacitance, electric.permittivity_in(), electric.permittivity,
-          c * membrane.fine.synthesize(charges.transmembrane_potential), c * membrane.fine.synthesize(outer)};
-}
-
-CurrentLaw<double> law_of_step(const ChargingMembrane& of, const MembraneCurrent& current, double dt,
-                               const Unknowns& before) {
-  const ElectricParameters& electric = of.in_field.electric;
-  const CurrentLaw<double> held = law_of_charges(of, before);
-  return {held.a / dt + current.conductance, electric.conductivity_in + held.k_in / dt,
-          electric.conductivity_out + held.k_out / dt, held.s_in / dt - current.constant,
-          held.s_out / dt + current.constant};
-}
 
 SolveReport charge_membranes(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction, double dt,
                              double tolerance, const std::vector<Unknowns>& from, const std::vector<Unknowns>* residual,

@@ -7,18 +7,6 @@
 
 namespace vehd {
 
-/// The charges q_i and q_e of the faces as a law between V and both fields: a = C_m, k = ε, s_i = q_i, s_e = q_e.
-/// Without displacement currents q_i = −q_e = C_m V_m, and ε counts as zero.
-CurrentLaw<double> law_of_charges(const ChargingMembrane& of, const Unknowns& charges);
-
-/// Backward Euler of D q_i/Dt = σ_i E_i − I, D q_e/Dt = −σ_e E_e + I with a current I = G V + J through the membrane,
-/// which is (4e) without displacement currents: a = C_m/dt + G, k = σ + ε/dt, s_i = q_i/dt − J and s_e = q_e/dt + J.
-/// @param dt      > 0
-/// @param before  the charges at the start of the step
-/// Source: paper Eqs. (4e), (30); docs/theory/electric.md
-CurrentLaw<double> law_of_step(const ChargingMembrane& of, const MembraneCurrent& current, double dt,
-                               const Unknowns& before);
-
 /// One implicit step of the charging of all membranes and of the state s of those that porate,
 ///   y − dt F(y) = from,   or with a residual   y − dt F(y) = from + residual − dt F(from),
 /// F_qi = σ_i E_i − (G_m + g(s)) V − J_p, F_qe = −σ_e E_e + (G_m + g(s)) V + J_p, F_s = r(s, V); without displacement

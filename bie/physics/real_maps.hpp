@@ -70,6 +70,27 @@ FieldOf<Scalar> applied_flux(const ElectricMembrane& of) {
   return weighted_field_flux(of.membrane, of.electric.field).cast<Scalar>();
 }
 
+/// The mean of φ_i and φ_e, coefficients: −E·x + S[f] − D[V] and what others add.
+/// @param weighted_jump  J f, f the jump of the fields; empty where it is zero
+/// @param of_others      coefficients, or empty
+/// Source: paper Eq. (11)
+template <typename Scalar>
+FieldOf<Scalar> mean_potential(const ElectricMembrane& of, const FieldOf<Scalar>& potential,
+                               const FieldOf<Scalar>& weighted_jump, const FieldOf<Scalar>& of_others) {
+  const auto& [electric, membrane] = of;
+  const Vector applied = membrane.fine.analyze(-(membrane.surface.position * electric.field));
+  FieldOf<Scalar> mean =
+      applied.cast<Scalar>() -
+      mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.layers.laplace_double.apply(parts); },
+                     potential);
+  if (weighted_jump.size() > 0) {
+    mean += mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.layers.laplace_single.apply(parts); },
+                           weighted_jump);
+  }
+  if (of_others.size() > 0) mean += of_others;
+  return mean;
+}
+
 using Layer = std::vector<Vector> (Interaction::*)(const std::vector<Vector>&) const;
 
 /// What the others do to each membrane; nothing without others.

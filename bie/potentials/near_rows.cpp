@@ -11,7 +11,7 @@
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
 #include "bie/potentials/few_nodes.hpp"
-#include "bie/potentials/near_rule.hpp"
+#include "bie/potentials/foot_point.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"

@@ -10,7 +10,7 @@
 
 #include "bie/kernels/laplace.hpp"
 #include "bie/kernels/stokes.hpp"
-#include "bie/potentials/near_rule.hpp"
+#include "bie/potentials/foot_point.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/potentials/target_frame.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -155,7 +155,7 @@ struct OffSurfaceLayers::Data {
   }
 
   void locate(FreeTarget& target, Side membrane_side) const {
-    target.foot = nearest_foot(position, coarse, target.nearest, target.point);
+    target.foot = nearest_feet(position, coarse, {target.nearest}, target.point.transpose()).front();
     target.distance = std::abs(target.foot.height);
     target.on_membrane = target.distance < settings.membrane_distance * radius;
     target.side = target.on_membrane ? membrane_side : target.foot.height < 0.0 ? Side::interior : Side::exterior;

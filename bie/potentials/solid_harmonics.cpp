@@ -1,7 +1,10 @@
 #include "bie/potentials/solid_harmonics.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
+
+#include "bie/support/lanes.hpp"
 
 namespace vehd {
 
@@ -89,15 +92,14 @@ constexpr Index kNodesTogether = 4;
 /// Columns of R and of q whose sums stay in registers.
 constexpr Index kHarmonics = 2, kDensities = 4;
 
-using FourDoubles [[gnu::vector_size(kNodesTogether * sizeof(double))]] = double;
-using FourDoublesAnywhere
-    [[gnu::vector_size(kNodesTogether * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] = double;
-using FourFloatsAnywhere
-    [[gnu::vector_size(kNodesTogether * sizeof(float)), gnu::aligned(alignof(float)), gnu::may_alias]] = float;
+using FourDoubles = Lanes<kNodesTogether>::Values;
 
-FourDoubles four(const double* at) { return *reinterpret_cast<const FourDoublesAnywhere*>(at); }
+FourDoubles four(const double* at) { return Lanes<kNodesTogether>::load(at); }
 FourDoubles four(const float* at) {
-  return __builtin_convertvector(*reinterpret_cast<const FourFloatsAnywhere*>(at), FourDoubles);
+  using FourFloats [[gnu::vector_size(kNodesTogether * sizeof(float))]] = float;
+  FourFloats values;
+  std::memcpy(&values, at, sizeof values);
+  return __builtin_convertvector(values, FourDoubles);
 }
 
 template <class Entry>

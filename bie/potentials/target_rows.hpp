@@ -29,8 +29,6 @@ class CoefficientBlock {
   }
 
   [[nodiscard]] Index columns(bool sine) const { return columns_[sine]; }
-  /// From a degree of one order to the next.
-  [[nodiscard]] Index degree_stride(bool sine) const { return columns_[sine]; }
   /// From an order of one degree to the next.
   [[nodiscard]] Index order_stride(bool sine) const { return width_ * columns_[sine]; }
   double* row(bool sine, int n, int m) { return values_[sine].get() + (m * width_ + n) * columns_[sine]; }

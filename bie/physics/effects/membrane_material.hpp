@@ -23,11 +23,4 @@ void for_each_property(Material& material, const Visit& visit) {
   }
 }
 
-/// Is any of them there?
-inline bool is_anywhere_different(const MembraneMaterial& material) {
-  bool any = false;
-  for_each_property(material, [&](const Vector&) { any = true; });
-  return any;
-}
-
 }  // namespace vehd

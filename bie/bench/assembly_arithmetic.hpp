@@ -11,7 +11,7 @@ namespace vehd {
 /// and its kernels, where a square root or a division counts one as well. Arguments as in
 /// assemble_symmetric_operators.
 /// Accuracy: a count of the loops as they are written; between orders 4.3 and 5 in p
-/// (tests/potentials/assembly_arithmetic_test.cpp)
+/// (tests/bench/assembly_arithmetic_test.cpp)
 double operations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                const LayerSelection& selection, const SymmetrySubspace& subspace, int fold);
 

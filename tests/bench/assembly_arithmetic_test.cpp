@@ -1,4 +1,4 @@
-#include "bie/potentials/assembly_arithmetic.hpp"
+#include "bie/bench/assembly_arithmetic.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
