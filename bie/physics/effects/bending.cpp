@@ -96,10 +96,12 @@ EffectRow bending_row() {
   return {kBending,
           [](const Model& model, const VesicleModel& vesicle) -> MadeEffect {
             if (!model.mobile || !vesicle.bending) return nullptr;
-            return described({kBending,
-                              "f_b, Eq. (2), implicit through (28)",
-                              {{&LayerSelection::stokes_single, "velocity of f_b, Eq. (5)"}},
-                              {"change of H"}});
+            return described([] {
+              return EffectDescription{kBending,
+                                       "f_b, Eq. (2), implicit through (28)",
+                                       {{&LayerSelection::stokes_single, "velocity of f_b, Eq. (5)"}},
+                                       {"change of H"}};
+            });
           },
           [](Model&, VesicleModel& vesicle) { vesicle.bending.reset(); }};
 }

@@ -147,10 +147,13 @@ EffectRow contact_row() {
   return {kContact,
           [](const Model& model, const VesicleModel&) -> MadeEffect {
             if (!model.mobile || !model.contact) return nullptr;
-            return described({kContact,
-                              "f_c = -dE/dx of E = sum of energy/(pi range^2) exp(-r^2/range^2) over both membranes",
-                              {{&LayerSelection::stokes_single, "velocity of f_c, Eq. (5)"}},
-                              {}});
+            return described([] {
+              return EffectDescription{
+                  kContact,
+                  "f_c = -dE/dx of E = sum of energy/(pi range^2) exp(-r^2/range^2) over both membranes",
+                  {{&LayerSelection::stokes_single, "velocity of f_c, Eq. (5)"}},
+                  {}};
+            });
           },
           [](Model& model, VesicleModel&) { model.contact.reset(); }};
 }

@@ -106,8 +106,8 @@ struct EffectRow {
   void (*remove)(Model&, VesicleModel&) = nullptr;
 };
 
-/// An effect that is nothing but its description.
-MadeEffect described(EffectDescription description);
+/// An effect that is nothing but its description, which is made where it is asked for.
+MadeEffect described(EffectDescription (*description)());
 
 /// All effects that vehd knows.
 std::vector<EffectRow> effect_table();

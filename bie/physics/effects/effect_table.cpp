@@ -12,18 +12,16 @@ namespace {
 
 class DescribedEffect : public Effect {
  public:
-  explicit DescribedEffect(EffectDescription description) : description_(std::move(description)) {}
-  [[nodiscard]] EffectDescription description() const override { return description_; }
+  explicit DescribedEffect(EffectDescription (*description)()) : description_(description) {}
+  [[nodiscard]] EffectDescription description() const override { return description_(); }
 
  private:
-  EffectDescription description_;
+  EffectDescription (*description_)();
 };
 
 }  // namespace
 
-MadeEffect described(EffectDescription description) {
-  return std::make_shared<DescribedEffect>(std::move(description));
-}
+MadeEffect described(EffectDescription (*description)()) { return std::make_shared<DescribedEffect>(description); }
 
 std::vector<EffectRow> effect_table() {
   return {bending_row(),

@@ -106,7 +106,10 @@ EffectRow spatial_variation_row() {
   return {kSpatialVariation,
           [](const Model&, const VesicleModel& vesicle) -> MadeEffect {
             if (!vesicle.by_place) return nullptr;
-            return described({kSpatialVariation, "C_m, G_m, kappa_B or c as functions of the material point", {}, {}});
+            return described([] {
+              return EffectDescription{
+                  kSpatialVariation, "C_m, G_m, kappa_B or c as functions of the material point", {}, {}};
+            });
           },
           [](Model&, VesicleModel& vesicle) { vesicle.by_place = false; }};
 }

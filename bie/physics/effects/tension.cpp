@@ -25,10 +25,12 @@ EffectRow tension_row() {
   return {kInextensibility,
           [](const Model& model, const VesicleModel& vesicle) -> MadeEffect {
             if (!model.mobile || !vesicle.inextensible) return nullptr;
-            return described({kInextensibility,
-                              "f_lambda, Eq. (2), from div_gamma v = 0, Eq. (27b)",
-                              {{&LayerSelection::stokes_single, "velocity of f_lambda, Eq. (5)"}},
-                              {"tension"}});
+            return described([] {
+              return EffectDescription{kInextensibility,
+                                       "f_lambda, Eq. (2), from div_gamma v = 0, Eq. (27b)",
+                                       {{&LayerSelection::stokes_single, "velocity of f_lambda, Eq. (5)"}},
+                                       {"tension"}};
+            });
           },
           [](Model&, VesicleModel& vesicle) { vesicle.inextensible = false; }};
 }

@@ -102,10 +102,12 @@ EffectRow viscosity_contrast_row() {
   return {kViscosityContrast,
           [](const Model& model, const VesicleModel& vesicle) -> MadeEffect {
             if (!model.mobile || vesicle.viscosity_ratio == 1.0) return nullptr;
-            return described({kViscosityContrast,
-                              "(1 + ratio)/2 v - (1 - ratio) D[v] = v_inf + S[f]/mu in place of Eq. (5)",
-                              {{&LayerSelection::stokes_double, "D of the velocity map"}},
-                              {}});
+            return described([] {
+              return EffectDescription{kViscosityContrast,
+                                       "(1 + ratio)/2 v - (1 - ratio) D[v] = v_inf + S[f]/mu in place of Eq. (5)",
+                                       {{&LayerSelection::stokes_double, "D of the velocity map"}},
+                                       {}};
+            });
           },
           [](Model&, VesicleModel& vesicle) { vesicle.viscosity_ratio = 1.0; }};
 }
