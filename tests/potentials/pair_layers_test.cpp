@@ -202,9 +202,11 @@ BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
   const Matrix density = smooth_coefficients(8, 6, 3, 66);
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  const Matrix serial = pair_layers(position, points, any_normals(points.rows())).stokes_double(density);
+  const Matrix serial =
+      pair_layers(position, points, any_normals(points.rows())).apply(PairLayer::stokes_double, density);
   omp_set_num_threads(3);
-  const Matrix parallel = pair_layers(position, points, any_normals(points.rows())).stokes_double(density);
+  const Matrix parallel =
+      pair_layers(position, points, any_normals(points.rows())).apply(PairLayer::stokes_double, density);
   omp_set_num_threads(threads);
   BOOST_TEST(max_difference(serial, parallel) == 0.0);
 }
