@@ -26,41 +26,43 @@ std::string scene_of(int order) {
 }  // namespace
 
 ShapeFlowProblem::ShapeFlowProblem(int reference_order)
-    : frozen_(read_frozen_state({"shape33.toml", {}, scene_of(reference_order)}, std::nullopt)),
-      contents_(check_contents(frozen_)),
-      force_(total_force(frozen_, frozen_.fields.vesicles.front())),
-      reference_(check_fields(frozen_, contents_, force_, reference_order, Matrix(0, 3))) {}
+    : problem_(check_problem(read_frozen_state({"shape33.toml", {}, scene_of(reference_order)}, std::nullopt))) {
+  problem_.samples = {};
+  reference_ = check_fields(problem_, {reference_order});
+}
 
 SolvedFields ShapeFlowProblem::solve(int order) const {
   Instruments instruments;
-  return solve_fields(frozen_.model, Discretisation(settings_at(frozen_, order)), resized(frozen_.state, order),
+  const FrozenState& frozen = problem_.frozen;
+  return solve_fields(frozen.model, Discretisation(settings_at(frozen, order)), resized(frozen.state, order),
                       instruments);
 }
 
 MethodError ShapeFlowProblem::error_of(const Matrix& found, const Matrix& exact, const Matrix& background) const {
   Instruments instruments;
-  const MembraneSpace space(settings_at(frozen_, reference_.order), {});
-  const Matrix& position = frozen_.state.vesicles.front().position;
+  const MembraneSpace space(settings_at(problem_.frozen, reference_.front().order), {});
+  const Matrix& position = problem_.frozen.state.vesicles.front().position;
   const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);
   const auto sizes = [&](const Matrix& coefficients) -> MethodError {
     const Vector squares = membrane.fine.synthesize(coefficients).rowwise().squaredNorm();
     // The coefficient of Y_00 is the integral but for a factor that the ratio below does not have.
     return {std::sqrt(membrane.weighted(squares)(0, 0)), std::sqrt(squares.maxCoeff())};
   };
-  const MethodError difference = sizes(resize_order(found, reference_.order) - exact),
+  const MethodError difference = sizes(resize_order(found, reference_.front().order) - exact),
                     whole = sizes(exact - background);
   return {difference.l2 / whole.l2, difference.max / whole.max};
 }
 
 ShapeFlowErrors ShapeFlowProblem::errors_of(const SolvedFields& solved) const {
   const VesicleFields& fields = solved.fields.vesicles.front();
-  const Matrix background = frozen_.state.vesicles.front().position * flow_gradient(frozen_).transpose();
-  return {error_of(fields.velocity, reference_.velocity_of_shape, background),
-          error_of(fields.tension, reference_.tension, Matrix::Zero(reference_.tension.size(), 1))};
+  const Matrix background =
+      problem_.frozen.state.vesicles.front().position * flow_gradient(problem_.frozen).transpose();
+  return {error_of(fields.velocity, reference_.front().velocity_of_shape, background),
+          error_of(fields.tension, reference_.front().tension, Matrix::Zero(reference_.front().tension.size(), 1))};
 }
 
 void ShapeFlowProblem::write_input(const std::filesystem::path& file) const {
-  write_check_input(file, {frozen_, contents_, force_, {}, reference_, reference_});
+  write_check_input(file, {problem_, reference_, reference_});
 }
 
 }  // namespace vehd

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "bie/comparison/check_fields.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
@@ -37,10 +38,8 @@ class ShapeFlowProblem {
  private:
   [[nodiscard]] MethodError error_of(const Matrix& found, const Matrix& exact, const Matrix& background) const;
 
-  FrozenState frozen_;
-  CheckContents contents_;
-  Matrix force_;
-  CheckFields reference_;
+  CheckProblem problem_;
+  std::vector<CheckFields> reference_;
 };
 
 }  // namespace vehd

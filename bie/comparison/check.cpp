@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "bie/comparison/check_fields.hpp"
 #include "bie/comparison/check_input.hpp"
-#include "bie/comparison/check_samples.hpp"
-#include "bie/comparison/coupled_check_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -60,16 +59,6 @@ int estimate_order(int order, bool quick) {
 
 namespace {
 
-/// Solves by boundary integrals, with the file and the degree in front of the reason where that fails.
-template <typename Solve>
-auto solved_or_named(const FrozenState& frozen, int order, const Solve& solve) {
-  try {
-    return solve();
-  } catch (const ConvergenceError& error) {
-    throw ConvergenceError(fmt::format("{}, boundary integrals of degree {}: {}", frozen.source, order, error.what()));
-  }
-}
-
 /// Each rank that has no processor of its own slows all others down, as they wait for it at every step of a solve.
 /// @param begin  of the boundary integrals, whose time shows what other programs leave
 int n_ranks(const CheckTask& task, const ProcessorTimes& begin) {
@@ -88,54 +77,35 @@ FemProgram::Result run_elements(const FemProgram& fem, const CheckTask& task, co
   return fem.run(arguments, ranks);
 }
 
-void compare_one(const CheckTask& task, const std::filesystem::path& input) {
+/// Solves by boundary integrals and writes the file for the elements.
+void solve_by_integrals(const CheckTask& task, const std::filesystem::path& input) {
   const FrozenState& frozen = task.frozen;
-  const CheckContents contents = check_contents(frozen);
-  const Matrix force = contents.flow ? total_force(frozen, frozen.fields.vesicles.front()) : Matrix();
+  CheckProblem problem = check_problem(frozen);
   make_directory(task.directory);
-  CheckSamples samples = check_samples(frozen.state.vesicles.front().position);
-  const auto solved_at = [&](int order) {
-    CheckFields fields =
-        solved_or_named(frozen, order, [&] { return check_fields(frozen, contents, force, order, samples.points); });
-    if (task.tell) task.tell(fields);
-    return fields;
+  std::vector<int> orders, others;
+  for (const VesicleState& vesicle : frozen.state.vesicles) {
+    orders.push_back(order_of(vesicle.position.rows()));
+    others.push_back(estimate_order(orders.back(), task.quick));
+  }
+  const auto solved_at = [&](const std::vector<int>& of_each) {
+    try {
+      std::vector<CheckFields> fields = check_fields(problem, of_each);
+      if (task.tell) task.tell(fields.front());
+      return fields;
+    } catch (const ConvergenceError& error) {
+      throw ConvergenceError(
+          fmt::format("{}, boundary integrals of degree {}: {}", frozen.source, of_each.front(), error.what()));
+    }
   };
-  const int order = order_of(frozen.state.vesicles.front().position.rows()), other = estimate_order(order, task.quick);
-  CheckFields at_order = solved_at(order), for_error = solved_at(other);
-  keep_known(samples, at_order, for_error);
+  std::vector<CheckFields> at_order = solved_at(orders), for_error = solved_at(others);
+  keep_known(problem.samples, at_order.front(), for_error.front());
   std::optional<InTime> in_time;
   if (task.span) {
-    in_time = InTime{*task.span, potential_in_time(frozen, *task.span, order, false),
-                     potential_in_time(frozen, *task.span, other, true), change_by_finer_motion(frozen, *task.span)};
+    in_time =
+        InTime{*task.span, potential_in_time(frozen, *task.span, orders.front(), false),
+               potential_in_time(frozen, *task.span, others.front(), true), change_by_finer_motion(frozen, *task.span)};
   }
-  write_check_input(input, {frozen, contents, force, samples, at_order, for_error, in_time ? &*in_time : nullptr});
-}
-
-void compare_several(const CheckTask& task, const std::filesystem::path& input) {
-  const FrozenState& frozen = task.frozen;
-  const CheckContents contents = check_contents(frozen);
-  const std::size_t n = frozen.state.vesicles.size();
-  std::vector<Matrix> forces(n);
-  std::vector<int> orders, others;
-  for (std::size_t a = 0; a < n; ++a) {
-    if (contents.flow) forces[a] = total_force(frozen, frozen.fields.vesicles[a], a);
-    orders.push_back(order_of(frozen.state.vesicles[a].position.rows()));
-    others.push_back(estimate_order(orders[a], task.quick));
-  }
-  make_directory(task.directory);
-  const auto solved_at = [&](const std::vector<int>& of_each) {
-    std::vector<CheckFields> fields = solved_or_named(
-        frozen, of_each.front(), [&] { return coupled_check_fields(frozen, contents, forces, of_each); });
-    if (task.tell) task.tell(fields.front());
-    return fields;
-  };
-  const std::vector<CheckFields> at_order = solved_at(orders), for_error = solved_at(others);
-  const CheckSamples none;
-  std::vector<CheckInput> inputs;
-  for (std::size_t a = 0; a < n; ++a) {
-    inputs.push_back({frozen, contents, forces[a], none, at_order[a], for_error[a], nullptr, a});
-  }
-  write_check_inputs(input, inputs);
+  write_check_input(input, {problem, at_order, for_error, in_time ? &*in_time : nullptr});
 }
 
 }  // namespace
@@ -143,11 +113,7 @@ void compare_several(const CheckTask& task, const std::filesystem::path& input) 
 FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task) {
   const std::filesystem::path input = task.directory / "check_input.h5";
   const ProcessorTimes begin = processor_times();
-  if (task.frozen.state.vesicles.size() == 1) {
-    compare_one(task, input);
-  } else {
-    compare_several(task, input);
-  }
+  solve_by_integrals(task, input);
   return run_elements(fem, task, input, n_ranks(task, begin));
 }
 

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "bie/comparison/local_forces.hpp"
 #include "bie/physics/charge_density.hpp"
 #include "bie/physics/membrane_charging.hpp"
+#include "bie/physics/membrane_flow.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
@@ -25,181 +26,242 @@
 namespace vehd {
 namespace {
 
-const VesicleState& membrane_of(const FrozenState& frozen) { return frozen.state.vesicles.front(); }
-const VesicleModel& vesicle_of(const FrozenState& frozen) { return frozen.model.vesicles.front(); }
+ElectricParameters electric_of(const FrozenState& frozen, std::size_t vesicle = 0) {
+  return electric_parameters(frozen.model, frozen.model.vesicles[vesicle]).at(frozen.state.time, Limit::after);
+}
 
-/// All values in one call; where that fails each point on its own, and NaN where none is found.
-/// @param values  [n x components] of [n x 3] points; @throws ConvergenceError
-Matrix where_possible(const Matrix& points, Index components, const std::function<Matrix(const Matrix&)>& values) {
+/// Each membrane in a degree of its own.
+State resized_to(State state, const std::vector<int>& orders) {
+  for (std::size_t a = 0; a < orders.size(); ++a) {
+    state.vesicles[a] = resized(std::move(state.vesicles[a]), orders[a]);
+  }
+  return state;
+}
+
+Discretisation discretisation_of(const FrozenState& frozen, const std::vector<int>& orders) {
+  NumericalSettings settings = frozen.settings;
+  std::vector<ResolutionLevel> levels;
+  for (std::size_t a = 0; a < orders.size(); ++a) {
+    const NumericalSettings own = settings_at(frozen, orders[a], a);
+    settings.flow_tolerance = std::min(settings.flow_tolerance, own.flow_tolerance);
+    settings.electric_tolerance = std::min(settings.electric_tolerance, own.electric_tolerance);
+    levels.push_back({orders[a], 1.0});
+  }
+  return {settings, frozen.symmetry, levels};
+}
+
+/// Values at sample points, each with its side. All in one call; where that fails each point on its own, and NaN where
+/// no value is found.
+/// @param at  values at [n x 3] points and their sides; @throws ConvergenceError
+template <typename At>
+Matrix where_possible(const Matrix& points, Index components, std::vector<bool>& is_inside, const At& at) {
+  Matrix result = Matrix::Constant(points.rows(), components, std::numeric_limits<double>::quiet_NaN());
+  is_inside.assign(static_cast<std::size_t>(points.rows()), false);
+  const auto take = [&](Index first, Index n) {
+    const auto [values, sides] = at(Matrix(points.middleRows(first, n)));
+    result.middleRows(first, n) = values;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      is_inside[static_cast<std::size_t>(first) + i] = sides[i] == Side::interior;
+    }
+  };
   try {
-    return values(points);
+    take(0, points.rows());
   } catch (const ConvergenceError&) {
-    Matrix result = Matrix::Constant(points.rows(), components, std::numeric_limits<double>::quiet_NaN());
     for (Index i = 0; i < points.rows(); ++i) {
       try {
-        result.row(i) = values(points.row(i));
+        take(i, 1);
       } catch (const ConvergenceError&) {
         // It stays unknown: another part of the membrane is as near, or the degree is too low for the shape.
       }
     }
-    return result;
   }
+  return result;
 }
 
-/// The frozen problem on one membrane at one order.
+using SampleValues = std::pair<Matrix, std::vector<Side>>;
+
+/// The frozen problem of all membranes in given degrees.
 class FrozenSolver {
  public:
-  FrozenSolver(const FrozenState& frozen, const CheckContents& contents, int order)
-      : frozen_(frozen),
-        settings_(settings_at(frozen, order)),
-        state_(resized(frozen.state, order)),
-        position_(state_.vesicles.front().position),
-        solved_(solve_fields(compared_model(frozen, contents), Discretisation(settings_, frozen.symmetry), state_,
-                             instruments_)),
-        membrane_(*solved_.vesicles.front().membrane) {
-    result.order = order;
-    if (contents.electric)
-      electric_ = electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after);
+  FrozenSolver(const CheckProblem& problem, const std::vector<int>& orders)
+      : problem_(problem),
+        frozen_(problem.frozen),
+        state_(resized_to(frozen_.state, orders)),
+        discretisation_(discretisation_of(frozen_, orders)),
+        solved_(solve_fields(compared_model(frozen_, problem.contents), discretisation_, state_, instruments_)),
+        results(orders.size()) {
+    for (std::size_t a = 0; a < orders.size(); ++a) {
+      results[a].order = orders[a];
+      if (problem.contents.electric) in_field_.push_back({electric_of(frozen_, a), membrane(a)});
+      if (problem.contents.flow) in_flow_.push_back({flow_parameters(frozen_.model, model(a)), membrane(a)});
+    }
   }
 
-  CheckFields result;
-
-  void solve_prescribed(const Matrix& samples) {
-    const VesicleFields& fields = solved_.fields.vesicles.front();
-    result.charge = fields.charge;
-    result.force_electric = fields.force_electric;
-    result.potential_rate = charging_rate();
-    result.rate_truncation = rate_truncation();
-    const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields);
-    result.potential_of_charges = fields.potential;
-    result.free_charge_rate = solved_.vesicles.front().rate.free_charge;
-    const PotentialSources sources{electric_.field, potential, weighted_charge(potential)};
-    keep_samples(result.sample_potential, where_possible(samples, 2, [&](const Matrix& points) {
-                   const PotentialSamples at =
-                       potential_at(points, Side::principal_value, position_, sources, {}, instruments_);
-                   return with_sides(at.potential, at.side);
-                 }));
+  void take_prescribed() {
+    for (std::size_t a = 0; a < results.size(); ++a) {
+      const VesicleFields& of = fields(a);
+      results[a].charge = of.charge;
+      results[a].force_electric = of.force_electric;
+      results[a].potential_rate = charging_rate(a);
+      results[a].rate_truncation = rate_truncation(a);
+      results[a].potential_of_charges = of.potential;
+      results[a].free_charge_rate = solved_.vesicles[a].rate.free_charge;
+    }
+    if (problem_.samples.points.rows() > 0) sample_potential(results.front());
   }
 
   void solve_steady() {
-    const ChargingParameters& charging = vesicle_of(frozen_).charging;
-    std::vector<Vector> potentials(1);
-    require_converged(
-        steady_potentials({{{electric_, membrane_}, charging}}, {}, settings_.electric_tolerance, potentials),
-        "steady membrane potential");
-    result.steady_potential = std::move(potentials.front());
-    result.steady_charge = membrane_.fine.analyze(
-        electric_traces(electric_, membrane_, result.steady_potential, charge_density(result.steady_potential)).charge);
-    if (charging.conductance == 0.0) remove_mean(result.steady_potential);
+    std::vector<ChargingMembrane> membranes;
+    for (std::size_t a = 0; a < results.size(); ++a) membranes.push_back({in_field_[a], model(a).charging});
+    std::vector<Vector> potentials(results.size()), charges(results.size());
+    const Interaction& interaction = *solved_.interaction;
+    require_converged(steady_potentials(membranes, interaction, electric_tolerance(), potentials),
+                      "steady membrane potentials");
+    const std::vector<SecondKindSolution> densities = charge_densities(potentials);
+    const std::vector<Vector> of_others = potentials_of_others(in_field_, interaction, potentials, densities);
+    for (const std::size_t a : interaction.shares().own(results.size())) {
+      const ElectricTraces traces =
+          electric_traces(in_field_[a].electric, membrane(a), potentials[a], densities[a], of_others[a]);
+      charges[a] = membrane(a).fine.analyze(traces.charge);
+    }
+    interaction.gather_potentials(charges);
+    for (std::size_t a = 0; a < results.size(); ++a) {
+      if (model(a).charging.conductance == 0.0) remove_mean(membrane(a), potentials[a]);
+      results[a].steady_charge = std::move(charges[a]);
+      results[a].steady_potential = std::move(potentials[a]);
+    }
   }
 
-  void solve_flow(const Matrix& force, const Matrix& samples) {
-    take_flow_of_shape();
-    const Matrix padded = resize_order(force, result.order);
-    result.velocity = velocity_of(padded);
-    if (result.force_electric.size() > 0) {
-      const Matrix stored = resize_order(frozen_.fields.vesicles.front().force_electric, result.order);
-      result.velocity_own_force = velocity_of(padded + stored - result.force_electric);
+  void solve_flow() {
+    MembraneFlow flow(in_flow_, *solved_.interaction);
+    std::vector<Matrix> given, own, truncated;
+    for (std::size_t a = 0; a < results.size(); ++a) {
+      CheckFields& result = results[a];
+      take_flow_of_shape(a);
+      given.push_back(resize_order(problem_.forces[a], result.order));
+      if (result.force_electric.size() > 0) {
+        const Matrix stored = resize_order(frozen_.fields.vesicles[a].force_electric, result.order);
+        own.push_back(given[a] + stored - result.force_electric);
+      }
+      if (is_of_state(a)) truncated.push_back(total_force(frozen_, fields(a), a));
     }
-    const auto background = [gradient = flow_gradient(frozen_)](const Vector3& x) -> Vector3 { return gradient * x; };
-    const VelocitySources sources{frozen_.model.viscosity, background, weighted(padded),
-                                  vesicle_of(frozen_).viscosity_ratio, result.velocity};
-    keep_samples(result.sample_velocity, where_possible(samples, 4, [&](const Matrix& points) {
-                   const VelocitySamples at = velocity_at(points, position_, sources, {}, instruments_);
-                   return with_sides(at.velocity, at.side);
-                 }));
+    take(&CheckFields::velocity, velocities_of(flow, given));
+    if (!own.empty()) take(&CheckFields::velocity_own_force, velocities_of(flow, own));
+    if (truncated.size() == results.size()) {
+      take(&CheckFields::velocity_truncation, velocities_of(flow, truncated));
+      for (CheckFields& of : results) of.velocity_truncation = of.velocity_of_shape - of.velocity_truncation;
+    }
+    if (problem_.samples.points.rows() > 0) sample_velocity(results.front(), given.front());
   }
 
  private:
-  [[nodiscard]] Vector charging_rate() const {
-    const Vector& rate = solved_.vesicles.front().rate.transmembrane_potential;
-    const Vector& varies = membrane_.material.capacitance;
-    if (varies.size() == 0 || relaxes_charge(frozen_.model)) return rate;
-    const Vector current = varies.cwiseProduct(Vector(membrane_.fine.synthesize(rate)));
-    return membrane_.fine.analyze(current) / vesicle_of(frozen_).charging.capacitance;
-  }
-  [[nodiscard]] Vector rate_truncation() const {
-    const VesicleModel& vesicle = vesicle_of(frozen_);
-    if (!vesicle.reaction || position_.rows() != membrane_of(frozen_).position.rows()) return {};
-    const VesicleState& state = state_.vesicles.front();
-    const VesicleFields& fields = solved_.fields.vesicles.front();
-    const ChargingMembrane porous{{electric_, membrane_}, vesicle.charging, vesicle.reaction.get()};
-    const Vector lost =
-        membrane_current(porous, state.poration).conductance - Vector(membrane_.fine.synthesize(fields.conductance));
-    const Vector potential = membrane_.fine.synthesize(transmembrane_potential(state, fields));
-    return -membrane_.fine.analyze(lost.cwiseProduct(potential)) / vesicle.charging.capacitance;
-  }
-  /// Values with a last column that is 1 inside and 0 outside.
-  static Matrix with_sides(const Matrix& values, const std::vector<Side>& sides) {
-    Matrix joined(values.rows(), values.cols() + 1);
-    joined.leftCols(values.cols()) = values;
-    for (Index i = 0; i < values.rows(); ++i) {
-      joined(i, values.cols()) = sides[static_cast<std::size_t>(i)] == Side::interior ? 1.0 : 0.0;
-    }
-    return joined;
-  }
-  /// Takes them apart again.
-  template <typename Values>
-  void keep_samples(Values& values, const Matrix& with_side) {
-    values = with_side.leftCols(with_side.cols() - 1);
-    result.is_inside.clear();
-    for (const double side : with_side.col(with_side.cols() - 1)) result.is_inside.push_back(side == 1.0);
+  [[nodiscard]] const VesicleModel& model(std::size_t a) const { return frozen_.model.vesicles[a]; }
+  [[nodiscard]] const Membrane& membrane(std::size_t a) const { return *solved_.vesicles[a].membrane; }
+  [[nodiscard]] const VesicleFields& fields(std::size_t a) const { return solved_.fields.vesicles[a]; }
+  [[nodiscard]] double electric_tolerance() const { return discretisation_.settings().electric_tolerance; }
+  /// Is a vesicle solved for in the degree of the state?
+  [[nodiscard]] bool is_of_state(std::size_t a) const {
+    return state_.vesicles[a].position.rows() == frozen_.state.vesicles[a].position.rows();
   }
 
-  void take_flow_of_shape() {
-    const VesicleFields& fields = solved_.fields.vesicles.front();
-    LocalForces local = local_forces_beside(frozen_, membrane_, position_);
+  [[nodiscard]] Vector charging_rate(std::size_t a) const {
+    const Vector& rate = solved_.vesicles[a].rate.transmembrane_potential;
+    const Vector& varies = membrane(a).material.capacitance;
+    if (varies.size() == 0 || relaxes_charge(frozen_.model)) return rate;
+    const Vector current = varies.cwiseProduct(Vector(membrane(a).fine.synthesize(rate)));
+    return membrane(a).fine.analyze(current) / model(a).charging.capacitance;
+  }
+  [[nodiscard]] Vector rate_truncation(std::size_t a) const {
+    if (!model(a).reaction || !is_of_state(a)) return {};
+    const SphereTransform& fine = membrane(a).fine;
+    const ChargingMembrane porous{in_field_[a], model(a).charging, model(a).reaction.get()};
+    const Vector lost = membrane_current(porous, state_.vesicles[a].poration).conductance -
+                        Vector(fine.synthesize(fields(a).conductance));
+    const Vector potential = fine.synthesize(transmembrane_potential(state_.vesicles[a], fields(a)));
+    return -fine.analyze(lost.cwiseProduct(potential)) / model(a).charging.capacitance;
+  }
+
+  void take_flow_of_shape(std::size_t a) {
+    CheckFields& result = results[a];
+    LocalForces local = local_forces_beside(frozen_, membrane(a), state_.vesicles[a].position, a);
     result.force_order = local.order;
     result.force_bending = std::move(local.bending);
     result.force_curvature = std::move(local.curvature);
-    result.force_tension = fields.force_tension;
-    result.tension = fields.tension;
-    result.tension_is_free = solved_.vesicles.front().is_sphere;
-    result.velocity_of_shape = fields.velocity;
-    if (position_.rows() != membrane_of(frozen_).position.rows()) return;
-    result.velocity_truncation = fields.velocity - velocity_of(total_force(frozen_, fields));
+    result.force_tension = fields(a).force_tension;
+    result.tension = fields(a).tension;
+    result.tension_is_free = solved_.vesicles[a].is_sphere;
+    result.velocity_of_shape = fields(a).velocity;
   }
 
-  /// J q of the state, coefficients.
-  [[nodiscard]] Vector weighted_charge(const Vector& potential) const {
-    if (relaxes_charge(frozen_.model)) return weighted(result.charge);
-    return conductivity_contrast(electric_) * charge_density(potential).weighted;
+  /// @param potentials  V_m of each
+  [[nodiscard]] std::vector<SecondKindSolution> charge_densities(const std::vector<Vector>& potentials) const {
+    std::vector<SecondKindSolution> densities =
+        solve_second_kind(in_field_, *solved_.interaction, weighted_fluxes(in_field_, *solved_.interaction, potentials),
+                          electric_tolerance());
+    require_converged(densities.front().report, "charge densities, Eq. (12)");
+    return densities;
   }
 
-  [[nodiscard]] SecondKindSolution charge_density(const Vector& potential) const {
-    SecondKindSolution density = solve_second_kind(
-        membrane_, conductivity_contrast(electric_),
-        weighted_field_flux(membrane_, electric_.field) + weighted_hypersingular(membrane_, potential),
-        settings_.electric_tolerance);
-    require_converged(density.report, "charge density, Eq. (12)");
-    return density;
+  [[nodiscard]] static Matrix weighted(const Membrane& membrane, const Matrix& coefficients) {
+    return membrane.weighted(membrane.fine.synthesize(coefficients));
   }
 
-  [[nodiscard]] Matrix weighted(const Matrix& coefficients) const {
-    return membrane_.weighted(membrane_.fine.synthesize(coefficients));
-  }
-  /// Of the background flow and a force, coefficients.
-  [[nodiscard]] Matrix velocity_of(const Matrix& force) const {
-    Matrix driven = position_ * flow_gradient(frozen_).transpose();
-    if (!membrane_.layers.stokes_single.empty()) {
-      driven += membrane_.layers.stokes_single.apply(weighted(force)) / frozen_.model.viscosity;
+  /// Of the background flow and forces, coefficients; those of images follow from their originals.
+  [[nodiscard]] std::vector<Matrix> velocities_of(MembraneFlow& flow, const std::vector<Matrix>& forces) const {
+    std::vector<Matrix> densities, background;
+    for (std::size_t a = 0; a < results.size(); ++a) {
+      densities.push_back(weighted(membrane(a), forces[a]));
+      background.push_back(state_.vesicles[a].position * flow_gradient(frozen_).transpose());
     }
-    return membrane_.velocity(std::move(driven));
+    std::vector<Matrix> velocities = flow.velocities(densities, background);
+    solved_.interaction->gather_vectors(velocities);
+    return velocities;
+  }
+  void take(Matrix CheckFields::*field, std::vector<Matrix> of_each) {
+    for (std::size_t a = 0; a < results.size(); ++a) results[a].*field = std::move(of_each[a]);
   }
 
-  void remove_mean(Vector& coefficients) const {
-    const double mean = weighted(coefficients)(0, 0) / membrane_.fine.analyze(membrane_.surface.area_element)(0, 0);
-    coefficients[0] -= mean * std::sqrt(4.0 * std::numbers::pi);
+  void sample_potential(CheckFields& result) {
+    const Vector& potential = transmembrane_potential(state_.vesicles.front(), fields(0));
+    const Vector charge = relaxes_charge(frozen_.model) ? Vector(weighted(membrane(0), result.charge))
+                                                        : conductivity_contrast(in_field_[0].electric) *
+                                                              charge_densities({potential})[0].weighted;
+    const PotentialSources sources{in_field_[0].electric.field, potential, charge};
+    const auto at = [&](const Matrix& points) {
+      PotentialSamples found =
+          potential_at(points, Side::principal_value, state_.vesicles.front().position, sources, {}, instruments_);
+      return SampleValues{std::move(found.potential), std::move(found.side)};
+    };
+    result.sample_potential = where_possible(problem_.samples.points, 1, result.is_inside, at);
   }
 
+  void sample_velocity(CheckFields& result, const Matrix& force) {
+    const auto background = [gradient = flow_gradient(frozen_)](const Vector3& x) -> Vector3 { return gradient * x; };
+    const VelocitySources sources{frozen_.model.viscosity, background, weighted(membrane(0), force),
+                                  model(0).viscosity_ratio, result.velocity};
+    const auto at = [&](const Matrix& points) {
+      VelocitySamples found = velocity_at(points, state_.vesicles.front().position, sources, {}, instruments_);
+      return SampleValues{std::move(found.velocity), std::move(found.side)};
+    };
+    result.sample_velocity = where_possible(problem_.samples.points, 3, result.is_inside, at);
+  }
+
+  static void remove_mean(const Membrane& membrane, Vector& coefficients) {
+    const double area = membrane.fine.analyze(membrane.surface.area_element)(0, 0);
+    coefficients[0] -= weighted(membrane, coefficients)(0, 0) / area * std::sqrt(4.0 * std::numbers::pi);
+  }
+
+  const CheckProblem& problem_;
   const FrozenState& frozen_;
-  NumericalSettings settings_;
   Instruments instruments_;
   State state_;
-  const Matrix& position_;
+  Discretisation discretisation_;
   SolvedFields solved_;
-  const Membrane& membrane_;
-  ElectricParameters electric_;
+  std::vector<ElectricMembrane> in_field_;
+  std::vector<FlowMembrane> in_flow_;
+
+ public:
+  std::vector<CheckFields> results;
 };
 
 }  // namespace
@@ -281,12 +343,12 @@ CheckContents check_contents(const FrozenState& frozen) {
 
 Vector3 applied_field(const FrozenState& frozen) {
   if (!frozen.model.electric) return Vector3::Zero();
-  return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).field;
+  return electric_of(frozen).field;
 }
 
 double present_pump(const FrozenState& frozen) {
   if (!frozen.model.electric) return 0.0;
-  return electric_parameters(frozen.model, vesicle_of(frozen)).at(frozen.state.time, Limit::after).pump;
+  return electric_of(frozen).pump;
 }
 
 Matrix3 flow_gradient(const FrozenState& frozen) {
@@ -322,15 +384,26 @@ Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::
   return force;
 }
 
-CheckFields check_fields(const FrozenState& frozen, const CheckContents& contents, const Matrix& force, int order,
-                         const Matrix& samples) {
+CheckProblem check_problem(const FrozenState& frozen) {
+  CheckProblem problem{frozen, check_contents(frozen), {}, {}};
+  const std::size_t n = frozen.state.vesicles.size();
+  problem.forces.resize(n);
+  for (std::size_t a = 0; problem.contents.flow && a < n; ++a) {
+    problem.forces[a] = total_force(frozen, frozen.fields.vesicles[a], a);
+  }
+  if (n == 1) problem.samples = check_samples(frozen.state.vesicles.front().position);
+  return problem;
+}
+
+std::vector<CheckFields> check_fields(const CheckProblem& problem, const std::vector<int>& orders) {
   const auto start = std::chrono::steady_clock::now();
-  FrozenSolver solver(frozen, contents, order);
-  if (contents.electric) solver.solve_prescribed(samples);
-  if (contents.steady) solver.solve_steady();
-  if (contents.flow) solver.solve_flow(force, samples);
-  solver.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return std::move(solver.result);
+  FrozenSolver solver(problem, orders);
+  if (problem.contents.electric) solver.take_prescribed();
+  if (problem.contents.steady) solver.solve_steady();
+  if (problem.contents.flow) solver.solve_flow();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (CheckFields& result : solver.results) result.seconds = seconds;
+  return std::move(solver.results);
 }
 
 }  // namespace vehd

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bie/comparison/check_samples.hpp"
 #include "bie/comparison/frozen_state.hpp"
 #include "bie/support/instruments.hpp"
 
@@ -18,7 +19,19 @@ struct CheckContents {
 ///                    alone
 CheckContents check_contents(const FrozenState& frozen);
 
-/// Boundary-integral solution at one order: coefficients of that order but for f_b and f_c, empty where absent.
+/// A frozen state as both methods are given it.
+struct CheckProblem {
+  FrozenState frozen;
+  CheckContents contents;
+  std::vector<Matrix> forces;  ///< total_force of the stored fields of each vesicle; empty ones without a flow
+  CheckSamples samples;        ///< of one vesicle alone
+};
+
+/// @throws InputError as check_contents and total_force
+CheckProblem check_problem(const FrozenState& frozen);
+
+/// Boundary-integral solution of one vesicle at one order: coefficients of that order but for f_b and f_c, empty where
+/// absent.
 struct CheckFields {
   int order = 0;
   // From x, V_m and the time alone, as a run computes them.
@@ -34,7 +47,7 @@ struct CheckFields {
   Vector free_charge_rate;       ///< D(q_i + q_e)/Dt over C_m; with displacement currents alone
   int force_order = 0;           ///< degree of f_b and f_c: local_force_order() where `order` is not that of the state
   Matrix force_bending;          ///< f_b
-  Matrix force_curvature;        ///< f_c of a spontaneous curvature; of one vesicle alone
+  Matrix force_curvature;        ///< f_c of a spontaneous curvature
   Matrix force_tension;          ///< f_λ
   Vector tension;                ///< λ
   bool tension_is_free = false;  ///< a uniform tension does nothing: a sphere
@@ -72,14 +85,13 @@ double present_pump(const FrozenState& frozen);
 /// ∂v_i/∂x_j of the background flow at the frozen time.
 Matrix3 flow_gradient(const FrozenState& frozen);
 
-/// Solves at the order of the frozen state with the settings of its run, at another with shape, V_m and force continued
-/// by zeros or cut, and solvers no coarser than their defaults.
-/// @param force    total_force of the stored fields, [n_coefficients x 3]
-/// @param samples  [n_points x 3]; where no value can be found it is NaN
+/// Solves for all vesicles: in the degrees of the frozen state with the settings of its run, in others with shape, V_m
+/// and force continued by zeros or cut, and solvers no coarser than their defaults. Where no value can be found at a
+/// sample point it is NaN.
+/// @param orders  of each vesicle
 /// @throws ConvergenceError where a solve fails
-/// Accuracy: spectral in the order; the comparison takes the difference of two orders for its error (docs/check.md)
-/// Source: paper Eqs. (5), (11), (12), (14)
-CheckFields check_fields(const FrozenState& frozen, const CheckContents& contents, const Matrix& force, int order,
-                         const Matrix& samples);
+/// Accuracy: spectral in the orders; the comparison takes the difference of two of them for its error (docs/check.md)
+/// Source: paper Eqs. (5), (11), (12), (14), the layers being those of all membranes
+std::vector<CheckFields> check_fields(const CheckProblem& problem, const std::vector<int>& orders);
 
 }  // namespace vehd

@@ -80,11 +80,11 @@ FurtherForces further_forces(const VesicleModel& vesicle) {
   return result;
 }
 
-void write_physics(VesicleWriter& file, const CheckInput& input) {
-  const Model& model = input.frozen.model;
+void write_physics(VesicleWriter& file, const FrozenState& frozen, std::size_t a) {
+  const Model& model = frozen.model;
   file.group("/physics");
   const auto number = [&](const std::string& name, double value) { file.attribute("/physics", name, value); };
-  const VesicleModel& vesicle = model.vesicles[input.vesicle];
+  const VesicleModel& vesicle = model.vesicles[a];
   file.attribute("/physics", "inextensible", std::int64_t{vesicle.inextensible});
   number("bending_modulus", vesicle.bending ? vesicle.bending->modulus : 0.0);
   const FurtherForces further = further_forces(vesicle);
@@ -93,9 +93,9 @@ void write_physics(VesicleWriter& file, const CheckInput& input) {
   write(file, "/physics/weight", weight, {"force/volume", "density difference times acceleration"});
   number("viscosity_in", vesicle.viscosity_ratio * model.viscosity);
   number("viscosity_out", model.viscosity);
-  const Matrix gradient = flow_gradient(input.frozen).transpose();
+  const Matrix gradient = flow_gradient(frozen).transpose();
   write(file, "/physics/flow_gradient", gradient, {"velocity/length", "A(i, j) of v_i = A(i, j) x_j, in row i"});
-  const Matrix field = applied_field(input.frozen);
+  const Matrix field = applied_field(frozen);
   write(file, "/physics/field", field, {"potential/length", "E_inf"});
   if (!model.electric) return;
   number("conductivity_in", vesicle.inside.conductivity);
@@ -106,36 +106,40 @@ void write_physics(VesicleWriter& file, const CheckInput& input) {
   number("conductance", vesicle.charging.conductance);
 }
 
-void write_given(VesicleWriter& file, const CheckInput& input) {
+void write_given(VesicleWriter& file, const CheckProblem& problem, std::size_t a) {
+  const FrozenState& frozen = problem.frozen;
   file.group("/given");
-  if (input.contents.electric) {
-    const VesicleFields& fields = input.frozen.fields.vesicles[input.vesicle];
-    write(file, "/given/Vm", transmembrane_potential(input.frozen.state.vesicles[input.vesicle], fields),
-          {"potential", "V_m of the snapshot"});
-    const VesicleState& state = input.frozen.state.vesicles.front();
-    write(file, "/given/conductance", fields.conductance.size() > 0 ? fields.conductance : state.material.conductance,
+  const auto field = [&](const std::string& name, const Matrix& values, const DatasetLabel& label) {
+    write(file, "/given/" + name, values, label);
+  };
+  if (problem.contents.electric) {
+    const VesicleFields& fields = frozen.fields.vesicles[a];
+    const VesicleState& state = frozen.state.vesicles[a];
+    field("Vm", transmembrane_potential(state, fields), {"potential", "V_m of the snapshot"});
+    field("conductance", fields.conductance.size() > 0 ? fields.conductance : state.material.conductance,
           {"conductance/area", "G_m where it varies"});
-    write(file, "/given/pump_current", present_pump(input.frozen) * state.material.pump_current,
+    field("pump_current", present_pump(frozen) * state.material.pump_current,
           {"current/area", "J_p at the time of the snapshot, outwards"});
-    write(file, "/given/free_charge_in", fields.free_charge_in, {"charge/area", "q_i of the inner face"});
-    write(file, "/given/free_charge_out", fields.free_charge_out, {"charge/area", "q_e of the outer face"});
+    field("free_charge_in", fields.free_charge_in, {"charge/area", "q_i of the inner face"});
+    field("free_charge_out", fields.free_charge_out, {"charge/area", "q_e of the outer face"});
   }
-  if (input.contents.flow)
-    write(file, "/given/force", input.force, {"force/area", "f on the fluid, f_b + f_lambda - f_E and others"});
+  if (problem.contents.flow) {
+    field("force", problem.forces[a], {"force/area", "f on the fluid, f_b + f_lambda - f_E and others"});
+  }
 }
 
 /// The numbers of the snapshot that are judged.
-void write_stored(VesicleWriter& file, const CheckInput& input) {
+void write_stored(VesicleWriter& file, const CheckProblem& problem, std::size_t a) {
   file.group("/stored");
-  const VesicleFields& fields = input.frozen.fields.vesicles[input.vesicle];
+  const VesicleFields& fields = problem.frozen.fields.vesicles[a];
   const auto field = [&](const std::string& name, const Matrix& values, const DatasetLabel& label) {
     write(file, "/stored/" + name, values, label);
   };
-  if (input.contents.electric) {
+  if (problem.contents.electric) {
     field("q", fields.charge, {"potential/length", "q"});
     field("force_electric", fields.force_electric, {"force/area", "f_E"});
   }
-  if (!input.contents.flow) return;
+  if (!problem.contents.flow) return;
   field("force_bending", fields.force_bending, {"force/area", "f_b"});
   field("force_tension", fields.force_tension, {"force/area", "f_lambda"});
   field("tension", fields.tension, {"force/length", "lambda"});
@@ -175,11 +179,10 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
   field("sample_velocity", fields.sample_velocity, {"velocity", "v at /samples/points, force given"});
 }
 
-void write_samples(VesicleWriter& file, const CheckInput& input) {
-  const std::vector<bool>& inside = input.at_order.is_inside;
-  if (inside.empty() || input.samples.points.rows() == 0) return;
+/// @param inside  side of each, empty where nothing was solved there
+void write_samples(VesicleWriter& file, const CheckSamples& samples, const std::vector<bool>& inside) {
+  if (inside.empty()) return;
   file.group("/samples");
-  const CheckSamples& samples = input.samples;
   write(file, "/samples/points", samples.points, {"length", "points off the membrane"});
   write(file, "/samples/distance", samples.distance, {"length", "from the membrane, 0 where it is more than near"});
   file.attribute("/samples", "near", samples.near);
@@ -219,29 +222,24 @@ void write_in_time(VesicleWriter& file, const InTime& in_time) {
 }  // namespace
 
 void write_check_input(const std::filesystem::path& path, const CheckInput& input) {
-  write_check_inputs(path, {input});
-}
-
-void write_check_inputs(const std::filesystem::path& path, const std::vector<CheckInput>& inputs) {
   Hdf5Writer file(path, Hdf5Writer::Mode::create);
-  const FrozenState& frozen = inputs.front().frozen;
+  const FrozenState& frozen = input.problem.frozen;
   file.attribute("/", "schema_version", check_schema_version);
   file.attribute("/", "source", frozen.source);
   file.attribute("/", "time", frozen.state.time);
-  std::vector<VesicleWriter> writers = writers_of(file, inputs.size());
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const CheckInput& input = inputs[i];
-    VesicleWriter& writer = writers[i];
-    if (inputs.size() > 1) writer.attribute("/", "name", frozen.names.at(input.vesicle));
-    write_shape(writer, frozen.state.vesicles[input.vesicle].position);
+  std::vector<VesicleWriter> writers = writers_of(file, input.at_order.size());
+  for (std::size_t a = 0; a < writers.size(); ++a) {
+    VesicleWriter& writer = writers[a];
+    if (writers.size() > 1) writer.attribute("/", "name", frozen.names.at(a));
+    write_shape(writer, frozen.state.vesicles[a].position);
     writer.attribute("/", "solver_tolerance",
                      std::max(frozen.settings.flow_tolerance, frozen.settings.electric_tolerance));
-    write_physics(writer, input);
-    write_given(writer, input);
-    write_stored(writer, input);
-    write_fields(writer, "/bie", input.at_order);
-    write_fields(writer, "/bie_high", input.for_error);
-    write_samples(writer, input);
+    write_physics(writer, frozen, a);
+    write_given(writer, input.problem, a);
+    write_stored(writer, input.problem, a);
+    write_fields(writer, "/bie", input.at_order[a]);
+    write_fields(writer, "/bie_high", input.for_error[a]);
+    write_samples(writer, input.problem.samples, input.at_order[a].is_inside);
     if (input.in_time != nullptr) write_in_time(writer, *input.in_time);
   }
   file.close();

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "bie/comparison/check_fields.hpp"
-#include "bie/comparison/check_samples.hpp"
 #include "bie/comparison/time_span.hpp"
 #include "bie/physics/point_sources.hpp"
 
@@ -22,22 +21,16 @@ struct InTime {
   Vector by_motion{};  ///< change_by_finer_motion()
 };
 
-/// All that the file holds of one vesicle.
+/// All that the file holds.
 struct CheckInput {
-  const FrozenState& frozen;
-  const CheckContents& contents;
-  const Matrix& force;  ///< total_force of the stored fields
-  const CheckSamples& samples;
-  const CheckFields& at_order;
-  const CheckFields& for_error;     ///< at estimate_order()
-  const InTime* in_time = nullptr;  ///< null: not asked for
-  std::size_t vesicle = 0;          ///< its number in the frozen state
+  const CheckProblem& problem;
+  const std::vector<CheckFields>& at_order;   ///< of each vesicle
+  const std::vector<CheckFields>& for_error;  ///< at estimate_order()
+  const InTime* in_time = nullptr;            ///< of one vesicle alone; null: not asked for
 };
 
-/// Of one vesicle. @throws OutputError
+/// One vesicle at the top of the file, several in groups of their own. @throws OutputError
 void write_check_input(const std::filesystem::path& file, const CheckInput& input);
-/// Of several, in groups of their own. @throws OutputError
-void write_check_inputs(const std::filesystem::path& file, const std::vector<CheckInput>& inputs);
 
 /// The same file with the shapes alone. @throws OutputError
 void write_shape_input(const std::filesystem::path& file, const FrozenShape& shape);

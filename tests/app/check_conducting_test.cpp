@@ -22,7 +22,7 @@ std::vector<Damage> all_damages() {
   const double larger = 1.02;
   return {
       field_by("C dV_m/dt", &CheckFields::potential_rate, "fields", "charging_current"),
-      {"stored G_m", [=](Numbers& n) { n.frozen.fields.vesicles[0].conductance *= larger; }, "fields",
+      {"stored G_m", [=](CheckNumbers& n) { n.problem.frozen.fields.vesicles[0].conductance *= larger; }, "fields",
        "charging_current"},
       state_with(
           "s", [=](FrozenState& s) { s.state.vesicles[0].poration *= larger; }, "fields", "charging_current"),

@@ -2,10 +2,10 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "bie/comparison/check_input.hpp"
 #include "bie/physics/effects/gravity.hpp"
 #include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "tests/app/check_numbers.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
@@ -33,60 +33,26 @@ std::string scene_text(const std::string& axes, const std::string& membrane, con
          "[numerics]\norder = 12\ndt = 0.1\nend_time = 0.0\n";
 }
 
-/// What the boundary-integral side hands over.
-struct Numbers {
-  FrozenState frozen;
-  vehd::CheckContents contents;
-  Matrix force;
-  vehd::CheckSamples samples;
-  CheckFields bie, high;
-
-  void both(const std::function<void(CheckFields&)>& change) {
-    change(bie);
-    change(high);
-  }
-  /// What code would find that has the wrong coefficients, data or conditions.
-  void solve(const FrozenState& state) {
-    for (CheckFields* fields : {&bie, &high}) {
-      *fields = vehd::check_fields(state, contents, force, fields->order, samples.points);
-    }
-  }
-};
+/// At both orders.
+void change_both(CheckNumbers& numbers, const std::function<void(CheckFields&)>& change) {
+  change(numbers.bie.front());
+  change(numbers.high.front());
+}
 
 struct Damage {
   std::string name;
-  std::function<void(Numbers&)> apply;
+  std::function<void(CheckNumbers&)> apply;
   std::string row;  ///< "fields/q": one that has to see it
 };
 
-Numbers right_numbers(const std::string& scene) {
-  Numbers numbers;
-  numbers.frozen = vehd::read_frozen_state({"scene.toml", {}, scene}, std::nullopt);
-  FrozenState& frozen = numbers.frozen;
+CheckNumbers right_numbers(const std::string& scene) {
+  FrozenState frozen = vehd::read_frozen_state({"scene.toml", {}, scene}, std::nullopt);
   frozen.source = "scene";
   // A membrane that charges, so that its current says something.
   frozen.state.vesicles.front().transmembrane_potential *= 0.6;
-  numbers.contents = vehd::check_contents(frozen);
-  numbers.force = vehd::total_force(frozen, frozen.fields.vesicles.front());
-  numbers.samples = vehd::check_samples(frozen.state.vesicles.front().position);
-  numbers.bie.order = 12;
-  numbers.high.order = 18;
-  numbers.solve(frozen);
-  const CheckFields& of_run = numbers.bie;
-  frozen.fields.vesicles.front() = {of_run.velocity_of_shape,
-                                    of_run.force_bending,
-                                    of_run.force_tension,
-                                    of_run.force_electric,
-                                    {},
-                                    Vector(of_run.tension),
-                                    of_run.charge,
-                                    {},
-                                    {},
-                                    {},
-                                    {}};
-  numbers.force = vehd::total_force(frozen, frozen.fields.vesicles.front());
-  numbers.solve(frozen);
-  return numbers;
+  CheckNumbers numbers(vehd::check_problem(frozen), 12, 18);
+  numbers.store_found();
+  return {vehd::check_problem(numbers.problem.frozen), 12, 18};
 }
 
 /// A field that both orders find wrongly in the same way, as code with a wrong factor would.
@@ -94,8 +60,9 @@ template <typename Values>
 void add_field(std::vector<Damage>& damages, const std::string& name, Values CheckFields::*field,
                const std::string& row, const std::vector<double>& factors) {
   for (const double factor : factors) {
-    damages.push_back({name + " x " + std::to_string(factor),
-                       [=](Numbers& numbers) { numbers.both([&](CheckFields& f) { f.*field *= factor; }); }, row});
+    damages.push_back(
+        {name + " x " + std::to_string(factor),
+         [=](CheckNumbers& numbers) { change_both(numbers, [&](CheckFields& f) { f.*field *= factor; }); }, row});
   }
 }
 
@@ -104,15 +71,16 @@ void add_stored(std::vector<Damage>& damages, const std::string& name, Values ve
                 const std::vector<double>& factors) {
   for (const double factor : factors) {
     damages.push_back({"stored " + name + " x " + std::to_string(factor),
-                       [=](Numbers& n) { n.frozen.fields.vesicles.front().*field *= factor; }, "stored/" + name});
+                       [=](CheckNumbers& n) { n.problem.frozen.fields.vesicles.front().*field *= factor; },
+                       "stored/" + name});
   }
 }
 
 void add_coefficient(std::vector<Damage>& damages, const std::string& name, const std::string& row,
                      const std::function<void(FrozenState&)>& change) {
   damages.push_back({name,
-                     [=](Numbers& numbers) {
-                       FrozenState wrong = numbers.frozen;
+                     [=](CheckNumbers& numbers) {
+                       FrozenState wrong = numbers.problem.frozen;
                        change(wrong);
                        numbers.solve(wrong);
                      },
@@ -123,12 +91,12 @@ void add_coefficient(std::vector<Damage>& damages, const std::string& name, cons
 void add_samples(std::vector<Damage>& damages, const std::string& place, double electric, double flow) {
   const auto add = [&](const std::string& field, const auto& scale) {
     damages.push_back({field + " " + place,
-                       [=](Numbers& n) {
-                         for (Index i = 0; i < n.samples.points.rows(); ++i) {
-                           const bool near = n.samples.distance[i] > 0.0;
-                           const bool inside = n.bie.is_inside[static_cast<std::size_t>(i)];
+                       [=](CheckNumbers& n) {
+                         for (Index i = 0; i < n.problem.samples.points.rows(); ++i) {
+                           const bool near = n.problem.samples.distance[i] > 0.0;
+                           const bool inside = n.bie.front().is_inside[static_cast<std::size_t>(i)];
                            if (near ? place == "near" : place == (inside ? "inside" : "outside")) {
-                             n.both([&](CheckFields& f) { scale(f, i); });
+                             change_both(n, [&](CheckFields& f) { scale(f, i); });
                            }
                          }
                        },
@@ -192,19 +160,19 @@ std::vector<Damage> all_damages(const Sizes& sizes) {
   add_stored(damages, "tension", &Stored::tension, factors);
   add_stored(damages, "velocity", &Stored::velocity, factors);
   damages.push_back({"stored v that stretches",
-                     [=](Numbers& n) {
-                       Stored& stored = n.frozen.fields.vesicles.front();
-                       Matrix swelling = n.frozen.state.vesicles.front().position;
+                     [=](CheckNumbers& n) {
+                       Stored& stored = n.problem.frozen.fields.vesicles.front();
+                       Matrix swelling = n.problem.frozen.state.vesicles.front().position;
                        swelling.row(0).setZero();
                        stored.velocity += small * swelling * stored.velocity.norm() / swelling.norm();
                      },
                      "stored/surface_divergence"});
   // The layer alone, with the background flow as it is.
   damages.push_back({"Stokes layer x 0.95",
-                     [](Numbers& numbers) {
-                       const Matrix& x = numbers.frozen.state.vesicles.front().position;
-                       const Matrix background = x * vehd::flow_gradient(numbers.frozen).transpose();
-                       numbers.both([&](CheckFields& f) {
+                     [](CheckNumbers& numbers) {
+                       const Matrix& x = numbers.problem.frozen.state.vesicles.front().position;
+                       const Matrix background = x * vehd::flow_gradient(numbers.problem.frozen).transpose();
+                       change_both(numbers, [&](CheckFields& f) {
                          f.velocity = 0.95 * f.velocity + 0.05 * vehd::resize_order(background, f.order);
                        });
                      },
@@ -228,8 +196,8 @@ std::vector<Damage> all_damages(const Sizes& sizes) {
   };
   for (const char* row : {"fields/q", "fields/force", "fields/Vm", "fields/velocity", "stored/q", "stored/velocity",
                           "from_shape/velocity", "from_shape/tension"}) {
-    damages.push_back({"order of the run random", [=](Numbers& n) { random(n.bie); }, row});
-    damages.push_back({"other order random", [=](Numbers& n) { random(n.high); }, row});
+    damages.push_back({"order of the run random", [=](CheckNumbers& n) { random(n.bie.front()); }, row});
+    damages.push_back({"other order random", [=](CheckNumbers& n) { random(n.high.front()); }, row});
   }
   // One side of the comparison has another coefficient, or exchanges the sides.
   add_coefficient(damages, "C_m x 100", "fields/charging_current",
@@ -282,11 +250,11 @@ std::string verdict_of(const nlohmann::json& result, const std::string& row) {
 
 /// Lets the elements solve once and judge all damages.
 /// @param arguments  of the finite elements
-void require_noticed(const Numbers& right, const std::vector<Damage>& damages,
+void require_noticed(const CheckNumbers& right, const std::vector<Damage>& damages,
                      const std::vector<std::string>& arguments) {
   const TemporaryDirectory directory;
-  const auto write = [&](const std::string& name, const Numbers& n) {
-    vehd::write_check_input(directory / name, {n.frozen, n.contents, n.force, n.samples, n.bie, n.high});
+  const auto write = [&](const std::string& name, const CheckNumbers& n) {
+    n.write(directory / name);
     return directory / name;
   };
   std::vector<std::string> command{
@@ -294,7 +262,7 @@ void require_noticed(const Numbers& right, const std::vector<Damage>& damages,
       directory / "result.json"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   for (std::size_t i = 0; i < damages.size(); ++i) {
-    Numbers wrong = right;
+    CheckNumbers wrong = right;
     damages[i].apply(wrong);
     command.insert(command.end(), {"--further", write("wrong" + std::to_string(i) + ".h5", wrong)});
   }
@@ -313,7 +281,7 @@ void require_noticed(const Numbers& right, const std::vector<Damage>& damages,
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(whatever_is_damaged_is_noticed) {
-  const Numbers right =
+  const CheckNumbers right =
       right_numbers(scene_text("[1.0, 1.15, 1.3]", "bending_modulus = 0.1\nspontaneous_curvature = -0.4\n",
                                "density_difference = 0.5\n[gravity]\nacceleration = [0.2, 0.5, -0.8]\n"));
   require_noticed(right, all_damages({1e-2, 2e-3, 5e-2, -1.0, 5e-2}), {"--quick"});
@@ -321,7 +289,7 @@ BOOST_AUTO_TEST_CASE(whatever_is_damaged_is_noticed) {
 
 // The elements of a check as it is by itself, on a shape where few degrees are enough.
 BOOST_AUTO_TEST_CASE(a_thousandth_is_noticed_without_haste) {
-  const Numbers right = right_numbers(
+  const CheckNumbers right = right_numbers(
       scene_text("[1.0, 1.1, 1.2]", "bending_modulus = 3.0\nspontaneous_curvature = -1.5\n",
                  "viscosity_ratio = 3.0\ndensity_difference = 1.5\n[gravity]\nacceleration = [0.2, 0.5, -0.8]\n"));
   require_noticed(right, all_damages({1e-3, 1e-3, 1e-3, 1e-3, 1e-3}), {});

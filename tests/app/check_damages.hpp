@@ -4,7 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "bie/comparison/check_input.hpp"
+#include "tests/app/check_numbers.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
@@ -13,22 +13,9 @@
 using vehd::CheckFields;
 using vehd::FrozenState;
 
-/// What the boundary-integral side hands over.
-struct Numbers {
-  FrozenState frozen;
-  vehd::CheckContents contents;
-  vehd::CheckSamples samples;
-  CheckFields bie, high;
-
-  void solve(const FrozenState& state) {
-    bie = vehd::check_fields(state, contents, {}, 10, samples.points);
-    high = vehd::check_fields(state, contents, {}, 15, samples.points);
-  }
-};
-
 struct Damage {
   std::string name;
-  std::function<void(Numbers&)> apply;
+  std::function<void(CheckNumbers&)> apply;
   std::string group, row;  ///< one that has to see it
 };
 
@@ -36,8 +23,8 @@ template <typename Values>
 Damage field_by(const std::string& name, Values CheckFields::*field, const std::string& group, const std::string& row) {
   constexpr double factor = 1.002;
   return {name,
-          [=](Numbers& numbers) {
-            for (CheckFields* fields : {&numbers.bie, &numbers.high}) fields->*field *= factor;
+          [=](CheckNumbers& numbers) {
+            for (CheckFields* fields : {&numbers.bie.front(), &numbers.high.front()}) fields->*field *= factor;
           },
           group, row};
 }
@@ -46,8 +33,8 @@ Damage field_by(const std::string& name, Values CheckFields::*field, const std::
 inline Damage state_with(const std::string& name, const std::function<void(FrozenState&)>& change,
                          const std::string& group, const std::string& row) {
   return {name,
-          [=](Numbers& numbers) {
-            FrozenState wrong = numbers.frozen;
+          [=](CheckNumbers& numbers) {
+            FrozenState wrong = numbers.problem.frozen;
             change(wrong);
             numbers.solve(wrong);
           },
@@ -58,20 +45,16 @@ inline Damage state_with(const std::string& name, const std::function<void(Froze
 inline void check_and_damage(const FinishedRun& run, const std::string& time, const std::vector<const char*>& fields,
                              const std::vector<const char*>& stored, const std::vector<Damage>& damages) {
   const std::string file = run.output + "/run.h5";
-  Numbers right;
-  right.frozen = vehd::read_frozen_state({file, {}}, time);
-  right.contents = vehd::check_contents(right.frozen);
-  right.samples = vehd::check_samples(right.frozen.state.vesicles.front().position);
-  right.solve(right.frozen);
-  const auto written = [&](const std::string& name, const Numbers& n) {
-    vehd::write_check_input(run.directory / name, {n.frozen, n.contents, {}, n.samples, n.bie, n.high});
+  const CheckNumbers right(vehd::check_problem(vehd::read_frozen_state({file, {}}, time)), 10, 15);
+  const auto written = [&](const std::string& name, const CheckNumbers& n) {
+    n.write(run.directory / name);
     return run.directory / name;
   };
   std::vector<std::string> command{
       finite_element_program().string(), "check",  written("right.h5", right),   "--quick", "-o",
       run.directory / "elements",        "--json", run.directory / "result.json"};
   for (std::size_t i = 0; i < damages.size(); ++i) {
-    Numbers wrong = right;
+    CheckNumbers wrong = right;
     damages[i].apply(wrong);
     command.insert(command.end(), {"--further", written("wrong" + std::to_string(i) + ".h5", wrong)});
   }

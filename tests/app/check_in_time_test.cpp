@@ -45,10 +45,10 @@ Numbers numbers_of(const std::string& file) {
 }
 
 void write_numbers_of(const std::string& path, const Numbers& numbers) {
-  const vehd::CheckContents contents = vehd::check_contents(numbers.end);
-  const vehd::CheckSamples samples{vehd::Matrix(0, 3), vehd::Vector(0), 0.0};
-  const auto fields = [&](int order) { return vehd::check_fields(numbers.end, contents, {}, order, samples.points); };
-  vehd::write_check_input(path, {numbers.end, contents, {}, samples, fields(8), fields(12), &numbers.in_time});
+  vehd::CheckProblem problem = vehd::check_problem(numbers.end);
+  problem.samples = {};
+  vehd::write_check_input(
+      path, {problem, vehd::check_fields(problem, {8}), vehd::check_fields(problem, {12}), &numbers.in_time});
 }
 
 }  // namespace

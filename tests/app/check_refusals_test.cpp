@@ -70,12 +70,12 @@ BOOST_AUTO_TEST_CASE(input_without_what_is_compared_is_refused) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", moving_scene);
   const vehd::FrozenState frozen = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
-  const vehd::CheckContents contents = vehd::check_contents(frozen);
-  const vehd::Matrix force = vehd::total_force(frozen, frozen.fields.vesicles.front());
-  const vehd::CheckFields fields = vehd::check_fields(frozen, contents, force, 10, vehd::Matrix(0, 3));
+  vehd::CheckProblem problem = vehd::check_problem(frozen);
+  problem.samples = {};
+  const std::vector<vehd::CheckFields> fields = vehd::check_fields(problem, {10});
   const std::string file = directory / "input.h5";
   const auto refused = [&](const std::string& object, const std::string& message) {
-    vehd::write_check_input(file, {frozen, contents, force, {}, fields, fields});
+    vehd::write_check_input(file, {problem, fields, fields});
     {
       const vehd::Hdf5Handle damaged = open_for_damage(file);
       BOOST_TEST_REQUIRE(H5Ldelete(damaged.id(), object.c_str(), H5P_DEFAULT) >= 0);

@@ -26,8 +26,9 @@ std::vector<Damage> all_damages() {
       field_by("phi", &CheckFields::sample_potential, "fields", "potential_outside"),
       field_by("dq_i/dt", &CheckFields::potential_rate, "fields", "charging_current"),
       field_by("d(q_i+q_e)/dt", &CheckFields::free_charge_rate, "fields", "free_current"),
-      {"stored V_m", [](Numbers& n) { n.frozen.fields.vesicles[0].potential *= 1.002; }, "stored", "Vm_of_charges"},
-      {"stored q", [](Numbers& n) { n.frozen.fields.vesicles[0].charge *= 1.002; }, "stored", "q"},
+      {"stored V_m", [](CheckNumbers& n) { n.problem.frozen.fields.vesicles[0].potential *= 1.002; }, "stored",
+       "Vm_of_charges"},
+      {"stored q", [](CheckNumbers& n) { n.problem.frozen.fields.vesicles[0].charge *= 1.002; }, "stored", "q"},
       state_with(
           "epsilon_i", [=](FrozenState& s) { s.model.vesicles[0].inside.permittivity_ratio *= larger; }, "fields", "q"),
       state_with(

@@ -56,15 +56,14 @@ BOOST_AUTO_TEST_CASE(charge_that_is_wrong_by_a_percent_is_noticed) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", crooked_scene);
   const vehd::FrozenState frozen = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
-  vehd::CheckContents contents = vehd::check_contents(frozen);
-  contents.flow = false;
-  const vehd::CheckSamples samples = vehd::check_samples(frozen.state.vesicles[0].position);
+  vehd::CheckProblem problem = vehd::check_problem(frozen);
+  problem.contents.flow = false;
   const auto wrong_fields = [&](int order) {
-    vehd::CheckFields fields = vehd::check_fields(frozen, contents, {}, order, samples.points);
-    fields.charge *= 1.01;
+    std::vector<vehd::CheckFields> fields = vehd::check_fields(problem, {order});
+    fields.front().charge *= 1.01;
     return fields;
   };
-  vehd::write_check_input(directory / "input.h5", {frozen, contents, {}, samples, wrong_fields(12), wrong_fields(18)});
+  vehd::write_check_input(directory / "input.h5", {problem, wrong_fields(12), wrong_fields(18)});
   const ProgramResult result = run_command({fem_program.string(), "check", directory / "input.h5", "--quick", "-o",
                                             directory / "", "--json", directory / "result.json"});
   BOOST_TEST(result.exit_code == 0, result.errors);

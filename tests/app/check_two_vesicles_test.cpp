@@ -5,9 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "bie/comparison/check_input.hpp"
-#include "bie/comparison/coupled_check_fields.hpp"
-#include "bie/sphere/harmonics.hpp"
+#include "tests/app/check_numbers.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
@@ -40,61 +38,19 @@ std::string scene_text(double distance) {
       0.8 * distance, 0.36 * distance, 0.48 * distance);
 }
 
-/// What the boundary-integral side hands over.
-struct Numbers {
-  FrozenState frozen;
-  vehd::CheckContents contents;
-  std::vector<Matrix> forces;
-  std::vector<int> orders, other_orders;
-  std::vector<CheckFields> bie, high;
-
-  explicit Numbers(const std::string& scene) {
-    const TemporaryDirectory directory;
-    write_text(directory / "scene.toml", scene);
-    frozen = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
-    frozen.source = "scene";
-    // Membranes that charge, so that their currents say something.
-    for (vehd::VesicleState& vesicle : frozen.state.vesicles) vesicle.transmembrane_potential *= 0.6;
-    contents = vehd::check_contents(frozen);
-    orders = {12, 12};
-    other_orders = {18, 18};
-    take_forces();
-    solve(frozen);
-    for (std::size_t a = 0; a < 2; ++a) {
-      vehd::VesicleFields& stored = frozen.fields.vesicles[a];
-      stored.velocity = bie[a].velocity_of_shape;
-      stored.force_bending = bie[a].force_bending;
-      stored.force_tension = bie[a].force_tension;
-      stored.force_electric = bie[a].force_electric;
-      stored.tension = bie[a].tension;
-      stored.charge = bie[a].charge;
-    }
-    take_forces();
-    solve(frozen);
-  }
-
-  void take_forces() {
-    forces.clear();
-    for (std::size_t a = 0; a < 2; ++a) forces.push_back(vehd::total_force(frozen, frozen.fields.vesicles[a], a));
-  }
-  /// What code would find that has the wrong coefficients, data or conditions.
-  void solve(const FrozenState& state) {
-    bie = vehd::coupled_check_fields(state, contents, forces, orders);
-    high = vehd::coupled_check_fields(state, contents, forces, other_orders);
-  }
-  void write(const std::filesystem::path& file) const {
-    const vehd::CheckSamples none;
-    std::vector<vehd::CheckInput> inputs;
-    for (std::size_t a = 0; a < 2; ++a) {
-      inputs.push_back({frozen, contents, forces[a], none, bie[a], high[a], nullptr, a});
-    }
-    vehd::write_check_inputs(file, inputs);
-  }
-};
+CheckNumbers right_numbers(const std::string& scene) {
+  FrozenState frozen = vehd::read_frozen_state({"scene.toml", {}, scene}, std::nullopt);
+  frozen.source = "scene";
+  // Membranes that charge, so that their currents say something.
+  for (vehd::VesicleState& vesicle : frozen.state.vesicles) vesicle.transmembrane_potential *= 0.6;
+  CheckNumbers numbers(vehd::check_problem(frozen), 12, 18);
+  numbers.store_found();
+  return {vehd::check_problem(numbers.problem.frozen), 12, 18};
+}
 
 struct Damage {
   std::string name;
-  std::function<void(Numbers&)> apply;
+  std::function<void(CheckNumbers&)> apply;
   std::size_t vesicle;  ///< whose row has to see it
   std::string row;
 };
@@ -103,7 +59,7 @@ template <typename Values>
 Damage field_damage(const std::string& name, std::size_t vesicle, Values CheckFields::*field, const std::string& row,
                     double factor) {
   return {fmt::format("{} of {} x {}", name, vesicle, factor),
-          [=](Numbers& numbers) {
+          [=](CheckNumbers& numbers) {
             numbers.bie[vesicle].*field *= factor;
             numbers.high[vesicle].*field *= factor;
           },
@@ -113,8 +69,8 @@ Damage field_damage(const std::string& name, std::size_t vesicle, Values CheckFi
 Damage coefficient_damage(const std::string& name, std::size_t vesicle, const std::string& row,
                           const std::function<void(FrozenState&)>& change) {
   return {name,
-          [=](Numbers& numbers) {
-            FrozenState wrong = numbers.frozen;
+          [=](CheckNumbers& numbers) {
+            FrozenState wrong = numbers.problem.frozen;
             change(wrong);
             numbers.solve(wrong);
           },
@@ -131,7 +87,7 @@ std::vector<Damage> all_damages() {
     damages.push_back(field_damage("dV_m/dt", a, &CheckFields::potential_rate, "fields/charging_current", larger));
     damages.push_back(field_damage("v", a, &CheckFields::velocity, "fields/velocity", larger));
     damages.push_back({fmt::format("stored q of {}", a),
-                       [=](Numbers& n) { n.frozen.fields.vesicles[a].charge *= larger; }, a, "stored/q"});
+                       [=](CheckNumbers& n) { n.problem.frozen.fields.vesicles[a].charge *= larger; }, a, "stored/q"});
     damages.push_back(coefficient_damage(fmt::format("V_m of {}", a), a, "fields/q", [=](FrozenState& s) {
       s.state.vesicles[a].transmembrane_potential *= larger;
     }));
@@ -178,14 +134,14 @@ BOOST_AUTO_TEST_CASE(methods_agree_at_both_gaps) {
 
 BOOST_AUTO_TEST_CASE(whatever_is_damaged_on_either_vesicle_is_noticed) {
   const TemporaryDirectory directory;
-  const Numbers right(scene_text(3.2));
+  const CheckNumbers right = right_numbers(scene_text(3.2));
   right.write(directory / "right.h5");
   std::vector<std::string> command{
       finite_element_program().string(), "check", directory / "right.h5", "--quick", "-o", directory / "out", "--json",
       directory / "result.json"};
   const std::vector<Damage> damages = all_damages();
   for (std::size_t i = 0; i < damages.size(); ++i) {
-    Numbers wrong = right;
+    CheckNumbers wrong = right;
     damages[i].apply(wrong);
     const std::string file = directory / fmt::format("wrong{}.h5", i);
     wrong.write(file);

@@ -11,11 +11,10 @@
 #include <sstream>
 
 #include "bie/comparison/check.hpp"
-#include "bie/comparison/check_input.hpp"
-#include "bie/comparison/coupled_check_fields.hpp"
 #include "bie/files/hdf5_reader.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "tests/app/check_numbers.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
@@ -98,70 +97,36 @@ using vehd::FrozenState;
 using vehd::Matrix;
 
 /// The last snapshot of a run, and what boundary integrals find for it.
-struct Snapshot {
-  FrozenState frozen;
-  vehd::CheckContents contents;
-  std::vector<Matrix> forces;
-  std::vector<CheckFields> at_order, for_error;
-
-  explicit Snapshot(const std::string& scene) {
-    const FinishedRun run(scene);
-    frozen = vehd::read_frozen_state({run.output + "/run.h5", {}}, std::nullopt);
-    contents = vehd::check_contents(frozen);
-    forces = forces_of(frozen);
-    solve();
-  }
-
-  [[nodiscard]] std::vector<Matrix> forces_of(const FrozenState& state) const {
-    std::vector<Matrix> result(state.fields.vesicles.size());
-    for (std::size_t a = 0; contents.flow && a < result.size(); ++a) {
-      result[a] = vehd::total_force(state, state.fields.vesicles[a], a);
-    }
-    return result;
-  }
-  [[nodiscard]] int order() const { return vehd::order_of(frozen.state.vesicles.front().position.rows()); }
-  [[nodiscard]] std::vector<CheckFields> solved(const FrozenState& state, const std::vector<Matrix>& given,
-                                                int degree) const {
-    if (given.size() > 1) {
-      return vehd::coupled_check_fields(state, contents, given, std::vector<int>(given.size(), degree));
-    }
-    return {vehd::check_fields(state, contents, given.front(), degree, Matrix(0, 3))};
-  }
-  void solve() {
-    at_order = solved(frozen, forces, order());
-    for_error = solved(frozen, forces, vehd::estimate_order(order(), true));
-  }
-  void write(const std::filesystem::path& file) const {
-    const vehd::CheckSamples none{Matrix(0, 3), vehd::Vector(0), 0.0};
-    std::vector<vehd::CheckInput> inputs;
-    for (std::size_t a = 0; a < forces.size(); ++a) {
-      inputs.push_back({frozen, contents, forces[a], none, at_order[a], for_error[a], nullptr, a});
-    }
-    vehd::write_check_inputs(file, inputs);
-  }
-};
+CheckNumbers numbers_of_run(const std::string& scene) {
+  const FinishedRun run(scene);
+  vehd::CheckProblem problem = vehd::check_problem(vehd::read_frozen_state({run.output + "/run.h5", {}}, std::nullopt));
+  problem.samples = {};
+  const int order = vehd::order_of(problem.frozen.state.vesicles.front().position.rows());
+  return {problem, order, vehd::estimate_order(order, true)};
+}
 
 /// A dataset of a snapshot whose numbers may be wrong by a share.
 struct Number {
   std::string dataset;
   std::string row;  ///< "stored/q": that sees it; empty: none does, however large the share
-  std::function<void(Snapshot&, double share)> make_wrong;
+  std::function<void(CheckNumbers&, double share)> make_wrong;
 };
 
 template <typename Values>
 Number stored(const std::string& dataset, const std::string& row, Values vehd::VesicleFields::*field) {
-  return {dataset, row,
-          [=](Snapshot& snapshot, double share) { snapshot.frozen.fields.vesicles.front().*field *= 1.0 + share; }};
+  return {dataset, row, [=](CheckNumbers& snapshot, double share) {
+            snapshot.problem.frozen.fields.vesicles.front().*field *= 1.0 + share;
+          }};
 }
 
 /// A dataset that other stored numbers belong to: the elements know the right one, and these follow from the wrong one.
 Number decisive(const std::string& dataset, const std::string& row,
                 const std::function<void(vehd::VesicleState&, double)>& change) {
-  return {dataset, row, [=](Snapshot& snapshot, double share) {
-            FrozenState other = snapshot.frozen;
+  return {dataset, row, [=](CheckNumbers& snapshot, double share) {
+            FrozenState other = snapshot.problem.frozen;
             change(other.state.vesicles.front(), share);
-            const CheckFields of = snapshot.solved(other, snapshot.forces, snapshot.order()).front();
-            vehd::VesicleFields& fields = snapshot.frozen.fields.vesicles.front();
+            const CheckFields of = snapshot.solved(other, snapshot.order).front();
+            vehd::VesicleFields& fields = snapshot.problem.frozen.fields.vesicles.front();
             fields.charge = of.charge;
             fields.force_electric = of.force_electric;
             fields.force_bending = of.force_bending;
@@ -175,19 +140,19 @@ Number decisive(const std::string& dataset, const std::string& row,
 /// A dataset from which nothing that is stored follows.
 Number given(const std::string& dataset, const std::string& row,
              const std::function<void(vehd::VesicleState&, double)>& change) {
-  return {dataset, row, [=](Snapshot& snapshot, double share) {
-            change(snapshot.frozen.state.vesicles.front(), share);
-            snapshot.solve();
+  return {dataset, row, [=](CheckNumbers& snapshot, double share) {
+            change(snapshot.problem.frozen.state.vesicles.front(), share);
+            snapshot.solve(snapshot.problem.frozen);
           }};
 }
 
 /// The elements know the right force, and the stored velocities are those that they find for the wrong one.
-void make_contact_wrong(Snapshot& snapshot, double share) {
-  FrozenState other = snapshot.frozen;
+void make_contact_wrong(CheckNumbers& snapshot, double share) {
+  FrozenState other = snapshot.problem.frozen;
   for (vehd::VesicleFields& fields : other.fields.vesicles) fields.force_contact *= 1.0 + share;
-  const std::vector<CheckFields> of = snapshot.solved(other, snapshot.forces_of(other), snapshot.order());
+  const std::vector<CheckFields> of = vehd::check_fields(vehd::check_problem(other), {snapshot.order, snapshot.order});
   for (std::size_t a = 0; a < of.size(); ++a) {
-    snapshot.frozen.fields.vesicles[a].velocity += of[a].velocity - snapshot.at_order[a].velocity;
+    snapshot.problem.frozen.fields.vesicles[a].velocity += of[a].velocity - snapshot.bie[a].velocity;
   }
 }
 
@@ -224,7 +189,7 @@ void require_noticed(const std::string& scene, const std::vector<Number>& number
   const std::vector<double> shares{0.5,  0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
                                    1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5};
   const TemporaryDirectory directory;
-  const Snapshot right(scene);
+  const CheckNumbers right = numbers_of_run(scene);
   right.write(directory / "right.h5");
   std::vector<std::string> command{
       finite_element_program().string(), "check", directory / "right.h5", "--quick", "-o", directory / "out", "--json",
@@ -232,7 +197,7 @@ void require_noticed(const std::string& scene, const std::vector<Number>& number
   for (const Number& number : numbers) {
     for (const double share : shares) {
       for (const double sign : {1.0, -1.0}) {
-        Snapshot wrong = right;
+        CheckNumbers wrong = right;
         number.make_wrong(wrong, sign * share);
         const std::string file = directory / fmt::format("{}_{}.h5", number.dataset, sign * share);
         wrong.write(file);

@@ -1,5 +1,7 @@
 #include "bie/comparison/check_fields.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -24,9 +26,10 @@ struct Frozen {
     state = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
   }
   [[nodiscard]] const vehd::Matrix& position() const { return state.state.vesicles.front().position; }
-  [[nodiscard]] vehd::CheckFields at(int order, const vehd::Matrix& samples = vehd::Matrix(0, 3)) const {
-    const vehd::Matrix force = vehd::total_force(state, state.fields.vesicles.front());
-    return vehd::check_fields(state, vehd::check_contents(state), force, order, samples);
+  [[nodiscard]] vehd::CheckFields at(int order, const vehd::CheckSamples& samples = {}) const {
+    vehd::CheckProblem problem = vehd::check_problem(state);
+    problem.samples = samples;
+    return vehd::check_fields(problem, {order}).front();
   }
 };
 
@@ -39,6 +42,15 @@ std::string scene_in_shear() {
          "[flow]\nkind = 'shear'\nrate = 1.0\n"
          "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
          "[numerics]\norder = 8\ndt = 0.1\nend_time = 0.0\n";
+}
+
+/// Two equal ellipsoids, images of one another, at `centre` and at what it is with the opposite sign.
+std::string pair_of(const std::string& axes, const vehd::Vector3& centre, const std::string& further) {
+  const auto at = [](const vehd::Vector3& c) { return fmt::format("shape.centre = [{}, {}, {}]\n", c[0], c[1], c[2]); };
+  return "[shape]\nkind = 'ellipsoid'\naxes = " + axes + "\n[membrane]\nbending_modulus = 0.1\nconductance = 1.0\n" +
+         "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 2.0\nconductivity_out = 1.0\n" + further +
+         "[numerics]\norder = 6\ndt = 0.1\nend_time = 0.0\n" + "[[vesicle]]\nname = 'first'\n" + at(centre) +
+         "[[vesicle]]\nname = 'second'\n" + at(-centre);
 }
 
 }  // namespace
@@ -123,7 +135,7 @@ BOOST_AUTO_TEST_CASE(points_without_a_value_are_told_by_it) {
                                                 {14, "kind = 'stomatocyte'\nreduced_volume = 0.15\n"}}) {
     const Frozen frozen("[shape]\n" + shape + still + "order = " + std::to_string(order) + "\n");
     const vehd::CheckSamples samples = vehd::check_samples(frozen.position());
-    const vehd::CheckFields fields = frozen.at(order, samples.points);
+    const vehd::CheckFields fields = frozen.at(order, samples);
     BOOST_TEST_REQUIRE(fields.sample_velocity.rows() == samples.points.rows());
     for (vehd::Index i = 0; i < samples.points.rows(); ++i) {
       unknown += fields.sample_velocity.row(i).allFinite() ? 0 : 1;
@@ -137,12 +149,52 @@ BOOST_AUTO_TEST_CASE(points_without_a_value_are_told_by_it) {
 BOOST_AUTO_TEST_CASE(velocity_off_the_membrane_is_found_at_another_viscosity_inside) {
   const Frozen frozen(scene_in_shear());
   const vehd::CheckSamples samples = vehd::check_samples(frozen.position());
-  const vehd::Matrix low = frozen.at(12, samples.points).sample_velocity;
-  const vehd::Matrix middle = frozen.at(16, samples.points).sample_velocity;
-  const vehd::Matrix high = frozen.at(24, samples.points).sample_velocity;
+  const vehd::Matrix low = frozen.at(12, samples).sample_velocity;
+  const vehd::Matrix middle = frozen.at(16, samples).sample_velocity;
+  const vehd::Matrix high = frozen.at(24, samples).sample_velocity;
   BOOST_TEST_REQUIRE(low.rows() == samples.points.rows());
   BOOST_TEST(difference(middle, high) < 0.5 * difference(low, high));
   BOOST_TEST(difference(middle, high) < 1e-2);
+}
+
+// An image has no operators of its own: its fields follow from those of its original.
+BOOST_AUTO_TEST_CASE(vesicles_that_are_images_have_the_fields_of_vesicles_that_are_computed) {
+  const std::string prolate = "[1.0, 1.0, 1.4]", sphere = "[1.0, 1.0, 1.0]",
+                    contrast = "[fluid]\nviscosity_ratio = 3.0\n", shear = "[flow]\nkind = 'shear'\nrate = 1.0\n";
+  const vehd::Vector3 above(0.0, 0.0, 1.75), beside(1.5, 0.0, 0.0);
+  for (const std::string& scene :
+       {pair_of(prolate, above, ""), pair_of(prolate, above, contrast), pair_of(prolate, beside, contrast + shear),
+        pair_of(sphere, above, ""), pair_of(sphere, beside, shear)}) {
+    const vehd::FrozenState frozen = Frozen(scene).state;
+    BOOST_TEST_REQUIRE(frozen.symmetry.exchange.any(), scene);
+    vehd::FrozenState plain = frozen;
+    plain.symmetry = {};
+    for (const int order : {6, 8}) {
+      const std::vector<vehd::CheckFields> images = vehd::check_fields(vehd::check_problem(frozen), {order, order}),
+                                           expected = vehd::check_fields(vehd::check_problem(plain), {order, order});
+      for (std::size_t a = 0; a < 2; ++a) {
+        const auto compare = [&](const char* name, const auto& field, const auto& right) {
+          BOOST_TEST_REQUIRE(field.rows() == right.rows(), scene << name);
+          BOOST_TEST((field - right).norm() <= 1e-7 * (1.0 + right.norm()), scene << name << " of " << a);
+        };
+        const auto of = [&](const char* name, auto vehd::CheckFields::*field) {
+          compare(name, images[a].*field, expected[a].*field);
+        };
+        of("charge", &vehd::CheckFields::charge);
+        of("force_electric", &vehd::CheckFields::force_electric);
+        of("potential_rate", &vehd::CheckFields::potential_rate);
+        of("force_bending", &vehd::CheckFields::force_bending);
+        of("force_tension", &vehd::CheckFields::force_tension);
+        of("tension", &vehd::CheckFields::tension);
+        of("velocity_of_shape", &vehd::CheckFields::velocity_of_shape);
+        of("velocity_truncation", &vehd::CheckFields::velocity_truncation);
+        of("steady_potential", &vehd::CheckFields::steady_potential);
+        of("steady_charge", &vehd::CheckFields::steady_charge);
+        of("velocity", &vehd::CheckFields::velocity);
+        of("velocity_own_force", &vehd::CheckFields::velocity_own_force);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

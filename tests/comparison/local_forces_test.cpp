@@ -42,10 +42,9 @@ BOOST_AUTO_TEST_CASE(degrees_beyond_those_of_layers_find_what_is_left_of_bent_en
 // A few degrees more change f_b by a part of what is left of it, and by how much less nobody knows.
 BOOST_AUTO_TEST_CASE(other_degree_of_f_b_is_high_where_that_of_the_layers_is_not) {
   const vehd::FrozenState prolate = frozen("[1.0, 1.0, 3.0]", 24);
-  const vehd::Matrix force = vehd::total_force(prolate, prolate.fields.vesicles.front());
-  const auto at = [&](int order) {
-    return vehd::check_fields(prolate, vehd::check_contents(prolate), force, order, vehd::Matrix(0, 3));
-  };
+  vehd::CheckProblem problem = vehd::check_problem(prolate);
+  problem.samples = {};
+  const auto at = [&](int order) { return vehd::check_fields(problem, {order}).front(); };
   const vehd::CheckFields run = at(24), other = at(vehd::estimate_order(24, true));
   BOOST_TEST(other.order == 28);
   BOOST_TEST(other.force_order == 48);
