@@ -58,31 +58,41 @@ Vectors BendingElements::curvature_vector(const Vectors& positions) const {
   return SurfaceProjection(surface_, positions, surface_.nodes()).solve(curvature_functional(surface_, positions));
 }
 
-double BendingElements::energy(const BendingEnergy& energy, const Vectors& positions) const {
+double BendingElements::energy(const PerVesicle<BendingEnergy>& energy, const Vectors& positions) const {
   const Vectors h = curvature_vector(positions);
   double result = 0.0;
   for (int f = 0; f < surface_.nodes().n_faces(); ++f) {
     const FacePatch patch = surface_.patch(f, positions);
+    const auto [kappa, c] = energy[surface_.nodes().vesicle(f)];
     const Vectors excess = at_nodes(h, surface_.nodes().of_face(f)) * surface_.shape().value.transpose() -
-                           2.0 * energy.spontaneous_curvature * patch.normal;
-    result += 0.25 * energy.modulus * excess.colwise().squaredNorm().dot(patch.weight);
+                           2.0 * c * patch.normal;
+    result += 0.25 * kappa * excess.colwise().squaredNorm().dot(patch.weight);
   }
   return result;
 }
 
-Vectors BendingElements::force_functional(const BendingEnergy& energy, const Vectors& positions) const {
-  const double kappa = energy.modulus;
-  const double c = energy.spontaneous_curvature;
+Vectors BendingElements::force_functional(const PerVesicle<BendingEnergy>& energy, const Vectors& positions) const {
   const SurfaceProjection projection(surface_, positions, surface_.nodes());
   const Vectors h = projection.solve(curvature_functional(surface_, positions));
   // The multiplier of the equation of h: with it, h may be held while the surface is varied.
-  Vectors y = 0.5 * kappa * h;
-  if (c != 0.0) y -= kappa * c * projection.solve(normal_functional(surface_, positions));
+  Vector modulus(positions.cols()), modulus_by_curvature(positions.cols());
+  for (int f = 0; f < surface_.nodes().n_faces(); ++f) {
+    const auto [kappa, c] = energy[surface_.nodes().vesicle(f)];
+    for (const int node : surface_.nodes().of_face(f)) {
+      modulus[node] = kappa;
+      modulus_by_curvature[node] = kappa * c;
+    }
+  }
+  Vectors y = 0.5 * h * modulus.asDiagonal();
+  if (!modulus_by_curvature.isZero(0.0)) {
+    y -= projection.solve(normal_functional(surface_, positions)) * modulus_by_curvature.asDiagonal();
+  }
 
   const FaceShape& shape = surface_.shape();
   Vectors result = Vectors::Zero(3, positions.cols());
   for (int f = 0; f < surface_.nodes().n_faces(); ++f) {
     const std::vector<int>& of_face = surface_.nodes().of_face(f);
+    const auto [kappa, c] = energy[surface_.nodes().vesicle(f)];
     const FacePatch patch = surface_.patch(f, positions);
     const Vectors local_y = at_nodes(y, of_face);
     const Vectors h_values = at_nodes(h, of_face) * shape.value.transpose();
@@ -139,7 +149,7 @@ void require_holds(int degree, int field_degree) {
 
 }  // namespace
 
-BendingForce::BendingForce(const Discretisation& discretisation, const BendingEnergy& energy, int degree)
+BendingForce::BendingForce(const Discretisation& discretisation, const PerVesicle<BendingEnergy>& energy, int degree)
     : space_(discretisation.space()),
       elements_(*space_->mesh, degree),
       functional_(elements_.force_functional(energy, elements_.surface().positions())) {}

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "fem_check/discretisation.hpp"
+#include "fem_check/per_vesicle.hpp"
 #include "fem_check/surface_elements.hpp"
 
 namespace vehd::fem_check {
@@ -36,9 +37,9 @@ class BendingElements {
   [[nodiscard]] const SurfaceElements& surface() const { return surface_; }
   /// h at the nodes, [3 x nodes].
   [[nodiscard]] Vectors curvature_vector(const Vectors& positions) const;
-  [[nodiscard]] double energy(const BendingEnergy& energy, const Vectors& positions) const;
+  [[nodiscard]] double energy(const PerVesicle<BendingEnergy>& energy, const Vectors& positions) const;
   /// −δE_h[w] for the nodal functions w = φ e_d, row d: force times length, [3 x nodes].
-  [[nodiscard]] Vectors force_functional(const BendingEnergy& energy, const Vectors& positions) const;
+  [[nodiscard]] Vectors force_functional(const PerVesicle<BendingEnergy>& energy, const Vectors& positions) const;
 
  private:
   SurfaceElements surface_;
@@ -53,7 +54,7 @@ class BendingForce {
  public:
   /// @param degree  of the surface on which the energy is taken
   /// @throws std::invalid_argument for a degree below 2
-  BendingForce(const Discretisation& discretisation, const BendingEnergy& energy, int degree);
+  BendingForce(const Discretisation& discretisation, const PerVesicle<BendingEnergy>& energy, int degree);
 
   /// The nodal field of this degree with ∫ f_b·w dA = −δE_b[w] for every nodal w of that degree. It holds more of a
   /// rough force than on_trace(), whose degree is that of the flow.

@@ -55,6 +55,7 @@ FaceNodes::FaceNodes(const meshes::VolumeMesh& mesh, int degree) : degree_(degre
     const auto& local = meshes::face_vertices(CellShape::hexahedron, pair.inside_face);
     const auto corner = [&](int k) { return mesh.cell(pair.inside_cell).vertices[local[k]]; };
     std::vector<int>& numbers = of_face_.emplace_back();
+    vesicle_.push_back(mesh.cell(pair.inside_cell).vesicle);
     for (int j = 0; j <= degree; ++j) {
       for (int i = 0; i <= degree; ++i) {
         const bool inner = i > 0 && i < degree && j > 0 && j < degree;

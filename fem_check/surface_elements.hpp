@@ -23,11 +23,14 @@ class FaceNodes {
   [[nodiscard]] int n_faces() const { return static_cast<int>(of_face_.size()); }
   /// Numbers of the (degree + 1)² nodes of one face, first face coordinate fastest.
   [[nodiscard]] const std::vector<int>& of_face(int face) const { return of_face_[face]; }
+  /// Whose membrane a face belongs to.
+  [[nodiscard]] int vesicle(int face) const { return vesicle_[face]; }
 
  private:
   int degree_;
   Eigen::Index size_ = 0;
   std::vector<std::vector<int>> of_face_;
+  std::vector<int> vesicle_;
 };
 
 /// Nodal functions of one degree at points of the unit square: [points x nodes].

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "fem_check/app/bending_levels.hpp"
 #include "fem_check/app/field_files.hpp"
 #include "fem_check/app/hdf5_input.hpp"
 #include "fem_check/app/questions.hpp"
@@ -92,12 +91,8 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
   if (solved.potential) {
     add_own_force(inputs, meshes, setups, refinement, *solved.potential, solved.flow->sequence, report);
   }
-  if (!single) {
-    solved.shape_flow = solve_bending_levels(inputs, meshes, refinement, report);
-  } else {
-    const PotentialLevels* potential = solved.potential ? &*solved.potential : nullptr;
-    solved.shape_flow = solve_shape_levels(input, meshes, setups, refinement, potential, report);
-  }
+  const PotentialLevels* potential = solved.potential ? &*solved.potential : nullptr;
+  solved.shape_flow = solve_shape_levels(inputs, meshes, setups, refinement, potential, report);
   return solved;
 }
 

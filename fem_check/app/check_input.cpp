@@ -239,8 +239,7 @@ std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path) {
     input.source = file.text("/", "source");
     input.time = file.number("/", "time");
     const bool is_curved = input.flow() && input.physics.spontaneous_curvature != 0.0;
-    if (groups.size() == 1 && is_curved &&
-        !(input.bie.force_curvature.size() > 0 && input.bie_high.force_curvature.size() > 0)) {
+    if (is_curved && !(input.bie.force_curvature.size() > 0 && input.bie_high.force_curvature.size() > 0)) {
       file.refuse("has a spontaneous curvature and no force_curvature in /bie or /bie_high");
     }
     if (groups.size() > 1) input.name = file.text(group.path("/"), "name");

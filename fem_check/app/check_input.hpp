@@ -35,7 +35,7 @@ struct BieFields {
   Eigen::MatrixXd potential_of_charges, free_charge_rate;  ///< with displacement currents alone
   // In a degree of their own where `order` is not that of the state.
   Eigen::MatrixXd force_bending;    ///< f_b
-  Eigen::MatrixXd force_curvature;  ///< f_c of a spontaneous curvature; of one vesicle alone
+  Eigen::MatrixXd force_curvature;  ///< f_c of a spontaneous curvature
 
   Eigen::MatrixXd force_tension, tension;
   bool tension_is_free = false;         ///< a uniform tension does nothing

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "fem_check/app/bending_levels.hpp"
 #include "fem_check/bending.hpp"
 #include "fem_check/inextensible_flow.hpp"
 #include "meshes/frozen_shape.hpp"
@@ -13,20 +12,48 @@
 namespace vehd::fem_check {
 namespace {
 
-/// The force of the shape on elements of one degree.
+/// Of the bending elements above that of the velocity: four derivatives of x would make f_b the largest error by far.
+constexpr int bending_degrees = 6;
+/// Of f_b as a field above that of the velocity: it is rougher than all that follows from it.
+constexpr int bending_field_degrees = 3;
+
+/// The forces of the shapes on elements of one degree.
 struct Bending {
-  FieldValues fields;     ///< bending, spontaneous_curvature
-  VectorOnSurface force;  ///< of both together, as the flow takes it
+  FieldValues fields{};     ///< bending, spontaneous_curvature
+  VectorOnSurface force{};  ///< of both together, as the flow takes it
+  long n_unknowns = 0;
 };
+
+/// Each membrane with its own modulus and curvature.
+Bending bending_of(const std::vector<CheckInput>& inputs, const Discretisation& space, int points_per_edge) {
+  std::vector<BendingEnergy> flat, curved;
+  for (const CheckInput& input : inputs) {
+    flat.push_back({input.physics.bending_modulus, 0.0});
+    curved.push_back({input.physics.bending_modulus, input.physics.spontaneous_curvature});
+  }
+  const auto any = [&](double BendingEnergy::*number) {
+    return std::ranges::any_of(curved, [&](const BendingEnergy& of) { return of.*number != 0.0; });
+  };
+  if (!any(&BendingEnergy::modulus)) return {};
+  const SurfacePoints points = space.quadrature_points(points_per_edge);
+  const int surface_degree = space.degree() + bending_degrees, field_degree = space.degree() + bending_field_degrees;
+  const BendingForce plain(space, flat, surface_degree);
+  Bending bending{{{"bending", plain.field(field_degree)(points)}}, plain.on_trace(), plain.n_unknowns()};
+  if (!any(&BendingEnergy::spontaneous_curvature)) return bending;
+  const BendingForce whole(space, curved, surface_degree);
+  bending.fields["spontaneous_curvature"] = whole.field(field_degree)(points) - bending.fields["bending"];
+  bending.force = whole.on_trace();
+  return bending;
+}
 
 /// Flows with the force of the shape, with or without a tension, on discretisations of one mesh.
 class ShapeFlow {
  public:
   ShapeFlow(const CheckInput& input, FlowSetups& setups, const Refinement& refinement)
-      : physics_(input.physics),
+      : input_(input),
+        physics_(input.physics),
         setups_(setups),
         centre_(meshes::FrozenShape(input.position).centroid()),
-        tension_is_free_(input.bie.tension_is_free),
         points_per_edge_(refinement.points_per_edge) {}
 
   /// @param electric  f_E; empty: none
@@ -84,21 +111,9 @@ class ShapeFlow {
 
   /// Found once for each degree.
   [[nodiscard]] const Bending& bending_on(const Discretisation& space) {
-    const auto [place, is_new] = bending_.try_emplace(space.degree());
-    Bending& bending = place->second;
-    if (!is_new || !(physics_.bending_modulus > 0.0)) return bending;
-    const SurfacePoints points = space.quadrature_points(points_per_edge_);
-    const int surface_degree = space.degree() + bending_degrees, field_degree = space.degree() + bending_field_degrees;
-    const BendingForce plain(space, {physics_.bending_modulus, 0.0}, surface_degree);
-    bending.fields["bending"] = plain.field(field_degree)(points);
-    if (physics_.spontaneous_curvature == 0.0) {
-      bending.force = plain.on_trace();
-      return bending;
-    }
-    const BendingForce whole(space, {physics_.bending_modulus, physics_.spontaneous_curvature}, surface_degree);
-    bending.fields["spontaneous_curvature"] = whole.field(field_degree)(points) - bending.fields["bending"];
-    bending.force = whole.on_trace();
-    return bending;
+    const auto found = bending_.find(space.degree());
+    if (found != bending_.end()) return found->second;
+    return bending_.emplace(space.degree(), bending_of({input_}, space, points_per_edge_)).first->second;
   }
 
   void add(const Discretisation& space, const FlowSolution& flow, Solved& solved) const {
@@ -109,14 +124,14 @@ class ShapeFlow {
     add(space, found.flow(), solved);
     const SurfacePoints points = space.quadrature_points(points_per_edge_);
     Vector tension = found.tension(points);
-    if (tension_is_free_) tension.array() -= tension.dot(points.weight) / points.weight.sum();
+    if (input_.bie.tension_is_free) tension.array() -= tension.dot(points.weight) / points.weight.sum();
     solved.surface["tension"] = tension.transpose();
   }
 
+  const CheckInput& input_;
   const Physics& physics_;
   FlowSetups& setups_;
   Vector3 centre_;  // the weight is taken about it, which changes the pressure inside alone
-  bool tension_is_free_;
   int points_per_edge_;
   std::map<int, Bending> bending_;                // by degree
   std::map<int, InextensibleOperators> tension_;  // by degree
@@ -133,9 +148,29 @@ Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, co
   return ShapeFlow(input, setups, refinement).solve(space, {refinement.flow_tolerance}, electric);
 }
 
-LevelSequence solve_shape_levels(const CheckInput& input, Meshes& meshes, FlowSetups& setups,
+namespace {
+
+LevelSequence solve_bending_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, const Refinement& refinement,
+                                   const Report& report) {
+  LevelSequence result;
+  for (const int degree : refinement.shape_flow_degrees) {
+    const auto solve = [&](const Discretisation& space) {
+      Bending bending = bending_of(inputs, space, refinement.points_per_edge);
+      return Solved{{.n_unknowns = bending.n_unknowns}, std::move(bending.fields), {}};
+    };
+    Level level = solve_level(bending_problem, meshes.discretise(degree), meshes.outer_radius(), report, solve);
+    if (level.surface.empty()) return {};
+    result.levels.push_back(std::move(level));
+  }
+  return result;
+}
+
+}  // namespace
+
+LevelSequence solve_shape_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
                                  const Refinement& refinement, const PotentialLevels* potential, const Report& report) {
-  ShapeFlow flow(input, setups, refinement);
+  if (inputs.size() > 1) return solve_bending_levels(inputs, meshes, refinement, report);
+  ShapeFlow flow(inputs.front(), setups, refinement);
   VectorOnSurface electric;
   if (potential != nullptr) {
     electric = [&](const SurfacePoints& at) { return potential->solutions.back().on_surface(at).force; };

@@ -10,7 +10,10 @@ std::vector<FieldQuestion> shape_questions(const CheckInput& input, const Compar
   const NaturalSizes sizes = natural_sizes(input, places);
   const QuestionMaker maker(places);
   std::vector<FieldQuestion> list;
-  const auto has = [&](const char* name) { return of_shape.surface.contains(name); };
+  // Of two vesicles one alone may bend, or have a spontaneous curvature.
+  const auto has = [&](const char* name, Eigen::MatrixXd BieFields::*field) {
+    return of_shape.surface.contains(name) && (input.bie.*field).size() > 0;
+  };
   const auto question = [&](const std::string& name, const std::string& label, Eigen::MatrixXd BieFields::*field,
                             double size) {
     const Eigen::MatrixXd &judged = input.bie.*field, &high = input.bie_high.*field;
@@ -18,7 +21,7 @@ std::vector<FieldQuestion> shape_questions(const CheckInput& input, const Compar
     result.group = RowGroup::from_shape;
     return result;
   };
-  if (has("bending")) {
+  if (has("bending", &BieFields::force_bending)) {
     FieldQuestion bending = question("bending", "f_b", &BieFields::force_bending, sizes.force);
     FieldQuestion work = bending;
     bending.has_work_row = true;
@@ -27,15 +30,15 @@ std::vector<FieldQuestion> shape_questions(const CheckInput& input, const Compar
     work.label = "f_b, work";
     list.push_back(work_on_smooth(std::move(work), places.surface));
   }
-  if (has("spontaneous_curvature")) {
+  if (has("spontaneous_curvature", &BieFields::force_curvature)) {
     list.push_back(question("spontaneous_curvature", "f_c", &BieFields::force_curvature, sizes.force));
   }
-  if (has("tension")) {
+  if (has("tension", &BieFields::tension)) {
     FieldQuestion tension = question("tension", "lambda", &BieFields::tension, sizes.force * places.radius);
     if (input.bie.tension_is_free) tension = without_uniform_tension(std::move(tension), places.surface);
     list.push_back(std::move(tension));
   }
-  if (has("velocity")) {
+  if (has("velocity", &BieFields::velocity_of_shape)) {
     list.push_back(without(question("velocity", "v", &BieFields::velocity_of_shape, sizes.velocity),
                            input.physics.flow_gradient * places.surface.position));
   }

@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(degrees_that_do_not_fit_are_refused) {
   BOOST_CHECK_THROW(BendingElements(membrane_mesh(unit_sphere(), 1), 1), std::invalid_argument);
   const Discretisation space = discretise(unit_sphere(), {.degree = 4});
   BOOST_CHECK_THROW(bending_force(space, {1.0, 0.0}, 3), std::invalid_argument);
-  BOOST_CHECK_THROW(static_cast<void>(BendingForce(space, {1.0, 0.0}, 5).field(6)), std::invalid_argument);
+  BOOST_CHECK_THROW(static_cast<void>(BendingForce(space, BendingEnergy{1.0, 0.0}, 5).field(6)), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
