@@ -64,8 +64,8 @@ double BendingElements::energy(const PerVesicle<BendingEnergy>& energy, const Ve
   for (int f = 0; f < surface_.nodes().n_faces(); ++f) {
     const FacePatch patch = surface_.patch(f, positions);
     const auto [kappa, c] = energy[surface_.nodes().vesicle(f)];
-    const Vectors excess = at_nodes(h, surface_.nodes().of_face(f)) * surface_.shape().value.transpose() -
-                           2.0 * c * patch.normal;
+    const Vectors excess =
+        at_nodes(h, surface_.nodes().of_face(f)) * surface_.shape().value.transpose() - 2.0 * c * patch.normal;
     result += 0.25 * kappa * excess.colwise().squaredNorm().dot(patch.weight);
   }
   return result;

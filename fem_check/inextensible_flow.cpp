@@ -24,16 +24,6 @@ namespace {
 /// Below this variation of H, see TensionElements, a constant tension does nothing that would be seen in the flow.
 constexpr double least_variation = 1e-3;
 
-/// Energy of the residual, over that of the right-hand side, that leaves an error of the tolerance in λ. Where H varies
-/// little, the force of a constant tension is almost a pressure and hardly moves the membrane: the preconditioner,
-/// which measures the energy, takes the error of this tension for smaller by the square of the variation.
-double residual_for(double tolerance, const TensionElements& elements, bool constant_is_determined) {
-  if (!constant_is_determined) return tolerance;
-  constexpr double smallest = 1e-11;  // rounding leaves less
-  const double variation = elements.variation_of_curvature();
-  return std::max(tolerance * std::min(1.0, variation * variation), std::min(tolerance, smallest));
-}
-
 /// After those of the flow. The first rank holds all of it.
 constexpr unsigned tension_block = 4;
 
@@ -226,9 +216,8 @@ InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators,
   const double size = energy_of_residual(measure, b);
   if (!std::isfinite(size)) throw SolveError("the right-hand side of the inextensible flow is not finite");
   if (size > 0.0) {
-    const double goal = residual_for(problem.tolerance, *elements, set_up.constant_is_determined) * size;
-    const double left = generalised_minimal_residuals(system, measure, TriangularPreconditioner{blocks}, b, x, goal,
-                                                      cost.iterations, "inextensible flow");
+    const double left = generalised_minimal_residuals(system, measure, TriangularPreconditioner{blocks}, b, x,
+                                                      problem.tolerance * size, cost.iterations, "inextensible flow");
     cost.solver_error = left / size;
   } else {
     x = 0.0;

@@ -1,6 +1,7 @@
 #include "fem_check/surface_terms.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -179,6 +180,25 @@ SurfaceTerms::SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& hand
   }
 }
 
+namespace {
+
+/// A column times a vector. Four sums at once: each addition to a single one would wait for the one before.
+double column_times(const Eigen::SparseMatrix<double>& matrix, Eigen::Index column, const double* x) {
+  constexpr int n_sums = 4;
+  const double* values = matrix.valuePtr();
+  const int* rows = matrix.innerIndexPtr();
+  Eigen::Index i = matrix.outerIndexPtr()[column];
+  const Eigen::Index end = matrix.outerIndexPtr()[column + 1];
+  std::array<double, n_sums> sums{};
+  for (; i + n_sums <= end; i += n_sums) {
+    for (int k = 0; k < n_sums; ++k) sums[k] += values[i + k] * x[rows[i + k]];
+  }
+  for (; i < end; ++i) sums[0] += values[i] * x[rows[i]];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+}  // namespace
+
 void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<const Distributed*>& from) const {
   if (dofs_.empty()) return;
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(matrix_.cols(), static_cast<Eigen::Index>(from.size()));
@@ -193,10 +213,10 @@ void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<co
     const auto row = static_cast<Eigen::Index>(i);
     for (std::size_t c = 0; c < to.size(); ++c) {
       // Of a symmetric matrix columns are rows.
-      (*to[c])(dofs_[i]) += matrix_.col(row).dot(values.col(static_cast<Eigen::Index>(c)));
+      (*to[c])(dofs_[i]) += column_times(matrix_, row, values.col(static_cast<Eigen::Index>(c)).data());
     }
     for (const OneWay& coupling : couplings_) {
-      (*to[coupling.to])(dofs_[i]) += coupling.transposed.col(row).dot(values.col(coupling.from));
+      (*to[coupling.to])(dofs_[i]) += column_times(coupling.transposed, row, values.col(coupling.from).data());
     }
   }
 }
@@ -215,22 +235,47 @@ dealii::Vector<double> on_all_ranks(const Distributed& vector, MPI_Comm communic
   return result;
 }
 
+namespace {
+
+/// Functions of an edge of one degree at the nodes of another: [nodes x functions].
+Eigen::MatrixXd at_edge_nodes(unsigned degree, unsigned degree_of_nodes) {
+  const auto line = edge_polynomials(degree);
+  const std::vector<double> nodes = edge_nodes(degree_of_nodes);
+  Eigen::MatrixXd result(nodes.size(), line.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (std::size_t j = 0; j < line.size(); ++j) {
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = line[j].value(nodes[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
 void interpolate(const dealii::DoFHandler<3>& from, const dealii::Vector<double>& nodal,
                  const dealii::DoFHandler<3>& to_handler, const Constraints& constraints, Distributed& to) {
-  const auto &source = from.get_fe(), &element = to_handler.get_fe();
-  dealii::FullMatrix<double> matrix(element.n_dofs_per_cell(), source.n_dofs_per_cell());
-  element.get_interpolation_matrix(source, matrix);
-  dealii::Vector<double> values(source.n_dofs_per_cell()), at_nodes(element.n_dofs_per_cell());
-  std::vector<DofIndex> dofs(element.n_dofs_per_cell());
+  const unsigned degree_from = from.get_fe().degree, degree_to = to_handler.get_fe().degree;
+  const Eigen::MatrixXd along_edge = at_edge_nodes(degree_from, degree_to);
+  const Eigen::Index n = along_edge.rows(), m = along_edge.cols();
+  // First coordinate fastest.
+  const auto numbers_from = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(degree_from),
+             numbers_to = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(degree_to);
+  dealii::Vector<double> values(from.get_fe().n_dofs_per_cell());
+  std::vector<DofIndex> dofs(to_handler.get_fe().n_dofs_per_cell());
+  Eigen::MatrixXd lattice(m, m * m), first(n, m * m), second(n * n, m), at_nodes(n * n, n);
   auto cell = from.begin_active();
   for (const auto& target : to_handler.active_cell_iterators()) {
     cell->get_dof_values(nodal, values);
-    matrix.vmult(at_nodes, values);
+    for (unsigned i = 0; i < values.size(); ++i) lattice.data()[i] = values[numbers_from[i]];
+    first.noalias() = along_edge * lattice;
+    for (Eigen::Index k = 0; k < m; ++k) {
+      second.col(k).reshaped(n, n).noalias() = first.middleCols(k * m, m) * along_edge.transpose();
+    }
+    at_nodes.noalias() = second * along_edge.transpose();
     target->get_dof_indices(dofs);
     for (unsigned i = 0; i < dofs.size(); ++i) {
-      if (to.locally_owned_elements().is_element(dofs[i]) && !constraints.is_constrained(dofs[i])) {
-        to(dofs[i]) = at_nodes[i];
-      }
+      const DofIndex dof = dofs[numbers_to[i]];
+      if (to.locally_owned_elements().is_element(dof) && !constraints.is_constrained(dof)) to(dof) = at_nodes.data()[i];
     }
     ++cell;
   }

@@ -85,10 +85,18 @@ TensionPreconditioner::TensionPreconditioner(const TensionElements& elements, do
       mass_of_one_(elements.mass() * Vector::Ones(elements.mass().cols())),
       root_(elements.stiffness() + elements.mass() / (elements.radius() * elements.radius()), elements.mass(),
             1.0 / (elements.radius() * elements.radius()),
-            elements.largest_eigenvalue() + 1.0 / (elements.radius() * elements.radius()), share) {}
+            elements.largest_eigenvalue() + 1.0 / (elements.radius() * elements.radius()), share) {
+  const double variation = elements.variation_of_curvature();
+  // The root takes the mass of a constant to the constant times R.
+  if (!constant_is_free && share.number == 0) {
+    of_constant_ = scale_ * elements.radius() / mass_of_one_.sum() * (1.0 / (variation * variation) - 1.0);
+  }
+}
 
 Vector TensionPreconditioner::apply(const Vector& residual) const {
-  if (!constant_is_free_) return scale_ * root_.apply(residual);
+  if (!constant_is_free_) {
+    return scale_ * root_.apply(residual) + Vector::Constant(residual.size(), of_constant_ * residual.sum());
+  }
   // Projected on both sides, so that it stays symmetric: no tension of mean other than zero is ever tried.
   const double area = mass_of_one_.sum();
   const Vector result = scale_ * root_.apply(residual - mass_of_one_ * (residual.sum() / area));

@@ -59,6 +59,10 @@ class TensionElements {
 /// On the unit sphere at equal viscosities a tension Y_n makes the membrane contract at
 /// n (n + 1) [(n + 2)²/(2n + 3) + (n − 1)²/(2n − 1)]/(2n + 1)² Y_n/μ, by the eigenvalues of the single layer
 /// (docs/conventions.md): √(n (n + 1) + 1)/(4μ) but for a factor between 0.92 and 1.
+///
+/// Where H varies little, the force 2λH n of a constant tension is almost a pressure, and the membrane expands less by
+/// the square of the variation: the constant is enlarged by its inverse. So the preconditioner measures the error of
+/// this tension as that of any other.
 class TensionPreconditioner {
  public:
   /// @param constant_is_free  leaves constant tensions alone: they do nothing
@@ -72,6 +76,7 @@ class TensionPreconditioner {
  private:
   double scale_;
   bool constant_is_free_;
+  double of_constant_ = 0.0;  // for a residual of sum 1, beside what the root has
   Vector mass_of_one_;
   InverseRoot root_;
 };
