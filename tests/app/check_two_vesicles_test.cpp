@@ -32,7 +32,7 @@ std::string scene_text(double distance) {
       "[[vesicle]]\nname = 'left'\n"
       "[[vesicle]]\nname = 'right'\n[vesicle.shape]\ncentre = [{}, {}, {}]\nscale = 0.8\n"
       "rotation = [1.0, -0.4, 0.2, 80.0]\n"
-      "[vesicle.membrane]\ncapacitance = 0.7\nconductance = 1.5\n"
+      "[vesicle.membrane]\ncapacitance = 0.7\nconductance = 1.5\nspontaneous_curvature = -0.4\n"
       "[vesicle.fluid]\nviscosity_ratio = 3.0\n"
       "[vesicle.electric]\nconductivity_in = 5.0\npermittivity_ratio = 0.5\n",
       0.8 * distance, 0.36 * distance, 0.48 * distance);
@@ -126,6 +126,8 @@ BOOST_AUTO_TEST_CASE(methods_agree_at_both_gaps) {
         BOOST_TEST(vesicle["stored"].contains(field), field);
       }
     }
+    BOOST_TEST(!json["vesicles"][0]["from_shape"].contains("spontaneous_curvature"));
+    BOOST_TEST(json["vesicles"][1]["from_shape"]["spontaneous_curvature"]["l2"].get<double>() < 1e-4);
     for (const char* file : {"/surface.vtu", "/volume.vtu", "/differences.png"}) {
       BOOST_TEST(std::filesystem::file_size(directory / ("out" + std::string(file))) > 10000U, file);
     }
