@@ -3,7 +3,7 @@
 namespace vehd {
 
 FlowParameters flow_parameters(const Model& model, const VesicleModel& vesicle) {
-  return {model.viscosity, vesicle.viscosity_ratio, vesicle.inextensible, vesicle.bending};
+  return {model.viscosity, vesicle.viscosity_ratio, vesicle.inextensible, vesicle.bending, vesicle.undulations};
 }
 
 bool is_averaged(const Model& model) { return model.electric && model.electric->averaged_frequency; }

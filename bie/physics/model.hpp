@@ -15,6 +15,7 @@ namespace vehd {
 struct VesicleModel {
   double viscosity_ratio = 1.0;  ///< μ_i/μ_e; at 1 there is no Stokes double layer
   bool inextensible = true;
+  std::optional<Undulations> undulations{};  ///< of an inextensible membrane that bends; absent: its area is constant
   std::optional<BendingParameters> bending;
   InnerDielectric inside;                              ///< counts with Model::electric alone, as charging does
   ChargingParameters charging;                         ///< of the membrane

@@ -15,12 +15,23 @@ struct BendingParameters {
   bool operator==(const BendingParameters&) const = default;
 };
 
+/// Thermal undulations too small to be resolved store area, which tension pulls out; beyond that lipids stretch.
+struct Undulations {
+  double thermal_energy = 0.0;                 ///< k_BT; 0: the membrane stretches and does not undulate
+  double bending_rigidity = 0.0;               ///< κ_c = κ_B/2
+  std::optional<double> stretching_modulus{};  ///< K_A; absent: lipids keep their area
+  double rest_area = 0.0;                      ///< A_0, at zero tension; 0: see with_rest_area
+  double reference_tension = 0.0;              ///< of the initial shape, unless A_0 is given
+  bool operator==(const Undulations&) const = default;
+};
+
 /// What the velocity of one membrane depends on besides its shape and the forces.
 struct FlowParameters {
   double viscosity = 1.0;        ///< μ_e, outside
   double viscosity_ratio = 1.0;  ///< μ_i/μ_e
   bool inextensible = true;
   std::optional<BendingParameters> bending{};
+  std::optional<Undulations> undulations{};
 };
 
 /// The uniform field far away and the fluid that it is applied to.

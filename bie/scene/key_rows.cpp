@@ -118,6 +118,18 @@ void add_membrane(auto& scene) {
                 "where the membrane prefers to bulge outwards, is −2c"});
   membrane.key("inextensible", &MembraneScene::inextensible,
                {"", "", "local area is conserved by a tension, Eq. (1e)"});
+  membrane.key("undulations", &MembraneScene::undulations,
+               {"", "",
+                "the area A follows the mean tension σ: A/A_0 = 1 + k_BT/(8πκ_c) ln(1 + 0.1 σA_0/κ_c) + σ/K_A, κ_c = "
+                "κ_B/2; false: it is constant"});
+  membrane.key("temperature", &MembraneScene::temperature, positive,
+               {"k_BT", "thermal energy", "such as \"298 K\"; used with undulations; absent: they store no area"});
+  membrane.key("stretching_modulus", &MembraneScene::stretching_modulus, positive,
+               {"K_A", "force/length", "used with undulations; absent: the lipids do not stretch"});
+  membrane.key("reference_tension", &MembraneScene::reference_tension,
+               {"σ", "force/length", "mean tension of the initial shape with undulations; absent: 0"});
+  membrane.key("rest_area", &MembraneScene::rest_area, positive,
+               {"A_0", "area", "area at zero tension with undulations; not with reference_tension"});
   membrane
       .key("capacitance", &MembraneScene::capacitance, positive,
            {"C_m", "capacitance/area", "used with [electric] only"})

@@ -2,8 +2,10 @@
 
 #include <numeric>
 
+#include "bie/physics/effects/undulations.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 
 namespace vehd {
@@ -30,7 +32,8 @@ Problem problem_of(const Scene& scene, int start_order) {
   return problem;
 }
 
-Problem problem_of(const Scene& scene, const Model& model) {
+Problem problem_of(const Scene& scene, const Model& without_areas) {
+  Model model = without_areas;
   State start;
   for (const Scene& one : each_alone(scene)) {
     InitialMembrane membrane = initial_membrane(one);
@@ -39,6 +42,8 @@ Problem problem_of(const Scene& scene, const Model& model) {
     vesicle.transmembrane_potential = std::move(membrane.potential);
     vesicle.area_strain = Vector::Zero(vesicle.position.rows());
     if (has_places(one)) vesicle.material = initial_material(one);
+    std::optional<Undulations>& undulations = model.vesicles[start.vesicles.size() - 1].undulations;
+    if (undulations) undulations = with_rest_area(*undulations, size_of(vesicle.position).area);
   }
   Problem problem;
   problem.names = vesicle_names(scene);

@@ -104,6 +104,8 @@ struct MembraneScene {
   std::optional<double> bending_modulus;
   double spontaneous_curvature = 0.0;
   bool inextensible = true;
+  bool undulations = false;
+  std::optional<double> temperature{}, stretching_modulus{}, reference_tension{}, rest_area{};  ///< of undulations
   double capacitance = 1.0;
   double conductance = 0.0;
   bool mobile = true;

@@ -4,6 +4,7 @@
 #include "bie/physics/effects/poiseuille_flow.hpp"
 #include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "bie/physics/effects/tension.hpp"
+#include "bie/physics/effects/undulations.hpp"
 #include "bie/physics/model.hpp"
 
 namespace vehd {
@@ -26,6 +27,7 @@ MadeEffect described(EffectDescription (*description)()) { return std::make_shar
 std::vector<EffectRow> effect_table() {
   return {bending_row(),
           tension_row(),
+          undulations_row(),
           viscosity_contrast_row(),
           applied_field_row(),
           poration_row(),

@@ -208,7 +208,8 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
   d.reduced_volume = 6.0 * std::sqrt(std::numbers::pi) * d.volume / (d.area * std::sqrt(d.area));
   d.bending_energy_scaled = bending_energy_scaled(s);
   d.elastic_energy_scaled = elastic_energy_scaled(membrane, model.spontaneous_curvature);
-  d.area_drift = d.area / vesicle.reference_area - 1.0;
+  // The area of a membrane with undulations is not held but follows the tension.
+  d.area_drift = model.flow.undulations ? 0.0 : d.area / vesicle.reference_area - 1.0;
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
   d.spectrum_tail = spectrum_tail(vesicle.position);

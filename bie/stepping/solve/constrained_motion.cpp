@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "bie/physics/effects/bending.hpp"
 #include "bie/physics/effects/tension.hpp"
+#include "bie/physics/effects/undulations.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
@@ -48,6 +50,40 @@ Measure measure(const SphereTransform& fine, const Matrix& position) {
   return result;
 }
 
+/// The area of a membrane with undulations, which follows from what a motion does to the mean tension.
+class FreeArea {
+ public:
+  /// @param area  at the beginning of the motion
+  FreeArea(const Undulations& undulations, double area) : law_(undulations), tension_(law_.tension(area)) {}
+
+  /// The area that the mean tension so far asks for.
+  [[nodiscard]] double wanted() const { return law_.area(tension_); }
+  void raise_tension(double increment) { tension_ += increment; }
+
+  /// The uniform tension to add so that the area is what the tension then asks for.
+  /// @param area      without it
+  /// @param response  change of the area for a uniform tension of 1, negative
+  /// @param raised    mean tension for it
+  [[nodiscard]] double uniform_tension(double area, double response, double raised) const {
+    double tension = tension_;
+    // Newton's method for an increasing concave function: from below it rises to the root.
+    constexpr int most_iterations = 100;
+    for (int i = 0; i < most_iterations; ++i) {
+      const double slope = response / raised;
+      const double residual = law_.area(tension) - area - slope * (tension - tension_);
+      const double next = tension - residual / (law_.slope(tension) - slope);
+      const double allowed = std::max(next, 0.5 * (tension + law_.least_tension()));
+      if (std::abs(allowed - tension) <= 1e-14 * std::abs(allowed)) break;
+      tension = allowed;
+    }
+    return (tension - tension_) / raised;
+  }
+
+ private:
+  AreaLaw law_;
+  double tension_;
+};
+
 /// What a motion has not reached yet.
 struct Errors {
   double area = 0.0, volume = 0.0;  ///< relative, signed
@@ -72,6 +108,9 @@ class Iteration {
         velocity_(start.velocity),
         curvature_(Vector::Zero(n_coefficients(curvature.order()))) {
     motion_.material = start.fields;
+    if (context.parameters.undulations) {
+      free_area_.emplace(*context.parameters.undulations, measure(fine(), start.fields.position).area);
+    }
     if (inextensible()) {
       normal_divergence_ = weighted_divergence(context.membrane, fine().synthesize_first_derivatives(normal_));
     }
@@ -104,10 +143,11 @@ class Iteration {
       after_.area = area_ + membrane.surface.quadrature.dot(growth);
       after_.volume = enclosed_volume(membrane.surface) + dt_ * flux();
     }
+    if (free_area_) stretch *= area_ / after_.area;
     strain_ = stretch_before_.array() * stretch - 1.0;
     weighted_strain_ = membrane.weighted(Vector((1.0 + to_take_back_.array()) * stretch - 1.0));
     errors_.volume = (after_.volume + arrival_volume_) / context_.state.reference_volume - 1.0;
-    errors_.area = inextensible() ? (after_.area + arrival_area_) / context_.state.reference_area - 1.0 : 0.0;
+    errors_.area = inextensible() ? (after_.area + arrival_area_) / wanted_area() - 1.0 : 0.0;
     if (pass_ == 0) motion_.raw_area = errors_.area;
     // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
     errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
@@ -130,7 +170,7 @@ class Iteration {
     motion_.arrival_shift =
         (motion_.material.position - before_arrival_).norm() / std::sqrt(context_.state.reference_area);
     errors_.volume = there.volume / context_.state.reference_volume - 1.0;
-    errors_.area = inextensible() ? there.area / context_.state.reference_area - 1.0 : 0.0;
+    errors_.area = inextensible() ? there.area / wanted_area() - 1.0 : 0.0;
     return errors_.of_constraint() <= settings.constraint_tolerance;
   }
 
@@ -139,7 +179,7 @@ class Iteration {
     const double push = -errors_.volume * context_.state.reference_volume / (area_ * dt_);
     if (inextensible()) {
       // The area as a whole answers for itself, free of what truncation does to the strain field.
-      weighted_strain_[0] = errors_.area * context_.state.reference_area / std::sqrt(4.0 * std::numbers::pi);
+      weighted_strain_[0] = errors_.area * wanted_area() / std::sqrt(4.0 * std::numbers::pi);
       rhs_.divergence = -weighted_strain_ / dt_ - push * normal_divergence_;
     }
     // The norm of the solve weighs curvature and strain together, those of high degrees least. With a loose
@@ -149,13 +189,14 @@ class Iteration {
     const double sharpening =
         std::pow(thresholds::sharper_pass, std::max(0, stagnating_ - thresholds::stagnating_passes));
     const double tolerance = std::max(sharpening * pass_tolerance(excess()), thresholds::sharpest_pass);
-    const FlowSystem::Solution increment = flow.solve(rhs_, {}, tolerance);
+    FlowSystem::Solution increment = flow.solve(rhs_, {}, tolerance);
     iterations += increment.report.iterations;
     // What a pass leaves the next one answers for, as long as it gains.
     if (!increment.report.converged() && !(increment.report.residual < thresholds::stagnation_ratio)) {
       throw ConvergenceError(fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
                                          increment.report.residual, increment.report.iterations));
     }
+    if (free_area_) add_uniform_tension(flow, push, increment);
     velocity_ += push * normal_ + increment.velocity;
     if (bending()) curvature_ += increment.unknowns.curvature;
     if (inextensible()) motion_.material.tension += increment.unknowns.tension;
@@ -171,6 +212,29 @@ class Iteration {
 
  private:
   [[nodiscard]] const SphereTransform& fine() const { return context_.membrane.fine; }
+  [[nodiscard]] double wanted_area() const { return free_area_ ? free_area_->wanted() : context_.state.reference_area; }
+  /// Rate of change of the area under a velocity.
+  [[nodiscard]] double growth(const Matrix& velocity) const {
+    return weighted_divergence(context_.membrane, fine().synthesize_first_derivatives(velocity))[0] *
+           std::sqrt(4.0 * std::numbers::pi);
+  }
+  [[nodiscard]] double mean(const Vector& tension) const {
+    return context_.membrane.surface.quadrature.dot(fine().synthesize(tension).col(0)) / area_;
+  }
+  /// The uniform tension under which the area is what the mean tension asks for.
+  void add_uniform_tension(FlowSystem& flow, double push, FlowSystem::Solution& increment) {
+    free_area_->raise_tension(mean(increment.unknowns.tension));
+    const FlowSystem::Solution& uniform = flow.of_uniform_tension(thresholds::sharpest_pass);
+    const double raised = mean(uniform.unknowns.tension);
+    const double area =
+        after_.area + arrival_area_ +
+        dt_ * (push * normal_divergence_[0] * std::sqrt(4.0 * std::numbers::pi) + growth(increment.velocity));
+    const double tension = free_area_->uniform_tension(area, dt_ * growth(uniform.velocity), raised);
+    free_area_->raise_tension(tension * raised);
+    increment.velocity += tension * uniform.velocity;
+    if (bending()) increment.unknowns.curvature += tension * uniform.unknowns.curvature;
+    increment.unknowns.tension += tension * uniform.unknowns.tension;
+  }
   /// ∫u·n dA of the velocity so far.
   [[nodiscard]] double flux() const {
     const Surface& s = context_.membrane.surface;
@@ -192,9 +256,10 @@ class Iteration {
   const SphereTransform& curvature_transform_;
   double area_;
   Vector stretch_before_;
-  Vector to_take_back_;       // of the strain before
-  Matrix normal_;             // velocity of the volume correction, for unit amplitude
-  Vector normal_divergence_;  // weighted
+  Vector to_take_back_;                // of the strain before
+  Matrix normal_;                      // velocity of the volume correction, for unit amplitude
+  Vector normal_divergence_;           // weighted
+  std::optional<FreeArea> free_area_;  // with undulations
   double mean_curvature_ = 0.0;
   double curvature_scale_ = 0.0;
   int pass_ = 0;

@@ -34,6 +34,9 @@ struct MotionContext {
 /// @throws ConvergenceError where there is no such motion
 /// Accuracy: area and volume to the tolerance of the constraint, 1e-9 by default
 /// (tests/stepping/time/step_control_test.cpp)
+///
+/// With undulations the constraint keeps the dilation of all area elements the same, and the area on arrival is that of
+/// AreaLaw under the mean tension at y, which the area there gives, plus the increment of the mean tension.
 /// Source: paper Eqs. (27), (28); the iterated right-hand side of (27b) is of this project
 Motion constrained_motion(const MotionContext& context, const MotionStart& start, double dt, FlowSystem& flow,
                           const Arrival& arrival, int& iterations);

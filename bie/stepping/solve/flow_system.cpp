@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -40,7 +41,7 @@ Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membr
 }
 
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane) {
-  return parameters.inextensible &&
+  return parameters.inextensible && !parameters.undulations &&
          distance_variation(membrane.surface) < thresholds::sphere_variation * membrane.radius;
 }
 
@@ -63,6 +64,16 @@ FlowLayout layout_of(const FlowParameters& parameters, const Membrane& membrane,
     layout.tension_scale =
         thresholds::strain_share * (parameters.viscosity * membrane.radius / dt +
                                     parameters.bending->modulus / (membrane.radius * membrane.radius));
+  }
+  if (parameters.undulations) {
+    const Vector area_element = membrane.weighted(Vector::Ones(membrane.surface.n_points()));
+    layout.of_dilation = Vector::Zero(layout.n());
+    for (Index i = 0; i < layout.n(); ++i) {
+      if (layout.is_tension(i)) {
+        layout.of_dilation[i] =
+            -area_element[layout.entries[static_cast<std::size_t>(i)]] / (parameters.viscosity * membrane.radius);
+      }
+    }
   }
   return layout;
 }
@@ -91,6 +102,7 @@ MembraneUnknowns unknowns_of(const FlowLayout& layout, const Vector& v) {
   MembraneUnknowns unknowns;
   if (layout.bending) unknowns.curvature = all(layout.curvature_scale * v.head(layout.n())).head(layout.n_curved);
   if (layout.tension) unknowns.tension = all(layout.tension_scale * v.tail(layout.n())).head(layout.n_resolved);
+  if (layout.of_dilation.size() > 0) unknowns.tension[0] = 0.0;
   return unknowns;
 }
 
@@ -149,6 +161,10 @@ LinearMap flow_map(const FlowParameters& parameters, const Membrane& membrane, d
     }
     Vector result(layout.size() + u.coefficients.size());
     result.head(layout.size()) = entries_of(layout, curvature, divergence);
+    if (layout.of_dilation.size() > 0) {
+      result.segment(layout.n_curvature(), layout.n()) +=
+          layout.tension_scale * v[layout.n_curvature()] * layout.of_dilation;
+    }
     // What is not there is not asked for either.
     for (Index i = 0; i < layout.n_curvature(); ++i) {
       if (!layout.is_curvature(i)) result[i] = layout.curvature_scale * v[i];
@@ -182,6 +198,7 @@ LinearMap sphere_inverse(const FlowParameters& parameters, const Membrane& membr
     Eigen::Matrix2d block = sphere_flow_block(sphere, degree);
     // A uniform tension exerts no force on a sphere; away from it the response is weak but not zero.
     if (degree == 0) block(1, 1) = mean_response(parameters, membrane);
+    if (degree == 0 && layout.of_dilation.size() > 0) block(1, 1) = layout.of_dilation[0];
     if (!layout.tension) block(1, 1) = 1.0;
     inverse.push_back(block.inverse());
   }
@@ -209,6 +226,9 @@ FlowSystem::FlowSystem(const FlowParameters& parameters, const Membrane& membran
     : layout_(layout_of(parameters, membrane, dt, options)),
       curvature_(options.curvature.of(membrane)),
       dt_(dt),
+      parameters_(parameters),
+      membrane_(membrane),
+      curvature_options_(options.curvature),
       // Cut to another degree responses are no longer those of their arguments.
       known_(known.arguments.rows() != layout_.size() ? RecycledSubspace{} : std::move(known)),
       solver_(flow_map(parameters, membrane, dt, layout_, options),
@@ -220,6 +240,22 @@ FlowSystem::Solution FlowSystem::solve(const FlowRightHandSide& rhs, const Membr
   const Vector x = over_scales(layout_, entries_of(layout_, start.curvature, start.tension));
   RecycledGcr::Solution solution = solver_.solve(b, x, {tolerance, thresholds::most_flow_iterations});
   return {solution.report, unknowns_of(layout_, solution.x), solution.further.reshaped(layout_.n_resolved, 3)};
+}
+
+const FlowSystem::Solution& FlowSystem::of_uniform_tension(double tolerance) {
+  if (of_uniform_tension_) return *of_uniform_tension_;
+  MembraneUnknowns uniform;
+  uniform.tension = Vector::Zero(layout_.n_resolved);
+  uniform.tension[0] = std::sqrt(4.0 * std::numbers::pi);
+  const VelocityField u = velocity_field(
+      membrane_, membrane_velocity(parameters_, membrane_, uniform, curvature_options_), layout_.bending);
+  FlowRightHandSide rhs;
+  if (layout_.bending) rhs.curvature = dt_ * curvature_increment(membrane_, curvature_, u.derivatives);
+  rhs.divergence = -weighted_divergence(membrane_, u.derivatives);
+  of_uniform_tension_ = solve(rhs, {}, tolerance);
+  of_uniform_tension_->velocity += u.coefficients;
+  of_uniform_tension_->unknowns.tension += uniform.tension;
+  return *of_uniform_tension_;
 }
 
 RecycledSubspace FlowSystem::learned() const { return in_memory(layout_, solver_.learned(), dt_); }

@@ -17,7 +17,7 @@ namespace vehd {
 /// Source: paper Eqs. (27), (28)
 struct MembraneUnknowns {
   Vector curvature;  ///< h, of degree p or more; empty without bending
-  Vector tension;    ///< λ; empty unless inextensible
+  Vector tension;    ///< λ; empty unless inextensible, without its first coefficient where the area is free
 };
 
 /// u with its derivatives on the upsampled grid, where nobody asks for its values.
@@ -53,6 +53,8 @@ Matrix membrane_velocity(const FlowParameters& parameters, const Membrane& membr
                          const CurvatureOptions& curvature = {});
 
 /// Right-hand side of the coupled system: h − dt Hop(u) = curvature, J ∇_γ·u = divergence for u = membrane_velocity.
+/// With undulations the area is free: J (∇_γ·u − e) = divergence, where the dilation e is an unknown in place of the
+/// first coefficient of λ.
 struct FlowRightHandSide {
   Vector curvature;
   Vector divergence;  ///< weighted
@@ -77,6 +79,7 @@ struct FlowLayout {
   bool tension = false;
   double curvature_scale = 1.0;  ///< 1/R
   double tension_scale = 1.0;  ///< a share of μR/dt + κ_B/R²; where λ is the only unknown its scale is of no account
+  Vector of_dilation{};        ///< −J/(μR), entries of λ, where the area is free; else empty
 
   [[nodiscard]] Index n() const { return static_cast<Index>(entries.size()); }
   /// Is the i-th of the entries one of h, or of λ? The others are zero.
@@ -88,7 +91,7 @@ struct FlowLayout {
 };
 
 /// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and
-/// the area cannot change at constant volume.
+/// the area cannot change at constant volume. With undulations the area determines it.
 /// @param membrane  a sphere up to rounding, or not
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane);
 
@@ -114,6 +117,10 @@ class FlowSystem {
   /// @param tolerance  of the preconditioned residual, relative to the preconditioned right-hand side
   Solution solve(const FlowRightHandSide& rhs, const MembraneUnknowns& start, double tolerance);
 
+  /// What a uniform tension of 1 leads to where the area is free: h, λ and velocity, whose ∇_γ·u is uniform. Solved for
+  /// once.
+  const Solution& of_uniform_tension(double tolerance);
+
   /// Between the degree of h and the upsampled grid.
   [[nodiscard]] const SphereTransform& curvature_transform() const { return curvature_; }
   /// What its own solves have learned, in the form of RecycledSubspaces.
@@ -125,8 +132,12 @@ class FlowSystem {
   FlowLayout layout_;
   SphereTransform curvature_;
   double dt_;
+  FlowParameters parameters_;
+  const Membrane& membrane_;
+  CurvatureOptions curvature_options_;
   RecycledSubspace known_;
   RecycledGcr solver_;
+  std::optional<Solution> of_uniform_tension_;
 };
 
 }  // namespace vehd

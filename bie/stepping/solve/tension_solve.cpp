@@ -1,12 +1,15 @@
 #include "bie/stepping/solve/tension_solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/physics/effects/tension.hpp"
+#include "bie/physics/effects/undulations.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "bie/stepping/solve/tension_inverse.hpp"
@@ -18,7 +21,8 @@ namespace vehd {
 namespace {
 
 /// The problem on one membrane. Its unknowns are the coefficients that can differ from zero: of c where a force c n
-/// holds a sphere in shape, and after them of λ. Residuals u·n and J ∇_γ·u have the same entries.
+/// holds a sphere in shape, and after them of λ. Residuals u·n and J ∇_γ·u have the same entries. With undulations the
+/// mean of λ is known from the area, and the first coefficient of λ stands for the dilation e = ∇_γ·u, times μR.
 class OneTension {
  public:
   /// @param holds_shape  whether a sphere is kept one by forces along its normal
@@ -30,6 +34,12 @@ class OneTension {
             uniform_tension_response(one.membrane.radius, one.parameters.viscosity, one.parameters.viscosity_ratio)) {
     if (!one.parameters.inextensible) return;
     tension_ = membrane_.subspace.scalars();
+    if (one.parameters.undulations) {
+      mean_tension_ = AreaLaw(*one.parameters.undulations).tension(surface_area(membrane_.surface));
+      const double per_dilation = -1.0 / (one.parameters.viscosity * membrane_.radius);
+      const Vector area_element = membrane_.weighted(Vector::Ones(membrane_.surface.n_points()));
+      of_dilation_ = per_dilation * area_element(tension_);
+    }
     const int order = membrane_.fine.order();
     // Of the highest degree truncation leaves a single velocity, which λ rules alone: its harmonic V is of one degree
     // more.
@@ -41,7 +51,7 @@ class OneTension {
       if (is_held(n)) {
         block = rigid_sphere_block(sphere, n);
       } else {
-        block(1, 1) = n == 0 ? mean_response_ : sphere_flow_block(sphere, n)(1, 1);
+        block(1, 1) = n == 0 ? first_response() : sphere_flow_block(sphere, n)(1, 1);
       }
       inverse.row(n) = block.inverse().reshaped<Eigen::RowMajor>().transpose();
     }
@@ -56,7 +66,7 @@ class OneTension {
 
   /// What approximate_inverse goes by from now on, unless it is a sphere.
   void find_inverse(const TensionGrid& grid) {
-    if (is_sphere_ || tension_.empty()) return;
+    if (is_sphere_ || tension_.empty() || mean_tension_) return;
     of_membrane_.emplace(one_, grid, tension_, mean_response_);
   }
 
@@ -82,24 +92,30 @@ class OneTension {
   [[nodiscard]] Vector guess(const Vector& tension) const {
     Vector result = Vector::Zero(size());
     if (tension.size() > 0) result.tail(n_tension()) = tension(tension_);
-    if (is_sphere_) result[n_normal()] = 0.0;
+    if (is_sphere_ || mean_tension_) result[n_normal()] = 0.0;
     return result;
   }
   /// λ, coefficients; empty where the membrane may extend.
   [[nodiscard]] Vector tension(const Vector& unknowns) const {
-    return tension_.empty() ? Vector() : Vector(fields(unknowns).col(0));
+    if (tension_.empty()) return {};
+    return tension_of(fields(unknowns), mean_tension_.value_or(0.0));
   }
 
-  /// Force on the fluid; empty where there is none.
+  /// Force on the fluid, without that of a mean tension that is known; empty where there is none.
   [[nodiscard]] Matrix force(const Vector& unknowns) const {
     if (tension_.empty()) return {};
     const Matrix of_all = fields(unknowns);
-    Matrix result = tension_force(membrane_, of_all.col(0));
+    Matrix result = tension_force(membrane_, tension_of(of_all, 0.0));
     if (!normal_.empty()) {
       const Matrix normal = Vector(membrane_.fine.synthesize(of_all.col(1))).asDiagonal() * membrane_.surface.normal;
       result += without_mean(normal);
     }
     return result;
+  }
+
+  /// That of the mean tension that is known; empty where there is none.
+  [[nodiscard]] Matrix known_force() const {
+    return mean_tension_ ? tension_force(membrane_, uniform(*mean_tension_)) : Matrix();
   }
 
   /// u·n and J ∇_γ·u.
@@ -118,9 +134,11 @@ class OneTension {
     return result;
   }
 
-  /// The same of the velocity that the unknowns make; a uniform tension of a sphere, which makes none, stays zero.
+  /// The same of the velocity that the unknowns make, J (∇_γ·u − e) where the area is free; a uniform tension of a
+  /// sphere, which makes none, stays zero.
   [[nodiscard]] Vector response(const Matrix& velocity, const Vector& unknowns) const {
     Vector result = constraints(velocity);
+    if (mean_tension_) result += unknowns[0] * of_dilation_;
     if (is_sphere_) result[n_normal()] = mean_response_ * unknowns[n_normal()];
     return result;
   }
@@ -139,6 +157,22 @@ class OneTension {
   }
 
  private:
+  /// What the first coefficient of λ, or the dilation in its place, does to ∫∇_γ·u dA on a sphere.
+  [[nodiscard]] double first_response() const { return mean_tension_ ? of_dilation_[0] : mean_response_; }
+  [[nodiscard]] Vector uniform(double value) const {
+    Vector result = Vector::Zero(n_coefficients(membrane_.fine.order()));
+    result[0] = value * std::sqrt(4.0 * std::numbers::pi);
+    return result;
+  }
+  /// λ of the coefficients; where its mean is known, with this one.
+  [[nodiscard]] Vector tension_of(const Matrix& fields, double mean) const {
+    Vector tension = fields.col(0);
+    if (!mean_tension_) return tension;
+    tension[0] = 0.0;
+    const Surface& s = membrane_.surface;
+    const double mean_of_others = s.quadrature.dot(membrane_.fine.synthesize(tension).col(0)) / surface_area(s);
+    return tension + uniform(mean - mean_of_others);
+  }
   [[nodiscard]] Index n_tension() const { return std::ssize(tension_); }
   /// Degrees of c and u·n are those of the parameter sphere, so on points that have flowed degrees from 2 on have a
   /// part of degree 1 in space. Without the mean they neither hold a translation nor exert a net force.
@@ -150,6 +184,8 @@ class OneTension {
   const Membrane& membrane_;
   bool is_sphere_;
   double mean_response_;
+  std::optional<double> mean_tension_;                ///< with undulations
+  Vector of_dilation_;                                ///< −J/(μR), entries of λ
   std::vector<Index> normal_, tension_;               ///< coefficients; those of c are also in a row among those of λ
   Index first_held_ = 0;                              ///< from there on
   Eigen::Matrix<double, Eigen::Dynamic, 4> inverse_;  ///< of a sphere, row by row for each coefficient of λ
@@ -269,15 +305,17 @@ void find_inverses(std::vector<OneTension>& all, const std::vector<std::size_t>&
   for_each_member(own, [&](std::size_t a) { all[a].find_inverse(grids.at(all[a].membrane().fine.order())); });
 }
 
+/// Adds J f of forces on a membrane; empty ones are none.
+void add_weighted(const Membrane& membrane, const Matrix& force, Matrix& weighted) {
+  if (force.size() == 0) return;
+  const Matrix added = membrane.weighted(force);
+  weighted = weighted.size() == 0 ? added : Matrix(weighted + added);
+}
+
 /// Adds J f_λ (and J c n on spheres) of the membranes of this rank.
 void add_forces(const std::vector<OneTension>& all, const std::vector<std::size_t>& own,
                 const std::vector<Vector>& unknowns, std::vector<Matrix>& weighted) {
-  for_each_member(own, [&](std::size_t a) {
-    const Matrix force = all[a].force(unknowns[a]);
-    if (force.size() == 0) return;
-    const Matrix of_tension = all[a].membrane().weighted(force);
-    weighted[a] = weighted[a].size() == 0 ? of_tension : Matrix(weighted[a] + of_tension);
-  });
+  for_each_member(own, [&](std::size_t a) { add_weighted(all[a].membrane(), all[a].force(unknowns[a]), weighted[a]); });
 }
 
 }  // namespace
@@ -327,6 +365,11 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   std::vector<Vector> guess;
   for (std::size_t a = 0; a < all.size(); ++a) guess.push_back(all[a].guess(start[a]));
   add_forces(all, own, guess, weighted);
+  std::vector<Matrix> known_forces(all.size());
+  for (const std::size_t a : own) {
+    known_forces[a] = all[a].known_force();
+    add_weighted(all[a].membrane(), known_forces[a], weighted[a]);
+  }
   const std::vector<Matrix> before = flow.velocities(weighted, background);
   std::vector<Vector> left(all.size());
   for (const std::size_t a : own) left[a] = all[a].constraints(-before[a]);
@@ -356,7 +399,9 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   result.velocities = of_own.velocities(of_own.stack(before) + solution.further);
   for (std::size_t a = 0; a < all.size(); ++a) {
     result.tension.push_back(all[a].tension(unknowns[a]));
-    result.force.push_back(flow.shares().owns(a) ? all[a].force(unknowns[a]) : Matrix());
+    Matrix force = flow.shares().owns(a) ? all[a].force(unknowns[a]) : Matrix();
+    if (known_forces[a].size() > 0) force += known_forces[a];
+    result.force.push_back(std::move(force));
   }
   return result;
 }
