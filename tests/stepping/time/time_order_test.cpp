@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "bie/physics/effects/undulations.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "tests/support/runs.hpp"
@@ -11,13 +12,14 @@ using namespace vehd::testing;
 
 namespace {
 
-/// Shape, V_m, tension and energy, all independent of the parametrisation.
+/// Shape, V_m or area, tension and energy, all independent of the parametrisation.
 Vector observed_at(const Model& model, const Matrix& position, int time_order, double end_time, int n_steps) {
   const Discretisation discretisation = symmetric_discretisation(model, position, time_order);
   const double dt = end_time / n_steps;
   const State end = run(model, discretisation, start(model, discretisation, position, dt), dt, n_steps);
   const VesicleDiagnostics d = evaluated(model, discretisation, end).diagnostics;
-  return Vector{{d.extent_x, d.extent_z, d.Vm_max, d.tension_integral, d.bending_energy_scaled}};
+  return Vector{
+      {d.extent_x, d.extent_z, model.electric ? d.Vm_max : d.area, d.tension_integral, d.bending_energy_scaled}};
 }
 
 /// Errors of all that is observed, at n, 2n, 4n steps.
@@ -175,6 +177,19 @@ BOOST_AUTO_TEST_CASE(jump_of_the_field_at_the_end_of_a_step_belongs_to_the_next)
   const State end = run(model, discretisation, start(model, discretisation, sphere(6), 0.25), 0.25, 2);
   BOOST_TEST(end.time == 0.5);
   BOOST_TEST(end.vesicles[0].transmembrane_potential.isZero(0.0));
+}
+
+BOOST_AUTO_TEST_CASE(area_that_follows_the_tension_reaches_every_order) {
+  const Matrix position = ellipsoid(16, {1.0, 1.0, 1.2});
+  Model model = relaxation_model(0.1);
+  const double area = surface_area(make_surface({16, make_grid(32)}, position));
+  model.vesicles[0].undulations = with_rest_area({0.2, 0.05, 20.0, 0.0, 3.0}, area);
+  const OrderStudy study(model, position, 0.25, 4);
+  study.reaches(1, 0.9);
+  study.reaches(2, 1.7);
+  study.reaches(3, 2.4);
+  study.reaches(4, 3.1);
+  study.reaches(5, 4.2);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
