@@ -13,6 +13,7 @@ namespace vehd::fem_check {
 struct FlowProblem {
   VectorOnSurface force;               ///< f, force per area of the membrane on the fluid: f = [[T n]]
   Matrix3 gradient = Matrix3::Zero();  ///< A, v_i = A_ij x_j, without trace
+  double dilation = 0.0;               ///< ∇_γ·v on γ where a tension prescribes it
   PerVesicle<double> viscosity_in = 1.0;
   double viscosity_out = 1.0;
   double tolerance = 1e-10;  ///< of the linear solver, relative

@@ -204,7 +204,9 @@ InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators,
   const Blocks load = stokes.load(problem.force, problem.gradient);
   Blocks b = system.zero();
   for (unsigned block = 0; block < tension_block; ++block) b.block(block) = load.block(block);
-  InextensibleSystem::set_tension(-elements->divergence_of_linear_flow(problem.gradient) / space.length, b);
+  // ∇_γ·(½ e x) = e.
+  const Matrix3 left_out = problem.gradient - 0.5 * problem.dilation * Matrix3::Identity();
+  InextensibleSystem::set_tension(-elements->divergence_of_linear_flow(left_out) / space.length, b);
   Blocks x = system.zero();
   if (start != nullptr) {
     begin_from(start->flow(), stokes, x);

@@ -41,9 +41,10 @@ class InextensibleOperators {
   std::shared_ptr<const Data> data_;
 };
 
-/// The flow of `problem` with ∇_γ·v = 0 on γ: the force of the problem does not contain f_λ, which is found,
+/// The flow of `problem` with ∇_γ·v = e on γ, e its dilation, 0 where the area elements are kept: the force of the
+/// problem does not contain f_λ, which is found,
 ///
-///   2μ∫ D(v):D(w) − ∫ p div w + ∫_γ λ ∇_γ·w dA = ∫_γ f·w dA,  ∫ q div v = 0,  ∫_γ χ ∇_γ·v dA = 0,
+///   2μ∫ D(v):D(w) − ∫ p div w + ∫_γ λ ∇_γ·w dA = ∫_γ f·w dA,  ∫ q div v = 0,  ∫_γ χ (∇_γ·v − e) dA = 0,
 ///
 /// with v of degree k, p and λ of degree k − 1. λ > 0 is tension.
 /// @param start  what the linear solver begins from, on the same mesh with elements of any degree; null: zero

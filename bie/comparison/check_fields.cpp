@@ -17,6 +17,7 @@
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
@@ -189,8 +190,15 @@ class FrozenSolver {
     result.force_curvature = std::move(local.curvature);
     result.force_tension = fields(a).force_tension;
     result.tension = fields(a).tension;
-    result.tension_is_free = solved_.vesicles[a].is_sphere;
     result.velocity_of_shape = fields(a).velocity;
+    FlowParameters parameters = in_flow_[a].parameters;
+    if (parameters.undulations) {
+      const SphereDerivatives v = membrane(a).fine.synthesize_first_derivatives(fields(a).velocity);
+      const Surface& s = membrane(a).surface;
+      result.dilation = s.quadrature.dot(surface_divergence(s, v)) / surface_area(s);
+      parameters.undulations.reset();
+    }
+    result.tension_is_free = uniform_tension_is_free(parameters, membrane(a));
   }
 
   /// @param potentials  V_m of each

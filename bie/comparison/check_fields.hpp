@@ -51,6 +51,7 @@ struct CheckFields {
   Matrix force_tension;          ///< f_λ
   Vector tension;                ///< λ
   bool tension_is_free = false;  ///< a uniform tension does nothing: a sphere
+  double dilation = 0.0;         ///< ∇_γ·v, of a membrane whose area follows the tension
   Matrix velocity_of_shape;      ///< v of all these forces
   /// v of what these forces lose when they are truncated to the degree of the state; that degree only.
   Matrix velocity_truncation;

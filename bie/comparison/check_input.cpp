@@ -171,6 +171,7 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
   field("velocity_truncation", fields.velocity_truncation,
         {"velocity", "v of what its forces lose when they are truncated to this degree"});
   file.attribute(group, "tension_is_free", std::int64_t{fields.tension_is_free});
+  file.attribute(group, "dilation", fields.dilation);
   field("Vm_steady", fields.steady_potential, {"potential", "steady V_m of the membrane law"});
   field("q_steady", fields.steady_charge, {"potential/length", "q of the steady V_m"});
   field("velocity", fields.velocity, {"velocity", "v of the given force"});

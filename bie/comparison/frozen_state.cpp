@@ -7,6 +7,7 @@
 #include "bie/comparison/stored_copies.hpp"
 #include "bie/files/snapshot_choice.hpp"
 #include "bie/geometry/surface.hpp"
+#include "bie/physics/effects/undulations.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/runs/run_files.hpp"
 #include "bie/scene/given_time.hpp"
@@ -122,6 +123,9 @@ FrozenState start_of_scene(const SceneSource& source) {
   frozen.model = model_of(scene);
   const Problem problem = problem_of(scene);
   for (std::size_t a = 0; a < problem.start.size(); ++a) {
+    frozen.model.vesicles[a].undulations = problem.model.vesicles[a].undulations;
+  }
+  for (std::size_t a = 0; a < problem.start.size(); ++a) {
     require_outward(scene, source.file, a, problem.start[a].position);
   }
   Instruments instruments;
@@ -169,9 +173,21 @@ class VesicleOfSnapshot {
     const int degree = snapshot_.degree(vesicle_);
     state = resized(std::move(state), degree);
     fields = resized(std::move(fields), degree);
+    if (of_model.undulations) of_model.undulations = of_shape(*of_model.undulations, state.position, fields.tension);
   }
 
  private:
+  /// With the area at rest of a membrane that has this tension in this shape.
+  static Undulations of_shape(Undulations undulations, const Matrix& position, const Vector& tension) {
+    const int order = order_of(position.rows());
+    const SphereTransform transform(order, make_grid(2 * order));
+    const Surface surface = make_surface(transform, position);
+    const double area = surface_area(surface);
+    undulations.reference_tension = surface.quadrature.dot(transform.synthesize(tension).col(0)) / area;
+    undulations.rest_area = 0.0;
+    return with_rest_area(undulations, area);
+  }
+
   void read_potential(bool relaxes, double capacitance, VesicleState& state, VesicleFields& fields) const {
     const Vector potential = coefficients("Vm", 1);
     if (!relaxes) {

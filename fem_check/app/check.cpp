@@ -33,8 +33,9 @@ SurfaceDivergence divergence_of(const CheckInput& input, const LevelSequence& se
                                 const ComparisonPlaces& places) {
   const Vector& weight = places.surface.weight;
   const Level& last = sequence.levels.back();
-  const Eigen::MatrixXd& values = last.surface.at("divergence");
-  const Eigen::MatrixXd change = values - sequence.levels[sequence.levels.size() - 2].surface.at("divergence");
+  const Eigen::MatrixXd& divergence = last.surface.at("divergence");
+  const Eigen::MatrixXd values = (divergence.array() - input.bie.dilation).matrix();
+  const Eigen::MatrixXd change = divergence - sequence.levels[sequence.levels.size() - 2].surface.at("divergence");
   const double rate = std::max(
       input.physics.flow_gradient.norm() + root_mean_square(last.surface.at("velocity"), weight) / places.radius,
       1e-300);

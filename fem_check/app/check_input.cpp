@@ -129,6 +129,7 @@ BieFields read_fields(const VesicleGroup& file, const std::string& group, const 
   fields.force_tension = of.required("force_tension", 3);
   fields.tension = of.required("tension", 1);
   fields.tension_is_free = file.number(group, "tension_is_free") != 0.0;
+  fields.dilation = file.number(group, "dilation");
   return fields;
 }
 

@@ -39,6 +39,7 @@ struct BieFields {
 
   Eigen::MatrixXd force_tension, tension;
   bool tension_is_free = false;         ///< a uniform tension does nothing
+  double dilation = 0.0;                ///< ∇_γ·v that the constraint asks for
   Eigen::MatrixXd velocity_of_shape;    ///< of all these forces
   Eigen::MatrixXd velocity_truncation;  ///< of what these forces lose in truncation; in the order of the state only
 

@@ -64,6 +64,7 @@ class ShapeFlow {
     solved.surface = bending.fields;
     FlowProblem problem = problem_with(settings);
     problem.gradient = physics_.flow_gradient;
+    problem.dilation = input_.bie_high.dilation;
     problem.force = [&](const SurfacePoints& at) {
       Vectors force = at.normal * (physics_.weight.transpose() * (at.position.colwise() - centre_)).asDiagonal();
       if (bending.force) force += bending.force(at);

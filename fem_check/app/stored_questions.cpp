@@ -54,15 +54,16 @@ FieldQuestion free_current_question(const CheckInput& input, const NaturalSizes&
   return question;
 }
 
-/// ∇_γ·v of the stored velocity, which the constraint makes zero: what the boundary integrals leave of it at both
-/// orders is the error.
+/// ∇_γ·v of the stored velocity less what the constraint makes of it: what the boundary integrals leave at both orders
+/// is the error.
 FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlaces& places, double rate) {
   const SurfacePoints& points = places.surface;
-  const auto divergence = [&](const Eigen::MatrixXd& velocity) {
-    return Eigen::MatrixXd(surface_divergence(input.position, velocity, points.direction).transpose());
+  const auto left = [&](const Eigen::MatrixXd& velocity, double dilation) {
+    const Vector divergence = surface_divergence(input.position, velocity, points.direction);
+    return Eigen::MatrixXd((divergence.array() - dilation).matrix().transpose());
   };
-  const Eigen::MatrixXd at_order = divergence(input.bie.velocity_of_shape),
-                        for_error = divergence(input.bie_high.velocity_of_shape);
+  const Eigen::MatrixXd at_order = left(input.bie.velocity_of_shape, input.bie.dilation),
+                        for_error = left(input.bie_high.velocity_of_shape, input.bie_high.dilation);
   FieldQuestion question;
   question.name = "surface_divergence";
   question.label = "div_S v";
@@ -71,7 +72,7 @@ FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlace
   question.is_remainder = true;
   question.natural_size = rate;
   question.weight = points.weight;
-  question.judged = divergence(input.stored.velocity);
+  question.judged = left(input.stored.velocity, input.bie.dilation);
   question.bie = Eigen::MatrixXd::Zero(1, points.size());
   question.bie_high = question.bie;
   question.further_error = (at_order - for_error).cwiseAbs() + for_error.cwiseAbs();
