@@ -24,6 +24,13 @@ namespace {
 /// Below this variation of H, see TensionElements, a constant tension does nothing that would be seen in the flow.
 constexpr double least_variation = 1e-3;
 
+/// Energy of the residual, over that of the right-hand side, that leaves an error of the tolerance in λ. Where H varies
+/// little, the force of a constant tension is almost a pressure: the energy of the flow that it drives takes an error
+/// of this tension for smaller by the variation.
+double residual_for(double tolerance, const TensionElements& elements, bool constant_is_determined) {
+  return constant_is_determined ? tolerance * std::min(1.0, elements.variation_of_curvature()) : tolerance;
+}
+
 /// After those of the flow. The first rank holds all of it.
 constexpr unsigned tension_block = 4;
 
@@ -218,8 +225,9 @@ InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators,
   const double size = energy_of_residual(measure, b);
   if (!std::isfinite(size)) throw SolveError("the right-hand side of the inextensible flow is not finite");
   if (size > 0.0) {
-    const double left = generalised_minimal_residuals(system, measure, TriangularPreconditioner{blocks}, b, x,
-                                                      problem.tolerance * size, cost.iterations, "inextensible flow");
+    const double goal = residual_for(problem.tolerance, *elements, set_up.constant_is_determined) * size;
+    const double left = generalised_minimal_residuals(system, measure, TriangularPreconditioner{blocks}, b, x, goal,
+                                                      cost.iterations, "inextensible flow");
     cost.solver_error = left / size;
   } else {
     x = 0.0;

@@ -61,8 +61,7 @@ class TensionElements {
 /// (docs/conventions.md): √(n (n + 1) + 1)/(4μ) but for a factor between 0.92 and 1.
 ///
 /// Where H varies little, the force 2λH n of a constant tension is almost a pressure, and the membrane expands less by
-/// the square of the variation: the constant is enlarged by its inverse. So the preconditioner measures the error of
-/// this tension as that of any other.
+/// the square of the variation: the constant is enlarged by its inverse.
 class TensionPreconditioner {
  public:
   /// @param constant_is_free  leaves constant tensions alone: they do nothing
