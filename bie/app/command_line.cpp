@@ -102,6 +102,8 @@ int run_program(int argc, char** argv, const Ranks& ranks) {
   ExitCode exit_code = ExitCode::done;
   add_run_command(program, ranks, exit_code);
   add_sweep_command(program, exit_code);
+  add_fit_command(program, exit_code);
+  add_synthesise_command(program, exit_code);
   add_plot_command(program, exit_code);
   add_report_command(program, exit_code);
   add_plan_command(program, exit_code);

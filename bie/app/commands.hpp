@@ -15,6 +15,10 @@ namespace vehd {
 void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code);
 /// vehd sweep: simulates a scene for many values of its keys.
 void add_sweep_command(CLI::App& program, ExitCode& exit_code);
+/// vehd fit: keys of a scene from measured data.
+void add_fit_command(CLI::App& program, ExitCode& exit_code);
+/// vehd synthesise: data with noise from a scene.
+void add_synthesise_command(CLI::App& program, ExitCode& exit_code);
 /// vehd plot: pictures of a run, or of a sweep.
 void add_plot_command(CLI::App& program, ExitCode& exit_code);
 /// vehd report: one HTML file that shows a run.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -43,6 +44,19 @@ void add_settings(CLI::App& command, SceneChoice& scene) {
                   "Another value for a key of the scene, as in --set flow.rate=2.5; any number of times")
       ->type_name("TABLE.KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+int WorkerOptions::jobs() const { return n_jobs > 0 ? n_jobs : std::max(1, omp_get_num_procs() / n_threads); }
+
+void add_workers(CLI::App& command, WorkerOptions& workers) {
+  command
+      .add_option("--jobs", workers.n_jobs,
+                  "Workers on this machine, each at a run of its own; as many as it has processors if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, most_threads));
+  command.add_option("--threads", workers.n_threads, "Number of threads of each worker; one if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, most_threads));
 }
 
 void add_threads_option(CLI::App& command) {

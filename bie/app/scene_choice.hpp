@@ -26,6 +26,17 @@ void add_scene_choice(CLI::App& command, SceneChoice& scene);
 /// --set alone.
 void add_settings(CLI::App& command, SceneChoice& scene);
 
+/// Processes that compute runs side by side.
+struct WorkerOptions {
+  int n_jobs = 0;  ///< 0: not given
+  int n_threads = 1;
+
+  /// As many as there are processors for, if not given.
+  [[nodiscard]] int jobs() const;
+};
+/// Adds --jobs, and --threads of each worker.
+void add_workers(CLI::App& command, WorkerOptions& workers);
+
 /// Adds --threads, which acts at once.
 void add_threads_option(CLI::App& command);
 

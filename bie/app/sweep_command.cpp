@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -25,8 +24,7 @@ namespace fs = std::filesystem;
 struct SweepOptions {
   fs::path file;
   std::string directory;
-  int n_jobs = 0;
-  int n_threads = 1;
+  WorkerOptions workers;
   std::optional<std::size_t> pack;
   std::string emit;
   int minutes = 60;
@@ -36,8 +34,6 @@ struct SweepOptions {
   CommonOptions common;
 
   [[nodiscard]] SweepPaths paths() const { return {directory.empty() ? default_directory(file) : fs::path(directory)}; }
-  /// As many workers as there are processors for.
-  [[nodiscard]] int jobs() const { return n_jobs > 0 ? n_jobs : std::max(1, omp_get_num_procs() / n_threads); }
 };
 
 /// A sweep and its runs, all that can be said before one begins.
@@ -98,7 +94,7 @@ void print_count(const SweepCount& count, const PreparedSweep& sweep) {
 ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   const SweepCost cost = predicted_cost(sweep.runs);
   const std::vector<double>& seconds = cost.seconds;
-  const int n_jobs = options.n_jobs > 0 ? options.n_jobs : 1;
+  const int n_jobs = options.workers.n_jobs > 0 ? options.workers.n_jobs : 1;
   const std::vector<SweepPack> packs = packs_of(seconds, packs_within(seconds, 60.0 * options.minutes * n_jobs));
   nlohmann::json names = nlohmann::json::array(), json = nlohmann::json::array();
   for (const SweepPack& pack : packs) {
@@ -121,8 +117,8 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   task.directory = fs::absolute(sweep.paths.directory).lexically_normal().string();
   task.n_members = packs.size();
   task.n_jobs = n_jobs;
-  task.n_threads = options.n_threads;
-  task.n_cpus = n_jobs * options.n_threads;
+  task.n_threads = options.workers.n_threads;
+  task.n_cpus = n_jobs * options.workers.n_threads;
   task.minutes = options.minutes;
   task.n_turns = options.n_turns;
   task.memory_bytes = cost.memory_bytes;
@@ -153,10 +149,10 @@ ExitCode sweep(const SweepOptions& options) {
       const std::string left = share > 0.0 ? duration_text(seconds.count() * (1.0 / share - 1.0)) : "?";
       progress.update(share, fmt::format("{}/{} runs  left {}", n_finished, n_runs, left));
     };
-    const int n_workers = std::clamp<int>(static_cast<int>(sweep.runs.size()), 1, options.jobs());
-    problem = run_sweep(
-        {sweep.paths, sweep.sweep, sweep.runs, order_of_runs(options, sweep), n_workers, options.n_threads, show},
-        interruption);
+    const int n_workers = std::clamp<int>(static_cast<int>(sweep.runs.size()), 1, options.workers.jobs());
+    problem =
+        run_sweep({sweep.paths, sweep.runs, order_of_runs(options, sweep), n_workers, options.workers.n_threads, show},
+                  interruption);
     progress.finish();
   }
   const SweepCount count = write_sweep_table(sweep.paths, sweep.sweep, sweep.runs);
@@ -183,14 +179,7 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
       ->add_option("-o,--output", options->directory,
                    "Directory for the table and the runs, created if missing; out/NAME of NAME.toml if not given")
       ->type_name("DIR");
-  command
-      ->add_option("--jobs", options->n_jobs,
-                   "Workers on this machine, each at a run of its own; as many as it has processors if not given")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--threads", options->n_threads, "Number of threads of each worker; one if not given")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+  add_workers(*command, options->workers);
   CLI::Option* emit =
       command->add_option("--emit", options->emit, "Run nothing: write DIR/sweep.sbatch, an array of jobs for Slurm")
           ->check(one_of({"slurm"}));

@@ -52,20 +52,13 @@ FileHeader header_in(const std::filesystem::path& path) {
   return FileHeader(line);
 }
 
-/// Name and unit of a header.
-std::pair<std::string, std::string> parts_of(const std::string& header) {
-  const std::size_t at = header.find(" [");
-  if (at == std::string::npos || !header.ends_with(']')) return {header, ""};
-  return {header.substr(0, at), header.substr(at + 2, header.size() - at - 3)};
-}
-
 /// Columns of a file that has all, or those of an earlier vehd; nothing of any other.
 std::optional<std::size_t> columns_under(const FileHeader& header, HistoryKind kind) {
   const std::vector<std::string>& cells = header.cells;
   const std::vector<HistoryColumn>& known = history_columns(kind);
   if (cells.size() > known.size() || cells.size() < first_columns(kind)) return std::nullopt;
   const bool same = std::ranges::equal(
-      cells, std::span(known).first(cells.size()), {}, [](const std::string& cell) { return parts_of(cell).first; },
+      cells, std::span(known).first(cells.size()), {}, [](const std::string& cell) { return header_parts(cell).first; },
       &HistoryColumn::name);
   return same ? std::optional(cells.size()) : std::nullopt;
 }
@@ -168,7 +161,7 @@ HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::
   const FileHeader header(line);
   is_sealed_ = header.is_sealed;
   for (const std::string& cell : header.cells) {
-    auto [plain, unit] = parts_of(cell);
+    auto [plain, unit] = header_parts(cell);
     names_.push_back(std::move(plain));
     units_.push_back(std::move(unit));
   }

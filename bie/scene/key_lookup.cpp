@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "bie/scene/nearest_name.hpp"
 #include "bie/scene/read/toml_values.hpp"
-#include "bie/scene/schema.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/support/errors.hpp"
 
@@ -38,6 +38,25 @@ std::string key_text(const Scene& scene, const std::string& name) {
     return value ? to_toml(key, *value) : "";
   }
   return "";
+}
+
+std::vector<const KeyDescription*> keys_named(const std::string& name, const std::string& place,
+                                              std::string_view where) {
+  const std::size_t dot = name.rfind('.');
+  const std::string table = name.substr(0, dot), word = dot == std::string::npos ? "" : name.substr(dot + 1);
+  std::vector<const KeyDescription*> found;
+  std::vector<std::string> all;
+  for (const KeyDescription& description : scene_keys()) {
+    all.push_back(fmt::format("{}.{}", description.table, description.name));
+    if (description.table == table && description.is_called(word)) found.push_back(&description);
+  }
+  if (!found.empty()) return found;
+  if (const auto of_table = key_names(table); !of_table.empty()) {
+    throw InputError(
+        fmt::format("{}: unknown key \"{}\" of [{}] in {}; {}", place, word, table, where, suggestion(word, of_table)));
+  }
+  throw InputError(fmt::format("{}: \"{}\" in {} is no \"table.key\" of a scene; did you mean \"{}\"?", place,
+                               shortened(name), where, nearest_name(name, {all.begin(), all.end()})));
 }
 
 std::string key_place(const SceneSource& source, const std::string& name) {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "bie/scene/scene.hpp"
+#include "bie/scene/schema.hpp"
 #include "bie/scene/settings.hpp"
 
 /// Single keys of a scene by their full name, "table.key".
@@ -10,6 +13,12 @@ namespace vehd {
 
 /// Value of a key as TOML; empty where the scene has none.
 std::string key_text(const Scene& scene, const std::string& name);
+
+/// All rows of a key: one for each kind that has another.
+/// @param where  it stands at `place`, "[vary]"
+/// @throws InputError "place: ..." with the nearest name if scenes have no such key
+std::vector<const KeyDescription*> keys_named(const std::string& name, const std::string& place,
+                                              std::string_view where);
 
 /// "file:line" of a key in a scene file that can be read: of its table where the key is left out, of the first line
 /// where the table is; the option --set that gives the key. @throws InputError if the file cannot be read any more

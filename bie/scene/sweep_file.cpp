@@ -9,6 +9,7 @@
 #include <exception>
 #include <set>
 
+#include "bie/scene/key_lookup.hpp"
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/reader.hpp"
@@ -42,7 +43,11 @@ class VariedKeyReader {
   /// @param units  of the base scene
   VariedKeyReader(const std::string& name, const toml::table& table, const TomlFile& file,
                   const std::optional<UnitsScene>& units)
-      : name_(name), table_(table), file_(file), units_(units), descriptions_(descriptions()) {}
+      : name_(name),
+        table_(table),
+        file_(file),
+        units_(units),
+        descriptions_(keys_named(name, place(table, file.name), "[vary]")) {}
 
   /// @throws InputError if the key does not accept one of the values
   [[nodiscard]] VariedKey read() const {
@@ -80,24 +85,6 @@ class VariedKeyReader {
   [[noreturn]] void refuse(const toml::node& node, fmt::format_string<Arguments...> problem,
                            Arguments&&... arguments) const {
     file_.refuse(node, "\"{}\" in [vary] {}", name_, fmt::format(problem, std::forward<Arguments>(arguments)...));
-  }
-
-  /// All rows of the key: one for each kind that has another. @throws InputError if the scene has no such key
-  [[nodiscard]] std::vector<const KeyDescription*> descriptions() const {
-    const std::size_t dot = name_.rfind('.');
-    const std::string table = name_.substr(0, dot), word = dot == std::string::npos ? "" : name_.substr(dot + 1);
-    std::vector<const KeyDescription*> found;
-    std::vector<std::string> all;
-    for (const KeyDescription& description : scene_keys()) {
-      all.push_back(fmt::format("{}.{}", description.table, description.name));
-      if (description.table == table && description.is_called(word)) found.push_back(&description);
-    }
-    if (!found.empty()) return found;
-    if (const auto of_table = key_names(table); !of_table.empty()) {
-      file_.refuse(table_, "unknown key \"{}\" of [{}] in [vary]; {}", word, table, suggestion(word, of_table));
-    }
-    file_.refuse(table_, "\"{}\" in [vary] is no \"table.key\" of a scene; did you mean \"{}\"?", shortened(name_),
-                 nearest_name(name_, {all.begin(), all.end()}));
   }
 
   /// @throws what the first description says where none accepts the value

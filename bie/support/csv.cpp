@@ -33,6 +33,12 @@ std::vector<std::string> csv_cells(const std::string& line) {
   return cells;
 }
 
+std::pair<std::string, std::string> header_parts(const std::string& header) {
+  const std::size_t at = header.find(" [");
+  if (at == std::string::npos || !header.ends_with(']')) return {header, ""};
+  return {header.substr(0, at), header.substr(at + 2, header.size() - at - 3)};
+}
+
 std::vector<std::string> quoted_csv_cells(const std::string& line) {
   std::vector<std::string> cells{""};
   bool quoted = false;

@@ -9,10 +9,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A module includes and links modules of lower floors alone: those of one floor do not know each other.
-const std::map<std::string, int> floors = {
-    {"support", 0},    {"mpi", 1},      {"sphere", 1},   {"kernels", 1},    {"linear", 1}, {"geometry", 2},
-    {"potentials", 3}, {"physics", 4},  {"stepping", 5}, {"files", 6},      {"scene", 7},  {"runs", 8},
-    {"estimate", 9},   {"pictures", 9}, {"bench", 10},   {"comparison", 9}, {"app", 11},   {"python", 11}};
+const std::map<std::string, int> floors = {{"support", 0},    {"mpi", 1},      {"sphere", 1},     {"kernels", 1},
+                                           {"linear", 1},     {"geometry", 2}, {"potentials", 3}, {"physics", 4},
+                                           {"stepping", 5},   {"files", 6},    {"scene", 7},      {"runs", 8},
+                                           {"estimate", 9},   {"pictures", 9}, {"bench", 10},     {"fit", 10},
+                                           {"comparison", 9}, {"app", 11},     {"python", 11}};
 
 bool may_use(const std::string& module, const std::string& other) {
   if (module == other) return true;

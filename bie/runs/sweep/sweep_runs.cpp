@@ -23,11 +23,12 @@ std::vector<SweepRun> runs_of(const SweepFile& sweep) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     SweepRun& run = runs[i];
     run.values = sweep.values_of(i);
+    run.source.file = sweep.scene_file;
     for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
-      run.settings.push_back(fmt::format("{}={}", sweep.keys[k].name, run.values[k].toml));
+      run.source.settings.push_back(fmt::format("{}={}", sweep.keys[k].name, run.values[k].toml));
     }
     try {
-      run.scene = read_scene(SceneSource{sweep.scene_file, run.settings});
+      run.scene = read_scene(run.source);
       run.name = hash_of(effective_scene(*run.scene));
     } catch (const InputError& error) {
       run.scene.reset();

@@ -7,17 +7,18 @@
 
 #include "bie/runs/history.hpp"
 #include "bie/scene/scene.hpp"
+#include "bie/scene/settings.hpp"
 #include "bie/scene/sweep_file.hpp"
 
 namespace vehd {
 
 /// One run of a sweep.
 struct SweepRun {
-  std::vector<VariedValue> values;    ///< one for each key
-  std::vector<std::string> settings;  ///< that make its scene of the base scene
-  std::optional<Scene> scene;         ///< absent: refused
-  std::string refusal;                ///< why
-  std::string name;                   ///< of its directory: of the effective scene; empty of one that is refused
+  std::vector<VariedValue> values;  ///< one for each key
+  SceneSource source;               ///< of its scene: the base scene and settings
+  std::optional<Scene> scene;       ///< absent: refused
+  std::string refusal;              ///< why
+  std::string name;                 ///< of its directory: of the effective scene; empty of one that is refused
 };
 
 /// 16 hexadecimal digits that belong to a text: its CRC-32 and its Adler-32. Two of a million different scenes have the

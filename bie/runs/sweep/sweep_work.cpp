@@ -30,7 +30,7 @@ std::optional<RunResult> compute(const SweepTask& task, const SweepRun& run, Int
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   try {
-    const RunSession session(*run.scene, {task.sweep.scene_file, run.settings}, task.paths.run(run), true, {}, true);
+    const RunSession session(*run.scene, run.source, task.paths.run(run), true, {}, true);
     nlohmann::json summary = session.is_complete() ? session.last_summary() : nlohmann::json();
     if (!session.is_complete()) {
       const RunOutcome outcome = session.simulate(interruption, [&board](const RunStatus& status) {

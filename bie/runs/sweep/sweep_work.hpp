@@ -15,7 +15,6 @@ namespace vehd {
 /// Which runs workers look at, and how they compute.
 struct SweepTask {
   const SweepPaths& paths;
-  const SweepFile& sweep;
   const std::vector<SweepRun>& runs;
   std::vector<std::size_t> order;  ///< in which workers look at the runs
   int n_workers = 1;

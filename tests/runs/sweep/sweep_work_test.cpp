@@ -59,7 +59,7 @@ struct CountedSweep {
     std::iota(order.begin(), order.end(), std::size_t{0});
     vehd::Interruption interruption;
     vehd::WorkerBoard board{};
-    const vehd::SweepTask task{paths, sweep, runs, order};
+    const vehd::SweepTask task{paths, runs, order};
     BOOST_TEST((vehd::work_at_sweep(task, interruption, board) == vehd::WorkerEnd::nothing_left));
   }
 };

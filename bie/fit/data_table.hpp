@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vehd {
+
+/// A file of measured numbers: CSV whose header names each column and its unit, "time [ms]", as files of vehd do. Empty
+/// lines and those that begin with # are left out.
+class DataTable {
+ public:
+  /// @throws InputError "file:line: ..." if it cannot be read or a row has more or fewer cells than the header
+  explicit DataTable(const std::filesystem::path& file);
+
+  [[nodiscard]] std::size_t n_rows() const { return rows_.size(); }
+  /// Name of a column, counted from 0, without its unit.
+  [[nodiscard]] const std::string& name(std::size_t column) const { return names_[column]; }
+  /// As it is written; empty where the column has none.
+  [[nodiscard]] const std::string& unit(std::size_t column) const { return units_[column]; }
+  /// nullopt if there is no column of that name.
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
+  /// The same. @throws InputError that names the nearest column
+  [[nodiscard]] std::size_t column(const std::string& name) const;
+  /// A cell as it is written, without blanks around it.
+  [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const { return rows_[row].cells[column]; }
+  /// @throws InputError if the cell holds no finite number
+  [[nodiscard]] double number(std::size_t row, std::size_t column) const;
+  /// "file:line" of a row, and of the header.
+  [[nodiscard]] std::string place(std::size_t row) const;
+  [[nodiscard]] std::string header_place() const;
+
+ private:
+  struct Row {
+    int line = 0;
+    std::vector<std::string> cells;
+  };
+
+  std::string file_;
+  int header_line_ = 0;
+  std::vector<std::string> names_, units_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace vehd

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bie/fit/fit_file.hpp"
+#include "bie/fit/least_squares.hpp"
+#include "bie/fit/model_runs.hpp"
+#include "bie/fit/statistics.hpp"
+
+namespace vehd {
+
+/// Values of the free keys that fit the data best, and what the data say of them.
+struct FitResult {
+  Minimum minimum;
+  Statistics statistics;
+  std::vector<double> values;  ///< of the keys, each in its unit
+  /// Of the runs with these values, one list for each experiment.
+  std::vector<std::vector<std::string>> verdicts;
+
+  /// Settings "table.key=value" of these values.
+  [[nodiscard]] std::vector<std::string> settings(const FitFile& fit) const;
+};
+
+/// The problem that a fit is, with some model of its data.
+LeastSquares least_squares_of(const FitFile& fit);
+
+/// Fits the free keys of all experiments together; runs are the model.
+/// @param tell  called after each evaluation of the model, with χ² so far; may be empty
+/// @throws InputError if the model has no value at the start or beside a point
+/// @throws Interrupted if a signal came; what was computed is kept. OutputError
+FitResult fit_keys(const FitFile& fit, const ModelRuns& runs,
+                   std::function<void(int n_evaluations, double chi2)> tell = {});
+
+}  // namespace vehd

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bie/fit/experiment.hpp"
+#include "bie/fit/free_key.hpp"
+
+namespace vehd {
+
+/// A fit as its file gives it.
+struct FitFile {
+  std::filesystem::path file;
+  std::vector<FreeKey> keys;
+  std::vector<Experiment> experiments;
+};
+
+/// Reads and validates a fit (docs/fit.md), the scenes and the data of its experiments. The ends of each key's interval
+/// are values that all scenes accept.
+/// @throws InputError "file:line: what is wrong, the value, what is accepted"
+FitFile read_fit(const std::filesystem::path& path);
+/// The same for text in memory.
+/// @param name    stands for the file in messages
+/// @param folder  where relative paths start
+FitFile parse_fit(const std::string& text, const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace vehd

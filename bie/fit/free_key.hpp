@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+namespace vehd {
+
+/// A key of a scene whose value a fit looks for, as the number in one unit.
+///
+/// A fit varies it by a coordinate p without dimension: the logarithm of the number where it is `is_logarithmic`,
+/// otherwise the number over the width of its interval.
+struct FreeKey {
+  std::string name;  ///< "table.key"
+  std::string unit;  ///< as written; empty of pure numbers and of scenes without [units]
+  bool is_logarithmic = false;
+  double from = 0.0, to = 1.0;  ///< from < to
+  double start = 0.5;           ///< between them
+  std::string place{};          ///< "file:line"
+
+  [[nodiscard]] double coordinate_of(double number) const;
+  [[nodiscard]] double number_of(double coordinate) const;
+  /// "table.key=value" as of the option --set.
+  [[nodiscard]] std::string setting_of(double number) const;
+  /// Standard error of the number, to first order in that of the coordinate.
+  [[nodiscard]] double error_of(double number, double error_of_coordinate) const;
+};
+
+}  // namespace vehd

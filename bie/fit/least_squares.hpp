@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bie/fit/prediction.hpp"
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// Data with standard deviations s_i, and a model m(p) of them whose n parameters p lie in an interval each. p has no
+/// dimension: the logarithm of a positive quantity, or a quantity over the width of its interval.
+struct LeastSquares {
+  Vector data, deviations;
+  Vector lower, upper, start;
+  double run_error = 0.1;  ///< of a model value, in deviations
+  /// m at several points.
+  std::function<std::vector<Prediction>(const std::vector<Vector>& points)> model;
+  /// Called after each evaluation; may be empty.
+  std::function<void(int n_evaluations, double chi2)> tell{};
+};
+
+/// Where χ² = Σ ((d_i − m_i)/s_i)² is least.
+struct Minimum {
+  Vector point;      ///< p
+  Vector model;      ///< m(p)
+  Vector residuals;  ///< (d_i − m_i)/s_i
+  Matrix jacobian;   ///< ∂m_i/∂p_k / s_i, by central differences
+  Vector steps;      ///< h_k of these
+  bool converged = false;
+  int n_evaluations = 0;  ///< of the model, each at one point
+
+  [[nodiscard]] double chi2() const { return residuals.squaredNorm(); }
+};
+
+/// Levenberg–Marquardt (MINPACK's, of Eigen) in u with p = lower + (upper − lower)/(1 + e^{−u}), which keeps p in its
+/// interval. Derivatives are differences with steps that change the model by about three deviations, ‖h J‖ = 3, within
+/// 0.001 … 0.1: a run's error is then a small part of the change. It ends where a full step would move p by less than a
+/// tenth of a standard error, or with `converged` false after 12 (n + 2) evaluations.
+/// There are as many data as parameters, or more.
+/// @throws InputError if the model has no value at the start or beside a point
+/// Source: J. J. Moré, B. S. Garbow, K. E. Hillstrom, User guide for MINPACK-1, ANL-80-74 (1980)
+Minimum minimum_of(const LeastSquares& problem);
+
+}  // namespace vehd

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bie/fit/experiment.hpp"
+#include "bie/fit/prediction.hpp"
+#include "bie/runs/sweep/sweep_runs.hpp"
+#include "bie/support/interruption.hpp"
+
+namespace vehd {
+
+/// How runs are computed.
+struct RunWork {
+  std::filesystem::path directory;  ///< the runs are below it
+  int n_workers = 1;                ///< processes at a time
+  int n_threads = 1;                ///< of each
+  /// Called often.
+  std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> tell{};
+};
+
+/// The model of experiments: runs of their scenes, each in a directory named by its effective scene. A run that is
+/// there already is not computed again, nor is what a killed one has done, so that the same questions after a kill cost
+/// what is new.
+class ModelRuns {
+ public:
+  /// @param interruption  alive since before the first parallel region, as are the experiments
+  ModelRuns(const std::vector<Experiment>& experiments, RunWork work, Interruption& interruption);
+
+  /// Predictions for several points at once; all their runs are computed side by side.
+  /// @param points  settings "table.key=value" of each
+  /// @throws Interrupted, OutputError
+  [[nodiscard]] std::vector<Prediction> predict(const std::vector<std::vector<std::string>>& points) const;
+
+  /// Verdicts of the runs of one experiment at a point that was predicted, each once.
+  [[nodiscard]] std::vector<std::string> verdicts(const Experiment& experiment,
+                                                  const std::vector<std::string>& point) const;
+
+ private:
+  [[nodiscard]] SweepRun run_of(const Experiment& experiment, const DataOfRun& data,
+                                const std::vector<std::string>& point) const;
+  void compute(const std::vector<SweepRun>& runs) const;
+
+  const std::vector<Experiment>& experiments_;
+  RunWork work_;
+  Interruption& interruption_;
+};
+
+}  // namespace vehd
