@@ -7,7 +7,7 @@ set(VEHD_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the module 
 
 file(GLOB sources CONFIGURE_DEPENDS ${python_source}/*.cpp)
 pybind11_add_module(vehd_python MODULE NO_EXTRAS ${sources})
-target_link_libraries(vehd_python PRIVATE vehd_bench vehd_compilation)
+target_link_libraries(vehd_python PRIVATE vehd_bench vehd_fit vehd_compilation)
 target_compile_options(vehd_python PRIVATE ${quickly_compiled})
 # From the folder of the module to that of the libraries.
 file(RELATIVE_PATH to_libraries /${VEHD_PYTHON_FOLDER}/vehd /${library_folder})

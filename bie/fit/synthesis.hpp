@@ -11,8 +11,8 @@ namespace vehd {
 
 /// Data to be made from a scene.
 struct Synthesis {
-  SceneSource source;
-  std::string quantity;               ///< a column of history.csv, or "contour"
+  SceneSource source{};
+  std::string quantity{};             ///< a column of history.csv, or "contour"
   std::string key{};                  ///< varied, "table.key"; empty: data against time, at the scene's snapshots
   std::vector<std::string> values{};  ///< of the key, "10 kHz"
   std::string noise{};                ///< standard deviation, "2 mV"

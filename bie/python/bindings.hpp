@@ -19,5 +19,7 @@ void bind_layers(pybind11::module_& module);
 void bind_solves(pybind11::module_& module);
 /// The check by finite elements.
 void bind_check(pybind11::module_& module);
+/// Fits to measured data.
+void bind_fit(pybind11::module_& module);
 
 }  // namespace vehd::python

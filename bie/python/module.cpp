@@ -33,6 +33,7 @@ PYBIND11_MODULE(_core, module) {
   bind_layers(module);
   bind_solves(module);
   bind_check(module);
+  bind_fit(module);
   module.def("version", &vehd::program_version, "Version of vehd.");
   module.def("library_versions", &vehd::library_versions, "Versions of the libraries that results depend on, by name.");
   module.attr("most_threads") = vehd::most_threads;

@@ -92,9 +92,10 @@ BOOST_AUTO_TEST_CASE(a_second_call_computes_nothing_and_a_lost_run_alone) {
   BOOST_TEST(vehd::json_of(fit, charging.result(fit)).dump() == first);
   BOOST_TEST((times_of_results(runs) == times));
   // As a kill leaves it: a run without a result, another one with nothing at all.
-  auto entry = fs::directory_iterator(runs);
-  fs::remove((entry++)->path() / "result.json");
-  fs::remove_all(entry->path());
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(runs)) folders.push_back(entry.path());
+  fs::remove(folders.at(0) / "result.json");
+  fs::remove_all(folders.at(1));
   BOOST_TEST(vehd::json_of(fit, charging.result(fit)).dump() == first);
   const auto later = times_of_results(runs);
   BOOST_TEST(std::ranges::count_if(later, [&](auto time) { return time > times.back(); }) == 2);

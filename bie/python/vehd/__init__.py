@@ -31,6 +31,7 @@ from ._core import (  # noqa: E402
 from ._core import version as _version  # noqa: E402
 from .checking import CheckResult, check, has_finite_elements, solve_by_elements  # noqa: E402
 from .example1 import example1, example1_sources  # noqa: E402
+from .fitting import fit  # noqa: E402
 from .harmonics import (  # noqa: E402
     coefficient_index,
     degree_of,
@@ -51,7 +52,7 @@ __version__ = _version()
 __all__ = [
     "CheckResult", "ConvergenceError", "InputError", "Operator", "OutputError", "Scene", "SceneError",
     "ShapeError", "Simulation", "Surface", "Table", "check", "coefficient_index", "degree_of",
-    "evaluate_harmonics", "example1", "example1_sources", "has_finite_elements", "library_versions",
+    "evaluate_harmonics", "example1", "example1_sources", "fit", "has_finite_elements", "library_versions",
     "n_coefficients", "plot", "point_source_fields", "read_history", "resize_degree", "set_threads",
     "solve_by_elements", "solve_electric", "solve_jumps", "solve_tension", "threads",
 ]

@@ -1,0 +1,41 @@
+"""Keys of scenes from measured data."""
+
+import json
+import os
+from typing import Any, Dict, Mapping, Optional, Union
+
+from . import _core
+from .arguments import whole
+
+
+def _toml(fit: Mapping[str, Any]) -> str:
+    """The text of a fit file. What JSON and TOML write alike is all that a value can be."""
+
+    def keys(table: Mapping[str, Any]) -> list:
+        return [f"{json.dumps(key)} = {json.dumps(value)}" for key, value in table.items()]
+
+    lines = []
+    for experiment in fit.get("experiment", []):
+        lines += ["[[experiment]]", *keys(experiment)]
+    lines.append("[free]")
+    lines += [f"{json.dumps(key)} = {{{', '.join(keys(interval))}}}" for key, interval in fit.get("free", {}).items()]
+    return "\n".join(lines) + "\n"
+
+
+def fit(what: Union[str, "os.PathLike[str]", Mapping[str, Any]], directory: Union[str, "os.PathLike[str]"], *,
+        jobs: Optional[int] = None, plot: bool = True) -> Dict[str, Any]:
+    """Fits keys of scenes to measured data, as `vehd fit` does (docs/fit.md).
+
+    what: a fit file, or a dict of its tables: {"experiment": [{"scene": ..., "data": ..., "quantity": ...}],
+    "free": {"membrane.capacitance": {"from": "0.2 uF/cm^2", "to": "5 uF/cm^2"}}}, with paths relative to the present
+    folder.
+    directory: for the results and the runs; runs that are there already are not computed again.
+    jobs: runs at a time, as many as there are processors if left out. plot: draws fit.png.
+
+    Returns the content of fit.json: values, errors (None where the data do not determine the key), correlation, chi2,
+    undetermined and more.
+    """
+    is_file = not isinstance(what, Mapping)
+    count = (os.cpu_count() or 1) if jobs is None else whole("jobs", jobs, 1, 1024)
+    return json.loads(_core.fit(os.fspath(what) if is_file else "dict", None if is_file else _toml(what),
+                                os.fspath(directory), count, plot))
