@@ -80,6 +80,7 @@ NUMBERS = {
     "solve_by_elements.degree": (lambda x: vehd.solve_by_elements(SURFACE, [], 2.0, 1.0, degree=x), WHOLE),
     "solve_by_elements.cells": (lambda x: vehd.solve_by_elements(SURFACE, [], 2.0, 1.0, cells=x), WHOLE),
     "solve_by_elements.outer_radius": (lambda x: vehd.solve_by_elements(SURFACE, [], 2.0, 1.0, outer_radius=x), (1.0,)),
+    "fit.jobs": (lambda x: vehd.fit("none.toml", "none", jobs=x), (*WHOLE, 10**6)),
     "n_coefficients.degree": (vehd.n_coefficients, (-1, 1.5)),
     "coefficient_index.n": (lambda x: vehd.coefficient_index(x, 0), (-1, 1.5)),
     "coefficient_index.m": (lambda x: vehd.coefficient_index(2, x), (3, -3, 1.5)),
