@@ -67,6 +67,10 @@ std::string Measured::header() const { return vehd::header(column(), unit); }
 std::string Measured::abscissa_header() const { return vehd::header(abscissa, abscissa_unit); }
 
 std::string dimension_of(const Scene& scene, const std::string& quantity, const std::string& place) {
+  if (quantity == contour_quantity && scene.vesicles.size() > 1) {
+    throw InputError(fmt::format("{}: \"quantity\" is \"{}\", and the scene has {} vesicles; accepted: one", place,
+                                 quantity, scene.vesicles.size()));
+  }
   if (quantity == contour_quantity) return "length";
   const std::vector<HistoryColumn>& columns = history_columns(history_kind(scene));
   const auto found = std::ranges::find(columns, quantity, &HistoryColumn::name);

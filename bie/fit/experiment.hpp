@@ -62,7 +62,8 @@ struct Experiment {
   double tolerance = 1e-3;  ///< of the runs
 };
 
-/// Dimension of a quantity. @throws InputError "place: ..." if the history of the scene has no such column
+/// Dimension of a quantity.
+/// @throws InputError "place: ..." if the history of the scene has no such column, or the contour would be of several
 std::string dimension_of(const Scene& scene, const std::string& quantity, const std::string& place);
 
 /// Factor from a unit to SI base units, or 1 in a scene without [units].

@@ -33,6 +33,7 @@ void end_at_data(Scene& scene, const Experiment& experiment, const DataOfRun& of
 ModelRuns::ModelRuns(const std::vector<Experiment>& experiments, RunWork work, Interruption& interruption)
     : experiments_(experiments), work_(std::move(work)), interruption_(interruption) {
   make_directory(SweepPaths{work_.directory}.runs());
+  lock_ = std::make_unique<DirectoryLock>(RunPaths{work_.directory}.lock());
 }
 
 SweepRun ModelRuns::run_of(const Experiment& experiment, const DataOfRun& data,

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bie/fit/experiment.hpp"
 #include "bie/fit/prediction.hpp"
+#include "bie/runs/run_directory.hpp"
 #include "bie/runs/sweep/sweep_runs.hpp"
 #include "bie/support/interruption.hpp"
 
@@ -27,7 +29,9 @@ struct RunWork {
 /// what is new.
 class ModelRuns {
  public:
-  /// @param interruption  alive since before the first parallel region, as are the experiments
+  /// Alone in the directory until destruction.
+  /// @param experiments, interruption  must outlive it; the latter is alive since before the first parallel region
+  /// @throws DirectoryBusy, OutputError
   ModelRuns(const std::vector<Experiment>& experiments, RunWork work, Interruption& interruption);
 
   /// Predictions for several points at once; all their runs are computed side by side.
@@ -46,6 +50,7 @@ class ModelRuns {
 
   const std::vector<Experiment>& experiments_;
   RunWork work_;
+  std::unique_ptr<DirectoryLock> lock_;
   Interruption& interruption_;
 };
 

@@ -49,7 +49,6 @@ std::vector<double> columns_of_history(const Experiment& experiment, const DataO
 std::vector<double> radii_of_snapshots(const Experiment& experiment, const DataOfRun& data, const Scene& scene,
                                        const RunPaths& paths) {
   const RunReader run(paths.snapshots());
-  run.require_one_vesicle("a contour");
   const double length = scale_of(scene, "length"), second = scale_of(scene, "time");
   std::vector<double> values(data.data.size());
   // All angles of a frame at once.

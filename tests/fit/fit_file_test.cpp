@@ -136,4 +136,14 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
              "fit.toml:6: unknown key \"till\" in \"membrane.bending_modulus\" in [free]; accepted: from, to, scale");
 }
 
+BOOST_AUTO_TEST_CASE(contours_are_those_of_one_vesicle) {
+  const Folder folder;
+  write_text(folder.directory / "scene.toml",
+             quick_scene() +
+                 "[[vesicle]]\nname = \"a\"\n[vesicle.shape]\ncentre = [0.0, 0.0, -3.0]\n"
+                 "[[vesicle]]\nname = \"b\"\n[vesicle.shape]\ncentre = [0.0, 0.0, 3.0]\n");
+  BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"contour\"\n") ==
+             "fit.toml:4: \"quantity\" is \"contour\", and the scene has 2 vesicles; accepted: one");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

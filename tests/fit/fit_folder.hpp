@@ -52,10 +52,9 @@ struct FitFolder {
     write_text(directory / name, text);
   }
 
-  /// @param workers  processes at a time
-  [[nodiscard]] FitResult result(const FitFile& fit, const std::string& output = "out") const {
+  [[nodiscard]] FitResult result(const FitFile& fit, const std::string& output = "out", int n_workers = 2) const {
     Interruption interruption;
-    const ModelRuns runs(fit.experiments, {.directory = directory / output, .n_workers = 2}, interruption);
+    const ModelRuns runs(fit.experiments, {.directory = directory / output, .n_workers = n_workers}, interruption);
     return fit_keys(fit, runs);
   }
 };

@@ -83,10 +83,11 @@ BOOST_AUTO_TEST_CASE(charging_of_a_sphere_gives_capacitance_and_conductance) {
   BOOST_TEST(std::abs(result.statistics.correlation(0, 1) - exact.correlation(0, 1)) < 0.05);
 }
 
-BOOST_AUTO_TEST_CASE(a_second_call_computes_nothing_and_a_lost_run_alone) {
+BOOST_AUTO_TEST_CASE(any_number_of_workers_finds_the_same_and_a_second_call_what_is_lost_alone) {
   const ChargingFit charging;
   const vehd::FitFile fit = charging.fit();
   const std::string first = vehd::json_of(fit, charging.result(fit)).dump();
+  BOOST_TEST(vehd::json_of(fit, charging.result(fit, "one", 1)).dump() == first);
   const fs::path runs = charging.directory / "out/runs";
   const auto times = times_of_results(runs);
   BOOST_TEST(vehd::json_of(fit, charging.result(fit)).dump() == first);
@@ -99,6 +100,14 @@ BOOST_AUTO_TEST_CASE(a_second_call_computes_nothing_and_a_lost_run_alone) {
   BOOST_TEST(vehd::json_of(fit, charging.result(fit)).dump() == first);
   const auto later = times_of_results(runs);
   BOOST_TEST(std::ranges::count_if(later, [&](auto time) { return time > times.back(); }) == 2);
+}
+
+BOOST_AUTO_TEST_CASE(two_fits_do_not_work_in_one_directory) {
+  const ChargingFit charging;
+  const vehd::FitFile fit = charging.fit();
+  vehd::Interruption interruption;
+  const vehd::ModelRuns first(fit.experiments, {.directory = charging.directory / "out"}, interruption);
+  BOOST_CHECK_THROW(charging.result(fit), vehd::DirectoryBusy);
 }
 
 BOOST_AUTO_TEST_CASE(what_charging_does_not_tell_apart_is_reported) {
