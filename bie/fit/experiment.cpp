@@ -106,9 +106,10 @@ std::vector<DataOfRun> runs_of(const Measured& measured, const std::vector<Datum
   for (std::size_t i = 0; i < data.size(); ++i) {
     std::string setting;
     if (!measured.is_against_time()) {
+      const double number = parse_quantity(data[i].at)->number;
       setting = measured.abscissa_unit.empty()
-                    ? fmt::format("{}={}", measured.abscissa, data[i].at)
-                    : fmt::format("{}=\"{} {}\"", measured.abscissa, data[i].at, measured.abscissa_unit);
+                    ? fmt::format("{}={}", measured.abscissa, number)
+                    : fmt::format("{}=\"{} {}\"", measured.abscissa, number, measured.abscissa_unit);
     }
     auto run = std::ranges::find(runs, setting, &DataOfRun::setting);
     if (run == runs.end()) run = runs.insert(runs.end(), DataOfRun{setting, {}});

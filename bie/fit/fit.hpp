@@ -23,7 +23,7 @@ struct FitResult {
   [[nodiscard]] std::vector<std::string> settings(const FitFile& fit) const;
 };
 
-/// The problem that a fit is, with some model of its data.
+/// Data, deviations, intervals and start of a fit; the model is left to the caller.
 LeastSquares least_squares_of(const FitFile& fit);
 
 /// Fits the free keys of all experiments together; runs are the model.
