@@ -39,7 +39,7 @@ struct Minimum {
 /// tenth of a standard error, or with `converged` false after 12 (n + 2) evaluations.
 /// There are as many data as parameters, or more.
 /// @throws InputError if the model has no value at the start or beside a point
-/// Source: J. J. Moré, B. S. Garbow, K. E. Hillstrom, User guide for MINPACK-1, ANL-80-74 (1980)
+/// Source: Moré 1978
 Minimum minimum_of(const LeastSquares& problem);
 
 }  // namespace vehd

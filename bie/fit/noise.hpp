@@ -5,8 +5,9 @@
 
 namespace vehd {
 
-/// Normally distributed numbers. The same seed gives the same numbers with every standard library: the generator is
-/// that of the standard, the rest is written here. Source: G. E. P. Box, M. E. Muller, Ann. Math. Stat. 29 (1958) 610
+/// Normally distributed numbers. A seed gives the same ones with every standard library: the generator is that of the
+/// standard, the rest is written here.
+/// Source: Box and Muller 1958
 class NormalNumbers {
  public:
   explicit NormalNumbers(std::uint64_t seed) : generator_(seed) {}
