@@ -45,7 +45,7 @@ MembraneFlow::~MembraneFlow() = default;
 MembraneFlow::MembraneFlow(MembraneFlow&&) noexcept = default;
 
 std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted,
-                                            const std::vector<Matrix>& background) {
+                                             const std::vector<Matrix>& background) {
   std::vector<Matrix> result =
       interaction_.is_empty() ? std::vector<Matrix>(weighted.size()) : interaction_.stokes_single(weighted);
   for_each_member(interaction_.shares().own(result.size()), [&](std::size_t a) {
