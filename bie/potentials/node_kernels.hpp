@@ -53,14 +53,14 @@ class NodeKernels {
   /// @param weight  of the quadrature
   template <int kWidth>
   void evaluate(Index first, const Node<kWidth>& node, double weight, Values<kWidth>& values) const {
-    using Side = typename Lanes<kWidth>::Values;  // of targets side by side
+    using Lane = typename Lanes<kWidth>::Values;  // of targets side by side
     const auto target = [&](int i) { return Lanes<kWidth>::load(targets_.data() + first + i * chunk_); };
-    const auto put = [&](int kernel, const Side& lanes) { values[static_cast<std::size_t>(kernel)] = lanes; };
-    const Side rx = target(0) - node[0], ry = target(1) - node[1], rz = target(2) - node[2];
-    auto roots = std::bit_cast<std::array<double, kWidth>>(Side(rx * rx + ry * ry + rz * rz));
+    const auto put = [&](int kernel, const Lane& lanes) { values[static_cast<std::size_t>(kernel)] = lanes; };
+    const Lane rx = target(0) - node[0], ry = target(1) - node[1], rz = target(2) - node[2];
+    auto roots = std::bit_cast<std::array<double, kWidth>>(Lane(rx * rx + ry * ry + rz * rz));
     invert_roots(roots);
-    const auto inverse_r = std::bit_cast<Side>(roots);
-    Side ax{}, ay{}, az{}, r_dot_area{};
+    const auto inverse_r = std::bit_cast<Lane>(roots);
+    Lane ax{}, ay{}, az{}, r_dot_area{};
     if (kernels_.need_source_normal()) {
       const auto& [x, y, z, ux, uy, uz, vx, vy, vz] = node;
       ax = uy * vz - uz * vy;
@@ -74,16 +74,16 @@ class NodeKernels {
       put(kernels_.double_layer, laplace_weight * laplace_double_kernel(r_dot_area, inverse_r));
     }
     if (kernels_.adjoint >= 0) {
-      const Side r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
+      const Lane r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
       put(kernels_.adjoint, laplace_weight * laplace_adjoint_kernel(r_dot_n, inverse_r));
     }
     if (kernels_.hypersingular >= 0) {
-      const Side r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
-      const Side normals = ax * target(3) + ay * target(4) + az * target(5);
+      const Lane r_dot_n = rx * target(3) + ry * target(4) + rz * target(5);
+      const Lane normals = ax * target(3) + ay * target(4) + az * target(5);
       put(kernels_.hypersingular,
           laplace_weight * laplace_hypersingular_kernel(normals, r_dot_n, r_dot_area, inverse_r));
     }
-    const auto put_blocks = [&](int first_kernel, double block_weight, const std::array<Side, 6>& blocks) {
+    const auto put_blocks = [&](int first_kernel, double block_weight, const std::array<Lane, 6>& blocks) {
       for (int block = 0; block < 6; ++block) put(first_kernel + block, block_weight * blocks[block]);
     };
     if (kernels_.stokes >= 0) {
@@ -94,9 +94,9 @@ class NodeKernels {
                  stokes_double_kernel(rx, ry, rz, r_dot_area, inverse_r));
     }
     if (kernels_.plain) {
-      auto inverse_areas = std::bit_cast<std::array<double, kWidth>>(Side(ax * ax + ay * ay + az * az));
+      auto inverse_areas = std::bit_cast<std::array<double, kWidth>>(Lane(ax * ax + ay * ay + az * az));
       invert_roots(inverse_areas);
-      const Side area = 1.0 / std::bit_cast<Side>(inverse_areas);
+      const Lane area = 1.0 / std::bit_cast<Lane>(inverse_areas);
       const auto weigh = [&](int first_kernel, int count) {
         for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(first_kernel + i)] *= area;
       };
