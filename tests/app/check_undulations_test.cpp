@@ -1,0 +1,33 @@
+#include "tests/app/check_damages.hpp"
+
+// The finite elements are one process for each processor.
+BOOST_AUTO_TEST_SUITE(check_undulations, *boost::unit_test::precondition(finite_elements_are_built) *
+                                             boost::unit_test::label("slow") * boost::unit_test::label("once"))
+
+namespace {
+
+const std::string scene_text =
+    "[shape]\nkind = 'ellipsoid'\naxes = [1.3, 1.1, 0.9]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
+    "[membrane]\nbending_modulus = 0.1\nundulations = true\ntemperature = 0.02\nstretching_modulus = 20.0\n"
+    "reference_tension = 0.5\n"
+    "[flow]\nkind = 'shear'\nrate = 1.0\n"
+    "[numerics]\norder = 10\ntime_order = 2\ndt = 0.1\nend_time = 0.2\n[output]\nevery = 0.2\n";
+
+}  // namespace
+
+// The elements take the dilation from the boundary integrals and have to find the mean tension.
+BOOST_AUTO_TEST_CASE(tension_and_dilation_are_those_of_the_elements_and_damage_is_noticed) {
+  const FinishedRun run(scene_text);
+  const double larger = 1.02;
+  check_and_damage(run, "0.2", {"velocity"}, {"force_tension_work", "velocity", "surface_divergence"},
+                   {{"dilation",
+                     [=](CheckNumbers& numbers) {
+                       for (CheckFields* of : {&numbers.bie.front(), &numbers.high.front()}) of->dilation *= larger;
+                     },
+                     "from_shape", "tension"},
+                    state_with(
+                        "mean tension", [=](FrozenState& s) { s.model.vesicles[0].undulations->rest_area *= 0.999; },
+                        "stored", "tension")});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
