@@ -13,11 +13,11 @@ namespace {
 
 class DescribedEffect : public Effect {
  public:
-  explicit DescribedEffect(EffectDescription (*description)()) : description_(description) {}
-  [[nodiscard]] EffectDescription description() const override { return description_(); }
+  explicit DescribedEffect(EffectDescription (*made)()) : made_(made) {}
+  [[nodiscard]] EffectDescription description() const override { return made_(); }
 
  private:
-  EffectDescription (*description_)();
+  EffectDescription (*made_)();
 };
 
 }  // namespace
