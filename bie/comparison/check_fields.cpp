@@ -51,36 +51,6 @@ Discretisation discretisation_of(const FrozenState& frozen, const std::vector<in
   return {settings, frozen.symmetry, levels};
 }
 
-/// Values at sample points, each with its side. All in one call; where that fails each point on its own, and NaN where
-/// no value is found.
-/// @param at  values at [n x 3] points and their sides; @throws ConvergenceError
-template <typename At>
-Matrix where_possible(const Matrix& points, Index components, std::vector<bool>& is_inside, const At& at) {
-  Matrix result = Matrix::Constant(points.rows(), components, std::numeric_limits<double>::quiet_NaN());
-  is_inside.assign(static_cast<std::size_t>(points.rows()), false);
-  const auto take = [&](Index first, Index n) {
-    const auto [values, sides] = at(Matrix(points.middleRows(first, n)));
-    result.middleRows(first, n) = values;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      is_inside[static_cast<std::size_t>(first) + i] = sides[i] == Side::interior;
-    }
-  };
-  try {
-    take(0, points.rows());
-  } catch (const ConvergenceError&) {
-    for (Index i = 0; i < points.rows(); ++i) {
-      try {
-        take(i, 1);
-      } catch (const ConvergenceError&) {
-        // It stays unknown: another part of the membrane is as near, or the degree is too low for the shape.
-      }
-    }
-  }
-  return result;
-}
-
-using SampleValues = std::pair<Matrix, std::vector<Side>>;
-
 /// The frozen problem of all membranes in given degrees.
 class FrozenSolver {
  public:

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -49,6 +51,31 @@ CheckSamples check_samples(const Matrix& position) {
   for (std::size_t i = 0; i < points.size(); ++i) samples.points.row(static_cast<Index>(i)) = points[i].transpose();
   samples.distance = Eigen::Map<Vector>(distances.data(), static_cast<Index>(distances.size()));
   return samples;
+}
+
+Matrix where_possible(const Matrix& points, Index components, std::vector<bool>& is_inside,
+                      const std::function<SampleValues(const Matrix&)>& at) {
+  Matrix result = Matrix::Constant(points.rows(), components, std::numeric_limits<double>::quiet_NaN());
+  is_inside.assign(static_cast<std::size_t>(points.rows()), false);
+  const auto take = [&](Index first, Index n) {
+    const auto [values, sides] = at(Matrix(points.middleRows(first, n)));
+    result.middleRows(first, n) = values;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      is_inside[static_cast<std::size_t>(first) + i] = sides[i] == Side::interior;
+    }
+  };
+  try {
+    take(0, points.rows());
+  } catch (const ConvergenceError&) {
+    for (Index i = 0; i < points.rows(); ++i) {
+      try {
+        take(i, 1);
+      } catch (const ConvergenceError&) {
+        // It stays unknown: another part of the membrane is as near, or the degree is too low for the shape.
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace vehd

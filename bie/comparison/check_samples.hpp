@@ -1,5 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "bie/potentials/layer_sums.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
@@ -13,5 +18,14 @@ struct CheckSamples {
 
 /// Points within one grid spacing of the membrane on either side, and points further inside and outside.
 CheckSamples check_samples(const Matrix& position);
+
+/// Values at points, [n_points x components], and the side of each.
+using SampleValues = std::pair<Matrix, std::vector<Side>>;
+
+/// Values at sample points, each with its side. All in one call; where that fails each point on its own, and NaN where
+/// no value is found.
+/// @param at  values at [n x 3] points; @throws ConvergenceError
+Matrix where_possible(const Matrix& points, Index components, std::vector<bool>& is_inside,
+                      const std::function<SampleValues(const Matrix&)>& at);
 
 }  // namespace vehd

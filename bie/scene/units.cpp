@@ -85,7 +85,7 @@ const std::vector<Dimension>& dimensions() {
       {"density", {-2, 1, 1, 0}, {{"kg/m^3"}, {"g/cm^3", 1e3}}},
       {"viscosity", {0, 0, 1, 0}, {{"Pa s"}, {"mPa s", 1, 1e3}, {"cP", 1, 1e3}}},
       {"energy", {3, -1, 1, 0}, {{"J"}, {"aJ", 1, 1e18}, {"zJ", 1, 1e21}, {"kBT", boltzmann_constant, 1, true}}, 1},
-      {"thermal energy", {3, -1, 1, 0}, {{"K", boltzmann_constant}, {"J"}, {"zJ", 1, 1e21}}},
+      {"thermal energy", {3, -1, 1, 0}, {{"J"}, {"zJ", 1, 1e21}, {"K", boltzmann_constant}}},
       {"potential", {0, 0, 0, 1}, {{"V"}, {"mV", 1, 1e3}}, 1},
       {"field", {-1, 0, 0, 1}, {{"V/m"}, {"kV/m", 1e3}, {"V/cm", 1e2}, {"kV/cm", 1e5}}},
       {"conductivity", {2, -2, 1, -2}, {{"S/m"}, {"mS/m", 1, 1e3}, {"mS/cm", 1, 1e1}, {"uS/cm", 1, 1e4}}},

@@ -6,7 +6,6 @@
 
 #include "bie/files/run_reader.hpp"
 #include "bie/geometry/roundness.hpp"
-#include "bie/physics/effects/undulations.hpp"
 #include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
@@ -136,39 +135,9 @@ class SceneChecks {
               "{} is 0; accepted: a vector that is not zero");
     refuse_if(membrane.spontaneous_curvature != 0.0 && !(membrane.bending_modulus.value_or(0.0) > 0.0),
               "membrane.spontaneous_curvature", "{} has no effect without \"bending_modulus\"");
-    check_undulations(membrane);
+    check_undulations(scene_, file_);
     refuse_if(!membrane.mobile && !scene_.electric, "membrane.mobile",
               "{} is false without [electric]: nothing would ever change");
-  }
-
-  void check_undulations(const MembraneScene& membrane) const {
-    const auto needs_undulations = [&](const std::optional<double>& value, const char* key) {
-      refuse_if(value.has_value() && !membrane.undulations, key, "{} has no effect without \"undulations\"");
-    };
-    needs_undulations(membrane.temperature, "membrane.temperature");
-    needs_undulations(membrane.stretching_modulus, "membrane.stretching_modulus");
-    needs_undulations(membrane.reference_tension, "membrane.reference_tension");
-    needs_undulations(membrane.rest_area, "membrane.rest_area");
-    if (!membrane.undulations) return;
-    constexpr const char* key = "membrane.undulations";
-    refuse_if(!membrane.inextensible || !membrane.mobile, key,
-              "{} has no effect without a tension; accepted: \"inextensible\" and \"mobile\" in [membrane] true");
-    refuse_if(!(membrane.bending_modulus.value_or(0.0) > 0.0), key,
-              "{} needs \"bending_modulus\", which sets their size");
-    refuse_if(membrane.bending_by_place.has_value(), key,
-              "{} has no rigidity to go by where [membrane.bending_by_place] varies it");
-    refuse_if(!membrane.temperature && !membrane.stretching_modulus, key,
-              "{} needs \"temperature\", \"stretching_modulus\" or both");
-    refuse_if(membrane.rest_area && membrane.reference_tension, "membrane.rest_area",
-              "{} and \"reference_tension\" both set the area at rest; accepted: one of them");
-    if (!membrane.temperature || !membrane.reference_tension) return;
-    const double area = size_of(initial_position(scene_)).area;
-    const Undulations undulations = with_rest_area({*membrane.temperature, 0.5 * *membrane.bending_modulus,
-                                                    membrane.stretching_modulus, 0.0, *membrane.reference_tension},
-                                                   area);
-    refuse_if(!(undulations.rest_area > 0.0), "membrane.reference_tension",
-              "{} is {:.3g}, and a membrane of this area buckles at about {:.3g}; accepted: more",
-              *membrane.reference_tension, -5.0 * *membrane.bending_modulus / area);
   }
 
   void check_waveform(const std::string& table, const std::optional<WaveformScene>& waveform) const {

@@ -37,6 +37,9 @@ void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std
 /// @param is_heavy  another vesicle beside it has a weight
 void check_scene(Scene& scene, const TomlFile& file, bool is_heavy);
 
+/// The part of check_scene about undulations.
+void check_undulations(const Scene& scene, const TomlFile& file);
+
 /// The vesicles of a scene with a table [suspension]: copies of that of the other tables, placed one after the other at
 /// random where there is room for the whole of them, by names "0", "1", …. The same scene gives the same places.
 /// Vesicles that are too many or do not fit are refused before any memory is taken for them.

@@ -101,21 +101,17 @@ class OneTension {
     return tension_of(fields(unknowns), mean_tension_.value_or(0.0));
   }
 
-  /// Force on the fluid, without that of a mean tension that is known; empty where there is none.
-  [[nodiscard]] Matrix force(const Vector& unknowns) const {
+  /// Force on the fluid; empty where there is none.
+  /// @param whole  with the force of a mean tension that is known, which depends on no unknown
+  [[nodiscard]] Matrix force(const Vector& unknowns, bool whole) const {
     if (tension_.empty()) return {};
     const Matrix of_all = fields(unknowns);
-    Matrix result = tension_force(membrane_, tension_of(of_all, 0.0));
+    Matrix result = tension_force(membrane_, tension_of(of_all, whole ? mean_tension_.value_or(0.0) : 0.0));
     if (!normal_.empty()) {
       const Matrix normal = Vector(membrane_.fine.synthesize(of_all.col(1))).asDiagonal() * membrane_.surface.normal;
       result += without_mean(normal);
     }
     return result;
-  }
-
-  /// That of the mean tension that is known; empty where there is none.
-  [[nodiscard]] Matrix known_force() const {
-    return mean_tension_ ? tension_force(membrane_, uniform(*mean_tension_)) : Matrix();
   }
 
   /// u·n and J ∇_γ·u.
@@ -305,17 +301,16 @@ void find_inverses(std::vector<OneTension>& all, const std::vector<std::size_t>&
   for_each_member(own, [&](std::size_t a) { all[a].find_inverse(grids.at(all[a].membrane().fine.order())); });
 }
 
-/// Adds J f of forces on a membrane; empty ones are none.
-void add_weighted(const Membrane& membrane, const Matrix& force, Matrix& weighted) {
-  if (force.size() == 0) return;
-  const Matrix added = membrane.weighted(force);
-  weighted = weighted.size() == 0 ? added : Matrix(weighted + added);
-}
-
 /// Adds J f_λ (and J c n on spheres) of the membranes of this rank.
+/// @param whole  see OneTension::force
 void add_forces(const std::vector<OneTension>& all, const std::vector<std::size_t>& own,
-                const std::vector<Vector>& unknowns, std::vector<Matrix>& weighted) {
-  for_each_member(own, [&](std::size_t a) { add_weighted(all[a].membrane(), all[a].force(unknowns[a]), weighted[a]); });
+                const std::vector<Vector>& unknowns, bool whole, std::vector<Matrix>& weighted) {
+  for_each_member(own, [&](std::size_t a) {
+    const Matrix force = all[a].force(unknowns[a], whole);
+    if (force.size() == 0) return;
+    const Matrix of_tension = all[a].membrane().weighted(force);
+    weighted[a] = weighted[a].size() == 0 ? of_tension : Matrix(weighted[a] + of_tension);
+  });
 }
 
 }  // namespace
@@ -341,7 +336,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   const LinearMap map = [&](const Vector& v) {
     const std::vector<Vector> unknowns = layout.parts(v.cwiseProduct(scales));
     std::vector<Matrix> of_tensions(all.size());
-    add_forces(all, own, unknowns, of_tensions);
+    add_forces(all, own, unknowns, false, of_tensions);
     const std::vector<Matrix> velocities = flow.velocities(of_tensions);
     std::vector<Vector> result(all.size());
     for_each_member(own, [&](std::size_t a) { result[a] = all[a].response(velocities[a], unknowns[a]); });
@@ -364,12 +359,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   };
   std::vector<Vector> guess;
   for (std::size_t a = 0; a < all.size(); ++a) guess.push_back(all[a].guess(start[a]));
-  add_forces(all, own, guess, weighted);
-  std::vector<Matrix> known_forces(all.size());
-  for (const std::size_t a : own) {
-    known_forces[a] = all[a].known_force();
-    add_weighted(all[a].membrane(), known_forces[a], weighted[a]);
-  }
+  add_forces(all, own, guess, true, weighted);
   const std::vector<Matrix> before = flow.velocities(weighted, background);
   std::vector<Vector> left(all.size());
   for (const std::size_t a : own) left[a] = all[a].constraints(-before[a]);
@@ -399,9 +389,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   result.velocities = of_own.velocities(of_own.stack(before) + solution.further);
   for (std::size_t a = 0; a < all.size(); ++a) {
     result.tension.push_back(all[a].tension(unknowns[a]));
-    Matrix force = flow.shares().owns(a) ? all[a].force(unknowns[a]) : Matrix();
-    if (known_forces[a].size() > 0) force += known_forces[a];
-    result.force.push_back(std::move(force));
+    result.force.push_back(flow.shares().owns(a) ? all[a].force(unknowns[a], true) : Matrix());
   }
   return result;
 }
