@@ -61,11 +61,15 @@ std::optional<RunResult> compute(const SweepTask& task, const SweepRun& run, Int
 /// Claims a run and computes it. @return whether it has a result now
 bool finish_run(const SweepTask& task, std::size_t number, Interruption& interruption, WorkerBoard& board) {
   const SweepRun& run = task.runs[number];
-  const auto claim = Claim::take(task.paths.run(run));
-  if (!claim) return false;
-  // Another worker may have finished it just before.
-  if (has_result(task.paths.run(run))) return true;
+  // First of all: a worker that is killed as it claims a run was at this one.
   board.run = number + 1;
+  const auto claim = Claim::take(task.paths.run(run));
+  // Another worker may have finished it just before.
+  const bool is_done = claim && has_result(task.paths.run(run));
+  if (!claim || is_done) {
+    board.run = 0;
+    return is_done;
+  }
   const std::optional<RunResult> result = compute(task, run, interruption, board);
   board.share = 0.0;
   const bool is_finished = result && !claim->is_lost();
