@@ -33,12 +33,13 @@ void check_undulations(const Scene& scene, const TomlFile& file) {
   refuse_if(m.rest_area && m.reference_tension, "rest_area",
             "sets the area at rest, and so does \"reference_tension\"; accepted: one of them");
   if (!m.temperature || !m.reference_tension) return;
-  const double area = size_of(initial_position(scene)).area, rigidity = 0.5 * *m.bending_modulus;
-  const Undulations found =
-      with_rest_area({*m.temperature, rigidity, m.stretching_modulus, 0.0, *m.reference_tension}, area);
-  refuse_if(!(found.rest_area > 0.0), "reference_tension",
+  const double area = size_of(initial_position(scene)).area;
+  Undulations found{*m.temperature, 0.5 * *m.bending_modulus, m.stretching_modulus, area, *m.reference_tension};
+  const double buckling = AreaLaw(found).least_tension();
+  found.rest_area = 0.0;
+  refuse_if(!(with_rest_area(found, area).rest_area > 0.0), "reference_tension",
             fmt::format("is {:.3g}, but a membrane of this area buckles at {:.3g}; accepted: more",
-                        *m.reference_tension, -rigidity / (0.1 * area)));
+                        *m.reference_tension, buckling));
 }
 
 }  // namespace vehd
