@@ -137,4 +137,19 @@ BOOST_AUTO_TEST_CASE(shapes_over_frequency_for_bending_and_capacitance) {
                             Vector{{1.0, 1.0}});
 }
 
+// A field has stretched the vesicle: tension pulls it back in the first tenth of a second, bending in the seconds after.
+BOOST_AUTO_TEST_CASE(relaxation_with_undulations_for_bending_and_tension) {
+  const std::string scene =
+      "[units]\nlength = \"10 um\"\ntime = \"1 s\"\n"
+      "[shape]\nkind = \"radial\"\narea = \"1270 um^2\"\nmodes = [{n = 2, m = 0, a = 0.25}]\n"
+      "[membrane]\nbending_modulus = \"2e-19 J\"\nundulations = true\ntemperature = \"298 K\"\n"
+      "stretching_modulus = \"0.24 N/m\"\nreference_tension = \"1e-6 N/m\"\n"
+      "[fluid]\nviscosity = \"1 mPa s\"\n[output]\nevery = \"0.05 s\"\n"
+      "[numerics]\ndegree = 8\ntolerance = 1e-3\nend_time = \"2 s\"\n";
+  Design().require_coverage(scene, {.quantity = "aspect_ratio", .noise = "0.003"},
+                            "\"membrane.bending_modulus\" = {from = \"1.4e-19 J\", to = \"2.8e-19 J\"}\n"
+                            "\"membrane.reference_tension\" = {from = \"5e-7 N/m\", to = \"2e-6 N/m\"}\n",
+                            Vector{{2e-19, 1e-6}});
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -78,6 +78,15 @@ class Programs(InFolder):
             self.assertGreater(float(mean), 0.0)
             self.assertLess(float(largest), 1.0)
 
+    def test_tensions_in_several_fields_give_the_bending_modulus(self):
+        result = subprocess.run([sys.executable, SOURCE / "docs/examples/bending_from_tension.py"], capture_output=True,
+                                text=True, check=True)
+        found, true = re.search(r"without noise: (\S+) J; true: (\S+) J", result.stdout).groups()
+        self.assertLess(abs(float(found) / float(true) - 1), 0.02)
+        mean, deviation = re.search(r"with noise of 0.001: (\S+) ± (\S+) J", result.stdout).groups()
+        self.assertLess(abs(float(mean) / float(true) - 1), 0.02)
+        self.assertLess(float(deviation), 0.02 * float(true))
+
     @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
     def test_scripts_of_the_pages_run(self):
         (self.folder / "docs/scenes").mkdir(parents=True)
