@@ -96,6 +96,7 @@ struct ReaderFolder {
     }
     // These are quick, and data that were cut short would not determine what the page fits.
     fs::copy(fs::path(VEHD_SOURCE_DIR) / "docs/fits", directory / "docs/fits");
+    fs::copy(fs::path(VEHD_SOURCE_DIR) / "docs/notebooks", directory / "docs/notebooks");
     copy_some_hard_cases(directory / "");
     fs::create_directories(directory / "tests/app");
     fs::copy_file(VEHD_SOURCE_DIR "/tests/app/report_page.py", directory / "tests/app/report_page.py");

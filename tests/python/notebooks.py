@@ -23,6 +23,9 @@ def problem_of(book: dict) -> str:
     headings = "".join("".join(cell["source"]) + "\n" for cell in book["cells"] if cell["cell_type"] == "markdown")
     if not ("\n## Exercises\n" in headings and "\n## Answers\n" in headings):
         return "without exercises or answers"
+    for part in ("**Goals.**", "**Time.**", "**Read.**"):
+        if part not in headings:
+            return f"without {part}"
     return ""
 
 

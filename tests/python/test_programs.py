@@ -46,6 +46,22 @@ class Programs(InFolder):
         self.assertEqual([line.split(":")[0] for line in lines], ["one alone", "gap 0.10", "gap 0.20", "gap 0.69"])
         self.assertIn(" 1.00 times one alone", lines[0])
 
+    def test_students_get_notebooks_without_answers_and_with_links_to_the_pages(self):
+        subprocess.run([sys.executable, SOURCE / "docs/notebooks/editions.py", "-o", self.folder / "editions"],
+                       capture_output=True, check=True)
+        sources = sorted((SOURCE / "docs/notebooks").glob("*.ipynb"))
+        self.assertGreaterEqual(len(sources), 9)
+        for source in sources:
+            student, teacher = (json.loads((self.folder / "editions" / edition / source.name).read_text())["cells"]
+                                for edition in ("student", "teacher"))
+            texts = ["".join(cell["source"]) for cell in student]
+            self.assertFalse(any("## Answers" in text for text in texts), source.name)
+            self.assertIn("## Exercises", texts[-1], source.name)
+            self.assertEqual(len(teacher), len(json.loads(source.read_text())["cells"]))
+            self.assertLessEqual(len(student), len(teacher))
+            for page in re.findall(r"\]\(([^)#:]+\.md)", texts[0]):
+                self.assertTrue((self.folder / "editions/student" / page).exists(), f"{source.name}: {page}")
+
     def test_memory_is_that_of_a_command_and_of_what_it_starts(self):
         holding = "import time; held = b'x' * 200_000_000; time.sleep(1.5)"
         starting = f"import subprocess, sys; sys.exit(subprocess.call([sys.executable, '-c', {holding!r}]) + 4)"
