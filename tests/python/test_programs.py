@@ -46,6 +46,23 @@ class Programs(InFolder):
         self.assertEqual([line.split(":")[0] for line in lines], ["one alone", "gap 0.10", "gap 0.20", "gap 0.69"])
         self.assertIn(" 1.00 times one alone", lines[0])
 
+    def test_printed_output_of_a_page_is_compared_and_renewed(self):
+        page = self.folder / "page.md"
+        shown = "```sh\nbuild/vehd verify --degree 6\n```\n\n```text\n…\n     6   {}   {} …\n```\n"
+        page.write_text(shown.format("9.99e-04", "9.99e-02"))
+
+        def code(*options):
+            return subprocess.run([sys.executable, SOURCE / "docs/examples/printed_output.py", page, "--program", PROGRAM,
+                                   *options], capture_output=True).returncode
+
+        self.assertEqual(code("--check"), 1)
+        self.assertIn("9.99e-04", page.read_text())
+        self.assertEqual(code(), 0)
+        self.assertNotIn("9.99e-04", page.read_text())
+        self.assertEqual(code("--check"), 0)
+        page.write_text(shown.replace("     6 ", "degree six").format("1", "1"))
+        self.assertEqual(code(), 1)
+
     def test_students_get_notebooks_without_answers_and_with_links_to_the_pages(self):
         subprocess.run([sys.executable, SOURCE / "docs/notebooks/editions.py", "-o", self.folder / "editions"],
                        capture_output=True, check=True)
