@@ -245,7 +245,7 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
   command->add_flag("--quick", options->quick, "The short form of every case");
   add_output_options(*command, options->bench);
   add_threads_option(*command);
-  command->footer("Exit code 4 if a criterion does not hold. See docs/hard_cases.md.");
+  command->footer("Exit code 4 if a criterion fails. See docs/hard_cases.md.");
   command->callback([options, &exit_code] {
     Interruption interruption;
     BenchPrinter printer;
@@ -258,7 +258,7 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
 }
 
 void add_redraw(CLI::App& bench, ExitCode& exit_code) {
-  CLI::App* command = bench.add_subcommand("redraw", "Draw the pictures again from what earlier benches have left");
+  CLI::App* command = bench.add_subcommand("redraw", "Draw the pictures again from the tables of earlier benches");
   struct RedrawOptions {
     std::string directory = "out/bench", docs;
     CommonOptions common;
@@ -285,7 +285,8 @@ void add_redraw(CLI::App& bench, ExitCode& exit_code) {
 }  // namespace
 
 void add_bench_command(CLI::App& program, ExitCode& exit_code) {
-  CLI::App* command = program.add_subcommand("bench", "What accuracy costs: tables and pictures of error and seconds");
+  CLI::App* command =
+      program.add_subcommand("bench", "Measure the cost of accuracy: tables and pictures of error and seconds");
   command->require_subcommand(1);
   add_space(*command, exit_code);
   add_time(*command, exit_code);

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* footer =
     "Exit codes: 0 done, 1 wrong input or usage, 2 internal error,\n"
     "            3 the run stopped early and can be continued with --resume,\n"
-    "            4 done, and what was asked does not hold.\n"
+    "            4 done, check failed.\n"
     "Scene files to start from: vehd examples; their keys: vehd help scene";
 
 void send_messages_to_standard_error() {

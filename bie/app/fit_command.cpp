@@ -79,7 +79,7 @@ ExitCode fit(const FitOptions& options) {
       });
     } catch (const Interrupted& end) {
       progress.finish();
-      fmt::print(stderr, "{}; the same command goes on from here\n", end.what());
+      fmt::print(stderr, "{}; the same command continues from here\n", end.what());
       return ExitCode::stopped_early;
     }
     progress.finish();
@@ -110,7 +110,7 @@ void add_fit_command(CLI::App& program, ExitCode& exit_code) {
   add_common_options(*command, options->common);
   command->footer(
       "Writes fit.json, fit.csv, fit.png, best.toml (best_NAME.toml of several experiments) and the runs below runs/.\n"
-      "After a Ctrl-C or a crash the same command goes on from the runs that are there. See docs/fit.md.");
+      "After a Ctrl-C or a crash the same command continues with the finished runs. See docs/fit.md.");
   command->callback([options, &exit_code] { exit_code = fit(*options); });
 }
 

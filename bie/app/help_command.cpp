@@ -99,7 +99,7 @@ void add_command_topics(CLI::App& help, const CLI::App& owner, const std::string
 
 void add_help_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command =
-      program.add_subcommand("help", "What a scene file may say, what a scene amounts to, and what a command does");
+      program.add_subcommand("help", "Explain the keys of a scene file, a scene's dimensionless groups, or a command");
   command->require_subcommand(0, 1);
   add_scene_topic(*command, exit_code);
   add_groups_topic(*command, exit_code);

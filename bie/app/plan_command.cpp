@@ -166,17 +166,16 @@ ExitCode plan(const PlanOptions& options) {
 }  // namespace
 
 void add_plan_command(CLI::App& program, ExitCode& exit_code) {
-  CLI::App* command = program.add_subcommand("plan", "Say what a run of a scene will do and cost");
+  CLI::App* command = program.add_subcommand("plan", "Predict the effects, operators and cost of a run");
   const auto options = std::make_shared<PlanOptions>();
   add_scene_choice(*command, options->scene);
-  command->add_flag("--menu", options->costs, "Only a table of what each tolerance from 1e-2 to 1e-7 would cost");
+  command->add_flag("--menu", options->costs, "Only a table of the cost of each tolerance from 1e-2 to 1e-7");
   add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(
-      "Seconds and memory come from a few steps of the scene, with a tolerance from a run with the tolerance 0.1; "
-      "then\n"
-      "they hold within a factor of 3. All takes less than 10 s, and what there was no time for is unknown.\n"
-      "Exit code 4 where the run could not take its first steps.");
+      "Seconds and memory come from a few steps of the scene, with a tolerance from a trial run with the tolerance\n"
+      "1e-2, and hold within a factor of 3. The command takes less than 10 s; \"unknown\": the time was too short.\n"
+      "Exit code 4 if the run cannot take its first steps.");
   command->callback([options, &exit_code] { exit_code = plan(*options); });
 }
 

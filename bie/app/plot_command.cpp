@@ -107,8 +107,8 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
   command
       ->add_option(
           "--times", options->times,
-          fmt::format("Times of the shapes as \"0.5 ms\", or numbers in the unit of history.csv, at most {}, the "
-                      "nearest snapshots are taken; without them as many, chosen by how much the shape changes",
+          fmt::format("Times of the shapes as \"0.5 ms\", or numbers in the unit of history.csv, at most {}, of the "
+                      "nearest snapshots; if not given as many, chosen such that the shape changes evenly",
                       most_shapes))
       ->delimiter(',')
       ->type_name("T,T,...")
@@ -116,7 +116,7 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
       ->check(time_text());
   command
       ->add_option("--view", options->style.view,
-                   "Where one looks from: along x, y or z, or a direction towards the eye as 1,1,0.5; across the plane "
+                   "Direction of view: along x, y or z, or a direction towards the eye as 1,1,0.5; across the plane "
                    "of flow and field if not given")
       ->type_name("VIEW");
   command
@@ -135,14 +135,14 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
       ->delimiter(',');
   command
       ->add_option("--border", options->border,
-                   "Of a sweep: the value of the column at which a line is drawn; 1 of a ratio of lengths "
-                   "and 0 of what has both signs if not given")
+                   "Of a sweep: the value of the column at which a line is drawn; if not given 1 for a ratio of "
+                   "lengths and 0 for a column of both signs")
       ->type_name("VALUE");
   command
       ->add_option(
           "--curve", options->curves,
-          "Of a sweep of two keys: a CSV file of both, in the units of its table, whose rows are joined to a red "
-          "line, a known border for example; an empty line begins another one")
+          "Of a sweep of two keys: a CSV file of both, in the units of its table, whose rows are drawn as a red "
+          "line, for example a known border; an empty line begins another one")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   command->footer("See docs/pictures.md, of sweeps docs/sweeps.md.");

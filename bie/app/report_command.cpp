@@ -39,7 +39,7 @@ void add_report_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("-o,--output", options->output, "The file; DIR/report.html if not given")->type_name("FILE");
   command
       ->add_option("--snapshots", options->most_snapshots,
-                   "Most snapshots in the file, evenly spread; fewer where it would grow beyond some 10 MB")
+                   "Most snapshots in the file, evenly spread; fewer if it would grow beyond 8 MB")
       ->type_name("N")
       ->check(CLI::Range(2, 10000))
       ->capture_default_str();

@@ -131,7 +131,7 @@ void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code)
                     "Continue the run in DIR, also with other [numerics] and [output]; start it if there is none");
   command
       ->add_option("--checkpoint-every", options->checkpoint_every,
-                   "Seconds between two checkpoints at least: what a kill may cost; 0: one after every step")
+                   "Least time between two checkpoints, which a kill may lose; 0: one after every step")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
@@ -141,7 +141,7 @@ void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code)
   add_common_options(*command, options->common);
   command->footer(
       "Writes history.csv, run.h5, run.xdmf (ParaView), summary.json, scene.toml and plots/.\n"
-      "Ctrl-C finishes the step in hand and leaves a run that --resume continues.");
+      "Ctrl-C finishes the current step and leaves a run that --resume continues.");
   command->callback([options, ranks, &exit_code] { exit_code = ranks.together([&] { return run(*options, ranks); }); });
 }
 

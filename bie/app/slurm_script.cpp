@@ -58,7 +58,7 @@ fi
 }  // namespace
 
 std::string slurm_script(const SlurmTask& task) {
-  // Time for the step in hand; Slurm may send the signal up to a minute early.
+  // Time for the current step; Slurm may send the signal up to a minute early.
   const int notice = std::clamp(task.minutes * 60 / 10, 10, 300);
   return fmt::format(
       R"(#!/bin/bash

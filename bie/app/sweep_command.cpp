@@ -159,7 +159,7 @@ ExitCode sweep(const SweepOptions& options) {
   print_count(count, sweep);
   write_json(options.common, json_of(count, sweep));
   if (!problem.empty()) {
-    fmt::print(stderr, "{}; the same command goes on from here\n", problem);
+    fmt::print(stderr, "{}; the same command continues from here\n", problem);
     return ExitCode::stopped_early;
   }
   if (count.unfinished > 0) {
@@ -185,26 +185,26 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
           ->check(one_of({"slurm"}));
   command
       ->add_option("--minutes", options->minutes,
-                   "With --emit: that one of these jobs may take; what is not done by then goes on in its next turn")
+                   "With --emit: time limit of each job; unfinished runs continue in its next turn")
       ->type_name("N")
       ->check(CLI::Range(1, 60 * 24 * 30))
       ->capture_default_str();
-  command->add_option("--account", options->account, "With --emit: to which the cluster charges the jobs")
+  command->add_option("--account", options->account, "With --emit: account that pays for the jobs")
       ->type_name("NAME")
       ->needs(emit);
-  command->add_option("--partition", options->partition, "With --emit: of the cluster, for the jobs")
+  command->add_option("--partition", options->partition, "With --emit: partition of the cluster")
       ->type_name("NAME")
       ->needs(emit);
   command
       ->add_option("--prologue", options->prologue,
-                   "With --emit: lines of shell for each job before its work, such as of modules; those that begin "
-                   "with #SBATCH first")
+                   "With --emit: lines of shell before the work of each job, such as module load; lines that begin "
+                   "with #SBATCH come first")
       ->type_name("FILE")
       ->needs(emit);
   command
       ->add_option("--turns", options->n_turns,
-                   "With --emit: so many turns, each when the one before has ended, by dependencies, where no job may "
-                   "put itself into the queue again")
+                   "With --emit: N arrays, each after the one before (by dependencies), for clusters where no job may "
+                   "queue itself again")
       ->type_name("N")
       ->check(CLI::Range(2, 1000))
       ->needs(emit);
@@ -214,8 +214,8 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
   add_common_options(*command, options->common);
   command->footer(
       "Writes table.csv, one row for each run, sweep.json, and the runs themselves below runs/.\n"
-      "The same command, on this machine or another one that has the same files, works at the same sweep, and\n"
-      "after a Ctrl-C, a crash or a change of SWEEP it goes on with what is left. Pictures: vehd plot DIR.\n"
+      "The same command may run at the same time on this machine and on others that share the files. After a\n"
+      "Ctrl-C, a crash or a change of SWEEP it computes the runs that are missing. Pictures: vehd plot DIR.\n"
       "See docs/sweeps.md.");
   command->callback([options, &exit_code] { exit_code = sweep(*options); });
 }

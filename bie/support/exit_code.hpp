@@ -8,7 +8,7 @@ enum class ExitCode {
   wrong_input = 1,     ///< wrong input or usage
   internal_error = 2,  ///< a defect of the program
   stopped_early = 3,   ///< by a signal or a full disk, say; a run leaves a checkpoint that can be resumed
-  does_not_hold = 4    ///< done, and what was asked does not hold
+  does_not_hold = 4    ///< done, check failed
 };
 
 }  // namespace vehd

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   BOOST_TEST(slurm.is_done());
   BOOST_TEST((work.table() == work.table(undisturbed)));
   const std::string log = file_text(work.output + "/slurm-0.log");
-  BOOST_TEST(log.find("a signal came; the same command goes on from here") != std::string::npos, log);
+  BOOST_TEST(log.find("a signal came; the same command continues from here") != std::string::npos, log);
   BOOST_TEST(log.find("8 runs: 8 completed;") != std::string::npos, log);
 
   // Tasks of srun.
