@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-/// Prints what benches tell: results on standard output, what they are at on standard error.
+/// Prints results of benches on standard output, progress on standard error.
 class BenchPrinter : public BenchObserver {
  public:
   void section(const std::string& title) override;

@@ -11,7 +11,8 @@
 /// One function per command: it adds the command's options and a callback that runs it and sets the exit code.
 namespace vehd {
 
-/// vehd run: simulates a scene. @param ranks  that do so together
+/// vehd run: simulates a scene.
+/// @param ranks  that do so together
 void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code);
 /// vehd sweep: simulates a scene for many values of its keys.
 void add_sweep_command(CLI::App& program, ExitCode& exit_code);
@@ -25,19 +26,19 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code);
 void add_report_command(CLI::App& program, ExitCode& exit_code);
 /// vehd verify: Example 1 of the paper.
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
-/// vehd plan: what a run will do and cost.
+/// vehd plan: effects, operators and cost of a run.
 void add_plan_command(CLI::App& program, ExitCode& exit_code);
 /// vehd mesh: volume mesh of a frozen shape.
 void add_mesh_command(CLI::App& program, ExitCode& exit_code);
 /// vehd check: compares with the finite elements.
 void add_check_command(CLI::App& program, ExitCode& exit_code);
-/// vehd bench: what accuracy costs.
+/// vehd bench: the cost of accuracy.
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
 /// vehd examples: the scenes that come with the program.
 void add_examples_command(CLI::App& program, ExitCode& exit_code);
 /// vehd help: reference of the scene keys; comes last, as it knows the help of every command before it.
 void add_help_command(CLI::App& program, ExitCode& exit_code);
-/// `vehd completion SHELL`: a script that completes commands and options, made from what the help is printed from.
+/// `vehd completion SHELL`: a script that completes commands and options, made from the same table as the help.
 void add_completion_command(CLI::App& program, ExitCode& exit_code);
 
 /// Options that every command has.

@@ -40,12 +40,12 @@ void add_workers(CLI::App& command, WorkerOptions& workers);
 /// Adds --threads, which acts at once.
 void add_threads_option(CLI::App& command);
 
-/// Accepts what may be a time: a number, or one with a unit of time.
+/// Accepts a time: a number, or one with a unit of time.
 CLI::Validator time_text();
 /// Adds --time, that of a snapshot of a run.
 void add_snapshot_time(CLI::App& command, std::optional<std::string>& time);
 
-/// Where a command writes what it makes of a scene, unless it is told otherwise: out/NAME of NAME.toml.
+/// Default directory for the results of a scene: out/NAME of NAME.toml.
 std::filesystem::path default_directory(const std::filesystem::path& scene_file);
 
 /// Accepts these words only. An error names the nearest one; help and completion list all.

@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-/// What an array of Slurm jobs is to do.
+/// Options of an array of Slurm jobs.
 struct SlurmTask {
   std::string name;     ///< of the job
   std::string program;  ///< this one

@@ -20,7 +20,7 @@ struct AllTask {
 std::vector<std::string> names_of_benches();
 
 /// Runs every scene, every bench and the commands by which pages make pictures of their own, and renews the pictures
-/// and the tables of the pages from what they give. What needs the finite elements is left as it is where they are not
+/// and the tables of the pages from their results. Benches of the finite elements are left out where these are not
 /// built, and said.
 /// @return name and machine of every bench
 /// @throws InputError if there are no pages

@@ -20,7 +20,7 @@ struct Example1Result {
 /// @throws ConvergenceError if GMRES does not converge
 Example1Result solve_example1(int order, int upsampling = 1, double tolerance = 1e-10);
 
-/// What the example gives.
+/// Results of the example.
 std::vector<PointSource> example1_sources();
 /// Conductivities of the example: σ_i = 2, σ_e = 1.
 ElectricParameters example1_electric();

@@ -5,10 +5,11 @@
 
 #include "bie/scene/scene.hpp"
 
-/// What benches of single steps ask for. Both throw InputError.
+/// Input of benches of single steps. Both throw InputError.
 namespace vehd {
 
-/// The scene with fixed steps: without its tolerance. @param bench  its name on the command line
+/// The scene with fixed steps: without its tolerance.
+/// @param bench  its name on the command line
 Scene with_fixed_steps(Scene scene, const std::string& bench);
 
 /// @param option  as on the command line

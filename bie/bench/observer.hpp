@@ -8,7 +8,7 @@
 
 namespace vehd {
 
-/// Told what a bench does and finds, as soon as it is known.
+/// Observer of a bench, called as soon as there is a result.
 class BenchObserver {
  public:
   virtual ~BenchObserver() = default;

@@ -8,7 +8,7 @@
 
 namespace vehd {
 
-/// What the picture of a table of a bench shows; empty where there is nothing to draw.
+/// Panels of the picture of a bench's table; empty if there is nothing to draw.
 /// @param bench  name of the table's file, see name_of_table
 /// @throws InputError if the record lacks a column
 std::vector<BenchPanel> panels_of(const std::string& bench, const BenchRecord& record);

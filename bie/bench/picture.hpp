@@ -47,7 +47,8 @@ struct BenchPanel {
 BenchSlope slope_beside(const BenchCurve& curve, double exponent, const std::string& label, double factor,
                         std::size_t n_points = 3);
 
-/// Panels side by side and the key to their right, as a PNG. @throws InputError if gnuplot is missing or reports an
+/// Panels side by side and the key to their right, as a PNG.
+/// @throws InputError if gnuplot is missing or reports an
 /// error
 void draw_bench(const std::vector<BenchPanel>& panels, const std::filesystem::path& picture);
 

@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-/// Draws NAME.png beside NAME.csv, what a bench has measured at any time.
+/// Draws NAME.png beside NAME.csv, the table of an earlier bench.
 /// @return the picture; empty where the bench has none
 /// @throws InputError if the file cannot be read, or if gnuplot is missing or reports an error
 std::filesystem::path draw_record(const std::filesystem::path& csv);

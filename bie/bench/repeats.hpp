@@ -17,7 +17,8 @@ Spread spread_of(std::vector<double> values);
 /// already, because it is long enough then.
 bool wants_repeat(const std::vector<double>& seconds, int repeats);
 
-/// Exponent b of y = a x^b, by least squares of the logarithms. @param x, y  positive, at least two different x
+/// Exponent b of y = a x^b, by least squares of the logarithms.
+/// @param x, y  positive, at least two different x
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace vehd

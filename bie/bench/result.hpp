@@ -16,12 +16,12 @@ struct BenchOutput {
   bool plot = true;
 };
 
-/// What one bench measured.
+/// Measurements of one bench.
 struct BenchResult {
   std::string name;  ///< of its files
   MachineRecord machine;
   int repeats = 1;               ///< of each timing, at most
-  nlohmann::ordered_json facts;  ///< what else the numbers hold for, under its keys
+  nlohmann::ordered_json facts;  ///< further conditions of the numbers, by key
   std::vector<BenchTable> tables;
 };
 

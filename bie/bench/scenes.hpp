@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// Runs the scenes as they are, files and pictures included: where they end and what that takes. Pictures go to the
+/// Runs the scenes as they are, files and pictures included: their final values and cost. Pictures go to the
 /// folder as SCENE_shapes.png and SCENE_history.png; nothing else is left of the runs.
 /// @throws ConvergenceError where a run does not reach its end
 BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const std::filesystem::path& pictures,

@@ -13,7 +13,7 @@ struct MethodError {
   double l2 = 0.0, max = 0.0;
 };
 
-/// Errors of what follows from the shape.
+/// Errors of the fields from the shape.
 struct ShapeFlowErrors {
   MethodError velocity;  ///< v without the background flow
   MethodError tension;   ///< λ
@@ -32,7 +32,8 @@ class ShapeFlowProblem {
   [[nodiscard]] SolvedFields solve(int order) const;
   /// Over the reference's membrane.
   [[nodiscard]] ShapeFlowErrors errors_of(const SolvedFields& solved) const;
-  /// The problem with the reference's numbers, a check_input.h5. @throws OutputError
+  /// The problem with the reference's numbers, a check_input.h5.
+  /// @throws OutputError
   void write_input(const std::filesystem::path& file) const;
 
  private:

@@ -17,7 +17,7 @@ struct StabilityTask {
   bool brief = false;  ///< the short form of every case
 };
 
-/// What came of the cases.
+/// Outcome of the cases.
 struct StabilityOutcome {
   BenchResult result;
   int n_failed = 0;

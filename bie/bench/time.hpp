@@ -25,7 +25,7 @@ struct TimeTask {
 /// orders above 2 are compared, otherwise with the middle one. Errors are the largest of all rows and vesicles, over
 /// the largest value of the quantity in them; those of angles in radians. Values are of the first
 /// vesicle. Beside a tolerance, whose degree is its own, errors of fixed steps are also taken from that run of their
-/// own degree: the errors of the steps alone. A last table has what one more digit costs with each integrator that
+/// own degree: the errors of the steps alone. A last table has the cost of one more digit with each integrator that
 /// three errors are known of.
 /// @throws InputError, ConvergenceError
 BenchResult bench_time(const TimeTask& task, BenchObserver& observer);

@@ -11,7 +11,7 @@
 
 namespace vehd {
 
-/// What is compared, and how.
+/// Options of a check.
 struct CheckTask {
   FrozenState frozen;
   std::filesystem::path directory;   ///< for the files of both sides; created if missing

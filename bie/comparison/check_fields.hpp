@@ -8,7 +8,7 @@
 
 namespace vehd {
 
-/// What the boundary-integral side is compared in.
+/// Fields of the boundary-integral side that are compared.
 struct CheckContents {
   bool electric = false;  ///< some field or some V_m
   bool steady = false;    ///< a field that determines a steady V_m, on a membrane that conducts alike everywhere

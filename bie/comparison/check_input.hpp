@@ -13,7 +13,7 @@ namespace vehd {
 /// Version of the layout, which both sides must agree in.
 constexpr std::int64_t check_schema_version = 4;
 
-/// What is asked about V_m in time.
+/// Problem of V_m in time.
 struct InTime {
   TimeSpan span;
   Vector at_order;     ///< V_m at its end by potential_in_time(), with the steps of the run
@@ -29,13 +29,16 @@ struct CheckInput {
   const InTime* in_time = nullptr;            ///< of one vesicle alone; null: not asked for
 };
 
-/// One vesicle at the top of the file, several in groups of their own. @throws OutputError
+/// One vesicle at the top of the file, several in groups of their own.
+/// @throws OutputError
 void write_check_input(const std::filesystem::path& file, const CheckInput& input);
 
-/// The same file with the shapes alone. @throws OutputError
+/// The same file with the shapes alone.
+/// @throws OutputError
 void write_shape_input(const std::filesystem::path& file, const FrozenShape& shape);
 
-/// The shape and the point sources that make the exact solution on it. @throws OutputError
+/// The shape and the point sources that make the exact solution on it.
+/// @throws OutputError
 void write_sources_input(const std::filesystem::path& file, const Matrix& position, const ElectricParameters& electric,
                          const std::vector<PointSource>& sources);
 

@@ -13,7 +13,7 @@ namespace vehd {
 struct CheckSamples {
   Matrix points;      ///< [n_points x 3]
   Vector distance;    ///< from the membrane of the near ones; 0 for the others
-  double near = 0.0;  ///< one grid spacing: what counts as near
+  double near = 0.0;  ///< one grid spacing: nearer points count as near
 };
 
 /// Points within one grid spacing of the membrane on either side, and points further inside and outside.
@@ -24,7 +24,8 @@ using SampleValues = std::pair<Matrix, std::vector<Side>>;
 
 /// Values at sample points, each with its side. All in one call; where that fails each point on its own, and NaN where
 /// no value is found.
-/// @param at  values at [n x 3] points; @throws ConvergenceError
+/// @param at  values at [n x 3] points;
+/// @throws ConvergenceError
 Matrix where_possible(const Matrix& points, Index components, std::vector<bool>& is_inside,
                       const std::function<SampleValues(const Matrix&)>& at);
 

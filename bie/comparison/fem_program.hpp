@@ -16,12 +16,14 @@ bool fem_program_is_built();
 /// the serial one in one process.
 class FemProgram {
  public:
-  /// Looks beside the running program. @throws InputError saying how to build it if it is not there
+  /// Looks beside the running program.
+  /// @throws InputError saying how to build it if it is not there
   FemProgram();
-  /// Looks in a folder. @throws InputError likewise
+  /// Looks in a folder.
+  /// @throws InputError likewise
   explicit FemProgram(const std::filesystem::path& folder);
 
-  /// What it leaves behind.
+  /// Files that it writes.
   struct Result {
     ExitCode code = ExitCode::done;
     nlohmann::json json;  ///< its result; null if it ended before it had one

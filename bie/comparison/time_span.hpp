@@ -36,7 +36,7 @@ constexpr double still_motion = 1e-6;
 
 /// @param file  a run.h5
 /// @param from  time of the first snapshot as people write it, see read_frozen_state
-/// @param end   what was read of the last one
+/// @param end   data of the last one
 /// @throws InputError if there is no such time before the end, or no V_m, or a field that jumps too often
 TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, const FrozenState& end);
 

@@ -16,16 +16,16 @@ struct CostRow {
   int order = 0;              ///< highest degree that the run takes
   std::int64_t steps = 0;     ///< accepted ones
   double seconds = 0.0;       ///< of `vehd run`, without pictures
-  double file_seconds = 0.0;  ///< of these, what its files take
+  double file_seconds = 0.0;  ///< of these, for its files
   std::int64_t memory_bytes = 0;
   bool measured = false;  ///< the trial run has this tolerance and reached the end of the scene
   std::string stops{};    ///< why a trial run with this tolerance stopped; nothing is predicted then
   std::string unknown{};  ///< why nothing is predicted although nothing stopped; empty otherwise
 };
 
-/// Limits of what a prediction takes.
+/// Limits of a prediction.
 struct CostBudget {
-  double seconds = 9.0;  ///< for everything: what runs when they are over is given up
+  double seconds = 9.0;  ///< for everything; then the current trial is abandoned
   /// Accepted steps of the trial run. If this limit is the one that ends it, degrees and steps of the predictions are
   /// the same on every machine.
   std::int64_t steps = std::numeric_limits<std::int64_t>::max();

@@ -14,7 +14,7 @@ namespace vehd {
 struct PlannedEffect {
   std::string name;
   std::string adds;       ///< the term of the model
-  std::string if_absent;  ///< what a run would save without it
+  std::string if_absent;  ///< saved without it
 };
 
 /// One operator of a plan, with the reason.
@@ -24,7 +24,7 @@ struct PlannedOperator {
   std::size_t n_vesicles = 1;  ///< that need it
 };
 
-/// What a run of a scene will do and cost.
+/// Effects, operators and cost of a run.
 struct RunPlan {
   std::vector<PlannedEffect> effects;
   std::vector<std::string> absent;
@@ -37,7 +37,7 @@ struct RunPlan {
   std::vector<std::string> vesicles;                  ///< names of several
   std::map<std::string, std::uint64_t> pair_targets;  ///< of several at the start, as in summary.json
   int shapes_per_step = 1;
-  std::int64_t n_jumps = 0;   ///< of what acts, up to the end: at each the shape is evaluated once more
+  std::int64_t n_jumps = 0;   ///< of the forcing, up to the end: at each the shape is evaluated once more
   std::int64_t unknowns = 0;  ///< independent scalars that the solves of a step find
   std::int64_t n_steps = 0;   ///< if none is rejected; with a tolerance known after predict_cost
   double seconds_per_step = 0.0;

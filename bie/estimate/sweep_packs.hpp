@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// What the runs of a sweep are predicted to cost.
+/// Predicted cost of the runs of a sweep.
 struct SweepCost {
   std::vector<double> seconds;    ///< of each run, 0 of a scene that is refused
   std::int64_t memory_bytes = 0;  ///< most that one of them needs; 0 where that of none is known

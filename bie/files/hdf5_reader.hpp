@@ -11,8 +11,9 @@
 
 namespace vehd {
 
-/// Reads an HDF5 file that may be damaged or hostile: sizes are checked against what the file stores before memory is
-/// taken. @throws InputError "file: what is wrong" from every member
+/// Reads an HDF5 file that may be damaged or hostile: sizes are checked against those of the stored data before memory
+/// is taken.
+/// @throws InputError "file: what is wrong" from every member
 class Hdf5Reader {
  public:
   /// Opens a file for reading.
@@ -48,7 +49,7 @@ class Hdf5Reader {
   /// @param closed  a group below whose members do not count
   [[nodiscard]] ObjectChecksums object_checksums(const std::string& group, const std::string& closed = {}) const;
 
-  /// What stands for the file in messages.
+  /// Name of the file in messages.
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Throws InputError "name: problem".
   [[noreturn]] void refuse(const std::string& problem) const;

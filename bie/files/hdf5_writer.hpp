@@ -13,7 +13,7 @@
 
 namespace vehd {
 
-/// What a dataset is, for whoever opens the file without this program at hand.
+/// Description of a dataset, for readers without this program.
 struct DatasetLabel {
   std::string dimension;  ///< "force/area"; "1" of a pure number
   std::string description;
@@ -28,7 +28,7 @@ class Hdf5Writer {
   /// `read` is for the source of copies: it never touches the file. `in_memory` writes no file:
   /// its path only names it in messages.
   enum class Mode { create, in_memory, extend, read };
-  /// @param path  of the file, or what stands for it in messages
+  /// @param path  of the file, or its name in messages
   Hdf5Writer(const std::filesystem::path& path, Mode mode);
 
   /// Makes a group; those above it must be there.
@@ -51,7 +51,8 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, const std::string& value);
 
   /// Writes the seal of a group, or of the header of the file ("/"): it covers all that was written, not copied, since
-  /// the last seal. @return the checksum of the seal
+  /// the last seal.
+  /// @return the checksum of the seal
   std::int64_t seal(const std::string& group);
 
   /// All bytes of the file so far.

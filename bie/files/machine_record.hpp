@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-/// What a timing holds for.
+/// Machine, compiler and commit of a timing.
 struct MachineRecord {
   std::string processor;  ///< as the operating system names it
   unsigned hardware_threads = 0;

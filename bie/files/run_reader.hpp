@@ -21,7 +21,7 @@ struct SnapshotField {
   bool is_vector = false;
 };
 
-/// Datasets that a snapshot may have of a vesicle: the fields of the table, and what is made of amplitudes and the
+/// Datasets that a snapshot may have of a vesicle: the fields of the table, and those derived from amplitudes and the
 /// shape.
 std::vector<SnapshotField> snapshot_fields();
 /// Where a snapshot has each of them.
@@ -43,7 +43,8 @@ class RunSnapshot {
   /// The file in messages.
   [[nodiscard]] const std::string& name() const { return file_.name(); }
   [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
-  /// Steps of the run until then. @throws InputError
+  /// Steps of the run until then.
+  /// @throws InputError
   [[nodiscard]] std::int64_t step() const { return file_.integer_attribute(group_, "step"); }
   /// Whether it has the coefficients of this field.
   /// @param vesicle  of several
@@ -51,11 +52,14 @@ class RunSnapshot {
     return file_.has(path_of(field, vesicle));
   }
   /// The degree that a vesicle was solved in: with a tolerance it is lower than that of the file, as a rule. A file of
-  /// an earlier program does not have it: that of the file. @throws InputError if it is none that x can have
+  /// an earlier program does not have it: that of the file.
+  /// @throws InputError if it is none that x can have
   [[nodiscard]] int degree(std::size_t vesicle = 0) const;
-  /// Harmonic coefficients, [n_coefficients x components]. @throws InputError
+  /// Harmonic coefficients, [n_coefficients x components].
+  /// @throws InputError
   [[nodiscard]] Matrix coefficients(const std::string& field) const { return read(field, 0); }
-  /// Coefficients with the stated number of components and the order of x. @throws InputError if they differ
+  /// Coefficients with the stated number of components and the order of x.
+  /// @throws InputError if they differ
   /// @param vesicle  of several
   [[nodiscard]] Matrix coefficients(const std::string& field, Index components, std::size_t vesicle = 0) const;
 
@@ -76,7 +80,8 @@ class RunSnapshot {
 };
 
 /// Access to the snapshots of a run.h5, whose header and times are compared with their seals at once, and each snapshot
-/// when it is opened. A file of an earlier vehd has no seals and is read as it is. @throws InputError
+/// when it is opened. A file of an earlier vehd has no seals and is read as it is.
+/// @throws InputError
 class RunReader {
  public:
   explicit RunReader(Hdf5Reader file);
@@ -88,11 +93,13 @@ class RunReader {
   [[nodiscard]] std::size_t nearest(double time) const;
   /// Number of the snapshot at this time, up to the rounding of decimal numbers; nullopt if there is none.
   [[nodiscard]] std::optional<std::size_t> find(double time) const;
-  /// The same. @throws InputError if there is none
+  /// The same.
+  /// @throws InputError if there is none
   [[nodiscard]] std::size_t at(double time) const;
-  /// A snapshot, which must not outlive the reader. @throws InputError naming what does not match its seal
+  /// A snapshot, which must not outlive the reader.
+  /// @throws InputError naming the object that does not match its seal
   [[nodiscard]] RunSnapshot snapshot(std::size_t number) const;
-  /// The path of the file, or what stands for it in messages.
+  /// The path of the file, or its name in messages.
   [[nodiscard]] const std::string& name() const { return file_.name(); }
   [[nodiscard]] const Hdf5Reader& file() const { return file_; }
   /// Degree of the grid.
@@ -103,7 +110,8 @@ class RunReader {
   [[nodiscard]] std::string scene() const { return file_.text("/scene"); }
   /// How many vesicles the run has.
   [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
-  /// @param who  cannot do with several vesicles, "vehd mesh" @throws InputError if there are
+  /// @param who  cannot do with several vesicles, "vehd mesh"
+  /// @throws InputError if there are
   void require_one_vesicle(const std::string& who) const;
   /// Whether the file has seals, without which damage goes unnoticed.
   [[nodiscard]] bool is_sealed() const { return is_sealed_; }

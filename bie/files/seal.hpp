@@ -9,7 +9,7 @@
 #include <string_view>
 
 /// The seal of a part of an HDF5 file: a text dataset with a checksum of every object of that part. It covers names,
-/// kinds, shapes, types, attributes and values, so whoever reads the part can say which object is not what was written.
+/// kinds, shapes, types, attributes and values, so a reader of the part can name the altered object.
 namespace vehd {
 
 /// Checksum of each object by its path. That of an object is the sum modulo 2³² of the checksum of its content and of

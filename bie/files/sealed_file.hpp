@@ -4,14 +4,15 @@
 #include <string>
 
 /// Files whose every bit is checked before anything is made of them: the content, then a line with its size and
-/// checksum. HDF5 ignores what follows its own end, so a sealed HDF5 file stays readable by its tools.
+/// checksum. HDF5 ignores bytes after its own end, so a sealed HDF5 file stays readable by its tools.
 namespace vehd {
 
 /// The content with its seal.
 /// Accuracy: one flipped bit is always noticed, any other change with probability 1 − 2⁻³² (CRC-32)
 std::string sealed(const std::string& content);
 
-/// Content of a sealed file. @throws InputError if the file is missing, truncated, altered or has no seal
+/// Content of a sealed file.
+/// @throws InputError if the file is missing, truncated, altered or has no seal
 std::string read_sealed_file(const std::filesystem::path& path);
 
 }  // namespace vehd

@@ -6,7 +6,7 @@
 
 namespace vehd {
 
-/// What the numbers of a file are in SI units: number * scale is in the unit. "1" and 1 of pure numbers, and of all
+/// SI unit of the numbers of a file: number * scale is in the unit. "1" and 1 of pure numbers, and of all
 /// numbers where nobody says.
 struct SiUnit {
   std::string symbol = "1";

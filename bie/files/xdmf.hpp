@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// What run.xdmf describes: the closed surfaces of every snapshot of a run.h5 beside it.
+/// Content of run.xdmf: the closed surfaces of every snapshot of a run.h5 beside it.
 struct XdmfSeries {
   std::string heavy_data = "run.h5";
   Index n_points = 0;  ///< grid points and both poles

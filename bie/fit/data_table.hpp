@@ -22,7 +22,8 @@ class DataTable {
   [[nodiscard]] const std::string& unit(std::size_t column) const { return units_[column]; }
   /// nullopt if there is no column of that name.
   [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
-  /// The same. @throws InputError that names the nearest column
+  /// The same.
+  /// @throws InputError that names the nearest column
   [[nodiscard]] std::size_t column(const std::string& name) const;
   /// A cell as it is written, without blanks around it.
   [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const { return rows_[row].cells[column]; }

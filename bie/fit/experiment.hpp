@@ -17,7 +17,7 @@ constexpr const char *contour_angle = "phi_deg", *contour_radius = "r";
 /// Column of standard deviations.
 constexpr const char* deviation_column = "deviation";
 
-/// What is measured of a vesicle, against time or against a key of its scene that is varied from run to run. Numbers
+/// Measured quantity of a vesicle, against time or against a key of its scene that is varied from run to run. Numbers
 /// are in SI base units where the scene has [units], otherwise in those of the scene.
 struct Measured {
   std::string quantity;           ///< a column of history.csv, or contour_quantity
@@ -51,7 +51,7 @@ struct DataOfRun {
   std::vector<std::size_t> data;
 };
 
-/// A scene and what was measured of it.
+/// A scene and its data.
 struct Experiment {
   std::string name;
   SceneSource source;
@@ -82,7 +82,7 @@ void read_data(Experiment& experiment, const DataTable& table, const std::string
 
 /// The largest tolerance of a run.
 constexpr double loosest_tolerance = 1e-2;
-/// What the runs of n data may be wrong by, in standard deviations of a datum: a tenth; of more than 25 data less, so
+/// Error allowed to the runs of n data, in standard deviations of a datum: a tenth; of more than 25 data less, so
 /// that the errors of all together stay below half of what χ changes by for one standard error.
 double run_error_in_deviations(std::size_t n_data);
 

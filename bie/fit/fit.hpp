@@ -11,7 +11,7 @@
 
 namespace vehd {
 
-/// Values of the free keys that fit the data best, and what the data say of them.
+/// Values of the free keys that fit the data best, and their errors.
 struct FitResult {
   Minimum minimum;
   Statistics statistics;
@@ -29,7 +29,7 @@ LeastSquares least_squares_of(const FitFile& fit);
 /// Fits the free keys of all experiments together; runs are the model.
 /// @param tell  called after each evaluation of the model, with χ² so far; may be empty
 /// @throws InputError if the model has no value at the start or beside a point
-/// @throws Interrupted if a signal came; what was computed is kept. OutputError
+/// @throws Interrupted if a signal came; finished runs are kept. OutputError
 FitResult fit_keys(const FitFile& fit, const ModelRuns& runs,
                    std::function<void(int n_evaluations, double chi2)> tell = {});
 

@@ -34,7 +34,8 @@ std::string best_scene(const FitFile& fit, const FitResult& result, const Experi
 /// A combination in words: "membrane.bending_modulus and fluid.viscosity together, by factors 1.42 and 1.42".
 std::string text_of(const FitFile& fit, const Combination& combination);
 
-/// Writes fit.json, fit.csv and the scenes. @throws OutputError
+/// Writes fit.json, fit.csv and the scenes.
+/// @throws OutputError
 void write_fit(const FitPaths& paths, const FitFile& fit, const FitResult& result);
 
 }  // namespace vehd

@@ -13,7 +13,7 @@ struct Combination {
   double least_error = 0.0;  ///< its standard error is at least this
 };
 
-/// What data say of parameters, by the linearised model.
+/// Errors and correlations of parameters, by the linearised model.
 struct Statistics {
   /// (JᵀJ)⁻¹ among the combinations that are determined.
   Matrix covariance;

@@ -32,10 +32,10 @@ class RecycledGcr {
     double size_of_rhs = 0.0;  ///< norm of the preconditioned right-hand side
   };
   /// @param start       where the solve starts, of size 0 for x = 0; options as for gmres
-  /// @param least_size  what residuals are relative to where the preconditioned right-hand side is smaller
+  /// @param least_size  scale of residuals if the preconditioned right-hand side is smaller
   Solution solve(const Vector& rhs, const Vector& start, const SolveOptions& options, double least_size = 0.0);
 
-  /// What the solves so far have found of A.
+  /// Directions and their images under A from all solves so far.
   [[nodiscard]] RecycledSubspace learned() const;
   /// The columns of `known` that say something new.
   [[nodiscard]] const std::vector<Index>& kept() const { return secant_.kept(); }
@@ -60,9 +60,11 @@ class RecycledGcr {
     [[nodiscard]] bool is_true() const { return shares.size() == 0; }
   };
   [[nodiscard]] Vector preconditioned(const Vector& mapped) const;
-  /// Makes a direction of what is proposed and keeps it. @returns false where it would be more uncertain than allowed
+  /// Orthogonalises a proposed direction and stores it.
+  /// @returns false where it would be more uncertain than allowed
   bool add_direction(const Vector& proposal, double allowed);
-  /// Takes what lies along the direction out of the residual. @returns its share of that
+  /// Subtracts the part along the direction from the residual.
+  /// @returns its share of that
   double follow(const Direction& direction, Iterate& iterate) const;
   /// How far the residual can be from the true one.
   [[nodiscard]] double uncertainty(const Vector& shares) const;

@@ -6,7 +6,7 @@
 
 namespace vehd {
 
-/// What is known of a linear map: columns of arguments with what it made of them, newest first. The map may have
+/// Samples of a linear map: columns of arguments and their images, newest first. The map may have
 /// changed since, the more the older a column is.
 struct RecycledSubspace {
   Matrix arguments;

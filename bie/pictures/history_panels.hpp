@@ -21,10 +21,10 @@ struct HistoryQuantity {
   std::string label;
   std::string unit{};  ///< symbol in the file; empty of a pure number
   std::vector<HistoryCurve> curves{};
-  bool is_logarithmic = false;  ///< values are magnitudes; what is 0 is NaN
+  bool is_logarithmic = false;  ///< values are magnitudes; zeros are NaN
 };
 
-/// What tells something of a run, in this order: energy; tension; V_m and charge with a field; the inclination in a
+/// Significant columns of a run, in this order: energy; tension; V_m and charge with a field; the inclination in a
 /// flow; the aspect ratio; the errors; the extents; step and degree where a tolerance chooses them. Curves that have no
 /// two numbers are left out, and quantities without curves.
 /// @param errors  of the history, which may have fewer rows; null without error bars
@@ -37,7 +37,7 @@ struct HistoryPanel {
 };
 
 /// Those of the quantities that a picture of all has room for: energy and tension, V_m and charge, inclination and
-/// aspect ratio; the errors where a drift comes near what the verdict allows; the extents where the page has room for
+/// aspect ratio; the errors if a drift comes near the limit of the verdict; the extents where the page has room for
 /// them.
 /// @param errors  see history_quantities
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history,

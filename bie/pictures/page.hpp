@@ -69,7 +69,7 @@ struct Page {
 /// Room that a line of text takes at most in the font of the pictures (DejaVu Sans), in units of its size.
 double text_width(std::string_view enhanced);
 
-/// What a text covers.
+/// Box of a text.
 Box box_of(const PageText& text);
 
 /// Pixels of a point: of images in every format, and of the whole picture as PNG.

@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 3> picture_formats = {"png", "pdf", "svg"
 /// "png", "pdf" or "svg".
 std::string_view name_of(PictureFormat format);
 
-/// What the end of a file's name says; nullopt where it is none of them.
+/// Format by the extension of a file; nullopt if it is none of them.
 std::optional<PictureFormat> format_of(const std::filesystem::path& file);
 
 /// Where a picture goes.

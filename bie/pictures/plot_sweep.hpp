@@ -24,8 +24,8 @@ struct SweepPlotTask {
 /// the (first) key; of a grid of two keys OUTPUT/map_COLUMN.FORMAT for each column, a cell for each run; of a sweep
 /// over a seed as well means over it, OUTPUT/lines.FORMAT and OUTPUT/lines.csv, see draw_sweep_means. Runs that were
 /// refused have no point and a white cell; those that stopped are grey points and have a cross in their cell. A border
-/// is a line at a value of the column, 1 of a ratio of lengths, 0 of what has both signs; in a map between the cells on
-/// whose sides the column is below and above it.
+/// is a line at a value of the column, 1 of a ratio of lengths, 0 of a column of both signs; in a map between the cells
+/// on whose sides the column is below and above it.
 /// @return the pictures
 /// @throws InputError if there is no table, if it has no such column, or of three keys and more
 std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task);

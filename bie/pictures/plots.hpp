@@ -31,7 +31,7 @@ struct PlotTask {
   ShapesStyle style{};
 };
 
-/// What plot_run has drawn.
+/// Pictures of plot_run.
 struct PlotResult {
   std::vector<std::filesystem::path> pictures;
   std::vector<double> times;         ///< of the shapes, in the unit

@@ -23,12 +23,12 @@ struct RenderMesh {
   std::vector<std::int64_t> triangles;
 };
 
-/// What is seen, and how.
+/// Content of a picture, and how it is drawn.
 struct RenderTask {
   Matrix3 view = Matrix3::Identity();  ///< rows: right, up, towards the eye
   double scale = 1.0;                  ///< pixels per unit of length
   int width = 0, height = 0;           ///< pixels; the origin is in the middle
-  bool cut = false;                    ///< leaves out what is nearer to the eye than the origin: the inside shows
+  bool cut = false;                    ///< leaves out all that is nearer to the eye than the origin: the inside shows
 };
 
 /// Half width and half height that the mesh covers about the origin in a view, in units of length.

@@ -10,7 +10,7 @@
 
 namespace vehd {
 
-/// What the colours of a shape show.
+/// Field shown by the colours of a shape.
 enum class ShapeField {
   none,
   potential,
@@ -50,7 +50,7 @@ constexpr std::array<std::string_view, 15> shape_field_names = {"none",
 struct FieldLabel {
   std::string_view text;
   std::string_view dimension;  ///< by its name in scene/units.hpp
-  std::string_view dataset{};  ///< in run.h5; empty of what is computed
+  std::string_view dataset{};  ///< in run.h5; empty of a computed field
   bool sign_matters = false;   ///< even where the values of a run have one sign alone
 };
 FieldLabel label_of(ShapeField field);
@@ -58,7 +58,7 @@ FieldLabel label_of(ShapeField field);
 /// V_m, or its amplitude in an averaged field, without it the tension, without that the curvature.
 ShapeField default_field(const RunSnapshot& snapshot);
 
-/// @throws InputError that names what there is, if the snapshot does not have what the field needs
+/// @throws InputError that names the fields of the snapshot, if it does not have the dataset
 void require_field(const RunSnapshot& snapshot, ShapeField field);
 
 /// One snapshot with all its vesicles, the centroid of their membranes together in the origin.
@@ -70,14 +70,14 @@ struct Shape {
   Matrix3 gyration;  ///< mean of x x^T over the area
 };
 
-/// What a picture needs of one vesicle.
+/// Data of one vesicle for a picture.
 struct VesicleCoefficients {
   Matrix position;  ///< [n_coefficients x 3]
   Matrix field;     ///< [n_coefficients x 1]; of the force x 3; real and imaginary part of what a complex amplitude
                     ///< gives; empty of what is computed from the position
 };
 
-/// What a picture of one snapshot needs of its file.
+/// Data of one snapshot for a picture.
 struct ShapeCoefficients {
   double time = 0.0;
   std::vector<VesicleCoefficients> vesicles;

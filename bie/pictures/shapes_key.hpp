@@ -7,7 +7,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/support/types.hpp"
 
-/// What stands beside shapes: the axes, arrows of field, gravity and flow, and a scale bar.
+/// Key beside the shapes: the axes, arrows of field, gravity and flow, and a scale bar.
 namespace vehd {
 
 enum class KeyItem { axes, field, gravity, flow, scale_bar };

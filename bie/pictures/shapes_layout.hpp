@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// What finds its place in a picture of shapes; lengths in points but for the shapes.
+/// Parts of a picture of shapes; lengths in points but for the shapes.
 struct ShapesContent {
   /// Half width and half height of each shape about its middle, in numbers of the scene.
   std::vector<std::array<double, 2>> half_extents;

@@ -24,7 +24,7 @@ std::optional<std::size_t> seed_key(const SweepRows& rows);
 std::vector<SweepMean> means_over_seeds(const SweepRows& rows, std::size_t seed, std::size_t column);
 
 /// Draws the means of columns against the first other key with bars of one standard error, a line for each value of the
-/// second one, and writes what it draws to a table beside the picture.
+/// second one, and writes the drawn values to a table beside the picture.
 /// @return the picture and the table
 /// @throws InputError if there is no other key, or a third one
 std::vector<std::filesystem::path> draw_sweep_means(const SweepRows& rows, std::size_t seed,

@@ -6,7 +6,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/support/types.hpp"
 
-/// Parallel projections: what is to the right, upwards and towards the eye in a picture.
+/// Parallel projections: directions to the right, upwards and towards the eye.
 namespace vehd {
 
 /// The same three numbers.

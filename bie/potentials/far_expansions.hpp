@@ -20,7 +20,7 @@ struct ExpandedMembrane {
 /// Layers of many membranes at points of others that are far from them: of each the moments about its centre, from
 /// these local coefficients about the centres of the others, and values from those. The degree of every pair follows
 /// from its distance.
-/// Accuracy: the tolerance relative to what the density makes at the distance of the centre; direct sums to 1e-9
+/// Accuracy: the tolerance relative to the potential of the density at the distance of the centre; direct sums to 1e-9
 /// (tests/potentials/far_expansions_test.cpp)
 /// Source: Epton and Dembart 1995; Stokes layers as four harmonic functions, Tornberg and Greengard 2008
 class FarExpansions {
@@ -65,7 +65,7 @@ class FarExpansions {
   /// @param moments     of each membrane, [n_solid x columns] or empty
   /// @param is_stokes   the last of four columns is about the centre of its source
   [[nodiscard]] std::vector<Matrix> local(const std::vector<Matrix>& moments, bool is_stokes) const;
-  /// Moments of what one membrane contributes.
+  /// Moments of one membrane.
   [[nodiscard]] Matrix moments_of(PairLayer layer, const Place& place, const Matrix& density) const;
   /// A layer without its factor at the targets of one membrane, from local coefficients.
   [[nodiscard]] Matrix values_of(PairLayer layer, const Place& place, const Matrix& coefficients) const;

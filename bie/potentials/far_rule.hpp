@@ -15,10 +15,12 @@ class FarRule {
   /// @param position    coefficients of the membrane, [n_coefficients x 3]
   /// @param nodes       from that degree to the grid
   FarRule(const Matrix& position, const SphereTransform& nodes);
-  /// The same on a grid of its own. @param grid_order  not below the degree of the membrane
+  /// The same on a grid of its own.
+  /// @param grid_order  not below the degree of the membrane
   FarRule(const Matrix& position, int grid_order);
 
-  /// A density at the nodes times their weights. @param density  [n_coefficients x fields] @return [n x fields]
+  /// A density at the nodes times their weights.
+  /// @param density  [n_coefficients x fields] @return [n x fields]
   [[nodiscard]] Matrix charges(const Matrix& density) const;
 
   /// A layer summed over the nodes for targets with normals N there, prefactors included.

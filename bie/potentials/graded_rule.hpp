@@ -9,7 +9,8 @@
 namespace vehd {
 
 /// Fourier sums over the azimuths ψ_k = (k + ½) 2π/n of a graded rule, and their adjoint, of many columns at once:
-/// matrix products over a quarter of the circle, because ψ, π − ψ, π + ψ and −ψ differ in signs alone. Accuracy:
+/// matrix products over a quarter of the circle, because ψ, π − ψ, π + ψ and −ψ differ in signs alone.
+/// Accuracy:
 /// rounding (tests/potentials/azimuth_sums_test.cpp)
 class AzimuthSums {
  public:
@@ -21,9 +22,11 @@ class AzimuthSums {
 
   /// Amplitudes of cos mψ for m = 0..order, then of sin mψ for m = 1..order.
   [[nodiscard]] Index n_modes() const { return 2 * order_ + 1; }
-  /// Values at the azimuths. @param amplitudes  [n_modes x width], the width a multiple of kLanes
+  /// Values at the azimuths.
+  /// @param amplitudes  [n_modes x width], the width a multiple of kLanes
   [[nodiscard]] RowMatrix values(const RowMatrix& amplitudes) const;
-  /// Σ_k of values times cos mψ_k or sin mψ_k. @param values  [n_phi x width], the width a multiple of kLanes
+  /// Σ_k of values times cos mψ_k or sin mψ_k.
+  /// @param values  [n_phi x width], the width a multiple of kLanes
   /// @return  [n_modes x width]
   [[nodiscard]] RowMatrix adjoint(const RowMatrix& values) const;
 

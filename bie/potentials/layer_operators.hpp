@@ -16,8 +16,8 @@ namespace vehd {
 /// The six blocks xx, xy, xz, yy, yz, zz of a symmetric operator between vector fields, each of them symmetric between
 /// its coefficients, of which every pair is kept once: half the memory that an application streams.
 ///
-/// The single layer is symmetric, what the quadrature makes of it is so only up to the aliasing of high degrees: the
-/// rotated rule resolves the product of a kernel with a smooth density, and the targets resolve what comes of it. So
+/// The single layer is symmetric, its quadrature only up to the aliasing of high degrees: the
+/// rotated rule resolves the product of a kernel with a smooth density, and the targets resolve the result. So
 /// an entry is taken from the finding of the higher degree by a density of the lower one; the other way round, rule and
 /// targets would have to resolve a density of the higher degree. Between coefficients of one degree it is the mean of
 /// both, so that turns of the sphere commute with the choice.
@@ -35,7 +35,7 @@ class SymmetricBlocks {
   explicit SymmetricBlocks(std::vector<int> degrees);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(degrees_.size()); }
-  /// Where the assembly puts what coefficient `out` finds of densities of its degree and lower ones:
+  /// Where the assembly stores coefficient `out` of the potential of densities of its degree and lower ones:
   /// [groups][blocks][kGroup], finite numbers also where the last group is filled up.
   [[nodiscard]] double* column(Index out) { return values_.data() + starts_[static_cast<std::size_t>(out)]; }
   /// Coefficients whose densities the column of `out` has, the highest of the last degree.
@@ -53,11 +53,12 @@ class SymmetricBlocks {
 
   /// Entry of a block, whichever is the larger index.
   [[nodiscard]] double at(int block, Index i, Index j) const;
-  /// @param density  [size x 3] @return likewise
+  /// @param density  [size x 3]
+  /// @return likewise
   [[nodiscard]] Matrix apply(const Matrix& density) const;
 
  private:
-  /// Adds what the columns from the first to before the end contribute.
+  /// Adds the contribution of columns [first, end).
   void apply_columns(Index first, Index end, const RowMatrix& density, RowMatrix& sums) const;
 
   std::vector<int> degrees_;
@@ -90,7 +91,8 @@ class ScalarOperator {
       : n_coefficients_(n_coefficients), parts_(std::move(parts)) {}
 
   [[nodiscard]] bool empty() const { return parts_.empty(); }
-  /// Every column of the density separately. @throws ShapeError
+  /// Every column of the density separately.
+  /// @throws ShapeError
   /// @param density  [n_coefficients x n_fields], weighted where the layer asks for it (LayerOperators)
   /// @return         [n_coefficients x n_fields]
   [[nodiscard]] Matrix apply(const Matrix& density) const;

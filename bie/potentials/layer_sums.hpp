@@ -10,7 +10,7 @@ namespace vehd {
 enum class Side { interior, exterior, principal_value };
 
 /// Where each field stands among the columns of a block of quadrature nodes: the position y, its tangents y_1, y_2 in
-/// the frame of the unit sphere, and what the wanted layers need of their densities. −1: absent.
+/// the frame of the unit sphere, and the values of their densities that the layers need. −1: absent.
 struct NodeColumns {
   int position = 0;   ///< 3 columns
   int tangent_1 = 3;  ///< 3 columns
@@ -70,7 +70,7 @@ struct LayerDensities {
   bool plain = false;      ///< J is multiplied at the nodes, so that nothing of J f is cut to degree p
 };
 
-/// Position and densities side by side: what is rotated and synthesised together, and which node columns follow.
+/// Position and densities side by side, rotated and synthesised together, and the node columns that follow.
 struct LayerFields {
   Matrix coefficients;  ///< [n_coefficients x fields], the position first
   /// First field of each density, −1 if absent.

@@ -20,7 +20,7 @@ class LongitudeSums {
 
   /// m of each mode: even cosines, odd cosines, then sines, whose m is negative.
   [[nodiscard]] const std::vector<int>& orders() const { return orders_; }
-  /// Columns that are summed together, so that what is summed over them stays in cache.
+  /// Columns that are summed together, so that their sums stay in cache.
   static constexpr Index kPiece = 24 * kLanes;
   /// Which of several latitudes the rows belong to.
   struct Latitude {
@@ -28,7 +28,7 @@ class LongitudeSums {
   };
   /// @param rows        [n_phi x width], one behind the other
   /// @param width       a multiple of kLanes
-  /// @param amplitudes  of that latitude in [pieces][latitudes][modes][kPiece]; the last piece has what is left
+  /// @param amplitudes  of that latitude in [pieces][latitudes][modes][kPiece]; the last piece has the rest
   void run(const double* rows, Index width, const Latitude& latitude, double* amplitudes) const;
 
  private:

@@ -53,7 +53,7 @@ struct NearRows {
 /// @param frame   of the membrane, its pole at the foot of the target; fields without densities
 /// @param offset  target minus foot
 /// @param normal  N at the target
-/// Accuracy: rounding of the rule's sums; the rows give what OffSurfaceLayers gives to 1e-9
+/// Accuracy: rounding of the rule's sums; the rows agree with OffSurfaceLayers to 1e-9
 /// (tests/potentials/pair_layers_test.cpp)
 /// Source: paper Eqs. (6), (8), (9); stokes_double_kernel
 NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vector3& offset, const Vector3& normal,
@@ -70,7 +70,7 @@ struct PairGeometry {
   [[nodiscard]] Vector3 normal(Index i) const { return normals.row(i).transpose(); }
 };
 
-/// What rules about the nearest points have to reach, see PairSettings.
+/// Accuracy required of the rules about the nearest points, see PairSettings.
 struct NearRowSettings {
   double tolerance;
   int max_rules;

@@ -34,7 +34,8 @@ ClosestPair closest_pair(const std::vector<Matrix>& membranes);
 /// Which part of two membranes is within the other.
 enum class Arrangement { apart, they_meet, first_is_inside, second_is_inside };
 
-/// From the nodes of either. Membranes that touch, up to rounding, meet. @throws ConvergenceError where a nearest point
+/// From the nodes of either. Membranes that touch, up to rounding, meet.
+/// @throws ConvergenceError where a nearest point
 /// is not found
 Arrangement arrangement_of(const Matrix& first, const Matrix& second);
 

@@ -28,7 +28,7 @@ struct OperatorBlock {
   [[nodiscard]] Index width() const { return filled_up(n_columns()); }
 };
 
-/// What the operators on symmetric fields consist of. Blocks between the same sets of coefficients are one, so that a
+/// Blocks of the operators on symmetric fields. Blocks between the same sets of coefficients are one, so that a
 /// kernel of two components is not carried along twice where these have the same coefficients.
 struct SymmetricLayout {
   std::vector<OperatorBlock> blocks;        ///< side by side in the rows

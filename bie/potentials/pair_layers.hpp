@@ -60,7 +60,7 @@ class PairLayers {
   PairLayers& operator=(PairLayers&&) noexcept;
 
   /// A layer at the targets.
-  /// @param density  coefficients of what the layer is from, see PairLayer; [n_coefficients x 1], of a Stokes layer
+  /// @param density  coefficients of the density, see PairLayer; [n_coefficients x 1], of a Stokes layer
   ///                 [n_coefficients x 3]
   /// @return         [n_targets x 1] or [n_targets x 3]
   /// @throws std::logic_error if the layer was not selected

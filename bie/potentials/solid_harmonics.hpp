@@ -32,7 +32,8 @@ class MomentSums {
   /// @param regular  R at the nodes, [n_nodes x n_solid]
   explicit MomentSums(const Matrix& regular);
 
-  /// @param densities  q, [n_nodes x columns] @return [n_solid x columns]
+  /// @param densities  q, [n_nodes x columns]
+  /// @return [n_solid x columns]
   [[nodiscard]] Matrix of(const Matrix& densities) const;
 
  private:

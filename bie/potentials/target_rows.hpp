@@ -66,7 +66,7 @@ class AzimuthalAmplitudes {
   std::array<std::unique_ptr<double[]>, 2> values_;
 };
 
-/// What a column is in Fourier sums about the target: without a mirror each one has cosines and sines.
+/// Columns in the Fourier sums about the target: without a mirror each one has cosines and sines.
 struct FourierColumns {
   std::vector<int> cosine, sine;
 
@@ -92,7 +92,7 @@ struct RowPlaces {
   DegreeParities degrees;
 };
 
-/// What is the same for all targets of an assembly; it and what it refers to must outlive the rows.
+/// Data common to all targets of an assembly; they and their references must outlive the rows.
 struct TargetContext {
   const RotatedQuadrature& quadrature;
   const KernelColumns& kernels;
@@ -123,7 +123,7 @@ class TargetRows {
 
  private:
   static constexpr int kShapeKinds = 3;  ///< x, ∂x/∂θ, ∂x/(sin θ ∂φ) in the rotated frame
-  /// Cosines of even, of odd, sines of even, of odd orders: what azimuths φ, π − φ, π + φ and −φ have in common.
+  /// Cosines of even, of odd, sines of even, of odd orders: common to the azimuths φ, π − φ, π + φ and −φ.
   static constexpr int kParts = 4;
 
   void load_phases(std::span<const Target> targets);

@@ -27,7 +27,7 @@ class TargetSweep {
   /// Is there enough work to wake a second thread?
   [[nodiscard]] bool is_parallel() const;
 
-  /// What rows look like.
+  /// Layout of the rows.
   struct RowLayout {
     Index width = 0;  ///< a multiple of kLanes
     RowPlaces places;

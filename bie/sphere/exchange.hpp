@@ -17,7 +17,7 @@ struct Isometry {
   [[nodiscard]] Matrix3 matrix() const;
 };
 
-/// What a map g makes of fields on one body: those of its image, whose parametrisation is x'(g s) = g x(s).
+/// Fields on the image of a body under a map g, whose parametrisation is x'(g s) = g x(s).
 /// Accuracy: exact for reflections, rounding for turns (tests/sphere/images_of_fields_test.cpp)
 struct ImageOfFields {
   Isometry map{};
@@ -58,7 +58,7 @@ class Exchange {
   [[nodiscard]] bool is_image(std::size_t body) const { return original(body) != body; }
   /// How many of n bodies are no images.
   [[nodiscard]] std::size_t n_originals(std::size_t n) const;
-  /// What makes fields of a body from those of its original.
+  /// Maps fields of its original to those of a body.
   [[nodiscard]] const ImageOfFields& image(std::size_t body) const { return map_of(body).of_fields; }
   /// The body that the map which makes `image` from its original takes to `body`: what the image does to the one, its
   /// original does to the other.

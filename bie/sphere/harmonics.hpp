@@ -16,7 +16,8 @@ constexpr Index coefficient_index(int n, int m) { return Index{n} * n + n + m; }
 /// Degree n of the harmonic at this position.
 int degree_of(Index index);
 
-/// Order p of a coefficient array with (p+1)² rows. @throws ShapeError if the count is no square
+/// Order p of a coefficient array with (p+1)² rows.
+/// @throws ShapeError if the count is no square
 int order_of(Index n_coefficients);
 
 /// Coefficients cut or zero-padded to another order.

@@ -10,8 +10,8 @@
 
 namespace vehd {
 
-/// Symmetries about the coordinate axes of a body with its parametrisation, x(g s) = g x(s), and of what acts on it.
-/// A field may also change its sign: V_m does then, forces do not.
+/// Symmetries about the coordinate axes of a body with its parametrisation, x(g s) = g x(s), and of the forces and
+/// fields on it. A field may also change its sign: V_m does then, forces do not.
 struct Symmetry {
   bool axisymmetric = false;  ///< about z, without swirl
   /// Products of mirrors x, y, z → −x, −y, −z under which everything is its own image, the identity among them.
@@ -42,7 +42,8 @@ class SymmetrySubspace {
   /// Of a scalar, symmetric or not.
   [[nodiscard]] Index n_coefficients() const { return Index{order_ + 1} * (order_ + 1); }
 
-  /// coefficient_index of what is left of a scalar that is its own image, as H and λ are; ascending.
+  /// coefficient_index of the coefficients of a scalar that may differ from zero if it is its own image, as H and λ
+  /// are; ascending.
   [[nodiscard]] const std::vector<Index>& scalars() const { return lists_->scalars; }
   /// Likewise of one that takes the sign of V_m, as V_m, φ and the charges do.
   [[nodiscard]] const std::vector<Index>& potentials() const { return lists_->potentials; }
@@ -53,7 +54,7 @@ class SymmetrySubspace {
   /// symmetries takes none to another.
   [[nodiscard]] const std::vector<std::vector<Index>>& scalar_classes() const { return lists_->scalar_classes; }
 
-  /// Means of a field and its images: what rounding breaks of a symmetry an instability would feed on.
+  /// Means of a field and its images, since an instability would amplify rounding errors that break a symmetry.
   [[nodiscard]] Vector symmetric_scalar(const Vector& field) const;
   /// See symmetric_scalar; of one that takes the sign of V_m.
   [[nodiscard]] Vector symmetric_potential(const Vector& field) const;
@@ -63,7 +64,7 @@ class SymmetrySubspace {
  private:
   struct Lists {
     std::vector<Index> scalars, potentials;
-    std::array<std::vector<Index>, 3> components;  ///< what mirrors leave of each component of a vector field
+    std::array<std::vector<Index>, 3> components;  ///< nonzero with the mirrors, of each component
     std::vector<Index> vectors;
     std::vector<std::vector<Index>> scalar_classes;
   };

@@ -7,7 +7,7 @@
 
 #include "bie/support/types.hpp"
 
-/// Complex numbers whose real and imaginary parts stand side by side, [n x 2]: amplitudes z of what is Re(z e^{iωt}).
+/// Complex numbers whose real and imaginary parts stand side by side, [n x 2]: amplitudes z of Re(z e^{iωt}).
 namespace vehd {
 
 /// c z.

@@ -14,7 +14,7 @@ namespace vehd {
 /// used by a process of one thread.
 class Crew {
  public:
-  /// What a copy does; its number in, its exit code (0 ... 255) out.
+  /// Work of a copy: from its number to its exit code (0 ... 255).
   using Work = std::function<int(int)>;
 
   explicit Crew(Work work) : work_(std::move(work)) {}
@@ -23,7 +23,8 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// Starts a copy. @throws OutputError if the system has no room for one
+  /// Starts a copy.
+  /// @throws OutputError if the system has no room for one
   void start(int number);
 
   /// How a copy has ended.

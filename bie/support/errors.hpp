@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-/// What the user gave cannot be used: scene, command line or input file. Exit code 1. The message is one line, whatever
+/// Unusable input: scene, command line or input file. Exit code 1. The message is one line, whatever
 /// it quotes: control characters become blanks.
 class InputError : public std::runtime_error {
  public:

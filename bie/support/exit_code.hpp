@@ -2,7 +2,7 @@
 
 namespace vehd {
 
-/// Closed set of what a program returns to the shell.
+/// Exit codes of a program.
 enum class ExitCode {
   done = 0,
   wrong_input = 1,     ///< wrong input or usage

@@ -14,27 +14,31 @@ std::filesystem::path link_of(const std::filesystem::path& path);
 /// Path of the temporary file beside `path` that a replacement is written to first.
 std::filesystem::path temporary_of(const std::filesystem::path& path);
 
-/// What stands at the end of a path's links.
+/// The target at the end of a path's links.
 struct LinkEnd {
   std::filesystem::path path;     ///< no link itself; there need not be a file
   std::optional<int> descriptor;  ///< of this program, where the path is /dev/stdout, /dev/fd/3 or the like
 };
 
-/// Follows links, also where the last one leads to no file. @throws OutputError if they go in a circle
+/// Follows links, also where the last one leads to no file.
+/// @throws OutputError if they go in a circle
 LinkEnd end_of_links(const std::filesystem::path& path);
 
 /// Writes the text to where the path leads, links followed. A regular file, or one that is not there yet, is replaced
 /// in one step: a reader sees the old or the new text, never a part. Into anything else (pipe, terminal, device) the
-/// text is written; a pipe waits for its reader. @throws OutputError
+/// text is written; a pipe waits for its reader.
+/// @throws OutputError
 void replace_file(const std::filesystem::path& path, const std::string& text);
 
-/// Replaces a file in one step, also where processes of several machines do so at once. @throws OutputError
+/// Replaces a file in one step, also where processes of several machines do so at once.
+/// @throws OutputError
 void replace_shared_file(const std::filesystem::path& path, const std::string& text);
 
 /// A hidden name beside `path` that no other call gives, of whatever process and machine.
 std::filesystem::path unique_name_beside(const std::filesystem::path& path);
 
-/// Creates a folder with its parents; one that is there already is as good. @throws OutputError
+/// Creates a folder with its parents; one that is there already is as good.
+/// @throws OutputError
 void make_directory(const std::filesystem::path& directory);
 
 /// Files of a folder whose names end like that (".toml"), in the order of their names; none if it cannot be read.
@@ -43,21 +47,26 @@ std::vector<std::filesystem::path> files_ending(const std::filesystem::path& fol
 /// Content of a file; empty if it cannot be read.
 std::string text_of_file(const std::filesystem::path& path);
 
-/// Writes all of the text. @throws OutputError that names the path
+/// Writes all of the text.
+/// @throws OutputError that names the path
 void write_to_descriptor(int descriptor, const std::string& text, const std::filesystem::path& name);
 
-/// rename(2). @throws OutputError
+/// rename(2).
+/// @throws OutputError
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Exchanges what two names of a folder stand for, in one step where the file system can; elsewhere by
-/// `exchange_by_renames`. @throws OutputError
+/// Exchanges two names in a folder, in one step where the file system can; elsewhere by
+/// `exchange_by_renames`.
+/// @throws OutputError
 void exchange_files(const std::filesystem::path& path, const std::filesystem::path& other);
 
 /// The same in steps between which `path` always stands for one of the two files; a kill can leave `other` missing and
-/// a hidden link to the file that was `path`. @throws OutputError
+/// a hidden link to the file that was `path`.
+/// @throws OutputError
 void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other);
 
-/// Waits until the file's data are on the disk. @throws OutputError
+/// Waits until the file's data are on the disk.
+/// @throws OutputError
 void synchronise_file(const std::filesystem::path& path);
 
 /// "path: cannot be written: reason" with the reason of errno.

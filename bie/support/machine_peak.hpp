@@ -3,7 +3,7 @@
 namespace vehd {
 
 /// Floating-point operations per second that so many threads reach together in the product of matrices that fit into
-/// their caches: what the machine can do for a program that computes in double precision. Takes a quarter of a second.
+/// their caches: the peak rate of the machine in double precision. Takes a quarter of a second.
 double measured_peak(int n_threads);
 
 }  // namespace vehd

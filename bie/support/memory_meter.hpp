@@ -11,7 +11,7 @@
 namespace vehd {
 
 /// Most memory that each part of the work takes beyond what the process held when the part began, to a page, from the
-/// resident size that Linux keeps. Costs milliseconds a part, so that what is metered should not be timed.
+/// resident size that Linux keeps. Costs milliseconds a part, so a metered run should not be timed.
 class MemoryMeter : public PartObserver {
  public:
   /// Until then nothing is metered. Freed memory goes back to the system at each begin of a part.

@@ -24,7 +24,7 @@ void for_each_index(Index count, bool worthwhile, const Body& body) {
   for (Index i = 0; i < count; ++i) body(i);
 }
 
-/// What calls on several threads throw.
+/// Exceptions of calls on several threads.
 class Exceptions {
  public:
   explicit Exceptions(Index count) : of_each_(static_cast<std::size_t>(count)) {}
@@ -37,7 +37,7 @@ class Exceptions {
       of_each_[static_cast<std::size_t>(i)] = std::current_exception();
     }
   }
-  /// Throws what the first of them threw, if any has.
+  /// Rethrows the first exception, if there is one.
   void rethrow_first() const {
     for (const std::exception_ptr& exception : of_each_) {
       if (exception) std::rethrow_exception(exception);
@@ -65,7 +65,7 @@ inline bool are_many(Index count) {
 }
 
 /// Calls body(i) for the members i = 0 … count − 1 of a group, on all threads if there are many, in an order that no
-/// result may depend on. If some throw, what the first of them threw is thrown once all have ended.
+/// result may depend on. If some throw, the exception of the first of them is rethrown after all have ended.
 template <typename Body>
 void for_each_member(Index count, const Body& body) {
   if (!are_many(count)) {

@@ -18,7 +18,7 @@ ProcessorTimes processor_times();
 /// @throws std::invalid_argument if it is another text
 double idle_seconds(const std::string& stat, double ticks_per_second);
 
-/// Processors that others left between two times: what this process used and what nobody did, to the nearest number.
+/// Processors that others left between two times: used by this process or idle, to the nearest number.
 /// @param most  that this process may use
 /// @return      1 to most
 int processors_left(const ProcessorTimes& begin, const ProcessorTimes& end, int most);

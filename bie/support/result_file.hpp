@@ -6,7 +6,7 @@
 namespace vehd {
 
 /// Where a command leaves the result that a program reads: a file, a pipe, or standard output, which "-" stands for.
-/// From construction on, what the command prints goes to standard error where the result goes to standard output.
+/// From construction on, output of the command goes to standard error if the result goes to standard output.
 class ResultFile {
  public:
   /// @throws OutputError if standard output cannot be kept for the result
@@ -15,7 +15,8 @@ class ResultFile {
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
-  /// As `replace_file`. @throws OutputError
+  /// As `replace_file`.
+  /// @throws OutputError
   void write(const std::string& text) const;
 
  private:

@@ -13,8 +13,8 @@ namespace vehd {
 
 /// Calls body(i, instruments) for a few tasks i = 0 … count − 1 that take about equally long: if `worthwhile` as many
 /// beside each other as there are threads, each on a thread of its own, and one that is left over on all of them; in an
-/// order that no result may depend on. If some throw, what the first of them threw is thrown once all have ended, in
-/// any case.
+/// order that no result may depend on. If some throw, the exception of the first of them is rethrown after all have
+/// ended, in any case.
 template <typename Body>
 void for_each_side_by_side(Index count, bool worthwhile, Instruments& instruments, const Body& body) {
   Exceptions exceptions(count);

@@ -6,7 +6,8 @@
 
 namespace vehd {
 
-/// A folder among the temporary files of the machine that ends with its owner. @throws OutputError
+/// A folder among the temporary files of the machine that ends with its owner.
+/// @throws OutputError
 class TemporaryFolder {
  public:
   /// @param stem  beginning of its name

@@ -13,7 +13,8 @@ namespace vehd {
 /// kB a time for its position, where a surface fit to look at would take 50.
 class PackedCoefficients {
  public:
-  /// Appends a time. @param coefficients  [n_coefficients x components]
+  /// Appends a time.
+  /// @param coefficients  [n_coefficients x components]
   void add(const Matrix& coefficients);
   /// {"scale": [times][components], "data": base64 of times, components, coefficients}
   [[nodiscard]] nlohmann::json json() const;
@@ -26,7 +27,7 @@ class PackedCoefficients {
 /// Bytes that coefficients of this degree take in a page, per component and time.
 std::size_t packed_bytes(int order);
 
-/// The value to six significant digits: shorter text for what a picture shows. JSON has null for what is no number.
+/// The value to six significant digits: enough for a picture. JSON null if it is no number.
 nlohmann::json rounded_for_page(double value);
 
 }  // namespace vehd

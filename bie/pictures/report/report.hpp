@@ -16,7 +16,7 @@ struct ReportTask {
   std::size_t most_snapshots = 200;  ///< in the page
 };
 
-/// What a report holds.
+/// Size of a report.
 struct ReportSize {
   std::size_t snapshots = 0;  ///< in the page
   std::size_t all = 0;        ///< of the run

@@ -6,7 +6,7 @@
 
 namespace vehd {
 
-/// The effective scene for a page: its "text" and the "tables" of its keys with what they mean.
+/// The effective scene for a page: its "text" and the "tables" of its keys with their meaning.
 nlohmann::json scene_data(const Scene& scene);
 
 /// The dimensionless groups of the scene; none where its shape file is gone.

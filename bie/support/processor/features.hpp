@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-/// What a program was compiled for, and whether the processor that it is started on has it. Nothing of the standard
+/// Instructions that a program was compiled for, and whether the processor has them. Nothing of the standard
 /// library is instantiated here: the linker may take such a function from a part that was compiled for another
 /// processor.
 namespace vehd::processor {

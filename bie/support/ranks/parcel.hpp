@@ -28,7 +28,7 @@ concept ResizableMatrix = !Flat<T> && std::derived_from<T, Eigen::PlainObjectBas
 template <typename Value, typename T>
 concept MaybeConst = std::same_as<std::remove_const_t<Value>, T>;
 
-/// What is put in.
+/// Packs values.
 class Packing {
  public:
   template <typename... Values>
@@ -69,7 +69,7 @@ class Packing {
   std::string bytes_;
 };
 
-/// What is taken out, in the order in which it was put in.
+/// Unpacks values, in the order in which they were packed.
 class Unpacking {
  public:
   /// @param bytes  must outlive it

@@ -13,9 +13,10 @@ class RankLink {
   [[nodiscard]] virtual int rank() const = 0;
   /// How many there are.
   [[nodiscard]] virtual int size() const = 0;
-  /// What each rank gives, of any length, in the order of ranks.
+  /// Values of all ranks, of any length, in the order of ranks.
   virtual std::vector<std::string> gather(const std::string& own) = 0;
-  /// `to[r]` goes to rank r. @return what each rank has sent to this one
+  /// `to[r]` goes to rank r.
+  /// @return the messages of all ranks to this one
   virtual std::vector<std::string> exchange(const std::vector<std::string>& to) = 0;
 };
 

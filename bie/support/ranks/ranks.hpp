@@ -35,17 +35,18 @@ class Ranks {
   // Collective calls. Each throws what any rank has failed with, see together, or std::logic_error where ranks do
   // different things: machines that round differently decide differently.
 
-  /// What each rank gives, in their order.
+  /// Values of all ranks, in their order.
   [[nodiscard]] std::vector<std::string> gather(std::string own) const;
-  /// `to[r]` goes to rank r. @return what each rank has sent to this one
+  /// `to[r]` goes to rank r.
+  /// @return the messages of all ranks to this one
   [[nodiscard]] std::vector<std::string> exchange(const std::vector<std::string>& to) const;
   /// Whether it holds on any rank.
   [[nodiscard]] bool any(bool own) const;
   /// Returns when all ranks have come here.
   void meet() const;
 
-  /// Runs `body` on all ranks. What one of them throws, all throw: of several the lowest rank's. Its class is that of
-  /// bie/support/errors.hpp or output_error.hpp, or std::runtime_error.
+  /// Runs `body` on all ranks. If one throws, all throw the same: of several the exception of the lowest rank. Its
+  /// class is that of bie/support/errors.hpp or output_error.hpp, or std::runtime_error.
   template <typename Body>
   std::invoke_result_t<const Body&> together(const Body& body) const {
     if (is_alone()) return body();

@@ -12,7 +12,7 @@ namespace vehd {
 
 /// Which of several parts of a work, such as vesicles, each rank does. A rank owns neighbours in their order, so that
 /// what ranks send one after the other is in the order of the parts: sums in that order have the same bits for any
-/// number of ranks. Parts that are images of others nobody does: they are made from what their originals give.
+/// number of ranks. Parts that are images of others are not computed but mapped from the results of their originals.
 class Shares {
  public:
   /// One rank does all, however many there are.
@@ -50,14 +50,15 @@ class Shares {
       }
     }
   }
-  /// The same where there are no images. @throws std::logic_error where there are
+  /// The same where there are no images.
+  /// @throws std::logic_error where there are
   template <typename T>
   void gather(std::vector<T>& values) const {
     gather(values, [](const T&, std::size_t) -> T { throw std::logic_error("nothing makes images of these values"); });
   }
 
-  /// What `part(a)` gives for each of n parts, and `image(value of the original, a)` for images, on all ranks, which
-  /// call them for their own, `part` on threads as for_each_member does. What they throw all throw.
+  /// The value of `part(a)` for each of n parts, and `image(value of the original, a)` for images, on all ranks, which
+  /// call them for their own, `part` on threads as for_each_member does. If they throw, all ranks throw.
   template <typename Part, typename Image>
   auto of_all(std::size_t n, const Part& part, const Image& image) const {
     std::vector<std::invoke_result_t<const Part&, std::size_t>> values(n);
