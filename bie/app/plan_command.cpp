@@ -8,6 +8,7 @@
 #include "bie/app/scene_choice.hpp"
 #include "bie/estimate/cost.hpp"
 #include "bie/runs/resumption.hpp"
+#include "bie/runs/summary.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/progress.hpp"
 #include "bie/support/text_table.hpp"
@@ -55,6 +56,7 @@ nlohmann::json json_of(const RunPlan& plan) {
                              {"seconds", time.seconds ? nlohmann::json(*time.seconds) : nlohmann::json()},
                              {"meaning", time.meaning}});
   }
+  json["warnings"] = json_of(plan.warnings);
   json["unknowns"] = plan.unknowns;
   json["steps"] = plan.n_steps;
   if (plan.stops.empty() && plan.unknown.empty()) {
@@ -90,6 +92,8 @@ void print(const RunPlan& plan) {
                fmt::join(plan.vesicles, ", "));
   }
   print_groups_and_times(plan);
+  if (!plan.warnings.empty()) fmt::print("outside the model, by estimates for a sphere\n");
+  for (const ModelWarning& warning : plan.warnings) fmt::print("  {:<22} {}\n", warning.name, warning.text);
   fmt::print("absent     {}\n", fmt::join(plan.absent, ", "));
   fmt::print("symmetry   {}\n", plan.symmetry);
   const std::string jumps = plan.n_jumps == 0 ? "" : fmt::format(", one more at each jump ({})", plan.n_jumps);

@@ -59,6 +59,9 @@ void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
   if (const auto symmetry = summary["symmetry"].get<std::string>(); symmetry != "none") {
     fmt::print("symmetry: {} (imposed by the start: nothing that breaks it can grow)\n", symmetry);
   }
+  for (const auto& warning : summary["warnings"]) {
+    fmt::print("outside the model ({}): {}\n", warning["name"].get<std::string>(), warning["text"].get<std::string>());
+  }
   fmt::print("verdict: {}\n", summary["verdict"].get<std::string>());
   fmt::print("files: {}\n", paths.directory.string());
 }

@@ -179,6 +179,7 @@ RunPlan plan_of(const Scene& scene) {
   RunPlan plan;
   plan.groups = dimensionless_groups(scene);
   plan.times = run_times(scene, plan.groups);
+  plan.warnings = model_warnings(scene);
   std::erase_if(plan.groups, [](const DimensionlessGroup& group) { return group.unit == "time"; });
   for (const DimensionlessGroup& group : plan.groups) plan.si_of_groups.push_back(si_text(scene, group));
   plan.symmetry = symmetry_text(problem.symmetry, problem.frame);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/scene/model_range.hpp"
 #include "bie/scene/run_times.hpp"
 #include "bie/scene/scene.hpp"
 
@@ -31,6 +32,7 @@ struct RunPlan {
   std::vector<DimensionlessGroup> groups;  ///< without times
   std::vector<std::string> si_of_groups;   ///< their values with units; empty of pure numbers and without a scale
   std::vector<RunTime> times;
+  std::vector<ModelWarning> warnings;  ///< where the scene leaves the range of the model, by estimates for a sphere
   std::string symmetry;
   std::vector<PlannedOperator> operators;
   std::uint64_t kernel_evaluations = 0;               ///< of each operator of a vesicle at each new shape

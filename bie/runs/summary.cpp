@@ -9,6 +9,8 @@
 
 #include "bie/files/versions.hpp"
 #include "bie/runs/verdict.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/support/memory.hpp"
 
@@ -45,6 +47,19 @@ nlohmann::json poration_of(const HistoryTable& history) {
   return json;
 }
 
+/// In units of the scene, whatever those of the history are.
+LargestValues largest_values(const HistoryTable& history, const Scene& scene) {
+  const OutputUnits units = history.units(scene.units);
+  const auto most = [&](const char* column, const char* dimension) {
+    double largest = 0.0;
+    for (const double value : history.column(column)) largest = std::max(largest, value);
+    return largest / units.of(dimension).factor;
+  };
+  double area = 0.0;
+  for (const Scene& one : each_alone(scene)) area += size_of(initial_position(one)).area;
+  return {most("Vm_max", "potential"), most("tension_max", "force/length"), most("tension_integral", "energy") / area};
+}
+
 double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
 
 }  // namespace
@@ -58,6 +73,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   json["completed"] = outcome.completed;
   json["verdict"] = verdict_of(history, trust_demands(scene), outcome.reason);
   if (!outcome.completed) json["reason"] = outcome.reason;
+  json["warnings"] = json_of(model_warnings(scene, largest_values(history, scene)));
   json["changes"] = changes_in(history.units(scene.units).of("time"), checkpoint.changes);
   json["time"] = last(history.column("time"));
   json["units"] = {{"time", history.unit("time").empty() ? "1" : history.unit("time")}};
@@ -86,6 +102,15 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   json["kernel_evaluations"] = totals.kernel_evaluations;
   if (!totals.pair_targets.empty()) json["pair_targets"] = totals.pair_targets;
   json["version"] = program_version();
+  return json;
+}
+
+nlohmann::json json_of(const std::vector<ModelWarning>& warnings) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const ModelWarning& warning : warnings) {
+    json.push_back(
+        {{"name", warning.name}, {"value", warning.value}, {"limit", warning.limit}, {"text", warning.text}});
+  }
   return json;
 }
 

@@ -18,8 +18,6 @@ constexpr std::array<std::string_view, 4> scale_symbols = {"L", "T", "M", "Φ"};
 
 /// Vacuum permittivity in F/m.
 constexpr double vacuum_permittivity = 8.8541878188e-12;
-/// k_B in J/K, exact.
-constexpr double boltzmann_constant = 1.380649e-23;
 
 std::string without_outer_spaces(std::string_view text) {
   const std::size_t start = text.find_first_not_of(' ');

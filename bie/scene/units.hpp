@@ -15,6 +15,9 @@
 /// is an energy.
 namespace vehd {
 
+/// k_B in J/K, exact.
+constexpr double boltzmann_constant = 1.380649e-23;
+
 /// Magnitudes of values: products of a few of them are far from the limits of a double.
 constexpr double smallest_magnitude = 1e-50, largest_magnitude = 1e50;
 

@@ -213,4 +213,33 @@ BOOST_FIXTURE_TEST_CASE(a_plan_tells_the_groups_and_the_times_in_si, SiRun) {
   BOOST_TEST(has(result.output, "200 us"));
 }
 
+BOOST_FIXTURE_TEST_CASE(physics_outside_the_model_is_said_apart_from_the_verdict, SiRun) {
+  const std::vector<std::string> more = {"--set", "electric.field=[0, 0, \"3 kV/cm\"]", "--set",
+                                         "membrane.mobile=false"};
+  const std::string output = run("strong", pulse(), more);
+  const nlohmann::json summary = json_of(output + "/summary.json");
+  BOOST_TEST(summary["verdict"] == "trustworthy");
+  BOOST_TEST_REQUIRE(!summary["warnings"].empty());
+  const nlohmann::json& warning = summary["warnings"][0];
+  BOOST_TEST(warning["name"] == "poration");
+  BOOST_TEST(warning["limit"] == 1.0);
+  const vehd::HistoryTable history(output + "/history.csv");
+  BOOST_TEST(history.unit("Vm_max") == "V");
+  BOOST_TEST(warning["value"].get<double>() == history.largest_magnitude("Vm_max"),
+             boost::test_tools::tolerance(1e-12));
+  const auto text = warning["text"].get<std::string>();
+  BOOST_TEST(has(printed, "outside the model (poration): " + text + "\n"));
+  const ProgramResult report = run_vehd({"report", output, "-o", output + "/report.html"});
+  BOOST_TEST(report.exit_code == 0, report.errors);
+  BOOST_TEST(has(file_text(output + "/report.html"), "\"warnings\":[\"" + text));
+  std::vector<std::string> command = {"plan", directory / "strong.toml", "--json", output + "/plan.json"};
+  command.insert(command.end(), more.begin(), more.end());
+  const ProgramResult plan = run_vehd(command);
+  BOOST_TEST(has(plan.output, "outside the model, by estimates for a sphere\n  poration"));
+  // A prolate along the field charges a little less than the sphere.
+  const nlohmann::json planned = json_of(output + "/plan.json")["warnings"][0];
+  BOOST_TEST(planned["name"] == "poration");
+  BOOST_TEST(planned["value"].get<double>() == warning["value"].get<double>(), boost::test_tools::tolerance(0.2));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -52,7 +52,12 @@ nlohmann::json verdict_data(const HistoryTable& history, const Scene& scene, con
   const auto verdict = has_ended ? summary["verdict"].get<std::string>() : verdict_of(history, demands);
   nlohmann::json json{{"text", has_ended ? verdict : "not finished (no summary.json); so far " + verdict},
                       {"state", state_of(verdict, has_ended)},
-                      {"limits", nlohmann::json::array()}};
+                      {"limits", nlohmann::json::array()},
+                      {"warnings", nlohmann::json::array()}};
+  // Runs of earlier versions are without.
+  if (has_ended && summary.contains("warnings")) {
+    for (const auto& warning : summary["warnings"]) json["warnings"].push_back(warning.at("text"));
+  }
   for (const TrustLimit& limit : trust_limits(demands)) {
     if (!history.has(limit.column)) continue;
     json["limits"].push_back(limit_row(limit.column, history.largest_magnitude(limit.column), limit.largest, false));

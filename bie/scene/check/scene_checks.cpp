@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
 #include "bie/files/run_reader.hpp"
-#include "bie/geometry/roundness.hpp"
 #include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
@@ -13,7 +11,6 @@
 #include "bie/scene/units.hpp"
 #include "bie/scene/waveforms.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 namespace {
@@ -360,7 +357,7 @@ class SceneChecks {
       if (!poration.lysis_tension) return;
       refuse_if(!(scene_.membrane.inextensible && scene_.membrane.mobile), "poration.lysis_tension",
                 "{} has no effect without a tension; accepted: \"inextensible\" and \"mobile\" in [membrane] true");
-      refuse_if(is_sphere(), "poration.lysis_tension",
+      refuse_if(is_sphere(initial_position(scene_)), "poration.lysis_tension",
                 "{} of a sphere: a uniform tension of any size moves nothing there, so the tension is not determined; "
                 "accepted: another [shape], or \"threshold_Vm\" alone");
       return;
@@ -378,14 +375,6 @@ class SceneChecks {
                   (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0),
               "poration.model",
               "missing key \"pore_conductivity\" in [poration]: a conductivity in [electric] is 0; accepted: > 0");
-  }
-
-  [[nodiscard]] bool is_sphere() const {
-    const Matrix position = initial_position(scene_);
-    const int order = order_of(position.rows());
-    const Surface shape = make_surface(SphereTransform(order, make_grid(order)), position);
-    const double radius = std::sqrt(surface_area(shape) / (4.0 * std::numbers::pi));
-    return distance_variation(shape) < thresholds::sphere_variation * radius;
   }
 
   Scene& scene_;

@@ -5,9 +5,11 @@
 #include <complex>
 #include <numbers>
 
+#include "bie/geometry/roundness.hpp"
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/rotation.hpp"
+#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 namespace {
@@ -57,6 +59,13 @@ ShapeSize size_of(const Matrix& position) {
   const int order = order_of(position.rows());
   const Surface surface = make_surface(SphereTransform(order, make_grid(fine_order(order))), position);
   return {surface_area(surface), enclosed_volume(surface)};
+}
+
+bool is_sphere(const Matrix& position) {
+  const int order = order_of(position.rows());
+  const Surface shape = make_surface(SphereTransform(order, make_grid(order)), position);
+  const double radius = std::sqrt(surface_area(shape) / (4.0 * std::numbers::pi));
+  return distance_variation(shape) < thresholds::sphere_variation * radius;
 }
 
 }  // namespace vehd

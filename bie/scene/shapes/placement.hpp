@@ -51,4 +51,7 @@ struct ShapeSize {
 /// Accuracy: spectral
 ShapeSize size_of(const Matrix& position);
 
+/// Does a run treat it as a sphere?
+bool is_sphere(const Matrix& position);
+
 }  // namespace vehd

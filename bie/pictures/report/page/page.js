@@ -40,6 +40,7 @@ class Report {
     const verdict = byId("verdict");
     verdict.textContent = run.verdict.text;
     verdict.className = run.verdict.state;
+    byId("warnings").append(...run.verdict.warnings.map((text) => element("li", { text: `Outside the model: ${text}` })));
     byId("facts").append(...run.facts.map(([name, value]) =>
       element("div", {}, element("dt", { text: name }), element("dd", { text: value }))));
     fillTable(byId("limits"), ["number", "worst", "limit", "", "meaning"], run.verdict.limits.map((row) => [
