@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-ColourMap ColourMap::diverging() {
+ColourMap ColourMap::diverging(double white) {
   return ColourMap({{0.085, 0.180, 0.480},
                     {0.129, 0.400, 0.674},
                     {0.262, 0.576, 0.765},
@@ -16,7 +16,8 @@ ColourMap ColourMap::diverging() {
                     {0.957, 0.647, 0.510},
                     {0.839, 0.376, 0.302},
                     {0.698, 0.094, 0.168},
-                    {0.430, 0.020, 0.130}});
+                    {0.430, 0.020, 0.130}},
+                   white);
 }
 
 ColourMap ColourMap::sequential() {
@@ -34,7 +35,9 @@ ColourMap ColourMap::sequential() {
 }
 
 Colour ColourMap::at(double fraction) const {
-  const double position = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(nodes_.size() - 1);
+  const double place = std::clamp(fraction, 0.0, 1.0);
+  const double share = place < middle_ ? 0.5 * place / middle_ : 0.5 + 0.5 * (place - middle_) / (1.0 - middle_);
+  const double position = share * static_cast<double>(nodes_.size() - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(position), nodes_.size() - 2);
   const double t = position - static_cast<double>(i);
   Colour colour{};

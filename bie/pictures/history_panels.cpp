@@ -24,6 +24,7 @@ enum class Shown {
   with_poration,
   with_flow,
   with_linear_flow,
+  with_drift,
   with_tolerance
 };
 
@@ -40,8 +41,8 @@ struct QuantityRow {
 namespace shown_quantity {
 constexpr std::string_view energy = "bending energy", tension = "tension", potential = "potential across the membrane",
                            charge = "charge density", inclination = "inclination", aspect = "aspect ratio",
-                           errors = "errors", extent = "extent", gap = "gap", viscosity = "viscosity",
-                           dipole = "dipole", poration = "poration", pores = "pores";
+                           errors = "errors", extent = "extent", centroid = "centroid", gap = "gap",
+                           viscosity = "viscosity", dipole = "dipole", poration = "poration", pores = "pores";
 }  // namespace shown_quantity
 
 const std::vector<QuantityRow>& quantity_rows() {
@@ -65,7 +66,11 @@ const std::vector<QuantityRow>& quantity_rows() {
        Shown::with_poration,
        true},
       {shown_quantity::inclination, {{"inclination_deg", "inclination (degrees)"}}, Shown::with_flow},
-      {shown_quantity::aspect, {{"aspect_ratio", "aspect ratio"}}},
+      {shown_quantity::aspect,
+       {{"aspect_ratio_field", "aspect ratio along the field"}, {"aspect_ratio", "aspect ratio"}}},
+      {shown_quantity::centroid,
+       {{"centroid_x", "along x"}, {"centroid_y", "along y"}, {"centroid_z", "along z"}},
+       Shown::with_drift},
       {shown_quantity::errors,
        {{"area_drift", "area"}, {"volume_drift", "volume"}, {"strain_max", "local strain"}, {"spectrum_tail", "tail"}},
        Shown::always,
@@ -103,6 +108,8 @@ bool applies(Shown shown, const Scene& scene) {
       return scene.flow.has_value();
     case Shown::with_linear_flow:
       return scene.flow.has_value() && scene.flow->kind != FlowKind::poiseuille;
+    case Shown::with_drift:
+      return scene.gravity.has_value() || scene.membrane.pump.has_value();
     case Shown::with_tolerance:
       return scene.numerics.tolerance.has_value();
     case Shown::always:
@@ -145,6 +152,14 @@ std::optional<HistoryCurve> ratio_of_extents(const HistoryTable& history) {
   return curve;
 }
 
+/// The ratio along the field tells prolates from oblates; without a field it is 0, and the ratio of the axes is left.
+void choose_aspect_ratio(std::vector<HistoryCurve>& curves) {
+  if (curves.size() < 2) return;
+  const std::vector<double>& along_field = curves.front().values;
+  const bool has_field = std::ranges::any_of(along_field, [](double ratio) { return ratio > 0.0; });
+  curves.erase(has_field ? curves.begin() + 1 : curves.begin());
+}
+
 bool drifts_matter(const HistoryTable& history) {
   return std::ranges::any_of(least_drifts, [&](const LeastDrift& drift) {
     return history.has(drift.column) && history.largest_magnitude(drift.column) >= drift.least;
@@ -171,8 +186,10 @@ std::vector<HistoryQuantity> history_quantities(const Scene& scene, const Histor
         found.curves.back().errors.resize(values.size(), std::numeric_limits<double>::quiet_NaN());
       }
     }
-    if (row.label == shown_quantity::aspect && found.curves.empty()) {
-      if (auto curve = ratio_of_extents(history)) found.curves.push_back(std::move(*curve));
+    if (row.label == shown_quantity::aspect) {
+      choose_aspect_ratio(found.curves);
+      auto ratio = found.curves.empty() ? ratio_of_extents(history) : std::nullopt;
+      if (ratio) found.curves.push_back(std::move(*ratio));
     }
     std::erase_if(found.curves, [](const HistoryCurve& curve) { return !has_numbers(curve.values); });
     if (!found.curves.empty()) quantities.push_back(std::move(found));
@@ -206,10 +223,57 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
   add({shown_quantity::poration});
   add({shown_quantity::pores});
   add({shown_quantity::inclination, shown_quantity::aspect});
+  add({shown_quantity::centroid});
   if (drifts_matter(history)) add({shown_quantity::errors});
   // Two stand side by side.
   if (panels.size() % 2 == 1) add({shown_quantity::extent});
   return panels;
+}
+
+HistoryCurve band_of_oscillation(HistoryCurve curve) {
+  constexpr std::size_t most_turns = 60, places = 400;
+  const std::vector<double> values = curve.values;
+  const std::size_t n = values.size();
+  std::size_t n_turns = 0;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    if ((values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.0) ++n_turns;
+  }
+  if (n_turns <= most_turns || !curve.errors.empty()) return curve;
+  // A period has two turns.
+  const std::size_t period = 2 * n / n_turns + 1, stride = std::max<std::size_t>(1, n / places);
+  curve.errors.resize(n);
+  for (std::size_t i = 0; i < n; i += stride) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t j = i - std::min(i, period / 2); j < std::min(n, i + period / 2 + 1); ++j) {
+      if (!std::isfinite(values[j])) continue;
+      least = std::min(least, values[j]);
+      most = std::max(most, values[j]);
+    }
+    for (std::size_t j = i; j < std::min(n, i + stride); ++j) {
+      curve.values[j] = 0.5 * (least + most);
+      curve.errors[j] = 0.5 * (most - least);
+    }
+  }
+  return curve;
+}
+
+bool changes_at_the_start(std::span<const HistoryPanel> panels, const std::vector<double>& times) {
+  constexpr double start = 0.05, most_of_a_change = 0.9;
+  double end_of_changes = 0.0;
+  for (const HistoryPanel& panel : panels) {
+    for (const HistoryQuantity& axis : panel.axes) {
+      for (const HistoryCurve& curve : axis.curves) {
+        std::vector<double> variation = {0.0};
+        for (std::size_t i = 1; i < curve.values.size(); ++i) {
+          const double change = std::abs(curve.values[i] - curve.values[i - 1]);
+          variation.push_back(variation.back() + (std::isfinite(change) ? change : 0.0));
+        }
+        const auto row = std::ranges::lower_bound(variation, most_of_a_change * variation.back());
+        end_of_changes = std::max(end_of_changes, times[static_cast<std::size_t>(row - variation.begin())]);
+      }
+    }
+  }
+  return end_of_changes > 0.0 && end_of_changes < start * times.back();
 }
 
 std::vector<std::size_t> rows_to_draw(std::span<const HistoryCurve> curves, std::size_t n_stretches) {

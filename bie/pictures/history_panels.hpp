@@ -25,8 +25,9 @@ struct HistoryQuantity {
 };
 
 /// Significant columns of a run, in this order: energy; tension; V_m and charge with a field; the inclination in a
-/// flow; the aspect ratio; the errors; the extents; step and degree where a tolerance chooses them. Curves that have no
-/// two numbers are left out, and quantities without curves.
+/// flow; the aspect ratio, along the field if there is one; the centroid of a vesicle that settles or swims; the
+/// errors; the extents; step and degree where a tolerance chooses them. Curves that have no two numbers are left out,
+/// and quantities without curves.
 /// @param errors  of the history, which may have fewer rows; null without error bars
 std::vector<HistoryQuantity> history_quantities(const Scene& scene, const HistoryTable& history,
                                                 const HistoryTable* errors = nullptr);
@@ -42,6 +43,15 @@ struct HistoryPanel {
 /// @param errors  see history_quantities
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history,
                                     const HistoryTable* errors = nullptr);
+
+/// The band in which a curve oscillates, as its middle and half its width in `errors`: a curve with more than 60
+/// turning points would fill its panel. Any other curve is returned unchanged.
+HistoryCurve band_of_oscillation(HistoryCurve curve);
+
+/// Do all curves end their changes, but for a tenth, within the first twentieth of the time? Then a logarithmic axis of
+/// time shows them.
+/// @param times   ascending, one for each value of the curves
+bool changes_at_the_start(std::span<const HistoryPanel> panels, const std::vector<double>& times);
 
 /// Rows that stand for all in a drawing: of each of so many stretches those where a curve is least and greatest, so
 /// that no peak is lost, and the first and the last row.

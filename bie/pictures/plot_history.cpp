@@ -11,8 +11,8 @@
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/shown_numbers.hpp"
-#include "bie/scene/output_units.hpp"
 #include "bie/runs/run_files.hpp"
+#include "bie/scene/output_units.hpp"
 
 namespace vehd {
 namespace {
@@ -33,7 +33,18 @@ struct Axis {
   std::string ticks;  ///< in gnuplot's words
   std::string label;
   std::vector<std::string> texts;  ///< of the ticks
+  bool is_logarithmic = false;
 };
+
+/// The ends of its band, or the values themselves.
+std::vector<double> reach_of_curve(const HistoryCurve& curve) {
+  std::vector<double> reach = curve.values;
+  for (std::size_t i = 0; i < curve.errors.size(); ++i) {
+    reach[i] -= curve.errors[i];
+    reach.push_back(curve.values[i] + curve.errors[i]);
+  }
+  return reach;
+}
 
 Axis axis_of(const std::vector<double>& values, const std::string& label, double room) {
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
@@ -61,6 +72,19 @@ Axis axis_of(const std::vector<double>& values, const std::string& label, double
   axis.ticks = fmt::format("({})", fmt::join(places, ", "));
   axis.texts = texts;
   if (power != 0) axis.label += fmt::format(" / 10^{{{}}}", power);
+  return axis;
+}
+
+Axis axis_of_time(const std::vector<double>& times, const std::string& label, bool is_logarithmic) {
+  if (!is_logarithmic) return axis_of(times, label, 0.0);
+  const auto first = std::ranges::find_if(times, [](double time) { return time > 0.0; });
+  Axis axis{*first, times.back(), {}, label, {}, true};
+  std::vector<std::string> places;
+  for (int power = static_cast<int>(std::ceil(std::log10(axis.lower)));
+       power <= static_cast<int>(std::floor(std::log10(axis.upper) + 1e-9)); ++power) {
+    places.push_back(fmt::format("'10^{{{0}}}' 1e{0}", power));
+  }
+  axis.ticks = fmt::format("({})", fmt::join(places, ", "));
   return axis;
 }
 
@@ -127,7 +151,7 @@ std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
   std::string data, settings = fresh_panel, plot;
   for (std::size_t i = 0; i < panel.axes.size(); ++i) {
     const HistoryCurve& curve = panel.axes[i].curves.front();
-    settings += axis_script(axis_of(curve.values, with_unit(curve.label, panel.axes[i].unit), 0.06),
+    settings += axis_script(axis_of(reach_of_curve(curve), with_unit(curve.label, panel.axes[i].unit), 0.06),
                             i == 0 ? "y" : "y2", curve_colours[i]);
     constexpr double half_turn = 90.0;
     data +=
@@ -169,7 +193,8 @@ std::string panel_of_common_axis(const HistoryQuantity& quantity, Drawing& drawi
   std::string data, plot;
   for (std::size_t i = 0; i < quantity.curves.size(); ++i) {
     const HistoryCurve& curve = quantity.curves[i];
-    all.insert(all.end(), curve.values.begin(), curve.values.end());
+    const std::vector<double> reach = reach_of_curve(curve);
+    all.insert(all.end(), reach.begin(), reach.end());
     data += data_block(drawing.n_curves, drawing.times, curve, 0.0);
     plot += fmt::format("{}{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.band(curve, i, "x1y1"),
                         drawing.n_curves, drawing.line_style(i), gnuplot_quoted(curve.label));
@@ -189,10 +214,17 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
   const HistoryTable history = read_table(task.paths.history(), notes);
   std::optional<HistoryTable> errors;
   if (scene.numerics.error_bars) errors.emplace(read_table(task.paths.history_error(), notes));
-  const std::vector<HistoryPanel> panels = panels_of(scene, history, errors ? &*errors : nullptr);
+  std::vector<HistoryPanel> panels = panels_of(scene, history, errors ? &*errors : nullptr);
   if (panels.empty()) return false;
+  for (HistoryPanel& panel : panels) {
+    for (HistoryQuantity& axis : panel.axes) {
+      if (axis.is_logarithmic) continue;
+      for (HistoryCurve& curve : axis.curves) curve = band_of_oscillation(std::move(curve));
+    }
+  }
   const std::vector<double>& times = history.column("time");
-  const Axis time_axis = axis_of(times, with_unit("time", history.unit("time")), 0.0);
+  const Axis time_axis =
+      axis_of_time(times, with_unit("time", history.unit("time")), changes_at_the_start(panels, times));
 
   const int columns = panels.size() > 1 ? 2 : 1, rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
   const double width = columns * panel_width, height = rows * panel_height;
@@ -202,9 +234,9 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
       "set border lw {0:.3g}\n"
       "set grid xtics ytics lc rgb '#e4e4e4' lt 1 lw {0:.3g}\n"
       "set tics scale 0.6; set mytics 1\n"
-      "set xrange [{1:.12g}:{2:.12g}]; set xtics {3} nomirror; set xlabel {4} offset 0,0.4\n",
+      "set xrange [{1:.12g}:{2:.12g}]; set xtics {3} nomirror; set xlabel {4} offset 0,0.4\n{5}",
       gnuplot_line_width(file.format, 0.5, Drawing::pixels), time_axis.lower, time_axis.upper, time_axis.ticks,
-      gnuplot_quoted(time_axis.label));
+      gnuplot_quoted(time_axis.label), time_axis.is_logarithmic ? "set logscale x\n" : "");
   Drawing drawing{times, file.format};
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double left = panel_width * static_cast<double>(i % static_cast<std::size_t>(columns));

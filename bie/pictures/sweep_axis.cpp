@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bie/pictures/gnuplot.hpp"
+#include "bie/pictures/labels.hpp"
 #include "bie/pictures/shown_numbers.hpp"
 #include "bie/pictures/sweep_panels.hpp"
 #include "bie/scene/output_units.hpp"
@@ -44,7 +45,7 @@ std::string tick_text(const std::string& value) {
 constexpr std::size_t most_ticks = 6;
 
 std::string label_of(const std::string& key, const std::optional<KeyNumbers>& numbers) {
-  return with_unit(gnuplot_literal(key), numbers ? numbers->unit : "");
+  return with_unit(key_label(key), numbers ? numbers->unit : "");
 }
 
 SweepAxis side_by_side(const std::string& label, const std::vector<std::string>& values) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bie/pictures/colour_bar.hpp"
+#include "bie/pictures/labels.hpp"
 #include "bie/scene/output_units.hpp"
 
 namespace vehd {
@@ -25,12 +26,6 @@ std::vector<std::string> values_of_key(const SweepRows& rows, std::size_t key) {
     if (std::ranges::find(values, rows.cells[row][key]) == values.end()) values.push_back(rows.cells[row][key]);
   }
   return values;
-}
-
-std::string printed_column(const std::string& name) {
-  std::string text;
-  for (const char letter : name) text += letter == '_' ? ' ' : letter;
-  return text;
 }
 
 /// One column on its grid of cells.
@@ -144,8 +139,8 @@ std::optional<double> usual_border(const std::string& header, double least, doub
 
 std::string column_label(const std::string& header) {
   const std::size_t at = header.find(" [");
-  if (at == std::string::npos) return printed_column(header);
-  return with_unit(printed_column(header.substr(0, at)), header.substr(at + 2, header.size() - at - 3));
+  if (at == std::string::npos) return column_title(header);
+  return with_unit(column_title(header.substr(0, at)), header.substr(at + 2, header.size() - at - 3));
 }
 
 void draw_sweep_frame(Page& page, const Box& box, const SweepAxis& x, const SweepAxis& y, bool grid) {
@@ -180,9 +175,10 @@ void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<dou
   Page page{0.0, 250.0};
   const SweepCells cells(rows, column, box);
   const ColourRange range = cells.range();
-  const ColourMap colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
-  draw_cells(page, cells, range, colours);
   if (!border) border = usual_border(rows.columns[column], range.lower, range.upper);
+  const double white = border ? (*border - range.lower) / (range.upper - range.lower) : 0.0;
+  const ColourMap colours = white > 0.0 && white < 1.0 ? ColourMap::diverging(white) : ColourMap::sequential();
+  draw_cells(page, cells, range, colours);
   if (border) draw_border(page, cells, *border);
   for (const SweepCurve& curve : curves) {
     PageLine line{{}, 1.6, "#d62728", false};

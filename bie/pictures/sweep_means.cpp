@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "bie/pictures/gnuplot.hpp"
+#include "bie/pictures/labels.hpp"
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/sweep_axis.hpp"
 #include "bie/pictures/sweep_map.hpp"
@@ -91,12 +92,11 @@ void draw_panel(Page& page, const SweepRows& rows, const std::vector<std::size_t
     if (keys.size() < 2) continue;
     const double below = box.top - 9.0 - 10.0 * static_cast<double>(s);
     const std::string& name = rows.keys[keys[1]].name;
-    page.texts.push_back(
-        {fmt::format("{} {}", gnuplot_literal(name.substr(name.rfind('.') + 1)), gnuplot_literal(series[s])),
-         {box.left + 6.0, below},
-         7.0,
-         TextAnchor::left,
-         colour});
+    page.texts.push_back({fmt::format("{} = {}", key_label(name), gnuplot_literal(series[s])),
+                          {box.left + 6.0, below},
+                          7.0,
+                          TextAnchor::left,
+                          colour});
   }
 }
 

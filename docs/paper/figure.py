@@ -38,8 +38,8 @@ def shapes(axes, quick: bool) -> None:
 
 
 def drive(frequency, ratio):
-    """What draws a sphere out along the field (above 0) or compresses it: Q of docs/experiments/ac_field.md, over
-    the permittivity. That page has the numbers."""
+    """The mean stress that draws a sphere out along the field (above 0) or compresses it: Q of
+    docs/experiments/ac_field.md, over the permittivity."""
     radius, permittivity, capacitance, outside = 10e-6, 80 * 8.8541878128e-12, 0.01, 1e-3
     omega = 2 * np.pi * frequency
     k_in, k_out = ratio * outside + 1j * omega * permittivity, outside + 1j * omega * permittivity
@@ -69,14 +69,16 @@ def diagram(axes, quick: bool) -> None:
 def main() -> None:
     """Writes the picture."""
     parser = argparse.ArgumentParser(description="Makes the figure of the paper.")
-    parser.add_argument("file", nargs="?", default=HERE / "figure.png", type=pathlib.Path)
+    parser.add_argument("file", nargs="?", default=HERE / "figure.svg", type=pathlib.Path)
     parser.add_argument("--quick", action="store_true", help="little of it, to see that it works")
     given = parser.parse_args()
     figure, panels = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
     for panel, draw, letter in zip(panels, (errors, shapes, diagram), "abc"):
         draw(panel, given.quick)
         panel.set_title(f"({letter})", loc="left")
-    figure.savefig(given.file, dpi=100)
+    # The same bytes at every run.
+    plt.rcParams["svg.hashsalt"] = "vehd"
+    figure.savefig(given.file, metadata={"Date": None} if given.file.suffix == ".svg" else None)
 
 
 if __name__ == "__main__":

@@ -103,4 +103,11 @@ BOOST_AUTO_TEST_CASE(every_colour_bar_has_three_ticks_and_texts_that_keep_apart)
   }
 }
 
+BOOST_AUTO_TEST_CASE(diverging_colours_are_white_at_their_place) {
+  for (const double white : {0.1, 0.5, 0.8}) {
+    const Colour at = ColourMap::diverging(white).at(white), middle = ColourMap::diverging().at(0.5);
+    for (int c = 0; c < 3; ++c) BOOST_TEST(at[c] == middle[c], boost::test_tools::tolerance(1e-12));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -91,6 +91,55 @@ BOOST_AUTO_TEST_CASE(a_report_tells_all_that_a_picture_does) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(aspect_ratio_is_that_along_the_field_where_there_is_one) {
+  const auto label_of = [](const std::string& ratios) {
+    std::istringstream stream("time,aspect_ratio,aspect_ratio_field,centroid_z\n" + ratios);
+    const auto quantities = history_quantities(Scene(), HistoryTable(stream, "history.csv"));
+    const auto aspect = std::ranges::find(quantities, "aspect ratio", &HistoryQuantity::label);
+    return aspect == quantities.end() || aspect->curves.size() != 1 ? "" : aspect->curves.front().label;
+  };
+  BOOST_TEST(label_of("0,1.2,0.8,0\n1,1.1,1.1,1\n") == "aspect ratio along the field");
+  BOOST_TEST(label_of("0,1.2,0,0\n1,1.1,0,1\n") == "aspect ratio");
+}
+
+BOOST_AUTO_TEST_CASE(an_oscillation_has_the_band_of_its_extremes) {
+  HistoryCurve wave{"wave", {}};
+  for (int i = 0; i < 4000; ++i) wave.values.push_back(3.0 + std::sin(0.4 * i));
+  const HistoryCurve band = band_of_oscillation(wave);
+  BOOST_TEST_REQUIRE(band.errors.size() == wave.values.size());
+  for (std::size_t i = 100; i < 3900; i += 50) {
+    BOOST_TEST(std::abs(band.values[i] - 3.0) < 0.03);
+    BOOST_TEST(std::abs(band.errors[i] - 1.0) < 0.03);
+  }
+  wave.values.resize(100);
+  BOOST_TEST(band_of_oscillation(wave).errors.empty());
+}
+
+BOOST_AUTO_TEST_CASE(time_is_logarithmic_where_all_changes_are_at_the_start) {
+  std::vector<double> times;
+  HistoryPanel early{{HistoryQuantity{"early", "", {{"early", {}}}}}},
+      late{{HistoryQuantity{"late", "", {{"late", {}}}}}};
+  for (int i = 0; i <= 1000; ++i) {
+    times.push_back(i);
+    early.axes.front().curves.front().values.push_back(std::exp(-i / 10.0));
+    late.axes.front().curves.front().values.push_back(std::exp(-i / 300.0));
+  }
+  BOOST_TEST(changes_at_the_start(std::vector{early}, times));
+  BOOST_TEST(!changes_at_the_start(std::vector{early, late}, times));
+}
+
+BOOST_AUTO_TEST_CASE(the_centroid_is_shown_of_what_settles_or_swims) {
+  const std::string rows = "time,aspect_ratio,centroid_z\n0,1.2,0\n1,1.1,1\n";
+  const auto has_centroid = [&](const Scene& scene) {
+    std::istringstream stream(rows);
+    return shows(panels_of(scene, HistoryTable(stream, "history.csv")), "along z");
+  };
+  Scene swimmer;
+  swimmer.membrane.pump.emplace();
+  BOOST_TEST(has_centroid(swimmer));
+  BOOST_TEST(!has_centroid(Scene()));
+}
+
 BOOST_AUTO_TEST_CASE(rows_within_a_step_show_its_size) {
   Scene scene;
   scene.numerics.tolerance = 1e-3;

@@ -26,7 +26,8 @@ class Paper(InFolder):
         self.assertGreaterEqual(len(words), 250)
         self.assertLessEqual(len(words), 1000)
         headings = re.findall(r"^# (.+)$", self.text, re.M)
-        for heading in ("Summary", "Statement of need", "State of the field", "References"):
+        for heading in ("Summary", "Statement of need", "State of the field", "Software design",
+                        "Research impact statement", "Acknowledgements", "References"):
             self.assertIn(heading, headings)
 
     def test_every_reference_is_cited_and_has_its_doi(self):
@@ -41,9 +42,9 @@ class Paper(InFolder):
         for picture in re.findall(r"\]\((\S+)\)", self.text):
             self.assertTrue((PAPER / picture).exists(), picture)
         script = re.search(r"python3 docs/paper/(\w+\.py)", self.text).group(1)
-        picture = self.folder / "figure.png"
+        picture = self.folder / "figure.svg"
         subprocess.run([sys.executable, PAPER / script, "--quick", picture], check=True, cwd=self.folder)
-        self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+        self.assertIn("<svg", picture.read_text())
 
 
 if __name__ == "__main__":
