@@ -63,8 +63,12 @@ void require_outward(const RunSnapshot& snapshot, std::size_t vesicle, const Mat
 
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
 
-/// Finite elements solve for one instant.
+/// Finite elements solve for one instant in unbounded fluid.
 void require_instant(const Scene& scene, const std::filesystem::path& file) {
+  if (scene.wall) {
+    throw InputError(
+        fmt::format("{}: has a wall; vehd check accepts vesicles in unbounded fluid, without [wall]", file.string()));
+  }
   if (!has_averaged_field(scene)) return;
   throw InputError(fmt::format(
       "{}: has an averaged ac field; vehd check accepts fields that are followed in time, without \"average\"",

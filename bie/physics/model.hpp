@@ -8,6 +8,7 @@
 #include "bie/physics/effects/contact.hpp"
 #include "bie/physics/effects/poration.hpp"
 #include "bie/physics/parameters.hpp"
+#include "bie/physics/wall.hpp"
 
 namespace vehd {
 
@@ -33,6 +34,7 @@ struct Model {
   std::optional<BackgroundFlow> flow;
   std::optional<AppliedField> electric;
   std::optional<ContactParameters> contact;  ///< between vesicles
+  std::optional<Wall> wall{};                ///< beside all vesicles
   /// Whatever else acts on every vesicle: Poiseuille flow, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
   bool mobile = true;  ///< false: the shapes are frozen and only the membranes charge

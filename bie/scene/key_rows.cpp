@@ -175,6 +175,17 @@ void add_gravity_and_contact(auto& scene) {
   contact.key("range", &ContactScene::range, positive, {"", "length", "of the potential", required});
 }
 
+void add_wall(auto& scene) {
+  auto wall = scene.optional("wall", &Scene::wall, "plane beside the vesicles; absent: the fluid is unbounded");
+  wall.key("point", &WallScene::point, {"", "length", "any point of the plane"});
+  wall.key("normal", &WallScene::normal,
+           {"n", "1", "of any length; the vesicles are on the side that it points to", required});
+  wall.word("flow", &WallScene::flow, {"none", "no-slip", "stress-free"},
+            "the fluid rests on it; it is a free surface that stays flat; none: it does not touch the flow");
+  wall.word("field", &WallScene::field, {"none", "insulating", "electrode"},
+            "no current through it; constant potential; none: it does not touch the field");
+}
+
 void add_flow(auto& scene) {
   auto flow = scene.optional("flow", &Scene::flow, "background flow; absent: quiescent");
   flow.word("kind", &FlowScene::kind, {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
@@ -319,6 +330,7 @@ SchemaRows make_rows() {
   add_membrane(scene);
   add_fluid(scene);
   add_gravity_and_contact(scene);
+  add_wall(scene);
   add_flow(scene);
   add_electric(scene);
   add_poration(scene);

@@ -109,6 +109,10 @@ Model model_of(const Scene& scene) {
     }
   }
   if (scene.contact) model.contact = ContactParameters{scene.contact->energy, scene.contact->range};
+  if (scene.wall) {
+    model.wall = Wall{vector_of(scene.wall->point), vector_of(scene.wall->normal).stableNormalized(), scene.wall->flow,
+                      scene.wall->field};
+  }
   if (const auto& electric = scene.electric) {
     // Without a field, and until there is a V_m, the electric part of a step is inactive.
     const bool is_zero = electric->field == Triple{};

@@ -290,6 +290,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
     if (scene.suspension) scene = placed_suspension(scene, file);
   }
   check_vesicles(scene, file);
+  if (scene.wall) check_wall(scene, file);
   return scene;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/physics/wall.hpp"
 #include "bie/sphere/degrees.hpp"
 
 namespace vehd {
@@ -132,6 +133,14 @@ struct ContactScene {
   bool operator==(const ContactScene&) const = default;
 };
 
+/// Table [wall].
+struct WallScene {
+  Triple point{0.0, 0.0, 0.0}, normal{0.0, 0.0, 1.0};
+  WallFlow flow = WallFlow::none;
+  WallField field = WallField::none;
+  bool operator==(const WallScene&) const = default;
+};
+
 /// Values of kind and orientation in [suspension].
 enum class SuspensionKind { box, ball };
 enum class SuspensionOrientation { random, aligned };
@@ -225,6 +234,7 @@ struct Scene {
   FluidScene fluid;
   std::optional<GravityScene> gravity;
   std::optional<ContactScene> contact;
+  std::optional<WallScene> wall{};
   std::optional<FlowScene> flow;
   std::optional<ElectricScene> electric;
   std::optional<PorationScene> poration;

@@ -51,4 +51,9 @@ Scene placed_suspension(const Scene& one, const TomlFile& file);
 /// @param file  with its tables [[vesicle]]
 void check_vesicles(const Scene& scene, const TomlFile& file);
 
+/// Conditions of a scene with a wall: every membrane is on its side, and what is applied far away meets the conditions
+/// there.
+/// @param file  with its tables [[vesicle]]
+void check_wall(const Scene& scene, const TomlFile& file);
+
 }  // namespace vehd

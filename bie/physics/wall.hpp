@@ -1,0 +1,36 @@
+#pragma once
+
+#include "bie/support/types.hpp"
+
+namespace vehd {
+
+/// What the fluid does at a wall.
+enum class WallFlow { none, no_slip, stress_free };
+/// What the electric field does there.
+enum class WallField { none, insulating, electrode };
+
+/// A plane that bounds the fluid, which is on the side that the normal points to. `none`: the wall does not touch the
+/// flow, or the field.
+struct Wall {
+  Vector3 point = Vector3::Zero();    ///< any one of the plane
+  Vector3 normal = Vector3::UnitZ();  ///< unit, into the fluid
+  WallFlow flow = WallFlow::none;     ///< no slip, or a free surface that stays flat
+  WallField field = WallField::none;  ///< no current through it, or a constant potential
+
+  /// Of a point above the wall, > 0 in the fluid.
+  [[nodiscard]] double height(const Vector3& x) const { return normal.dot(x - point); }
+  /// I − 2 n nᵀ, which takes vectors to their mirror images.
+  [[nodiscard]] Matrix3 mirror() const { return Matrix3::Identity() - 2.0 * normal * normal.transpose(); }
+};
+
+/// Where a membrane is nearest to a wall.
+struct WallGap {
+  double distance = 0.0;            ///< negative where the membrane crosses the wall
+  Vector3 place = Vector3::Zero();  ///< on the membrane
+};
+
+/// @param position  coefficients of x, [n_coefficients x 3]
+/// Accuracy: that of top_of on a grid of twice the degree
+WallGap nearest_to_wall(const Wall& wall, const Matrix& position);
+
+}  // namespace vehd
